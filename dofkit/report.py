@@ -58,13 +58,15 @@ class FieldVerdict(ReportModel):
 
     ``bound``: for ``probable`` the chance of an error (``2^-40``), for ``numeric`` the ratio that separates zero from
     non-zero. ``about``: ``reference``, the configurations near the reference configuration; ``component``, those near
-    the report's ``witness``; or ``everywhere``. A verdict without an argument cannot be constructed: ValidationError.
+    the report's ``witness``; or ``everywhere``. ``checked``: whether the checker accepted evidence for the field, where
+    a certificate was asked for, else None. A verdict without an argument cannot be constructed: ValidationError.
     """
 
     verdict: Verdict
     argument: ArgumentKey | None = None
     bound: str | None = None
     about: About | None = None
+    checked: bool | None = None
 
     @model_validator(mode="after")
     def _is_founded(self) -> Self:
@@ -337,7 +339,7 @@ class Report(Displayed, ReportModel):
         rows = [entry.model_dump(mode="json", exclude={"verdicts"}) for entry in self.constraints]
         return [{"scene": self.scene, **{key: _cell(value) for key, value in row.items()}} for row in rows]
 
-    def beside(self, scene: object) -> Self:
+    def with_scene(self, scene: object) -> Self:
         """Return this report, and remember the scene that it is about, whose title and picture are then shown."""
         self._companion.about = scene
         return self

@@ -305,10 +305,20 @@ class System:
     @property
     def longest(self) -> int:
         """The bits of the longest number in the relations as they are written."""
-        given = [c.relations for c in self.constraints]
-        written = (r.expr for part in given if not isinstance(part, Unwritten) for r in part)
+        groups = [c.relations for c in self.constraints]
+        written = (r.expr for group in groups if not isinstance(group, Unwritten) for r in group)
         longest = longest_number({e if e.shape is None else e.shape.skeleton for e in written})
-        return max((longest, *(part.longest for part in given if isinstance(part, Unwritten))))
+        return max((longest, *(group.longest for group in groups if isinstance(group, Unwritten))))
+
+    @property
+    def joints(self) -> tuple[Connection, ...]:
+        """The connections that are joints or welds."""
+        return tuple(c for c in self.connections if c.facts.freedoms or c.facts.welded)
+
+    @property
+    def has_geometry(self) -> bool:
+        """Is there a reference configuration, and anything connected in it?"""
+        return self.reference is not None and any(c.members for c in self.connections)
 
     def numbers_of(self, *names: str) -> tuple[int, ...]:
         """The numbers of the constraints of these names, in the order of the names."""

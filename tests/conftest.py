@@ -6,9 +6,13 @@ among what was there before the first test: that took a sixth of the time.
 `--share 1/3` runs a third of the tests that are selected, the same on every run.
 
 The time allowed for a scene is processor time of this process here: what else the machine does is of no account.
+
+The tests start hundreds of Python processes, each of which would compile the package again where bytecode may not be
+written: theirs is, whatever the environment says.
 """
 
 import gc
+import os
 import time
 from fractions import Fraction
 from pathlib import Path
@@ -27,6 +31,9 @@ settings.load_profile("steady")
 pytest.MonkeyPatch().setattr(
     deadline, "time", SimpleNamespace(monotonic=time.process_time, thread_time=time.thread_time)
 )
+
+
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:

@@ -15,7 +15,7 @@ Modules
     4. `wording` checks what is given from outside, suggests the nearest known word, chooses a format by the ending of
        a path, and puts numbers with their nouns into English.
     5. `display` is what `print` and a notebook show of a value. `libraries` imports numpy and networkx when they are
-       first used, and joins what shares names without them: blocks of equations, groups of constraints.
+       first used.
 """
 
 __version__ = "0.1.0"

@@ -25,6 +25,9 @@ MAX_WORK, WORK_A_SECOND = 30_000_000_000, 3e9
 GC_THRESHOLD = (200_000, 20, 20)
 OUT_OF_TIME = "the time allowed for the scene was used up"
 
+#: Seconds of processor time of this thread; of the clock on a platform that does not count them (WebAssembly).
+thread_time: Callable[[], float] = getattr(time, "thread_time", time.monotonic)
+
 T = TypeVar("T")
 _until: ContextVar[float] = ContextVar("until", default=float("inf"))
 _clock: ContextVar[Callable[[], float] | None] = ContextVar("clock", default=None)
@@ -61,7 +64,7 @@ def by_processor(seconds: float) -> Iterator[None]:
 
     Limits within the block are counted so too, so that the same work ends at the same place.
     """
-    clock, token = _clock.set(time.thread_time), _until.set(time.thread_time() + seconds)
+    clock, token = _clock.set(thread_time), _until.set(thread_time() + seconds)
     try:
         yield
     finally:
@@ -79,7 +82,7 @@ def limited(seconds: float) -> Iterator[None]:
         _until.reset(token)
 
 
-def left() -> float:
+def remaining_seconds() -> float:
     """Return the seconds that are left."""
     return max(0.0, _until.get() - _now())
 
@@ -87,7 +90,7 @@ def left() -> float:
 @contextmanager
 def part(share: float) -> Iterator[None]:
     """Let `check` raise after this share of the time that is left, so that the remainder serves what comes after."""
-    with limited(share * left()):
+    with limited(share * remaining_seconds()):
         yield
 
 
@@ -118,7 +121,7 @@ def checked_calls() -> Iterator[None]:
 
 def affordable(rows: int, columns: int) -> None:
     """Raise OutOfTimeError for a matrix too large for elimination in the time of a scene, or in what is left of it."""
-    if rows * columns * min(rows, columns) > min(MAX_WORK, WORK_A_SECOND * left()):
+    if rows * columns * min(rows, columns) > min(MAX_WORK, WORK_A_SECOND * remaining_seconds()):
         raise OutOfTimeError(f"a matrix of {rows} rows and {columns} columns is too large here")
 
 

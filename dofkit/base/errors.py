@@ -121,7 +121,7 @@ class SceneError(DofkitError):
 
 
 class NoValueError(DofkitError, ArithmeticError):
-    """An expression or exact arithmetic has no value here; `dofkit.exact.errors` tells the other reasons."""
+    """An expression or exact arithmetic has no value here; `dofkit.exact.ring.program` has the other reasons."""
 
     reason: ClassVar[str] = "an expression has no value here"
 

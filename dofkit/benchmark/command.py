@@ -65,8 +65,7 @@ def chart(options: ChartOptions) -> bool:
     trials = chosen.thinned(chosen.trials(FAMILIES, chosen.quick))
     work = list(tasks.trial_tasks(trials, chosen.methods))
     swept = list(tasks.sweeps(chosen.trials(FAMILIES, False), chosen.methods, chosen.quick))
-    seeds = sorted({task.knobs.seed for task in (*work, *swept)})
-    started, data = time.monotonic(), Data(_provenance(options, len(trials), seeds))
+    started, data = time.monotonic(), Data(_provenance(options, len(trials)))
     try:
         _gather(options, work, swept, data)
         complete = True
@@ -83,7 +82,7 @@ def chart(options: ChartOptions) -> bool:
     return complete
 
 
-def _provenance(options: ChartOptions, trials: int, seeds: list[int]) -> Ran:
+def _provenance(options: ChartOptions, trials: int) -> Ran:
     """Return how a run is made, before it begins."""
     return Ran(
         version=__version__,
@@ -98,7 +97,6 @@ def _provenance(options: ChartOptions, trials: int, seeds: list[int]) -> Ran:
         trials=trials,
         lines=0,
         sweeps=0,
-        seeds=seeds,
         minutes=0,
         complete=False,
     )

@@ -66,7 +66,6 @@ class Ran(_Row):
     trials: int
     lines: int = Field(description="trials times methods")
     sweeps: int = Field(description="the same in sweeps")
-    seeds: list[int] = Field(description="of what methods draw at random")
     minutes: float = Field(description="by the clock")
     complete: bool = Field(description="false where it was interrupted")
 

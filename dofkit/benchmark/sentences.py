@@ -55,7 +55,7 @@ def provenance(ran: Ran) -> str:
 def sentences(chart: ChartRun) -> dict[str, str]:
     """Return the sentences by what they are about; those that the run has no data of are left out."""
     texts = {"trials": _trials(chart), "time": _time(chart), "tolerance": _tolerance(chart), "bits": _bits(chart)}
-    texts |= {"primes": _primes(chart), "cost": _cost(chart)}
+    texts |= {"cost": _cost(chart)}
     texts |= {method: _method(chart, method) for method in dict.fromkeys(score.method for score in chart.scores)}
     return {key: text for key, text in texts.items() if text}
 
@@ -159,22 +159,6 @@ def _bits(chart: ChartRun) -> str:
     return f"`balls` on its own is never wrong from {needs[0]} and from {needs[1]} on."
 
 
-def _primes(chart: ChartRun) -> str:
-    steps = [step for step in chart.steps if step.sweep == "prime bits"]
-    if not steps:
-        return ""
-    wrong = sorted({step.value for step in steps if step.wrong})
-    values = sorted({step.value for step in steps})
-    lost = [v for v in values if not any(step.right or step.wrong for step in steps if step.value == v)]
-    if not wrong:
-        return f"`field` was wrong with no size of its primes, from {values[0]:g} bits on."
-    count, asked = sum(s.wrong for s in steps), sum(s.trials for s in steps if s.value in wrong)
-    above = next((v for v in values if v > wrong[-1]), None)
-    start = f"`field` on its own was wrong {count} times in {_spaced(asked)}, with primes of {_span(wrong)} bits"
-    start += "" if above is None else f", and never from {above:g} bits on"
-    return start + (f"; with {_span(lost)} bits it decided nothing." if lost else ".")
-
-
 def _cost(chart: ChartRun) -> str:
     points = [p for p in chart.points if (p.family, p.question, p.method) == ("Henneberg", "dof", AUTO)]
     curve = sorted(points, key=lambda p: p.size)
@@ -215,10 +199,6 @@ def percent(share: float, below: str = "<", above: str = ">") -> str:
     if 99.9 < value < 100:
         return f"{above}99.9 %"
     return f"{value:.1f} %" if 0 < value < 10 or 90 < value < 100 else f"{value:.0f} %"
-
-
-def _span(values: Sequence[float]) -> str:
-    return f"{values[0]:g}" if len(values) == 1 else f"{values[0]:g} to {values[-1]:g}"
 
 
 def _word(number: int) -> str:

@@ -23,8 +23,7 @@ NEAR = 0.1
 #: Values of the knobs, all of them and a few.
 TOLERANCES = tuple(10.0**-k for k in range(1, 17))
 BITS = (16, 24, 32, 48, 64, 96, 128, 192, 256, 512)
-PRIME_BITS = (3, 4, 5, 6, 8, 10, 12, 16, 20, 24, 31, 61)
-#: Trials of a size up to this are asked with other primes.
+#: Trials of a size up to this are swept.
 SMALL = 8
 #: The questions that a scene's tolerance bears on.
 BY_GEOMETRY = ("dof", "redundancy")
@@ -117,17 +116,16 @@ def trial_tasks(trials: Iterable[Trial], methods: Sequence[str]) -> Iterator[Tri
 
 
 class SweepSize(NamedTuple):
-    """So many trials of a group at most, every so-many-th value of a knob, and so many seeds."""
+    """So many trials of a group at most, and every so-many-th value of a knob."""
 
     most: int
     stride: int
-    seeds: int
 
 
 def sweeps(trials: Sequence[Trial], methods: Sequence[str], quick: bool) -> Iterator[TrialTask]:
-    """Yield tasks over tolerances of numbers and of scenes, the precision of balls and the size of a field's primes."""
-    size = SweepSize(MOST_SWEPT_QUICK, 3, 1) if quick else SweepSize(MOST_SWEPT, 1, 3)
-    for method, swept in (("numeric", _rounding), ("auto", _tolerant), ("balls", _precision), ("field", _primes)):
+    """Yield tasks over tolerances of numbers and of scenes, and over the precision of balls."""
+    size = SweepSize(MOST_SWEPT_QUICK, 3) if quick else SweepSize(MOST_SWEPT, 1)
+    for method, swept in (("numeric", _rounding), ("auto", _tolerant), ("balls", _precision)):
         if method in methods:
             yield from swept(trials, size)
 
@@ -151,14 +149,6 @@ def _precision(trials: Sequence[Trial], size: SweepSize) -> Iterator[TrialTask]:
     for trial, group in _groups(trials, _gap, size.most):
         for bits in BITS[:: size.stride]:
             yield TrialTask(trial, "balls", Knobs(bits=bits), "bits", bits, group)
-
-
-def _primes(trials: Sequence[Trial], size: SweepSize) -> Iterator[TrialTask]:
-    small = (t for t in trials if t.size <= SMALL and t.question != "equivalence")
-    for trial in _spread(small, size.most):
-        for seed in range(size.seeds):
-            for bits in PRIME_BITS[:: size.stride]:
-                yield TrialTask(trial, "field", Knobs(prime_bits=bits, seed=seed), "prime bits", bits, trial.question)
 
 
 def _digits(trial: Trial) -> str | None:

@@ -28,7 +28,10 @@ MOST_CHARACTERS, LONGEST_VALUE, DEEPEST, MOST_RELATIONS = 2_000_000, 400, 40, 8_
 _NULLS = (None, "", "~", "null", "Null", "NULL")
 _VALUE = re.compile(rf"\s*([-+]?{DECIMAL})(?:\s*/\s*(\d*[1-9]\d*))?\s*", re.ASCII)
 #: Keys that say nothing of the mathematics, and values that are as good as left out.
-_SILENT, _DEFAULTS = ("name", "title", "source", "notes", "left_out", "expect"), {"dimension": 3, "tolerance": 0}
+_SILENT, _DEFAULTS = (
+    ("name", "title", "source", "notes", "left_out", "expect", "picture"),
+    {"dimension": 3, "tolerance": 0},
+)
 #: What a text alone stands for in these lists.
 _SHORT = {"particles": ("name", {}), "bodies": ("name", {}), "constraints": ("text", {"type": "equation"})}
 SIGNS = ("real", "positive", "nonzero")
@@ -115,7 +118,7 @@ class CheckedRelation(NamedTuple):
     name: str
     owner: str
     kind: str
-    left: Tree
+    tree: Tree
     strict: bool = False
     leaf: bool = False
 
@@ -245,7 +248,7 @@ def _reference(
         poses |= {str(q.value): part for q, part in zip(point.over, point.start or (), strict=False)}
     for frame in world.frames.values():
         poses |= frame.reference
-    symbols = frozenset[str]().union(*(relation.left.symbols for relation in relations))
+    symbols = frozenset[str]().union(*(relation.tree.symbols for relation in relations))
     held = {q for q in coordinates if not symbols.isdisjoint((q, f"{q}dot"))} or {*coordinates}
     placed = all(name in drawn or held.isdisjoint(frame.reference) for name, frame in world.frames.items())
     return {q: poses.get(q, ZERO) for q in coordinates} if placed and poses.keys() >= held else {}

@@ -9,11 +9,11 @@ from typing import TypeVar
 from dofkit.base.deadline import part, unless_late
 from dofkit.base.wording import many, verb
 from dofkit.classification.study import Study
-from dofkit.exact.errors import raising_no_value
 from dofkit.exact.matrices.sparse import echelon
+from dofkit.exact.ring.program import raising_no_value
 from dofkit.mobility import special_position
 from dofkit.mobility.counts import kutzbach_count
-from dofkit.mobility.general_position import General, has_geometry, in_general_position
+from dofkit.mobility.general_position import General, in_general_position
 from dofkit.mobility.near_dependence import MOST, nearly_dependent
 from dofkit.mobility.placement import Placement, drawn_placement, measured_placement
 from dofkit.relations.normal.pieces import Finite
@@ -39,7 +39,7 @@ class CountsBeside:
 
     def generic(self) -> Generic | None:
         """The count in general position; None without a reference configuration."""
-        if not has_geometry(self.system):
+        if not self.system.has_geometry:
             return None
         look = partial(in_general_position, self.system, self.outcome.written_rows, self.setting)
         result = unless_late(look, _LATE)
@@ -97,7 +97,7 @@ class CountsBeside:
     def nearly(self) -> str | None:
         """What to say of a near-dependence at an exact drawing."""
         here, system = self.instantaneous, self.system
-        if here is None or system.tolerance is not None or not has_geometry(system):
+        if here is None or system.tolerance is not None or not system.has_geometry:
             return None
         columns = len(system.coordinates)
         small = columns <= MOST and all(c.facts.velocities is not None for c in system.connections)

@@ -20,8 +20,8 @@ from dofkit.classification.turned_coordinates import (
     turned_together,
 )
 from dofkit.configuration.finite_blocks import dependent_names
-from dofkit.configuration.generic_points import field_jacobian, on_variety, pose_point
 from dofkit.configuration.rigid_motions import RigidOrbit
+from dofkit.configuration.variety import field_jacobian, on_variety, pose_point
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.sparse import last_columns, rank_of_rows
 from dofkit.exact.zero import BOTH

@@ -175,7 +175,7 @@ def redundancies(study: Study) -> list[Redundancy]:
 def joint_coordinates(study: Study) -> list[str] | None:
     """Angles and displacements of joints that describe a tree; None for what is none, or has another freedom."""
     dof = study.outcome.dof
-    result = None if dof is None else tree_coordinates(study.system)
+    result = tree_coordinates(study.system) if dof is not None and study.system.joints else None
     return result if result is not None and len(result) == dof else None
 
 

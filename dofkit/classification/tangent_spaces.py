@@ -10,8 +10,8 @@ from typing import Any
 from dofkit.base.libraries import np
 from dofkit.classification.turned_coordinates import ANYWHERE
 from dofkit.configuration.at_reference import ball_point
-from dofkit.configuration.generic_points import pose_point
 from dofkit.configuration.local import neighbourhood
+from dofkit.configuration.variety import pose_point
 from dofkit.exact.points.balls import FloatPoint, jacobian
 from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.program import values

@@ -14,12 +14,11 @@ from typing import NamedTuple
 
 from flint import arb, arb_mat
 
+from dofkit.base.errors import NoValueError
 from dofkit.base.libraries import nx
-from dofkit.configuration.generic_points import field_jacobian, on_variety, pose_point
-from dofkit.exact.errors import NoValueError
+from dofkit.configuration.variety import field_jacobian, on_variety, pose_point
 from dofkit.exact.matrices.certified import ball_part
-from dofkit.exact.matrices.sparse import without_time
-from dofkit.exact.points.frames import sparse_frame
+from dofkit.exact.matrices.sparse import sparse_frame, without_time
 from dofkit.exact.points.real_search import RealPoint, RealSearch
 from dofkit.expressions import tree as ex
 from dofkit.expressions.enclosures import approximate

@@ -15,7 +15,7 @@ Mechanisms, in the order in which they are tried
        precision.
     3. `measured` is the one numerical route for a scene with a tolerance: rank with its gap, second order,
        continuation, the geometry exactly as written; otherwise undecided.
-    4. Without one, `search` finds points over GF(p) by solving one relation after another (`generic_points`) and holds
+    4. Without one, `search` finds points over GF(p) by solving one relation after another (`variety`) and holds
        them against certified real points; `generic_dimension` is the rank there. Where every real point is singular,
        one is brought to high precision there. `components` asks whether a larger component exists [Krull1928]; `cases`
        divides a set where a factor, or a coefficient, vanishes.

@@ -21,20 +21,28 @@ from typing import Any
 
 from flint import arb, ctx
 
+from dofkit.base.errors import NoValueError
 from dofkit.base.libraries import nx
 from dofkit.base.verdicts import VERDICTS
 from dofkit.base.wording import gap_in_words
 from dofkit.configuration.fewer_coordinates import smaller
-from dofkit.configuration.generic_points import chart_of_rows, field_jacobian, on_variety, pose_point
 from dofkit.configuration.local import conclusions, criteria
 from dofkit.configuration.local.manifold import LocalDimension, Manifold
 from dofkit.configuration.rigid_motions import rigid_fields, rigid_motions_real
-from dofkit.exact.errors import NoValueError
+from dofkit.configuration.variety import chart_of_rows, field_jacobian, on_variety, pose_point
 from dofkit.exact.matrices.certified import ball_part, dependencies
-from dofkit.exact.matrices.sparse import Echelon, SparseRow, echelon, rank_of, rank_of_rows, sparse, without_time
+from dofkit.exact.matrices.sparse import (
+    Echelon,
+    Pivots,
+    SparseRow,
+    echelon,
+    rank_of,
+    rank_of_rows,
+    sparse,
+    without_time,
+)
 from dofkit.exact.points.balls import BallPoint, exact_rank, jacobian, precision, rational_values
 from dofkit.exact.points.field import FieldPoint
-from dofkit.exact.points.frames import Pivots
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex

@@ -10,8 +10,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from dofkit.base.deadline import check
+from dofkit.base.errors import NoValueError
 from dofkit.exact.analyticity import is_analytic
-from dofkit.exact.errors import NoValueError
 from dofkit.exact.ideals import dimension_of, echelon_by_degree
 from dofkit.exact.ring.canonical import Canon, is_identically_zero
 from dofkit.exact.ring.ring import Ring

@@ -19,14 +19,12 @@ from math import prod
 from typing import NamedTuple
 
 from dofkit.base.deadline import check
-from dofkit.base.libraries import components
+from dofkit.base.errors import NoValueError
 from dofkit.base.verdicts import ArgumentKey, weakest
 from dofkit.configuration import cases as all_cases
-from dofkit.configuration.generic_points import chart_of_relations, field_jacobian, on_variety
-from dofkit.configuration.variety import Variety
+from dofkit.configuration.variety import Variety, chart_of_relations, field_jacobian, on_variety
 from dofkit.exact.analyticity import is_analytic
-from dofkit.exact.errors import NoValueError
-from dofkit.exact.matrices.sparse import rank_of_rows
+from dofkit.exact.matrices.sparse import components, rank_of_rows
 from dofkit.exact.ring.canonical import Canon, is_identically_zero
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex

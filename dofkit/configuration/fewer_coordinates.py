@@ -9,11 +9,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from dofkit.configuration.generic_points import chart_of_relations
+from dofkit.configuration.variety import chart_of_relations
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
-from dofkit.relations.blocks import Chart, linear
+from dofkit.relations.blocks import Chart
+from dofkit.relations.linear_relations import linear
 
 #: Coordinates are not replaced by longer sums than this: what they stand in would fill up.
 TERMS = 5

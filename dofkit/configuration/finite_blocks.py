@@ -2,29 +2,26 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from math import isfinite
 
 from dofkit.base.wording import gap_in_words
 from dofkit.configuration.at_reference import at_reference, ball_matrix
-from dofkit.configuration.generic_points import field_jacobian
 from dofkit.configuration.measured.dimension import MISSED, MeasuredFreedom, measured_freedom
-from dofkit.configuration.measured.equations import is_measured, is_tree, pose_of_block
+from dofkit.configuration.measured.equations import is_tree, pose_of_block
 from dofkit.configuration.search import find
-from dofkit.configuration.variety import Variety, of_real_point, of_reference
+from dofkit.configuration.variety import Variety, field_jacobian, of_real_point, of_reference
 from dofkit.exact.matrices.certified import ball_part, dependencies
-from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows, sparse, without_time
+from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows, sparse, sparse_frame, without_time
 from dofkit.exact.points.balls import rational_values, vanish_exactly
-from dofkit.exact.points.frames import sparse_frame
-from dofkit.exact.points.real_search import RealPoint, RealSearch
+from dofkit.exact.points.real_search import RealPoint
 from dofkit.exact.ring.canonical import error_bits
 from dofkit.exact.zero import doubt
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Answer, RealRows
-from dofkit.relations.blocks import Block, Chart, make_chart
+from dofkit.relations.blocks import Block, Chart, is_measured, make_chart
 from dofkit.relations.setting import Setting
 
 OFF_REFERENCE = (
@@ -106,7 +103,7 @@ def _real_rows(chart: Chart, real: RealPoint | None) -> RealRows | None:
 
 def _numeric_matrix(chart: Chart, real: RealPoint, result: Answer) -> None:
     """Which relations depend on which, and which coordinates on which, from a regular real point."""
-    if not real.certified or not real.rows or len(real.matrix) != len(chart.nodes):
+    if not real.certified or not real.part.rows or len(real.matrix) != len(chart.nodes):
         return
     result.matrix = sparse(dependencies(real.matrix, real.part))
     ranked = [s for s in chart.symbols if chart.ring.var_index(s) is not None]
@@ -191,32 +188,3 @@ def dependent_names(rows: Sequence[SparseRow], chart: Chart, p: int) -> tuple[st
     """Coordinates that the rows can be solved for, the last ones where there is a choice."""
     frame = sparse_frame(without_time(rows, chart.coordinates), chart.coordinates, p)
     return tuple(str(chart.symbols[c].args[1]) for c in frame.dependent)
-
-
-# Level bodies: at theta = 0 the Euler angles phi and psi turn alike, and distinguish no poses
-
-#: So many configurations are looked at, and a sine that is smaller is taken for 0.
-LOOKED, SINGULAR = 6, 1e-6
-LEVEL = (
-    "configurations were found where sin({}) is 0: the other Euler angles turn alike there, so that coordinates are no "
-    "poses; a `coupling` of joints says such an equation"
-)
-
-
-def level_angle(block: Block, setting: Setting) -> str | None:
-    """Return a tilt of the block that is 0 or pi in a configuration that was found by chance; None where there is none.
-
-    There is a part of the set then where the body is level, and what is counted of the set may be counted there.
-    """
-    tilts = setting.tilts.intersection(block.coordinates)
-    if not tilts or not block.finite:
-        return None
-    chart = make_chart(block, setting)
-    search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.positive, chart.symbols)
-    for seed in range(LOOKED):
-        symbols = search.start(seed, {})
-        if search.descend(symbols, seed) is not None:
-            level = [name for name in tilts if abs(math.sin(symbols.get(ex.coordinate(name), 1.0))) < SINGULAR]
-            if level:
-                return min(level)
-    return None

@@ -11,23 +11,21 @@ from typing import Any
 from flint import arb, arb_mat, ctx
 
 from dofkit.base.deadline import check
+from dofkit.base.errors import NoValueError
 from dofkit.base.libraries import np
 from dofkit.base.verdicts import ArgumentKey, Verdict, weakest
 from dofkit.base.wording import gap_in_words
-from dofkit.configuration.generic_points import field_jacobian, generators_of, has_same_signs, time_is_free
 from dofkit.configuration.local import criteria
 from dofkit.configuration.local.criteria import numeric_dimension
 from dofkit.configuration.local.manifold import LocalDimension, Manifold
 from dofkit.configuration.rigid_motions import rigid_motions_real
-from dofkit.configuration.variety import Variety
-from dofkit.exact.errors import NoValueError, raising_no_value
+from dofkit.configuration.variety import Variety, field_jacobian, generators_of, has_same_signs, time_is_free
 from dofkit.exact.matrices.certified import independent_part
-from dofkit.exact.matrices.sparse import rank_of_rows
+from dofkit.exact.matrices.sparse import Pivots, rank_of_rows
 from dofkit.exact.points.balls import BallPoint, jacobian
 from dofkit.exact.points.field import FieldPoint
-from dofkit.exact.points.frames import Pivots
 from dofkit.exact.points.real_search import RealPoint, RealSearch, at_another_time
-from dofkit.exact.ring.program import values
+from dofkit.exact.ring.program import raising_no_value, values
 from dofkit.exact.zero import independent_on_set
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
@@ -70,14 +68,14 @@ def near_real_point(chart: Chart, real: RealPoint | None, core: Sequence[int]) -
         return Variety(None, None, "undecided", reasons=["no configuration satisfying all equations was found"])
     columns = len(chart.columns)
     timed = columns - chart.coordinates
-    if real.certified and real.consistent and real.rank == real.solved == len(core) == len(chart.nodes):
-        return Variety(True, columns - real.rank - timed, "proved", [], real, argument="regular point")
+    if real.certified and real.consistent and real.part.rank == real.solved == len(core) == len(chart.nodes):
+        return Variety(True, columns - real.part.rank - timed, "proved", [], real, argument="regular point")
     if not real.certified or not real.consistent:
         return near_singular_point(chart, Variety(True, None, "proved", [], real))
-    if real.gap > 1e3:
-        why = gap_in_words(real.gap, "pivot")
-        dimension = columns - real.rank - timed
-        return Variety(True, dimension, "numeric", [], real, [why], argument="regular point", gap=real.gap)
+    if real.part.gap > 1e3:
+        why = gap_in_words(real.part.gap, "pivot")
+        dimension = columns - real.part.rank - timed
+        return Variety(True, dimension, "numeric", [], real, [why], argument="regular point", gap=real.part.gap)
     return Variety(None, None, "undecided", [], real, ["only singular points were found"])
 
 
@@ -113,10 +111,10 @@ def with_reality(chart: Chart, variety: Variety, rank: int) -> Variety:
         return _without_reality(chart, variety)
     if not real.certified or not real.consistent:
         return near_singular_point(chart, variety)
-    if real.solved < real.rank:
-        variety.verdict, variety.gap = weakest(variety.verdict, "numeric"), real.gap
+    if real.solved < real.part.rank:
+        variety.verdict, variety.gap = weakest(variety.verdict, "numeric"), real.part.gap
         variety.reasons.append(NEARLY)
-    if real.rank != rank:
+    if real.part.rank != rank:
         variety.verdict, variety.dimension, variety.parted = "undecided", None, True
         variety.reasons.append(
             "real points and points over GF(p) disagree about the rank: the set has several components"

@@ -20,22 +20,22 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from dofkit.base.deadline import check
+from dofkit.base.errors import NoValueError
 from dofkit.base.libraries import np
 from dofkit.configuration.at_reference import ball_point
 from dofkit.configuration.fewer_coordinates import smaller
-from dofkit.configuration.generic_points import chart_of_rows, field_jacobian, on_variety, pose_point
 from dofkit.configuration.local.criteria import vanish_near
 from dofkit.configuration.local.germ import random_direction
 from dofkit.configuration.local.manifold import Manifold
 from dofkit.configuration.measured.dimension import measured_freedom
 from dofkit.configuration.rigid_motions import rigid_motions
-from dofkit.exact.errors import NoValueError
-from dofkit.exact.matrices.sparse import FactoredMatrix, SparseRow, transposed
+from dofkit.configuration.variety import chart_of_rows, field_jacobian, on_variety, pose_point
+from dofkit.exact.matrices.sparse import FactoredMatrix, Pivots, SparseRow, sparse_frame, transposed
 from dofkit.exact.points.balls import FloatPoint, jacobian
 from dofkit.exact.points.field import FieldPoint
-from dofkit.exact.points.frames import Pivots, sparse_frame
 from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.points.series import Series
+from dofkit.exact.residues import modulus
 from dofkit.exact.ring.program import values
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
@@ -187,7 +187,7 @@ def needed_along(field: Manifold, other: int) -> list[int]:
     curve = field.line(random_direction(field), ORDER)
     columns = [field.columns[c] for c in field.frame.dependent]
     slopes = curve.slopes([*field.rows, other], columns)
-    p = int(field.sample.modulus())
+    p = modulus(field.sample)
     orders = [[_sparse(row, k) for row in slopes[:-1]] for k in range(ORDER)]
     turned = FactoredMatrix(transposed(orders[0], len(columns)), p)
     multipliers: list[list[int]] = []

@@ -3,24 +3,48 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from itertools import combinations
 from typing import Any, NamedTuple
 
 from flint import arb
 
 from dofkit.base.libraries import np
-from dofkit.configuration.generic_points import on_variety, pose_point
-from dofkit.exact.errors import NoValueError
+from dofkit.configuration.variety import free_point, free_real_point, on_variety, pose_point
 from dofkit.exact.matrices.sparse import rank_of
 from dofkit.exact.points.balls import BallPoint, FloatPoint
 from dofkit.exact.points.field import FieldPoint
-from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.program import gradient, values
 from dofkit.expressions import tree as ex
-from dofkit.relations.blocks import Chart, Displacement, displacement_fields, free_point
+from dofkit.relations.blocks import Chart
 from dofkit.relations.setting import Setting
 
-#: Random real points that are tried.
-TRIES = 8
+Displacement = dict[int, list[tuple[int, int | None]]]
+
+
+def displacement_fields(chart: Chart) -> list[Displacement]:
+    """Translations and rotations: for a column, the sum of factor * (the value of another column, or 1).
+
+    Only where every coordinate of the block is a place or the angle of a planar body.
+    """
+    place = {str(s.args[1]): i for i, s in enumerate(chart.symbols) if s != ex.TIME}
+    here = [c for c in chart.roles if c.name in place]
+    if len(here) != len(place) or any(c.role not in ("x", "y", "z", "angle") for c in here):
+        return []
+    by_owner: dict[str, dict[str, int]] = {}
+    for c in here:
+        by_owner.setdefault(str(c.owner), {})[c.role] = place[c.name]
+    axes = sorted({r for roles_of in by_owner.values() for r in roles_of if r != "angle"})
+    result: list[Displacement] = [{o[a]: [(1, None)] for o in by_owner.values() if a in o} for a in axes]
+    for a, b in combinations(axes, 2):
+        turn: Displacement = {}
+        for o in by_owner.values():
+            if a in o and b in o:
+                turn[o[a]] = [(-1, o[b])]
+                turn[o[b]] = [(1, o[a])]
+            if "angle" in o:
+                turn[o["angle"]] = [(1, None)]
+        result.append(turn)
+    return result
 
 
 def rigid_motions(chart: Chart, point: FieldPoint) -> int:
@@ -52,27 +76,13 @@ def rigid_motions_real(chart: Chart, point: BallPoint | FloatPoint) -> int:
 def displacements_real(chart: Chart, point: BallPoint | FloatPoint) -> Any:
     """Return the displacement fields that keep all relations, at a real point, as rows over the columns."""
     fields = displacement_fields(chart)
-    away = _away(chart) if fields else None
+    draw = free_point if "field" in chart.engines else free_real_point
+    away = draw(chart, 11) if fields else None
     if away is None:
         return np.zeros((0, 0))
     slopes = _slopes(chart, away)
     rows = [_at(chart, point, field) for field in fields if _keeps(chart, away, field, slopes)]
     return np.array([[float(v.mid()) if isinstance(v, arb) else float(v) for v in row] for row in rows])
-
-
-def _away(chart: Chart) -> FieldPoint | BallPoint | None:
-    """Return a random point of the ambient space: over GF(p), or of balls where only those may be asked."""
-    if "field" in chart.engines:
-        return free_point(chart, 11)
-    search = RealSearch(chart.ring, (), (), chart.positive)
-    for seed in range(TRIES):
-        point = BallPoint(search.start(seed, {}), seed)
-        try:
-            values(chart.ring, point)
-        except NoValueError:
-            continue
-        return point
-    return None
 
 
 def _at(chart: Chart, point: FieldPoint | BallPoint | FloatPoint, field: Displacement) -> list[Any]:

@@ -10,18 +10,27 @@ exactly: there the gradient may vanish, so that no interval test certifies a zer
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
-from dofkit.base.verdicts import Verdict
+from dofkit.base.errors import NoValueError
 from dofkit.configuration.components import RelationPart, by_cases, explicit_relations, of_largest_part, parts_of
 from dofkit.configuration.generic_dimension import ALLOWING, near_real_point, real_point, variety_at
-from dofkit.configuration.generic_points import field_jacobian, on_variety, pose_samples, samples_for, time_is_free
-from dofkit.configuration.variety import Variety
-from dofkit.exact.errors import NoValueError
-from dofkit.exact.matrices.certified import ball_part
+from dofkit.configuration.variety import (
+    Variety,
+    field_jacobian,
+    free_point,
+    free_real_point,
+    on_variety,
+    pose_samples,
+    samples_for,
+    time_is_free,
+)
+from dofkit.exact.matrices.certified import PivotedPart, ball_part
 from dofkit.exact.matrices.sparse import rank_of_rows
+from dofkit.exact.points.real_search import RealPoint, RealSearch
 from dofkit.exact.ring.program import VAR, reachable
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.triangular import TriangularSolver
@@ -31,9 +40,11 @@ from dofkit.expressions.calculus import substitute
 from dofkit.expressions.enclosures import differs_from_zero, interval_of
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
-from dofkit.relations.blocks import Chart, free_point, presolve
+from dofkit.relations.blocks import Block, Chart, make_chart
+from dofkit.relations.linear_relations import presolve
 from dofkit.relations.normal.no_solution import no_solution
 from dofkit.relations.normal.zero_set import candidates, is_analytic_in_coordinates
+from dofkit.relations.setting import Setting
 
 #: More relations than this are not searched for a proof that they have no real solution.
 MAX_RELATIONS = 40
@@ -73,7 +84,7 @@ def _fixes_time(chart: Chart, variety: Variety) -> bool:
         return bool(variety.samples) and not time_is_free(chart, variety.samples[0])
     ranked = [s for s in chart.symbols if chart.ring.var_index(s) is not None]
     rows = [[v for v, s in zip(row, ranked, strict=True) if s != ex.TIME] for row in variety.real.matrix]
-    return ball_part(rows).rank < variety.real.rank
+    return ball_part(rows).rank < variety.real.part.rank
 
 
 def _variety(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> Variety:
@@ -81,9 +92,9 @@ def _variety(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> Variety:
         points = []
         if "field" in chart.engines:
             points = [p for p in (free_point(chart, seed + k) for k in range(samples_for(chart))) if p is not None]
-        real = real_point(chart, seed, ())
-        verdict: Verdict = "proved"
-        return Variety(True, chart.coordinates, verdict, points, real, argument="nothing constrains")
+        free = free_real_point(chart, seed) if "balls" in chart.engines else None
+        real = None if free is None else RealPoint(free, PivotedPart(0, math.inf, [], []), True, True, [])
+        return Variety(True, chart.coordinates, "proved", points, real, argument="nothing constrains")
     if "field" in chart.engines and _has_joint_positions(chart):
         posed = pose_samples(chart, pose, seed)
         if posed:
@@ -208,3 +219,32 @@ def _witness(symbols: Sequence[Expr], explicit: Sequence[Expr], zeros: dict[Expr
         slope = substitute(g, {**point, s: ex.ONE}) - substitute(g, {**point, s: ex.ZERO})
         point[s] = -substitute(g, {**point, s: ex.ZERO}) / slope
     return {s: to_text(value) for s, value in point.items()}
+
+
+# Level bodies: at theta = 0 the Euler angles phi and psi turn alike, and distinguish no poses
+
+#: So many configurations are looked at, and a sine that is smaller is taken for 0.
+LOOKED, SINGULAR = 6, 1e-6
+LEVEL = (
+    "configurations were found where sin({}) is 0: the other Euler angles turn alike there, so that coordinates are no "
+    "poses; a `coupling` of joints says such an equation"
+)
+
+
+def level_angle(block: Block, setting: Setting) -> str | None:
+    """Return a tilt of the block that is 0 or pi in a configuration that was found by chance; None where there is none.
+
+    There is a part of the set then where the body is level, and what is counted of the set may be counted there.
+    """
+    tilts = setting.tilts.intersection(block.coordinates)
+    if not tilts or not block.finite:
+        return None
+    chart = make_chart(block, setting)
+    search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.positive, chart.symbols)
+    for seed in range(LOOKED):
+        symbols = search.start(seed, {})
+        if search.descend(symbols, seed) is not None:
+            level = [name for name in tilts if abs(math.sin(symbols.get(ex.coordinate(name), 1.0))) < SINGULAR]
+            if level:
+                return min(level)
+    return None

@@ -12,7 +12,7 @@ from typing import Any
 
 from flint import arb
 
-from dofkit.exact.errors import NoValueError
+from dofkit.base.errors import NoValueError
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.sparse import rank_of
 from dofkit.exact.points.balls import BallPoint, jacobian

@@ -1,22 +1,31 @@
-"""The configuration space of a block as far as it is known, and its certified points as text."""
+"""The configuration space of a block as far as it is known, its points over GF(p), and certified points as text."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from hashlib import sha256
 from typing import Any
 
-from flint import arb
+from flint import arb, ctx
 
+from dofkit.base.deadline import check
+from dofkit.base.errors import NoValueError, PoleError
 from dofkit.base.verdicts import About, ArgumentKey, Verdict
-from dofkit.exact.points.field import FieldPoint
+from dofkit.exact.matrices.sparse import Pivots, SparseRow, rank_of_rows, sparse_frame, without_time
+from dofkit.exact.points.balls import BallPoint, precision, random_ball_point
+from dofkit.exact.points.field import FieldPoint, field_point
 from dofkit.exact.points.real_search import RealPoint
+from dofkit.exact.ring.program import VAR, gradient, reachable, value_of, values
+from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import substitute
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import GAP
 from dofkit.relations.blocks import Chart
+from dofkit.relations.setting import ReductionName
 
 
 @dataclass
@@ -54,7 +63,7 @@ Witness = Mapping[Expr, str]
 
 def of_real_point(chart: Chart, real: RealPoint | None) -> Witness | None:
     """Coordinates, time and named parameters at a point whose ball holds a true zero; None without one."""
-    if real is None or not real.certified or not real.consistent or real.solved < real.rank:
+    if real is None or not real.certified or not real.consistent or real.solved < real.part.rank:
         return None
     named = {s: v for s, v in real.point.symbols.items() if not str(s.args[-1]).startswith("_")}
     return {**dict.fromkeys(chart.symbols, "0"), **{s: _text(v) for s, v in named.items()}}
@@ -72,3 +81,171 @@ def _text(value: Any) -> str:
         mantissa, exponent = (int(n) for n in ball.man_exp())
         return str(Fraction(mantissa) * Fraction(2) ** exponent)
     return str(ball.mid().str(DIGITS, radius=False))
+
+
+# Points of the ambient space
+
+#: Random points that are tried.
+TRIES = 60
+
+
+def free_point(chart: Chart, seed: int) -> FieldPoint | None:
+    """A random point of the ambient space at which the program runs."""
+    for attempt in range(TRIES):
+        point = field_point([chart.ring], 1000 * seed + attempt)
+        try:
+            values(chart.ring, point)
+        except NoValueError:
+            continue
+        return point
+    return None
+
+
+def free_real_point(chart: Chart, seed: int) -> BallPoint | None:
+    """Return a random real point of the ambient space at which the program runs."""
+    with ctx.workprec(max(ctx.prec, precision())):
+        for attempt in range(TRIES):
+            point = random_ball_point(chart.ring, chart.positive, TRIES * seed + attempt)
+            try:
+                values(chart.ring, point)
+            except NoValueError:
+                continue
+            return point
+    return None
+
+
+# Points over GF(p)
+
+#: Points over GF(p) that must agree.
+SAMPLES, MORE_SAMPLES = 2, 6
+
+
+def samples_for(chart: Chart) -> int:
+    """More points where signs and roots may be chosen differently at each."""
+    free = any(v.kind in ("sign", "root") and chart.ring.var_expr[v.index].symbols for v in chart.ring.vars)
+    return MORE_SAMPLES if free else SAMPLES
+
+
+def field_jacobian(chart: Chart, point: FieldPoint, nodes: Sequence[int] | None = None) -> list[SparseRow]:
+    """dg/d(columns) over GF(p), row by row without zeros."""
+    at = values(chart.ring, point)
+    unit = point.number(ex.ONE.args[0])
+    place = {c: i for i, c in enumerate(chart.columns) if c >= 0}
+    rows = []
+    for node in chart.nodes if nodes is None else nodes:
+        check()
+        slope = gradient(chart.ring, at, point, [(node, unit)])
+        rows.append({place[c]: int(v) for c, v in slope.items() if c in place and v != 0})
+    return rows
+
+
+def on_variety(chart: Chart, point: FieldPoint) -> bool:
+    """Return whether all finite relations hold at the point."""
+    try:
+        at = values(chart.ring, point)
+    except NoValueError:
+        return False
+    return all(at[n] == 0 for n in chart.nodes)
+
+
+def pose_point(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> FieldPoint | None:
+    """Return the point where the symbols have the given exact values and the others are random."""
+    occurring = {s: v for s, v in pose.items() if chart.ring.var_index(s) is not None}
+    fixed = _values_of_generators(chart.ring, occurring)
+    if fixed is None:
+        return None
+    salt = sha256(repr(sorted((repr(s), repr(v)) for s, v in occurring.items())).encode()).hexdigest()
+    for attempt in range(TRIES):
+        try:
+            point = field_point([chart.ring], 1000 * seed + attempt, salt=salt)
+            for index, node in fixed:
+                point.set(chart.ring.vars[index], value_of(chart.ring, point, node))
+            values(chart.ring, point)
+        except PoleError:
+            return None
+        except NoValueError:
+            continue
+        return point
+    return None
+
+
+def _values_of_generators(ring: Ring, pose: Mapping[Expr, Expr]) -> list[tuple[int, int]] | None:
+    """(generator, node of its value) for symbols and for the functions of them that have a known value."""
+    settled: dict[int, int] = {}
+    try:
+        for _ in range(3):
+            before = len(ring.vars)
+            for var in list(ring.vars):
+                expression = ring.var_expr[var.index]
+                if var.index in settled or pose.keys().isdisjoint(expression.symbols):
+                    continue
+                settled[var.index] = ring.node(substitute(substitute(expression, ring.alias), pose))
+            if len(ring.vars) == before:
+                break
+    except NoValueError:
+        return None
+    return sorted(settled.items(), key=lambda pair: pair[1])
+
+
+def pose_samples(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> list[FieldPoint]:
+    """Points of the set at which the symbols have the given values; none where some of them are not on it."""
+    if not pose:
+        return []
+    points = []
+    for k in range(SAMPLES):
+        point = pose_point(chart, pose, seed + k)
+        if point is None or not on_variety(chart, point):
+            return []
+        points.append(point)
+    return points
+
+
+def time_is_free(chart: Chart, point: FieldPoint) -> bool:
+    """Return whether the relations leave the time free to first order at a point."""
+    rows = field_jacobian(chart, point)
+    return chart.time is None or rank_of_rows(without_time(rows, chart.coordinates), point.p) == rank_of_rows(
+        rows, point.p
+    )
+
+
+def has_same_signs(chart: Chart, point: FieldPoint, real: RealPoint) -> bool:
+    """Return whether what stands in absolute values has the same signs at a point over GF(p) as at a real one."""
+    ring = chart.ring
+    signs = [i for i in generators_of(chart) if ring.vars[i].kind == "sign"]
+    if not signs:
+        return True
+    try:
+        here, there = values(ring, point), values(ring, real.point)
+    except NoValueError:
+        return False
+    return all((here[ring.var_node[i]] == 1) == bool(there[ring.var_node[i]] > 0) for i in signs)
+
+
+def generators_of(chart: Chart) -> set[int]:
+    """Return the generators that the finite relations reach."""
+    code = chart.ring.code
+    return {code[i][1] for i in reachable(chart.ring, chart.nodes) if code[i][0] == VAR}
+
+
+def chart_of_relations(
+    chart: Chart, relations: Sequence[Expr], kinds: Sequence[ReductionName], ring: Ring | None = None
+) -> Chart:
+    """Return a chart of other relations on the columns that they mention; on all columns where it has a ``ring``."""
+    mentioned = frozenset[Expr]().union(*(g.symbols for g in relations))
+    symbols = chart.symbols if ring else tuple(s for s in chart.symbols if s in mentioned)
+    ring = ring or Ring(relations, chart.positive)
+    nodes = tuple(ring.node(g) for g in relations)
+    columns = tuple(-1 if (i := ring.var_index(s)) is None else i for s in symbols)
+    return replace(
+        chart, ring=ring, nodes=nodes, symbols=symbols, columns=columns, relations=tuple(relations), kinds=tuple(kinds)
+    )
+
+
+def chart_of_rows(chart: Chart, rows: Sequence[int]) -> Chart:
+    """Return some of the relations on the columns that they mention."""
+    return chart_of_relations(chart, [chart.relations[r] for r in rows], [chart.kinds[r] for r in rows])
+
+
+def frame_at(chart: Chart, point: FieldPoint) -> Pivots:
+    """Independent relations and dependent columns at a point."""
+    return sparse_frame(field_jacobian(chart, point), len(chart.columns), point.p)

@@ -8,7 +8,7 @@ Types
 
 Two engines, each of which can prove one thing (`zero` says which of them may be asked)
     1. *Field*: a random point modulo a prime. A value that is not zero there is not identically zero; one that is
-       zero is identically zero but for a chance that the degree bounds [SchwartzZippel].
+       zero is identically zero but for a chance that the degree bounds [SchwartzZippel]. `residues` are its numbers.
     2. *Balls*: a real point enclosed in a ball. A value whose ball excludes zero is proved not to be zero.
 
 Mechanisms
@@ -23,7 +23,7 @@ Mechanisms
     solution of linear conditions or a proof that there is none [Motzkin1936]. `boxes` excludes regions by interval
     arithmetic, which proves that a system has no solution [Moore1966].
     `matrices` computes ranks: modulo p, of sparse rows, of rational rows, certified ones of balls, and singular values
-    for measured numbers. `errors` is the one way in which arithmetic fails.
+    for measured numbers. `ring.program` has the errors by which arithmetic fails.
 
 What leaves this room is a value with its certainty: a rank that is exact or bounded from one side, a zero that is
 proved or probable with a bound, a point with a ball in which a true solution lies.

@@ -15,7 +15,7 @@ from typing import Any
 from flint import Ordering, fmpq_mat, fmpz_mpoly_ctx, fmpz_mpoly_vec
 
 from dofkit.base.deadline import check
-from dofkit.exact.errors import NoValueError
+from dofkit.base.errors import NoValueError
 from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.ring import Ring
 

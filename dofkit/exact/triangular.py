@@ -14,9 +14,9 @@ from dataclasses import dataclass, field
 from functools import cache
 
 from dofkit.base.deadline import check
-from dofkit.exact.errors import NoPointError, NoValueError, raising_no_value
+from dofkit.base.errors import NoValueError
 from dofkit.exact.points.field import FieldPoint, field_point
-from dofkit.exact.ring.program import ADD, MUL, POW, reachable
+from dofkit.exact.ring.program import ADD, MUL, POW, NoPointError, raising_no_value, reachable
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.unknowns import Unit, circle, is_linear, root_relations, roots_of, units_in, univariate, value_along
 

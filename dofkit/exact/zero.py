@@ -8,11 +8,10 @@ from typing import Literal
 
 from flint import ctx, fmpq_mat
 
+from dofkit.base.errors import NoValueError
 from dofkit.base.verdicts import Verdict
-from dofkit.exact.errors import NoValueError
-from dofkit.exact.points.balls import BallPoint, fixed_bits
+from dofkit.exact.points.balls import BallPoint, fixed_bits, random_ball_point
 from dofkit.exact.points.field import MOST_REDUCED, field_point
-from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.canonical import Canon, divided
 from dofkit.exact.ring.program import Var, values
 from dofkit.exact.ring.ring import Ring
@@ -80,9 +79,8 @@ def zero_and_verdict(e: Expr, positive: frozenset[Expr], engines: Engines = BOTH
 
 def _has_value(ring: Ring, node: int, positive: frozenset[Expr]) -> bool:
     """Return whether the node has a value at one of the real points that are tried."""
-    search = RealSearch(ring, (), (), positive)
     with ctx.workprec(fixed_bits() or PRECISIONS[0]):
-        return any(_value_at(ring, node, BallPoint(search.start(seed, {}), seed)) for seed in range(STARTS))
+        return any(_value_at(ring, node, random_ball_point(ring, positive, seed)) for seed in range(STARTS))
 
 
 def _value_at(ring: Ring, node: int, point: BallPoint) -> bool:
@@ -112,11 +110,10 @@ def certainly_nonzero(e: Expr, positive: frozenset[Expr]) -> bool:
 
 def excludes_zero(ring: Ring, node: int, positive: frozenset[Expr]) -> bool:
     """Return whether a ball at some real point excludes 0 as the value of a node."""
-    search = RealSearch(ring, (), (), positive)
     bits = fixed_bits()
     for precision in PRECISIONS if bits is None else (bits,):
         with ctx.workprec(precision):
-            if any(_excluded_at(ring, node, BallPoint(search.start(seed, {}), seed)) for seed in range(STARTS)):
+            if any(_excluded_at(ring, node, random_ball_point(ring, positive, seed)) for seed in range(STARTS)):
                 return True
     return False
 
@@ -226,7 +223,7 @@ def _independent_arguments(ring: Ring, kind: str) -> bool:
     canon = Canon(ring)
     try:
         pairs = [canon.quotient(v.args[0]) for v in moving]
-        below = canon.one
+        below = canon.unit
         for _, bottom in pairs:
             below = below * divided(bottom, below.gcd(bottom))
         rows = [below, *(top * divided(below, bottom) for top, bottom in pairs)]

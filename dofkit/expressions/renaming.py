@@ -132,7 +132,7 @@ class Renaming:
     def __init__(self, names: Mapping[str, str]) -> None:
         self.names = names
         self._symbols: dict[Expr, Expr] = {}
-        self._known: dict[int, tuple[Expr, Expr]] = {}
+        self._renamed: dict[int, tuple[Expr, Expr]] = {}
 
     def of(self, e: Expr) -> Expr:
         """Return an expression in the other names; its shape is known where it was."""
@@ -141,7 +141,7 @@ class Renaming:
             return self._symbol(e)
         if op == "num" or op == "const":
             return e
-        earlier = self._known.get(id(e))
+        earlier = self._renamed.get(id(e))
         if earlier is not None:
             return earlier[1]
         renamed: tuple[Any, ...]
@@ -154,7 +154,7 @@ class Renaming:
         made = Expr(op, renamed)
         if e.shape is not None:
             made.shape = e.shape._replace(names=tuple(self.names.get(n, n) for n in e.shape.names))
-        self._known[id(e)] = e, made
+        self._renamed[id(e)] = e, made
         return made
 
     def _symbol(self, symbol: Expr) -> Expr:

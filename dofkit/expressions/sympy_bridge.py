@@ -19,7 +19,7 @@ _ELEMENTARY = {
     "atan": "atan", "atan2": "atan2", "sinh": "sinh", "cosh": "cosh", "tanh": "tanh", "exp": "exp", "log": "log",
     "abs": "Abs",
 }  # fmt: skip
-_BACK = {sympy: own for own, sympy in _ELEMENTARY.items()}
+_BACK = {sympy: name for name, sympy in _ELEMENTARY.items()}
 
 
 class UntranslatableError(DofkitError):

@@ -66,7 +66,7 @@ class Grader:
         self.seconds = seconds
         self.condemned = {} if condemned is None else condemned
         self.max_score = sum((q.points for _, q in prepared.questions()), Fraction(0))
-        self._known: dict[Spot, tuple[Judgement, Fraction | None]] = {}
+        self._judgements: dict[Spot, tuple[Judgement, Fraction | None]] = {}
         self._variants: dict[str, Grader] = {}
 
     def grade(self, submission: Submission) -> Result:
@@ -133,7 +133,7 @@ class Grader:
                     earlier.setdefault(question.kind(), number)
                 continue
             spot = _spot(problem, question, answer, earlier) + self.prepared.marks.get((problem.id, question.id), "")
-            if spot not in self._known and spot not in self.condemned:
+            if spot not in self._judgements and spot not in self.condemned:
                 yield spot
             judgement, number = self.judge(spot, problem, question, answer, earlier)
             items.append(self._item(problem, question, judgement, answer))
@@ -161,11 +161,11 @@ class Grader:
         """Return what an answer is worth, and its number; after the same earlier answers always the same."""
         if spot in self.condemned:
             return needs_review("", self.condemned[spot]), None
-        remembered = self._known.get(spot)
+        remembered = self._judgements.get(spot)
         if remembered is None:
             remembered = self._judgement(problem, question, answer, earlier), _number(question, answer)
-            if len(self._known) < MOST_REMEMBERED and len(spot) < LONGEST_REMEMBERED:
-                self._known[spot] = remembered
+            if len(self._judgements) < MOST_REMEMBERED and len(spot) < LONGEST_REMEMBERED:
+                self._judgements[spot] = remembered
         return remembered
 
     def _judgement(

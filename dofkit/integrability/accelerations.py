@@ -13,7 +13,7 @@ from itertools import chain
 from itertools import product as cartesian
 
 from dofkit.base.errors import TextError
-from dofkit.exact.errors import raising_no_value
+from dofkit.exact.ring.program import raising_no_value
 from dofkit.exact.zero import certainly_nonzero, zero_and_verdict
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import (

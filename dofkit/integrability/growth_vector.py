@@ -15,8 +15,9 @@ from typing import Any
 
 from flint import fmpz
 
+from dofkit.exact.matrices.sparse import Pivots
 from dofkit.exact.points.field import FieldPoint
-from dofkit.exact.points.frames import FormRows, Pivots, rank_over
+from dofkit.exact.points.frames import FormRows, rank_over
 from dofkit.exact.points.series import Series, SeriesPoint
 from dofkit.exact.ring.program import Scalar, Var, gradient, partials, values
 from dofkit.integrability.lie_algebra import (

@@ -19,18 +19,19 @@ from dataclasses import replace
 from flint import arb
 
 from dofkit.base.deadline import OutOfTimeError
+from dofkit.base.errors import NoValueError
 from dofkit.base.verdicts import VERDICTS, weakest
 from dofkit.configuration.local.manifold import Manifold
 from dofkit.configuration.search import find
 from dofkit.configuration.states import States, moves, rows_at, state_relations, value_at, vanishes
 from dofkit.configuration.variety import Variety
-from dofkit.exact.errors import NoValueError, raising_no_value
 from dofkit.exact.matrices.certified import ball_part
+from dofkit.exact.matrices.sparse import Pivots
 from dofkit.exact.points.balls import BallPoint
 from dofkit.exact.points.field import FieldPoint
-from dofkit.exact.points.frames import Pivots, certified_rank, kernel
+from dofkit.exact.points.frames import kernel
 from dofkit.exact.points.real_search import RealPoint
-from dofkit.exact.ring.program import VAR, Scalar, reachable, values
+from dofkit.exact.ring.program import VAR, Scalar, raising_no_value, reachable, values
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero import independent_on_set, is_zero
 from dofkit.expressions import tree as ex
@@ -93,7 +94,7 @@ def set_velocity_freedom(block: Block, setting: Setting, result: Answer) -> None
     else:
         result.curved, result.argument = True, "states of motion"
         result.velocity_dof = len(block.coordinates) - moving
-        full = certified_rank(states.by_velocity(real.point, states.moving)) == len(block.rows)
+        full = ball_part(states.by_velocity(real.point, states.moving)).rank == len(block.rows)
         result.verdict = weakest(result.verdict, "numeric" if point is None else "proved" if full else "probable")
 
 
@@ -183,8 +184,8 @@ def _bends(states: States, point: BallPoint) -> bool:
     """
     try:
         rows = states.by_velocity(point, states.moving)
-        wanted = len(states.velocities) - certified_rank(rows[: len(states.linear)])
-        return certified_rank(_derivatives(states, rows, point, wanted)) == wanted
+        wanted = len(states.velocities) - ball_part(rows[: len(states.linear)]).rank
+        return ball_part(_derivatives(states, rows, point, wanted)).rank == wanted
     except NoValueError:
         return False
 
@@ -381,9 +382,9 @@ def _moving(ring: Ring, point: FieldPoint | BallPoint, moved: dict[Expr, Scalar]
     other = point.copy()
     for var in ring.vars:
         if moves(ring, var.index):
-            other.given.pop((var.kind, var.key), None)
+            other.values.pop((var.kind, var.key), None)
     for s, value in moved.items():
-        other.given["symbol", s] = value
+        other.values["symbol", s] = value
     return other
 
 

@@ -22,8 +22,7 @@ from flint import arb
 from dofkit.base.deadline import check
 from dofkit.base.errors import NoValueError
 from dofkit.configuration.at_reference import CLEAR, ball_matrix, ball_point
-from dofkit.configuration.generic_points import on_variety, pose_point
-from dofkit.configuration.variety import Variety
+from dofkit.configuration.variety import Variety, on_variety, pose_point
 from dofkit.exact.analyticity import is_analytic
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.sparse import rank_of

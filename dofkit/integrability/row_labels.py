@@ -11,21 +11,22 @@ import random
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from operator import mul
 
-from flint import arb, ctx, nmod_mat
+from flint import arb, ctx
 
 from dofkit.base.errors import NoValueError
 from dofkit.base.verdicts import Verdict, weakest
 from dofkit.configuration.at_reference import CLEAR, ball_matrix, ball_point
 from dofkit.configuration.finite_blocks import dependent_names
-from dofkit.configuration.generic_points import SAMPLES, on_variety, pose_point
-from dofkit.configuration.variety import Variety
+from dofkit.configuration.variety import SAMPLES, Variety, on_variety, pose_point
 from dofkit.exact.matrices.certified import ball_part, dependencies
 from dofkit.exact.matrices.sparse import rank_of, sparse
 from dofkit.exact.points.balls import precision
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import field_frame, pairing
 from dofkit.exact.points.real_search import RealPoint
+from dofkit.exact.residues import null_vectors, residue_matrix
 from dofkit.exact.ring.canonical import error_bits
 from dofkit.exact.ring.program import Scalar, values
 from dofkit.exact.zero import independent_on_set, zero_and_verdict
@@ -239,10 +240,9 @@ def _modulo_the_others(place: int, sampled: SampledSpan, p: int) -> bool:
     if not others or rank_of(others, p) == rank_of(sampled.matrix, p):
         return False
     vectors = sampled.span.vectors
-    paired = nmod_mat([[int(v) for v in pairing(row, vectors)] for row in others], p)
-    null, nullity = paired.nullspace()
-    pairings = [int(v) for v in pairing(sampled.matrix[place], vectors)]
-    return all(sum(int(null[r, c]) * pairings[r] for r in range(len(pairings))) % p == 0 for c in range(nullity))
+    paired = residue_matrix([[int(v) for v in pairing(row, vectors)] for row in others], p)
+    pairings = pairing(sampled.matrix[place], vectors)
+    return all(sum(map(mul, vector, pairings)) == 0 for vector in null_vectors(paired))
 
 
 def _integrable_names(forms_at_points: SampledForms) -> tuple[str, ...]:
@@ -250,9 +250,7 @@ def _integrable_names(forms_at_points: SampledForms) -> tuple[str, ...]:
     chart, p, spanning = forms_at_points.forms.chart, forms_at_points.point.p, forms_at_points.sampled.span.vectors
     if not spanning:
         return tuple(str(s.args[1]) for s in chart.symbols if s != ex.TIME)
-    vectors = nmod_mat([[int(v) for v in vector] for vector in spanning], p)
-    basis, nullity = vectors.nullspace()
-    rows = [[basis[i, k] for i in range(basis.nrows())] for k in range(nullity)]
+    rows = null_vectors(residue_matrix([[int(v) for v in vector] for vector in spanning], p))
     return dependent_names(sparse(rows), chart, p) if rows else ()
 
 
@@ -290,7 +288,7 @@ def ball_labels(block: Block, forms: Codistribution, real: RealPoint, result: An
         )
     if "field" not in forms.chart.engines:
         result.matrix = sparse(dependencies(matrix, part))
-        if real.consistent and len(real.rows) == forms.finite and rank == len(matrix):
+        if real.consistent and len(real.part.rows) == forms.finite and rank == len(matrix):
             result.verdict = "proved" if reached or total - rank <= 1 else result.verdict
     for i, row, place in linear_rows(block, forms):
         finite = isinstance(row.piece, Finite)
@@ -356,7 +354,7 @@ def _along(curve: AdmissibleCurve, row: Mapping[int, int], order: int, p: int) -
     """Return the coefficient of an order, along the curve, of a row on each of the admissible fields."""
     total = [0] * len(curve.frame.free)
     for j in range(order + 1):
-        fields: nmod_mat = curve.full_frame[order - j]
+        fields = curve.full_frame[order - j]
         for column, node in row.items():
             factor = int(curve.at[node].coefficient(j))
             total = [t + factor * int(fields[column, f]) for f, t in enumerate(total)] if factor else total

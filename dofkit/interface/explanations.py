@@ -19,6 +19,7 @@ from dofkit.interface.show.assurance import VERDICT_MEANS
 from dofkit.report import ConstraintEntry, Report
 from dofkit.scene.constraints import TYPES, ConstraintBase
 from dofkit.scene.hints import LINES, SECTIONS
+from dofkit.scene.picture import SHAPES, ShapeKeys
 from dofkit.scene.scene import Scene
 from dofkit.scene.synonyms import synonyms
 
@@ -111,6 +112,7 @@ def all_explanations() -> tuple[Explanation, ...]:
         *(Explanation(word, "term", meaning) for word, meaning in _WORDS.items()),
         *(_section(name) for name in SECTIONS),
         *(_type(name, cls) for name, cls in TYPES.items()),
+        *(_shape(name, row) for name, row in SHAPES.items()),
         *(Explanation(word, "synonym", f"In a scene it means `{kind}`.") for word, kind in synonyms().items()),
         *_arguments(),
         *_theorems(),
@@ -140,6 +142,12 @@ def _type(name: str, cls: type[ConstraintBase]) -> Explanation:
         f"{about} Defined in {spaces} dimensions. Fields: {'; '.join(fields)}. `dofkit catalog '{name}'` finds scenes."
     )
     return Explanation(name, "constraint type", text)
+
+
+def _shape(name: str, row: ShapeKeys) -> Explanation:
+    keys = ", ".join([*row.needs, *(f"{key} (optional)" for key in row.may)])
+    text = f"{_sentence(row.meaning)} Keys: {keys}. For example `{row.example}`."
+    return Explanation(name, "shape of a picture", text)
 
 
 def _arguments() -> Iterator[Explanation]:

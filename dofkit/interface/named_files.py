@@ -68,7 +68,7 @@ def _is_model(path: str) -> bool:
 
 
 #: The sections of a scene that are written with an entry on each line.
-SECTIONS = ("particles", "bodies", "constraints", "forces", "left_out", "configuration")
+SECTIONS = ("particles", "bodies", "constraints", "forces", "left_out", "configuration", "picture")
 #: The schema beside a scene; its name is hidden, so that it is not read as a scene of the folder.
 SCHEMA = ".dofkit-schema.json"
 FIRST_SCENE = """\

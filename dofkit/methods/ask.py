@@ -6,7 +6,7 @@ What is answered is what `classify` says too.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from contextlib import ExitStack
+from contextlib import nullcontext
 from dataclasses import dataclass
 from typing import Any
 
@@ -23,8 +23,7 @@ from dofkit.classification.freedom.preparation import prepared
 from dofkit.classification.labels.entries import labels_in_system
 from dofkit.classification.study import Study, study
 from dofkit.exact.points.balls import balls_of, precise_for, precision
-from dofkit.exact.points.field import primes_of
-from dofkit.exact.zero import BALLS, BOTH, FIELD, Engines
+from dofkit.exact.zero import BALLS, BOTH, Engines
 from dofkit.methods.table import METHODS, QUESTIONS, Knobs, MethodName, MethodReply, Question, cannot, function_of
 from dofkit.mobility.general_position import unprescribed_links
 from dofkit.mobility.graph.linkage import linkage
@@ -268,12 +267,8 @@ def answered(
 def _by_engines(
     engines: Engines, scene: Scene, question: Question, knobs: Knobs, answer: Mapping[str, str] | None
 ) -> MethodReply:
-    """Return the answer of dofkit's engines; one alone takes the bits of its primes, or of its balls."""
-    with ExitStack() as precisions:
-        if engines == FIELD:
-            precisions.enter_context(primes_of(knobs.prime_bits))
-        if engines == BALLS:
-            precisions.enter_context(balls_of(knobs.bits))
+    """Return the answer of dofkit's engines; balls alone take the bits of their numbers."""
+    with balls_of(knobs.bits) if engines == BALLS else nullcontext():
         reply = answered_by(scene, question, answer, engines=engines)
     value = sorted(reply.value) if question == "redundancy" and reply.value is not None else reply.value
     return MethodReply(value, reply.reason, verdict=reply.verdict)

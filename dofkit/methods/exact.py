@@ -10,8 +10,7 @@ from flint import fmpq, fmpq_mat, fmpz
 
 from dofkit.base.errors import NoValueError, PoleError
 from dofkit.base.verdicts import Verdict
-from dofkit.exact.errors import raising_no_value
-from dofkit.exact.ring.program import Scalar, Var, value_of
+from dofkit.exact.ring.program import Scalar, Var, raising_no_value, value_of
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
@@ -112,9 +111,6 @@ class Rationals:
 
     zero = fmpq(0)
 
-    def __init__(self, seed: int) -> None:
-        self.seed = seed
-
     def rank(self, matrix: Matrix) -> int:
         return fmpq_mat(matrix).rank() if matrix and matrix[0] else 0
 
@@ -142,7 +138,7 @@ class Rationals:
         if order is None and not _linear(written):
             return []
         for k in range(DRAWS):
-            point = RationalPoint(random.Random(f"dofkit rational {self.seed} {k}"), free=True)
+            point = RationalPoint(random.Random(f"dofkit rational 0 {k}"), free=True)
             try:
                 if order is None:
                     solved_together(written, point)
@@ -155,7 +151,7 @@ class Rationals:
         return []
 
     def _drawn(self, written: Written) -> RationalPoint:
-        point = RationalPoint(random.Random(f"dofkit rational {self.seed}"), free=False)
+        point = RationalPoint(random.Random("dofkit rational 0"), free=False)
         for symbol, value in (written.system.reference or {}).items():
             point.given[symbol] = drawn_value(value, point)
         point.given[ex.TIME] = fmpq(0)
@@ -234,8 +230,8 @@ def solved_together(written: Written, point: RationalPoint) -> None:
         point.given[columns[c]] = -reduced[r, len(columns)] - moved
 
 
-def _look(scene: Scene | System, knobs: Knobs) -> tuple[SampledPoints, Rationals] | MethodReply:
-    numbers = Rationals(knobs.seed)
+def _look(scene: Scene | System) -> tuple[SampledPoints, Rationals] | MethodReply:
+    numbers = Rationals()
     written = as_written(scene)
     if written.system.tolerance is not None:
         return cannot("the geometry is measured, and rational arithmetic takes every number for exact")
@@ -254,7 +250,8 @@ def _look(scene: Scene | System, knobs: Knobs) -> tuple[SampledPoints, Rationals
 
 def dof(scene: Scene | System, knobs: Knobs) -> MethodReply:
     """Coordinates less the rank of the Jacobian there, forms that pass Frobenius' test included."""
-    samples = _look(scene, knobs)
+    del knobs
+    samples = _look(scene)
     if isinstance(samples, MethodReply):
         return samples
     sure: Verdict = "proved" if independent_at_reference(*samples) else "undecided"
@@ -263,13 +260,15 @@ def dof(scene: Scene | System, knobs: Knobs) -> MethodReply:
 
 def integrability(scene: Scene | System, knobs: Knobs) -> MethodReply:
     """By Frobenius' test at that point."""
-    samples = _look(scene, knobs)
+    del knobs
+    samples = _look(scene)
     return _unless_contradictory(samples) if isinstance(samples, MethodReply) else MethodReply(labels(samples[0]))
 
 
 def redundancy(scene: Scene | System, knobs: Knobs) -> MethodReply:
     """By the ranks there with and without each constraint."""
-    samples = _look(scene, knobs)
+    del knobs
+    samples = _look(scene)
     return _unless_contradictory(samples) if isinstance(samples, MethodReply) else MethodReply(droppable(*samples))
 
 

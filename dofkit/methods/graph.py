@@ -41,10 +41,10 @@ def framework(system: System, pairs: list[tuple[int, tuple[str, str]]]) -> Linka
     return linkage([pair for _, pair in pairs], system.dimension)
 
 
-def generic_rows(system: System, seed: int) -> tuple[list[SparseRow], list[int], int]:
+def generic_rows(system: System) -> tuple[list[SparseRow], list[int], int]:
     """(rows, the constraint of each, p): every connection at random places modulo p."""
-    p = prime_for(1, (), seed)
-    placement = general_placement(system, p, seed)
+    p = prime_for(1, (), 0)
+    placement = general_placement(system, p, 0)
     rows: list[SparseRow] = []
     owners: list[int] = []
     for c, placed in zip(system.connections, placement.located, strict=True):
@@ -54,22 +54,23 @@ def generic_rows(system: System, seed: int) -> tuple[list[SparseRow], list[int],
     return rows, owners, p
 
 
-def rank(system: System, seed: int) -> int:
+def rank(system: System) -> int:
     """The rank in general position."""
     pairs = links(system)
     if pairs is not None:
         return len(pairs) - len(framework(system, pairs).redundant_places)
-    rows, _, p = generic_rows(system, seed)
+    rows, _, p = generic_rows(system)
     return rank_of_rows(rows, p)
 
 
 def dof(scene: Scene | System, knobs: Knobs) -> MethodReply:
     """Coordinates less the rank in general position."""
+    del knobs
     system = scene if isinstance(scene, System) else lower(scene)
     why = outside(system)
     if why is not None:
         return cannot(why)
-    return MethodReply(len(system.coordinates) - rank(system, knobs.seed), verdict=generic_verdict(system))
+    return MethodReply(len(system.coordinates) - rank(system), verdict=generic_verdict(system))
 
 
 def integrability(scene: Scene | System, knobs: Knobs) -> MethodReply:
@@ -82,12 +83,13 @@ def integrability(scene: Scene | System, knobs: Knobs) -> MethodReply:
 
 def redundancy(scene: Scene | System, knobs: Knobs) -> MethodReply:
     """By the rank in general position with and without each."""
+    del knobs
     system = scene if isinstance(scene, System) else lower(scene)
     why = outside(system)
     if why is not None:
         return cannot(why)
     names = [c.name for c in system.constraints]
-    return MethodReply(sorted(names[i] for i in redundant(system, knobs.seed)), verdict=generic_verdict(system))
+    return MethodReply(sorted(names[i] for i in redundant(system)), verdict=generic_verdict(system))
 
 
 def generic_verdict(system: System) -> Verdict:
@@ -96,10 +98,10 @@ def generic_verdict(system: System) -> Verdict:
     return "undecided" if pairs is None else framework(system, pairs).proof("redundant").verdict
 
 
-def redundant(system: System, seed: int) -> list[int]:
+def redundant(system: System) -> list[int]:
     """The constraints that can be dropped together in general position, the last written first."""
     pairs = links(system)
     if pairs is not None and len({i for i, _ in pairs}) == len(pairs):
         return sorted(pairs[k][0] for k in framework(system, pairs).redundant_places)
-    rows, owners, p = generic_rows(system, seed)
+    rows, owners, p = generic_rows(system)
     return analyse([OwnedRows(rows, owners, [True] * len(rows), p)]).redundant

@@ -44,8 +44,8 @@ class Floats:
 
     zero = 0.0
 
-    def __init__(self, tolerance: float, seed: int) -> None:
-        self.tolerance, self.seed = tolerance, seed
+    def __init__(self, tolerance: float) -> None:
+        self.tolerance = tolerance
 
     def rank(self, matrix: Matrix) -> int:
         if not matrix or not matrix[0]:
@@ -78,27 +78,27 @@ class Floats:
         return sampled
 
     def _drawn(self, written: Written, rows: WrittenRows) -> FloatPoint:
-        rng = random.Random(f"dofkit floats {self.seed}")
+        rng = random.Random("dofkit floats 0")
         symbols: dict[Expr, float] = {v.key: rng.uniform(0.5, 2) for v in rows.ring.vars if v.kind == "symbol"}
         reference = written.system.reference or {}
         parameters = {s for value in reference.values() for s in value.symbols}
         symbols |= {s: rng.uniform(0.5, 2) for s in sorted(parameters, key=repr) if s not in symbols}
-        place = FloatPoint(symbols, self.seed)
+        place = FloatPoint(symbols, 0)
         symbols |= {s: float(drawn_value(value, place)) for s, value in reference.items()}
         symbols[ex.TIME] = 0.0
-        return FloatPoint(symbols, self.seed)
+        return FloatPoint(symbols, 0)
 
     def _newton_end(self, written: Written, rows: WrittenRows, k: int) -> FloatPoint | None:
         """Where Gauss and Newton's method ends that begins at random."""
         unknowns = [*written.coordinates, *(ex.parameter(p) for p in written.system.generic)]
         nodes = [node for _, node in rows.finite]
         search = RealSearch(rows.ring, nodes, unknowns, written.positive)
-        symbols = search.start(STARTS * self.seed + k, {})
-        if search.descend(symbols, self.seed) is None:
+        symbols = search.start(k, {})
+        if search.descend(symbols, 0) is None:
             return None
-        rng = random.Random(f"dofkit floats {self.seed} {k}")
+        rng = random.Random(f"dofkit floats 0 {k}")
         symbols |= {s: rng.uniform(-2, 2) for s in rows.columns if s not in symbols}
-        return FloatPoint(symbols, self.seed)
+        return FloatPoint(symbols, 0)
 
 
 def singular_values(matrix: Matrix) -> Any:
@@ -107,7 +107,7 @@ def singular_values(matrix: Matrix) -> Any:
 
 
 def _look(scene: Scene | System, knobs: Knobs) -> tuple[SampledPoints | None, Floats]:
-    numbers = Floats(knobs.tolerance, knobs.seed)
+    numbers = Floats(knobs.tolerance)
     return look(as_written(scene), numbers), numbers
 
 

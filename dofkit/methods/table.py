@@ -176,13 +176,11 @@ class Knobs:
     """Settings of a method.
 
     ``tolerance``: singular values and differences below this share of the largest count as 0 (numeric); ``bits``: the
-    precision of balls, None for the ladder that they climb by themselves; ``prime_bits``: the size of a field's primes.
+    precision of balls, None for the ladder that they climb by themselves.
     """
 
     tolerance: float = 1e-9
     bits: int | None = None
-    prime_bits: int = 61
-    seed: int = 0
 
 
 @dataclass(frozen=True)

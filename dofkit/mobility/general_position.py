@@ -18,11 +18,11 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from dofkit.base.deadline import check
+from dofkit.base.errors import NoValueError
 from dofkit.base.verdicts import Verdict
-from dofkit.exact.errors import NoValueError, raising_no_value
 from dofkit.exact.matrices.sparse import SparseRow, last_columns, rank_of_rows
 from dofkit.exact.points.field import FieldPoint, field_point, prime_for
-from dofkit.exact.ring.program import gradient, values
+from dofkit.exact.ring.program import gradient, raising_no_value, values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.renaming import coordinates_in
@@ -49,11 +49,6 @@ class General:
     rank: int | None
     verdict: Verdict = "undecided"
     why: str = ""
-
-
-def has_geometry(system: System) -> bool:
-    """Return whether there is a drawing, and anything is connected in it."""
-    return system.reference is not None and any(c.members for c in system.connections)
 
 
 def in_general_position(system: System, rows: Sequence[Row], setting: Setting) -> General:

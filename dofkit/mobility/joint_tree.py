@@ -27,7 +27,7 @@ def tree_coordinates(system: System) -> list[str] | None:
     Of a coupling the joint that it names first is told by the others. What hangs on nothing has its first body's own
     coordinates, and what nothing joins its own.
     """
-    joints = [c for c in system.connections if c.facts.freedoms or c.facts.welded]
+    joints = system.joints
     if not joints or not _is_tree(system, joints):
         return None
     rows = [dict(row) for row in _coupled(system)]
@@ -38,7 +38,7 @@ def tree_coordinates(system: System) -> list[str] | None:
     return [name for name in (*names, *_floating(system, joints)) if name not in told_by_others]
 
 
-def _is_tree(system: System, joints: list[Connection]) -> bool:
+def _is_tree(system: System, joints: Sequence[Connection]) -> bool:
     """Return whether every joint joins what was apart, and there is nothing else but couplings and bounds."""
     of_joints = {c.constraint for c in joints}
     for index, c in enumerate(system.connections):
@@ -54,7 +54,7 @@ def _is_tree(system: System, joints: list[Connection]) -> bool:
     return True
 
 
-def _floating(system: System, joints: list[Connection]) -> Iterator[str]:
+def _floating(system: System, joints: Sequence[Connection]) -> Iterator[str]:
     """Coordinates of the first body of what the ground does not hold, and of what no joint joins."""
     held: nx.utils.UnionFind[str] = nx.utils.UnionFind()
     for c in joints:
@@ -110,9 +110,7 @@ def bridges(system: System) -> Bridges:
     """Return the joints that close no loop, of those of a drawing in fractions, by numbers; none without a drawing."""
     if system.dimension == 1:
         return Bridges()
-    joints = {c.constraint: c.members for c in system.connections if _is_drawn(c, system)}
-    if not joints:
-        return Bridges()
+    joints = {c.constraint: c.members for c in system.joints if _is_drawn(c, system)}
     graph = _graph(system, joints)
     ends = _ends_of_bridges(graph)
     apart = frozenset(i for i in joints if ends[i] == len(graph.adj[i]))
@@ -155,7 +153,7 @@ def _ends_of_bridges(graph: nx.Graph[Node]) -> Counter[Node]:
 
 def _is_drawn(c: Connection, system: System) -> bool:
     """Return whether an undriven joint of two bodies is drawn in fractions, as its bodies are."""
-    if not (c.facts.freedoms or c.facts.welded) or len(c.members) != 2 or c.driven or c.number is not None:
+    if len(c.members) != 2 or c.driven or c.number is not None:
         return False
     vectors = (*c.places, *c.directions, *(system.starts.get(member, ()) for member in c.members))
     return all(vector is not None and all(part.op == "num" for part in vector) for vector in vectors)

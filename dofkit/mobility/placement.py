@@ -13,8 +13,8 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
+from dofkit.base.errors import NoValueError
 from dofkit.base.libraries import nx
-from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.sparse import LinearRow, Numbers, SparseRow, less
 from dofkit.exact.points.field import field_point
 from dofkit.exact.ring.program import values

@@ -14,8 +14,7 @@ from dofkit.base.deadline import limited
 from dofkit.base.errors import DofkitError
 from dofkit.expressions.tree import TIME, coordinate, parameter
 from dofkit.motion.configurations import configurations
-from dofkit.pictures.arrangement import MOVES, Arrangement, FreeMotion, displaced, poses_of
-from dofkit.pictures.coordinates import MOST, gauge_sketch, is_bare
+from dofkit.pictures.arrangement import MOVES, Arrangement, FreeMotion, displaced
 from dofkit.pictures.files import ExtraMissingError, draw_marks, figure_of, require_matplotlib, saved
 from dofkit.pictures.layout import page_of, standpoint_of
 from dofkit.pictures.paper import Page
@@ -46,9 +45,10 @@ MOST_MOTIONS = 12
 
 def clips_of(stage: StagedScene, sketch: Sketch) -> list[Clip]:
     """Return all motions that are shown: a finite one, and each freedom if there are several or no finite one."""
-    if not can_hold(stage.report):
+    seen = _Seen(sketch)
+    if not can_hold(stage.report) or not seen.vertices:
         return []
-    finite = _finite(stage, _Seen(sketch))
+    finite = _finite(stage, seen)
     if finite and len(stage.motions) <= 1:
         return finite
     return [*finite, *_swings(stage.arrangement, stage.motions, stage.size)]
@@ -77,9 +77,13 @@ def _finite(stage: StagedScene, seen: _Seen) -> list[Clip]:
             path = configurations(stage.system, steps=steps, step=STEP, values=_near_values(stage))
     except DofkitError:
         return []
-    numbers = stage.arrangement.numbers
-    symbols = [{**numbers, **{coordinate(n): v for n, v in configuration.items()}} for configuration in path]
-    frames: list[Poses] = [poses_of(stage.system, values, gibbs=False) for values in symbols]
+    numbers = dict(stage.arrangement.numbers)
+    frames: list[Poses] = [
+        stage.arrangement.poses_at(
+            numbers | {TIME if n == TIME.args[1] else coordinate(n): v for n, v in configuration.items()}, gibbs=False
+        )
+        for configuration in path
+    ]
     start = min(range(len(frames)), key=lambda k: seen.far(frames[k], stage.arrangement.poses))
     turn = _turn(seen, frames, start, stage.size)
     frames = turn or _near(seen, frames, start, FAR * stage.size)
@@ -224,8 +228,7 @@ def animate(scene: SceneLike, report: Report | None = None) -> Animation:
     """
     loaded, report = with_report(scene, report)
     stage = staged(loaded, report)
-    many = is_bare(stage.system) and len(stage.system.coordinates) > MOST
-    sketch = gauge_sketch(stage) if many else whole_sketch(stage)[0]
+    sketch = whole_sketch(stage)[0]
     clips = tuple(clips_of(stage, sketch))
     immobile = (report.velocity_dof == 0 and report.scleronomic) or not can_hold(report)
     notes = sketch.notes if clips else (*sketch.notes, STILL if immobile else NOT_SHOWN)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import combinations, pairwise
 from typing import NamedTuple
@@ -19,7 +19,8 @@ from dofkit.base.errors import DofkitError
 from dofkit.expressions.tree import DT, TIME, Expr, coordinate, differential, parameter, velocity
 from dofkit.motion.configurations import configurations
 from dofkit.pictures.evaluation import by_pivots, derivatives, evaluated, kernel, values_at, with_unit_rows
-from dofkit.pictures.shapes import AT_REST, Array, Displacement, Place, place
+from dofkit.pictures.placed_shapes import ShapePlacement
+from dofkit.pictures.shapes import AT_REST, Array, Displacement, Place, about, place
 from dofkit.system import GROUND, PARTICLE_ROLES, Coordinate, System
 
 #: Rounds of Newton's method, the residual that counts as 0, and the number of starting points.
@@ -43,11 +44,20 @@ class Arrangement:
     numbers: Mapping[Expr, float]
     note: str | None
     met: bool
+    placements: Mapping[str, ShapePlacement] = field(default_factory=dict)
 
     @cached_property
     def poses(self) -> dict[str, Displacement]:
         """Where every carrier is."""
-        return poses_of(self.system, self.numbers, gibbs=True)
+        return self.poses_at(self.numbers, gibbs=True)
+
+    def poses_at(self, numbers: Mapping[Expr, float], *, gibbs: bool) -> dict[str, Displacement]:
+        """Return where every carrier is at some numbers; ``gibbs``: rotations are in the system's own charts."""
+        poses = poses_of(self.system, numbers, gibbs=gibbs)
+        moving = {name: placement for name, placement in self.placements.items() if placement.moves}
+        if moving and gibbs:
+            numbers = {**numbers, **_euler_values(self.system, poses, numbers)}
+        return poses | {name: placement.pose(numbers) for name, placement in moving.items()}
 
     def number(self, e: Expr) -> float:
         """Return the value of an expression."""
@@ -213,22 +223,29 @@ def poses_of(system: System, numbers: Mapping[Expr, float], *, gibbs: bool) -> d
         poses[body] = Displacement(turn, np.array(place(at[: system.dimension])) - turn @ start)
     carried: dict[str, Sequence[Coordinate]] = {particle: owned[particle] for particle in system.particles}
     if not system.bodies and not system.particles:
-        carried = {POINT: system.coordinates[:3], **{c.name: (c,) for c in system.coordinates}}
+        carried = {POINT: system.coordinates[:3]}
     return poses | {name: Displacement(np.eye(3), np.array(place(values(cs)))) for name, cs in carried.items()}
-
-
-def about(axis: int, angle: float) -> Array:
-    """Return the rotation about a coordinate axis."""
-    c, s = math.cos(angle), math.sin(angle)
-    i, j = [(1, 2), (2, 0), (0, 1)][axis]
-    turn = np.eye(3)
-    turn[i, i], turn[i, j], turn[j, i], turn[j, j] = c, -s, s, c
-    return turn
 
 
 def _from_euler(angles: Sequence[float]) -> Array:
     phi, theta, psi = angles
     return about(2, phi) @ about(0, theta) @ about(2, psi)
+
+
+def _euler_values(
+    system: System, poses: Mapping[str, Displacement], numbers: Mapping[Expr, float]
+) -> dict[Expr, float]:
+    """Return the Euler angles of the bodies whose rotations are in the Gibbs chart."""
+    angles: dict[Expr, float] = {}
+    for r in system.rotations:
+        if r.chart == "gibbs":
+            turn = poses[r.body].turn @ _from_euler([float(evaluated(e, numbers)) for e in r.initial])
+            tilt = math.acos(min(1.0, max(-1.0, turn[2, 2])))
+            level = math.sin(tilt) < 1e-9
+            phi = math.atan2(turn[1, 0], turn[0, 0]) if level else math.atan2(turn[0, 2], -turn[1, 2])
+            psi = 0.0 if level else math.atan2(turn[2, 0], turn[2, 1])
+            angles |= dict(zip(map(coordinate, r.names), (phi, tilt, psi), strict=True))
+    return angles
 
 
 def _from_gibbs(g: Array) -> Array:
@@ -309,4 +326,4 @@ def movers(arrangement: Arrangement, motions: Sequence[FreeMotion]) -> frozenset
 def displaced(arrangement: Arrangement, motion: FreeMotion, far: float) -> dict[str, Displacement]:
     """Return where every carrier is after a step along a motion."""
     moved = {s: arrangement.numbers.get(s, 0.0) + far * rate for s, rate in motion.rates.items()}
-    return poses_of(arrangement.system, {**arrangement.numbers, **moved}, gibbs=True)
+    return arrangement.poses_at({**arrangement.numbers, **moved}, gibbs=True)

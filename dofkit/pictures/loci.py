@@ -118,7 +118,7 @@ def meeting_shapes(stage: StagedScene) -> Iterator[Shape]:
                 surfaces.setdefault(owners[0], []).append(relation.expr)
     for owner, exprs in surfaces.items():
         symbols = [coordinate(c.name) for c in stage.system.coordinates if c.owner == owner][:3]
-        line = curve(stage.arrangement, exprs, symbols, _half(stage)) if len(exprs) > 1 else []
+        line = curve(stage.arrangement, exprs, symbols, 2 * _half(stage)) if len(exprs) > 1 else []
         if len(line) > 1:
             yield Shape("line", fixed(*line), "locus", owner=owner)
 

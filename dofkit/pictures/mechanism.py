@@ -8,14 +8,13 @@ from collections.abc import Iterator
 import numpy as np
 
 from dofkit.expressions.tree import parameter
-from dofkit.pictures.arrangement import about
 from dofkit.pictures.joints import joint_shapes, name_of, run_shapes
 from dofkit.pictures.loci import meeting_shapes
-from dofkit.pictures.shapes import SQUARE, Array, Place, Shape, Sketch, State, Vertex, carried_by, fixed, place
-from dofkit.pictures.stage import StagedScene, axis_of
+from dofkit.pictures.placed_shapes import faces, picture_shapes
+from dofkit.pictures.shapes import SQUARE, Place, Shape, Sketch, State, Vertex, about, carried_by, fixed, place
+from dofkit.pictures.stage import StagedScene, axis_of, force_ends
 from dofkit.pictures.words import alternative, answer
-from dofkit.scene.parts import Force
-from dofkit.system import GROUND
+from dofkit.system import GROUND, System
 
 #: How far a hull reaches beyond its points, how long a stub is and the sides of a free body; in symbols.
 PAD, THIN, STUB, FREE = 0.85, 0.45, 6.0, (3.0, 1.8, 1.2)
@@ -25,16 +24,23 @@ _WEIGHT: tuple[State, ...] = ("plain", "moving", "redundant", "conflicting")
 FREE_PLACES = "Schematic: the scene gives no positions of its joints."
 
 
+def is_bare(system: System) -> bool:
+    """Return whether a system has coordinates only."""
+    return not system.bodies and not system.particles
+
+
 def sketch_of(stage: StagedScene) -> Sketch:
     """Return the sketch of a mechanism."""
     shapes = [*_rail(stage), *_body_shapes(stage), *_force_shapes(stage)]
-    for number in range(len(stage.system.constraints)):
-        shapes += run_shapes(stage, number)
-        shapes += joint_shapes(stage, number)
+    for number, constraint in enumerate(stage.system.constraints):
+        if constraint.name not in stage.picture.taken:
+            shapes += [*run_shapes(stage, number), *joint_shapes(stage, number)]
     shapes += [*meeting_shapes(stage), *_particle_shapes(stage), *_names(stage)]
+    shapes = [shape for shape in shapes if shape.owner not in stage.picture.taken]
+    shapes += picture_shapes(stage.picture, stage.arrangement.numbers, stage.unit)
     return Sketch(
         title=stage.title,
-        dimension=stage.system.dimension,
+        dimension=stage.picture.dimension if is_bare(stage.system) else stage.system.dimension,
         shapes=tuple(shapes),
         poses=stage.arrangement.poses,
         size=stage.size,
@@ -81,6 +87,8 @@ def _attached(stage: StagedScene, body: str) -> list[Place]:
         points += mentioned
         if not mentioned and stage.places[k] is not None and stage.symbol(k).run == "":
             points.append(place(stage.spot(k, body)))
+    ends = (v for force in stage.scene.forces for v in force_ends(stage.arrangement, force))
+    points += [v.at for v in ends if v.carrier == body]
     return list(dict.fromkeys(points))
 
 
@@ -109,21 +117,12 @@ def _free_body(stage: StagedScene, body: str) -> Iterator[Shape]:
     half = np.array(FREE) * u
     if stage.system.dimension == 1:
         half[1] = 1.2 * u
-    faces = [[np.array([x, y, 0.0]) * half for x, y in SQUARE]] if stage.flat else _faces(half)
-    for face in faces:
+    sides = [[np.array([x, y, 0.0]) * half for x, y in SQUARE]] if stage.flat else faces(half)
+    for face in sides:
         yield Shape("area", carried_by(body, (centre + corner for corner in face)), "body", state, body)
     for way in np.eye(3)[: max(1, stage.system.dimension)]:
         yield Shape("line", (origin, *carried_by(body, [centre + way * 2.2 * u])), "axis", owner=body)
     yield name_of(stage, body, carried_by(body, [centre + np.array([0.0, half[1], 0.0])]), state)
-
-
-def _faces(half: Array) -> list[list[Array]]:
-    """Return the faces of a box about the origin."""
-    faces = []
-    for axis in range(3):
-        for side in (-1.0, 1.0):
-            faces.append([np.insert(np.array(corner), axis, side) * half for corner in SQUARE])
-    return faces
 
 
 def _particle_shapes(stage: StagedScene) -> Iterator[Shape]:
@@ -147,17 +146,9 @@ def _rail(stage: StagedScene) -> Iterator[Shape]:
 def _force_shapes(stage: StagedScene) -> Iterator[Shape]:
     """Yield springs and dampers between points that are drawn."""
     for force in stage.scene.forces:
-        ends = tuple(_ends(stage, force))
+        ends = tuple(force_ends(stage.arrangement, force))
         if len(ends) == 2:
             yield Shape("coil", ends, "force", owner=force.name or force.type, size=0.5 * stage.unit)
-
-
-def _ends(stage: StagedScene, force: Force) -> Iterator[Vertex]:
-    for end in force.between or ():
-        if isinstance(end, str) and (end in stage.system.starts or end in stage.system.particles):
-            yield stage.origin(end)
-        elif isinstance(end, tuple) and not any(isinstance(number, str) for number in end):
-            yield from fixed([float(number) for number in end if not isinstance(number, str)])
 
 
 def _names(stage: StagedScene) -> Iterator[Shape]:

@@ -124,6 +124,8 @@ def outline(sketch: Sketch, shape: Shape, poses: Poses, view: View) -> Array:
             return np.asarray(seen[0] + shape.size * circle(ROUND))
         case "coil":
             return _coil(seen[0], seen[1], shape.size)
+        case "arrow":
+            return _arrow(seen[0], seen[1], shape.size)
         case "bow":
             return _bow(seen[0], seen[1], shape.size)
     return seen
@@ -161,6 +163,15 @@ def _coil(first: Array, last: Array, wide: float) -> Array:
     arm, side = _across(first, last)
     inner = [first + arm * (0.2 + 0.6 * (k + 0.5) / (2 * TURNS)) + side * wide * (-1) ** k for k in range(2 * TURNS)]
     return np.array([first, first + 0.2 * arm, *inner, first + 0.8 * arm, last])
+
+
+def _arrow(first: Array, last: Array, head: float) -> Array:
+    """Return a line with a head at its end, no longer than half of it."""
+    arm, side = _across(first, last)
+    length = math.hypot(arm[0], arm[1])
+    back = arm * min(head / max(length, 1e-12), 0.5)
+    barb = side * float(np.linalg.norm(back)) * 0.45
+    return np.array([first, last, last - back + barb, last, last - back - barb])
 
 
 def _bow(first: Array, last: Array, high: float) -> Array:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from math import cos, sin
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
@@ -18,12 +19,12 @@ Place = tuple[float, float, float]
 
 #: ``line`` and ``area``: through the vertices; ``hull``: around them, rounded by ``size``; ``ball``: a disc on paper of
 #: radius ``size``; ``coil``: a spring between two; ``bow``: an arc between two, as high as ``size`` of its length;
-#: ``words``: a text beside the vertex.
-Kind = Literal["line", "area", "hull", "ball", "coil", "bow", "words"]
+#: ``arrow``: from one to another, with a head of ``size``; ``words``: a text beside the vertex.
+Kind = Literal["line", "area", "hull", "ball", "coil", "bow", "arrow", "words"]
 #: What a shape is part of.
 Role = Literal[
     "body", "joint", "guide", "bar", "rope", "ground", "hatch", "axis", "locus", "trace", "tie", "force", "point",
-    "name", "field", "bracket", "further", "surface", "node", "plane",
+    "name", "field", "bracket", "further", "surface", "mesh", "arrow", "node", "plane",
 ]  # fmt: skip
 #: What the report says of it.
 State = Literal["plain", "moving", "redundant", "conflicting"]
@@ -126,6 +127,15 @@ def circle(count: int, closed: bool = False) -> Array:
     return np.column_stack([np.cos(angles), np.sin(angles), np.zeros(len(angles))])
 
 
+def about(axis: int, angle: float) -> Array:
+    """Return the rotation about a coordinate axis."""
+    c, s = cos(angle), sin(angle)
+    i, j = [(1, 2), (2, 0), (0, 1)][axis]
+    turn = np.eye(3)
+    turn[i, i], turn[i, j], turn[j, i], turn[j, j] = c, -s, s, c
+    return turn
+
+
 # Looks
 
 SKY, GREEN, BLUE, VERMILLION, PURPLE = "#56B4E9", "#009E73", "#0072B2", "#D55E00", "#CC79A7"
@@ -162,7 +172,9 @@ _PLAIN: Mapping[Role, Ink] = {
     "hatch": Ink(INK, 0.8, layer=2),
     "axis": Ink(GREY, 0.9, layer=2),
     "locus": Ink(GREEN, 1.8, layer=2),
-    "surface": Ink("#8CCDB9", 0.7, layer=2),
+    "surface": Ink("#8CCDB9", 0.7, layer=1),
+    "mesh": Ink("#8CCDB9", 0.7, layer=1),
+    "arrow": Ink(VERMILLION, 1.6, layer=8),
     "plane": Ink("#8A8A8A", 0.8, fill="#F1F1F1", layer=0),
     "node": Ink(INK, 0.8, fill="#333333", layer=7),
     "trace": Ink(PURPLE, 1.1, layer=2),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import networkx as nx
 import numpy as np
@@ -17,10 +17,14 @@ from dofkit.pictures.arrangement import (
     is_linear,
     movers,
 )
+from dofkit.pictures.placed_shapes import picture_shapes, placements_of
 from dofkit.pictures.shapes import AT_REST, Array, Place, State, Vertex, place
 from dofkit.pictures.words import can_hold, meanings, state_of
 from dofkit.report import Report
 from dofkit.scene.lowering import lower
+from dofkit.scene.names import vocabulary_of
+from dofkit.scene.parts import BodyPoint, Force
+from dofkit.scene.picture import PlacedPicture, picture_of
 from dofkit.scene.scene import Scene
 from dofkit.scene.symbols import Symbol
 from dofkit.system import GROUND, Connection, System
@@ -58,6 +62,7 @@ class StagedScene:
     schematic: bool
     measurable: bool
     unseen: str | None
+    picture: PlacedPicture
 
     @property
     def system(self) -> System:
@@ -130,14 +135,29 @@ def vertices_of(arrangement: Arrangement, connection: Connection) -> Iterator[Ve
             yield Vertex(point.carrier, arrangement.point(point.at))
 
 
+def force_ends(arrangement: Arrangement, force: Force) -> Iterator[Vertex]:
+    """Yield the ends of a force between points, if they are known."""
+    system = arrangement.system
+    for end in force.between or ():
+        carrier, at = (end.on, end.at) if isinstance(end, BodyPoint) else (GROUND, end)
+        if isinstance(end, str) and (end in system.starts or end in system.particles):
+            yield Vertex(end, arrangement.point(system.starts[end]) if end in system.starts else (0.0, 0.0, 0.0))
+        elif not any(isinstance(number, str) for number in at):
+            yield Vertex(carrier, place(float(number) for number in at))
+
+
 def stage_of(scene: Scene, report: Report) -> StagedScene:
     """Return a scene with its positions. Raises SceneError as `lower` does."""
     system = lower(scene)
-    arrangement = arrangement_of(system)
+    picture = picture_of(scene, vocabulary_of(scene), [])
+    arrangement = replace(arrangement_of(system), placements=placements_of(picture))
     written = [_written_place(arrangement, c) for c in system.connections]
     points = _points(scene, arrangement, written)
-    size, _ = _extent(points)
+    sizes = [s for s in picture_shapes(picture, arrangement.numbers, 0.0) if s.kind != "words"]
+    drawn = [arrangement.poses.get(v.carrier, AT_REST).moved(v.at) for s in sizes for v in s.vertices]
+    size, _ = _extent([*points, *drawn])
     unit = _unit(points, size)
+    points += drawn
     places, schematic = _all_places(scene, arrangement, written, unit)
     size, centre = _extent([*points, *(p for p, w in zip(places, written, strict=True) if p and w is None)])
     unseen = None if is_linear(arrangement) else NOT_LINEAR
@@ -159,6 +179,7 @@ def stage_of(scene: Scene, report: Report) -> StagedScene:
         schematic=schematic,
         measurable=apart and arrangement.met and not invented,
         unseen=unseen,
+        picture=picture,
     )
 
 
@@ -180,6 +201,7 @@ def _points(scene: Scene, arrangement: Arrangement, written: Sequence[Place | No
     """Return the points of the scene where they are now, with the rims of wheels."""
     poses = arrangement.poses
     points = [poses[p].moved((0.0, 0.0, 0.0)) for p in arrangement.system.particles]
+    points += [poses[v.carrier].moved(v.at) for force in scene.forces for v in force_ends(arrangement, force)]
     for number, (connection, at) in enumerate(zip(arrangement.system.connections, written, strict=True)):
         points += [poses[v.carrier].moved(v.at) for v in vertices_of(arrangement, connection)]
         body = next((m for m in connection.members if m in arrangement.system.bodies), None)

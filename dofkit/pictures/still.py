@@ -13,11 +13,11 @@ import numpy as np
 from dofkit.base.wording import many
 from dofkit.methods.classify import classify
 from dofkit.pictures.constraint_graph import graph_sketch, hover_script
-from dofkit.pictures.coordinates import MOST, coordinate_sketch, is_bare
+from dofkit.pictures.coordinates import coordinate_sketch, has_set
 from dofkit.pictures.directions import phase_sketch
 from dofkit.pictures.files import has_matplotlib, png_of, saved, svg_of, write_pdf
 from dofkit.pictures.layout import WIDTH, page_of
-from dofkit.pictures.mechanism import FREE_PLACES, sketch_of
+from dofkit.pictures.mechanism import FREE_PLACES, is_bare, sketch_of
 from dofkit.pictures.paper import Page
 from dofkit.pictures.player import framed, page_height, page_html
 from dofkit.pictures.shapes import Sketch
@@ -31,7 +31,7 @@ BESIDE = 20.0
 #: A picture that extends this much further than its points has larger symbols.
 WIDER = 1.6
 NOTHING = "The scene declares nothing that could move."
-NO_AXES = "No geometry to draw: constraint graph."
+NO_AXES = "No geometry to draw: constraint graph. Shapes under `picture` in the scene would be drawn instead."
 _PAGE = """<!doctype html>
 <html lang="en"><head><meta charset="utf-8"><title>{title}</title>
 <meta name="viewport" content="width=device-width">
@@ -40,6 +40,12 @@ body {{ margin: 1em; font-family: sans-serif; }} svg {{ max-width: 100%; height:
 <body>
 {body}</body></html>
 """
+
+
+def without_text(sketch: Sketch) -> Sketch:
+    """Return a sketch for a thumbnail: its shapes, and no text."""
+    shapes = tuple(s for s in sketch.shapes if s.kind != "words")
+    return replace(sketch, title="", answer="", notes=(), axes=(), shapes=shapes, meanings=None, measurable=False)
 
 
 @dataclass(frozen=True)
@@ -152,9 +158,9 @@ def staged(scene: Scene, report: Report) -> StagedScene:
 
 def whole_sketch(stage: StagedScene) -> tuple[Sketch, str]:
     """Return the sketch of a scene of any kind, and the script that goes with it."""
-    if not is_bare(stage.system):
+    if not is_bare(stage.system) or stage.picture.shapes:
         return sketch_of(stage), ""
-    if 0 < len(stage.system.coordinates) <= MOST:
+    if has_set(stage.system):
         return coordinate_sketch(stage), ""
     reason = NO_AXES if stage.system.coordinates else NOTHING
     return graph_sketch(stage.scene, stage.system, stage.report, reason), hover_script(stage.report)

@@ -4,17 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from fractions import Fraction
-from itertools import combinations
 from typing import NamedTuple
 
-from flint import fmpq, fmpq_mat
-
 from dofkit.base.deadline import check
-from dofkit.base.libraries import components
-from dofkit.exact.errors import NoValueError
-from dofkit.exact.points.field import FieldPoint, field_point
-from dofkit.exact.ring.program import values
+from dofkit.exact.matrices.sparse import components
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero import BOTH, Engines
 from dofkit.expressions import tree as ex
@@ -26,84 +19,6 @@ from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.pieces import Clause, Finite, JointEquation, Nonlinear, Pfaffian
 from dofkit.relations.setting import ALL, ReductionName, Reductions, Setting
 from dofkit.system import Coordinate
-
-#: Entries of a matrix that is looked at; past that the relations are taken as they are.
-MAX_ENTRIES = 4_000_000
-
-Terms = dict[Expr, Fraction]
-
-
-def linear(e: Expr) -> Terms | None:
-    """``e`` as a sum of numbers times symbols (`ONE` for the constant); None where it is not one."""
-    terms: Terms = {}
-    for term in e.args if e.op == "add" else (e,):
-        factor, remainder = Fraction(1), term
-        if term.op == "num":
-            factor, remainder = term.args[0], ex.ONE
-        elif term.op == "mul" and len(term.args) == 2 and term.args[0].op == "num":
-            factor, remainder = term.args[0].args[0], term.args[1]
-        if remainder.op != "sym" and remainder != ex.ONE:
-            return None
-        terms[remainder] = terms.get(remainder, Fraction(0)) + factor
-    return terms
-
-
-@dataclass(frozen=True)
-class Presolved:
-    """``reduced``: the linear relations in echelon form; ``superfluous`` numbers of those that earlier ones imply.
-
-    ``contradiction``: no values of the unknowns satisfy them, for generic parameters.
-    """
-
-    reduced: tuple[Expr, ...]
-    linear: frozenset[int]
-    superfluous: frozenset[int]
-    contradiction: bool
-
-
-def presolve(relations: Sequence[Expr]) -> Presolved:
-    """The linear relations among some, solved exactly over the rationals: what is found is proved.
-
-    Coordinates and time are unknowns; parameters are generic constants, so x = a with x = b is a contradiction.
-    Unknowns that occur in linear relations only are solved for first.
-    """
-    result = {i: t for i, e in enumerate(relations) if (t := linear(e)) is not None}
-    elsewhere = frozenset().union(*(e.symbols for i, e in enumerate(relations) if i not in result))
-    symbols = sorted({s for t in result.values() for s in t}, key=lambda s: (_place(s), s in elsewhere, repr(s)))
-    if len(result) < 2 or len(result) * len(symbols) > MAX_ENTRIES:
-        return Presolved((), frozenset(), frozenset(), False)
-    rows = [[fmpq(*t.get(s, Fraction(0)).as_integer_ratio()) for s in symbols] for t in result.values()]
-    reduced, rank = fmpq_mat(rows).rref()
-    unknown = sum(_place(s) < 2 for s in symbols)
-    pivots = [next(c for c in range(len(symbols)) if reduced[r, c] != 0) for r in range(rank)]
-    kept = _pivots(fmpq_mat([list(column) for column in zip(*rows, strict=True)]))
-    numbers = list(result)
-    superfluous = frozenset(numbers) - {numbers[c] for c in kept}
-    echelon = tuple(_expression(reduced, r, symbols) for r in range(rank))
-    return Presolved(echelon, frozenset(numbers), superfluous, any(c >= unknown for c in pivots))
-
-
-def _place(symbol: Expr) -> int:
-    """Coordinates, then time, then parameters and numbers."""
-    if symbol.op != "sym":
-        return 2
-    return {"coordinate": 0, "time": 1}.get(symbol.args[0], 2)
-
-
-def _expression(matrix: fmpq_mat, r: int, symbols: Sequence[Expr]) -> Expr:
-    entries = ((s, matrix[r, c]) for c, s in enumerate(symbols) if matrix[r, c] != 0)
-    return ex.add(*(ex.mul(ex.num(Fraction(int(v.p), int(v.q))), s) for s, v in entries))
-
-
-def _pivots(matrix: fmpq_mat) -> list[int]:
-    reduced, rank = matrix.rref()
-    result, column = [], 0
-    for r in range(rank):
-        while reduced[r, column] == 0:
-            column += 1
-        result.append(column)
-        column += 1
-    return result
 
 
 class Row(NamedTuple):
@@ -216,6 +131,21 @@ def uses_time(block: Block) -> bool:
     return dt or any(ex.TIME in e.symbols for e in expressions(Block(block.coordinates, rows)))
 
 
+def is_measured(block: Block, setting: Setting) -> bool:
+    """Return whether measured numbers enter a block: geometry, or positions of particles and bodies.
+
+    Texts on coordinates that belong to no particle and no body, or to one without a position, hold no such numbers.
+    """
+    if setting.tolerance is None:
+        return False
+    if any(row.constraint in setting.geometric for row in block.rows):
+        return True
+    bodies = {c.owner for c in setting.roles if c.role not in ("x", "y", "z")}
+    placed = {c.name for c in setting.roles if c.owner and ex.coordinate(c.name) in setting.pose and
+              (setting.reference is not None or c.owner not in bodies)}  # fmt: skip
+    return not placed.isdisjoint(block.coordinates)
+
+
 def with_rows(rows: Sequence[Row], constants: Mapping[str, Row]) -> list[Row]:
     """The rows and, for every constant of integration C that they mention, dC = 0."""
     mentioned = frozenset().union(*(coordinates_of(r.piece) for r in rows)) if constants else frozenset[str]()
@@ -291,47 +221,6 @@ class Chart:
         """The size by which each column is measured: places by the scale of lengths."""
         places = {c.name for c in self.roles if c.role in ("x", "y", "z")}
         return [self.size if s.args[-1] in places else 1.0 for s in self.symbols]
-
-
-Displacement = dict[int, list[tuple[int, int | None]]]
-
-
-def displacement_fields(chart: Chart) -> list[Displacement]:
-    """Translations and rotations: for a column, the sum of factor * (the value of another column, or 1).
-
-    Only where every coordinate of the block is a place or the angle of a planar body.
-    """
-    place = {str(s.args[1]): i for i, s in enumerate(chart.symbols) if s != ex.TIME}
-    here = [c for c in chart.roles if c.name in place]
-    if len(here) != len(place) or any(c.role not in ("x", "y", "z", "angle") for c in here):
-        return []
-    by_owner: dict[str, dict[str, int]] = {}
-    for c in here:
-        by_owner.setdefault(str(c.owner), {})[c.role] = place[c.name]
-    axes = sorted({r for roles_of in by_owner.values() for r in roles_of if r != "angle"})
-    result: list[Displacement] = [{o[a]: [(1, None)] for o in by_owner.values() if a in o} for a in axes]
-    for a, b in combinations(axes, 2):
-        turn: Displacement = {}
-        for o in by_owner.values():
-            if a in o and b in o:
-                turn[o[a]] = [(-1, o[b])]
-                turn[o[b]] = [(1, o[a])]
-            if "angle" in o:
-                turn[o["angle"]] = [(1, None)]
-        result.append(turn)
-    return result
-
-
-def free_point(chart: Chart, seed: int) -> FieldPoint | None:
-    """A random point of the ambient space at which the program runs."""
-    for attempt in range(60):
-        point = field_point([chart.ring], 1000 * seed + attempt)
-        try:
-            values(chart.ring, point)
-        except NoValueError:
-            continue
-        return point
-    return None
 
 
 def aliases(block: Block, finite: Sequence[Expr]) -> dict[Expr, Expr]:

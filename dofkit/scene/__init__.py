@@ -16,5 +16,5 @@ Mechanisms, in the order of reading
 
 Further uses: `expectation` compares a report with the `expect` of a scene,
 `added_equations` reads a student's equations with the scene's names, `schema` is the JSON Schema for
-editors, and `symbols` describes how each type is drawn.
+editors, `symbols` describes how each type is drawn, and `picture` the shapes that a scene draws itself.
 """

@@ -24,12 +24,12 @@ _SEPARATED = re.compile(r"[;\n]")
 class Read:
     """An answer as it was understood: its ``texts``, one a relation, and the ``constants`` that it brought with it.
 
-    ``shown``: in the grammar of scenes; ``moving``: does it hold velocities or differentials?
+    ``text``: in the grammar of scenes; ``moving``: does it hold velocities or differentials?
     """
 
     texts: tuple[str, ...]
     constants: frozenset[str]
-    shown: str
+    text: str
     moving: bool
 
 

@@ -54,6 +54,7 @@ LINES: dict[str, str | tuple[str, str, str]] = {
     "configuration": "configuration: {theta: 0}", "dimension": "dimension: 2", "tolerance": "tolerance: 1e-6",
     "constraints": 'constraints: ["x^2 + y^2 = 4"]', "forces": "forces: [{type: spring, between: [A, B]}]",
     "energies": 'energies: {kinetic: "1/2 m xdot^2", potential: "m g x"}', "expect": "expect: {dof: 1}",
+    "picture": "picture: [{rod: l, from: [0, 0], to: [x, y]}, {ball: m, at: [x, y], radius: 1/10}]",
     "kinetic": 'kinetic: "1/2 m xdot^2"', "potential": 'potential: "m g x"', "mass": "mass: m", "inertia": "inertia: J",
     "name": "name: pendulum", "title": 'title: "A pendulum"',
 }  # fmt: skip
@@ -62,7 +63,7 @@ MOST_DECLARED = 12
 #: The sections of a scene that `dofkit explain` knows.
 SECTIONS = (
     "dimension", "parameters", "functions", "particles", "bodies", "coordinates", "constraints", "forces", "energies",
-    "tolerance", "configuration", "expect",
+    "tolerance", "configuration", "picture", "expect",
 )  # fmt: skip
 
 
@@ -292,6 +293,7 @@ def _line(fault: Fault, hint: str, value: Mapping[str, Any]) -> str | None:
     where, d = fault.where, dimension_of(value)
     suggested = _SUGGESTED.fullmatch(hint)
     unknown = len(where) == 1 and fault.message.startswith(UNKNOWN_KEY) and not suggested
+    unknown = unknown or (bool(hint) and where[:1] == ("picture",))
     if not where or unknown or (suggested and suggested[1] not in TYPES and suggested[1] not in LINES):
         return None
     if "a point of a body" in fault.message:

@@ -38,6 +38,7 @@ from dofkit.scene.fields import suggestion
 from dofkit.scene.ledger import MOVING, Texts, symbols_of
 from dofkit.scene.names import Vocabulary, name_faults, names_by_position, owner_kinds, vocabulary_of, within_member
 from dofkit.scene.parts import Body, Force, texts_of
+from dofkit.scene.picture import picture_of
 from dofkit.scene.scene import Scene
 from dofkit.scene.world import World, within
 from dofkit.system import GROUND, Connection, Constraint, ListedForce, Rotation, System
@@ -128,18 +129,24 @@ def survey(scene: Scene, euler: bool = False) -> Survey:
         world.enter("constraints", index)
         constraints.append(_constraint_of(world, constraint, name))
         connections.append(_connection(world, constraints[-1]))
-    faults += _repeat_faults("forces", "f", [f.name for f in scene.forces])
-    for index, force in enumerate(scene.forces):
-        world.enter("forces", index)
-        _check_force(force, world)
-    texts = Texts(vocabulary.texts, (), faults)
-    _check_masses(scene, texts)
-    _check_energies(scene, texts, [q.name for q in vocabulary.table.coordinates])
-    faults += _expect_faults(scene)
+    _check_other_sections(scene, world, vocabulary)
     size, drawn = size_of(world.points), drawn_bodies(world.drawn, world.welds)
     misfits = (m for m in world.misfits if m.body is None or m.body in drawn)
     faults += [m.fault for m in misfits if not within(m.distance, drawing.tolerance, size)]
     return Survey(world, tuple(constraints), tuple(connections), drawn, size, tuple(faults))
+
+
+def _check_other_sections(scene: Scene, world: World, vocabulary: Vocabulary) -> None:
+    """Record the faults of all sections after the constraints."""
+    world.faults += _repeat_faults("forces", "f", [f.name for f in scene.forces])
+    for index, force in enumerate(scene.forces):
+        world.enter("forces", index)
+        _check_force(force, world)
+    texts = Texts(vocabulary.texts, (), world.faults)
+    _check_masses(scene, texts)
+    _check_energies(scene, texts, [q.name for q in vocabulary.table.coordinates])
+    picture_of(scene, vocabulary, world.faults)
+    world.faults += _expect_faults(scene)
 
 
 def _repeat_faults(key: str, letter: str, written_names: Sequence[str | None]) -> Iterator[Fault]:

@@ -252,7 +252,7 @@ def _faults_of_sound_part(value: Mapping[str, Any], faults: Sequence[Fault]) -> 
     Nothing is yielded where the remaining parts would not make sense without the faulty ones.
     """
     sound: Any = copy.deepcopy(dict(value))
-    dropped: dict[str, set[int]] = {"constraints": set(), "forces": set()}
+    dropped: dict[str, set[int]] = {"constraints": set(), "forces": set(), "picture": set()}
     sections: dict[str, str] = {}
     for fault in faults:
         first, second = (*fault.where, None, None)[:2]
@@ -305,4 +305,6 @@ def _as_entry(value: Any, key: str, index: int) -> Any:
     """Return an entry of a list; one that is known by its position is named by it."""
     entry = as_equation(value[key][index])
     name = f"{key[0]}{index + 1}"
+    if key == "picture":
+        return dict(entry) if isinstance(entry, dict) else {}
     return {**entry, "name": entry.get("name") or name} if isinstance(entry, dict) else {"name": name}

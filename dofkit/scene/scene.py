@@ -18,7 +18,8 @@ from dofkit.scene.constraints import TYPES, AnyConstraint, ConstraintBase
 from dofkit.scene.constraints.base import as_equation
 from dofkit.scene.fields import Listed, TaggedUnion
 from dofkit.scene.hints import type_advice
-from dofkit.scene.parts import Declarations, Energies, Force, Mapped
+from dofkit.scene.parts import Energies, Force, Mapped
+from dofkit.scene.picture import Pictured
 
 _CONSTRAINT = TaggedUnion(
     base=ConstraintBase,
@@ -40,7 +41,7 @@ _AnyConstraint = Annotated[
 ]
 
 
-class Scene(Displayed, Declarations):
+class Scene(Displayed, Pictured):
     """A mechanical system as it is written: its fields are the keys of a scene's file.
 
     Numbers are exact, in the units of the file. A scene is frozen; ``model_copy(update=...)`` returns a changed one.

@@ -13,6 +13,7 @@ from pydantic import TypeAdapter
 
 from dofkit.scene.constraints import TYPES
 from dofkit.scene.constraints.base import Equation
+from dofkit.scene.picture import SHAPES, PictureShape
 from dofkit.scene.scene import Scene
 from dofkit.scene.synonyms import other_keys, synonyms
 
@@ -34,6 +35,7 @@ def scene_schema() -> dict[str, Any]:
     for cls in TYPES.values():
         definitions[cls.__name__] = _with_other_words(definitions[cls.__name__], cls.kind())
     definitions["Force"]["properties"]["direction"] = _with_letters(definitions["Force"]["properties"]["direction"])
+    definitions[PictureShape.__name__] = _any_shape(definitions[PictureShape.__name__])
     constraints = {**schema["properties"]["constraints"], "items": {"$ref": f"#/$defs/{_CONSTRAINT}"}}
     schema["properties"]["constraints"] = constraints
     schema["properties"]["joints"] = {**constraints, "description": "another section of constraints"}
@@ -103,6 +105,24 @@ def _any_constraint() -> dict[str, Any]:
         "if": {"type": "object"},
         "then": mapping,
     }
+
+
+def _any_shape(schema: Mapping[str, Any]) -> dict[str, Any]:
+    """Return a mapping with one of the shapes as a key, which says the others."""
+    properties = {key: part for key, part in schema["properties"].items() if key not in ("shape", "name")}
+    properties["axis"] = _with_letters(properties["axis"])
+    by_shape: list[dict[str, Any]] = []
+    for kind, row in SHAPES.items():
+        properties[kind] = {"type": [_TEXT["type"], "number", "null"], "description": row.meaning}
+        by_shape += [
+            {
+                "if": {"required": [kind]},
+                "then": {"propertyNames": {"enum": [kind, *row.needs, *row.may, "show"]}},
+            },
+            {"if": {"required": [kind], "not": {"required": ["show"]}}, "then": {"required": list(row.needs)}},
+        ]
+    no_shape = {"if": {"propertyNames": {"not": {"enum": list(SHAPES)}}}, "then": False}
+    return {**schema, "properties": properties, "required": [], "allOf": [no_shape, *by_shape]}
 
 
 def _with_other_words(schema: dict[str, Any], kind: str) -> dict[str, Any]:

@@ -13,7 +13,8 @@ from typing import NamedTuple
 
 from dofkit.methods.classify import classify
 from dofkit.pictures.files import svg_of
-from dofkit.pictures.still import draw
+from dofkit.pictures.layout import page_of
+from dofkit.pictures.still import draw, without_text
 from dofkit.report import Report
 from dofkit.scene.catalog import catalog_folder, catalog_text
 from dofkit.scene.reading import loads
@@ -26,7 +27,7 @@ PACKAGE = Path(__file__).parents[1]
 
 
 class ShownScene(NamedTuple):
-    """A scene with its text, its picture, and its answer in one line and in full."""
+    """A scene with its text, its picture in two sizes, and its answer in one line and in full."""
 
     name: str
     folder: str
@@ -34,6 +35,7 @@ class ShownScene(NamedTuple):
     written: str
     types: tuple[str, ...]
     svg: str
+    thumbnail: str
     alternative: str
     answer: str
     report: str
@@ -80,6 +82,7 @@ def shown_scene(name: str, folder: str, written: str) -> ShownScene:
         written=written,
         types=tuple(dict.fromkeys(entry.type for entry in report.constraints)),
         svg=svg_of(drawn.page, PIXELS),
+        thumbnail=svg_of(page_of(without_text(drawn.sketch)), PIXELS),
         alternative=drawn.alternative,
         answer=in_a_line(report),
         report=report.text(COLUMNS),
@@ -104,7 +107,9 @@ def in_a_line(report: Report) -> str:
     return f"{', '.join(labels)} ({report.verdict})"
 
 
-def gallery_pages(catalog: Sequence[ShownScene], sources: dict[str, str]) -> Iterator[SitePage]:
+def gallery_pages(
+    catalog: Sequence[ShownScene], sources: dict[str, str], has_bench: bool = False
+) -> Iterator[SitePage]:
     """Yield the pages and pictures; ``sources``: what each folder of the catalog was taken from."""
     blocks = []
     for folder, scenes in groupby(catalog, key=attrgetter("folder")):
@@ -116,8 +121,9 @@ def gallery_pages(catalog: Sequence[ShownScene], sources: dict[str, str]) -> Ite
             f"[{len(members)} scenes]({folder}.md)",
             f'<div class="gallery">\n{cards}\n</div>',
         ]
-        yield SitePage(f"{FOLDER}/{folder}.md", page(source, *(_entry(scene) for scene in members)))
+        yield SitePage(f"{FOLDER}/{folder}.md", page(source, *(_entry(scene, has_bench) for scene in members)))
         yield from (SitePage(f"{FOLDER}/{scene.name}.svg", scene.svg) for scene in members)
+        yield from (SitePage(f"{FOLDER}/{scene.name}-small.svg", scene.thumbnail) for scene in members)
     yield SitePage(
         f"{FOLDER}/index.md",
         page(
@@ -130,12 +136,14 @@ def gallery_pages(catalog: Sequence[ShownScene], sources: dict[str, str]) -> Ite
     )
 
 
-def _entry(scene: ShownScene) -> str:
+def _entry(scene: ShownScene, has_bench: bool) -> str:
+    link = f'<p><a href="../bench/index.html#example={scene.name}">Open in the bench</a></p>'
     return "\n\n".join(
         (
             f"## {prose(scene.title)} {{#{scene.name}}}",
             f"{code(scene.name)}: {prose(scene.answer)}",
             picture(f"{scene.name}.svg", scene.alternative),
+            *([link] if has_bench else []),
             folded("The scene", fence("yaml", scene.written)),
             folded("The report", fence("text", scene.report)),
         )
@@ -143,7 +151,7 @@ def _entry(scene: ShownScene) -> str:
 
 
 def _card(scene: ShownScene) -> str:
-    drawn = picture(f"{scene.name}.svg", scene.alternative)
+    drawn = picture(f"{scene.name}-small.svg", scene.alternative)
     value = f"<strong>{_html(scene.title)}</strong><br>{_html(scene.answer)}"
     return f'<a class="card" href="{scene.folder}.html#{scene.name}">{drawn}<span>{value}</span></a>'
 

@@ -14,7 +14,16 @@ import pytest
 
 import dofkit
 from dofkit.base import deadline
-from dofkit.base.deadline import OutOfTimeError, affordable, check, expired, left, limited, part, unless_late
+from dofkit.base.deadline import (
+    OutOfTimeError,
+    affordable,
+    check,
+    expired,
+    limited,
+    part,
+    remaining_seconds,
+    unless_late,
+)
 from dofkit.methods import stages
 from dofkit.report import Report
 
@@ -80,17 +89,17 @@ def drawn(n: int, **more: Any) -> dict[str, Any]:
 
 
 def test_time_is_shared_and_never_grows() -> None:
-    assert left() > 1e9
+    assert remaining_seconds() > 1e9
     with limited(10):
         with limited(50):
-            assert left() <= 10
+            assert remaining_seconds() <= 10
         with part(0.5):
-            assert 4 < left() <= 5
-        assert left() > 9
+            assert 4 < remaining_seconds() <= 5
+        assert remaining_seconds() > 9
         check()
     with limited(-1):
         assert expired()
-        assert left() == 0
+        assert remaining_seconds() == 0
         with pytest.raises(OutOfTimeError):
             check()
     assert not expired()

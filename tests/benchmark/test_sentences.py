@@ -29,10 +29,6 @@ SWEEPS = [
     *step("bits", 16, "1e-06", ["wrong", "right"]),
     *step("bits", 32, "1e-06", ["wrong", "right"]),
     *step("bits", 64, "1e-06", ["right", "right"]),
-    *step("prime bits", 3, "dof", ["undecided", "undecided"]),
-    *step("prime bits", 8, "dof", ["wrong", "right"]),
-    *step("prime bits", 10, "dof", ["right", "wrong"]),
-    *step("prime bits", 12, "dof", ["right", "right"]),
 ]
 
 
@@ -46,10 +42,6 @@ def test_sentences_by_hand() -> None:
     )
     assert told["bits"] == (
         "`balls` on its own is never wrong from 32 bits for a gap of 10^-3 and from 64 bits for a gap of 10^-6 on."
-    )
-    assert told["primes"] == (
-        "`field` on its own was wrong 2 times in 4, with primes of 8 to 10 bits, and never from 12 bits on; with 3 "
-        "bits it decided nothing."
     )
     assert "cost" not in told
 

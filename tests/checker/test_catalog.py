@@ -47,7 +47,7 @@ def test_a_number_that_is_probable_is_shown_by_a_family() -> None:
     assert (report.verdicts["dof"].verdict, claim["value"], claim["least"]["rule"]) == ("probable", 1, "family")
 
 
-@pytest.mark.parametrize("path", CATALOG, ids=stem)
+@pytest.mark.parametrize("path", few("proofs", CATALOG, 3), ids=stem)
 def test_what_is_proved_of_the_catalog_verifies(path: Path) -> None:
     _, uncovered = _shown(path)
     assert uncovered == {claim for claim, (_, names) in UNCOVERED.items() if path.stem in names.split()}
@@ -58,10 +58,10 @@ def test_what_is_listed_is_of_the_catalog() -> None:
 
 
 #: What is measured is not proved, and has no certificate.
-EXACT = [path for path in OURS if scene_of(path).tolerance is None]
+EXACT = [path for path in OURS if "\ntolerance:" not in path.read_text(encoding="utf-8")]
 
 
-@pytest.mark.parametrize("path", few("certificates", EXACT, 10), ids=stem)
+@pytest.mark.parametrize("path", few("certificates", EXACT, 20), ids=stem)
 def test_no_claim_of_a_test_scene_fails(path: Path) -> None:
     _shown(path)
 

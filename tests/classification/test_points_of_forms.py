@@ -61,6 +61,7 @@ def test_a_branch_of_which_a_larger_part_may_be_unseen_is_named() -> None:
     assert report.dof in (None, 2) or report.verdicts["dof"].about == "component"
 
 
+@pytest.mark.sweep
 def test_a_part_outside_the_domain_does_not_count() -> None:
     """Where x = 10, y = 0 the other relations leave u, v and w free; as written x is at most 9, so x and u are free."""
     relations = ["(x - 10) v = y w", "(x - 10) w = y u"]

@@ -9,6 +9,7 @@ from itertools import accumulate, combinations, pairwise
 from typing import Any
 
 import pytest
+from shared.known_scenes import spread
 
 import dofkit
 
@@ -187,9 +188,9 @@ MECHANISMS: list[Case] = [
 
 
 def cases(found: Sequence[Case]) -> pytest.MarkDecorator:
-    return pytest.mark.parametrize(
-        ("scene", "dof", "instantaneous"), [pytest.param(*case[1:], id=case[0]) for case in found]
-    )
+    """Half of these; the others are swept."""
+    params = [pytest.param(*case[1:], id=case[0]) for case in found]
+    return pytest.mark.parametrize(("scene", "dof", "instantaneous"), spread(params, 2))
 
 
 @pytest.mark.parametrize("surface", ["x^4 + y^4", "(y - x^2) (y - 2 x^2) + x^4"])  # 9 - 12 < 0: no parabola

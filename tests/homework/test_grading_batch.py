@@ -18,6 +18,7 @@ import pytest
 from shared.command_line import called
 from shared.grading_jobs import orders
 from shared.homework_cases import FILES, document
+from shared.known_scenes import swept
 from shared.late import LONG
 
 import dofkit
@@ -579,7 +580,7 @@ def test_a_run_interrupted_twice_ends_as_one_that_was_not(assignment: str, tmp_p
     assert sorted(path.name for path in tmp_path.iterdir()) == ["assignment.json", "out.jsonl", "t.csv", "whole.jsonl"]
 
 
-@pytest.mark.parametrize("seconds", [0.002, 0.008])
+@pytest.mark.parametrize("seconds", [swept(0.002), 0.008])
 @pytest.mark.parametrize("name", FILES)
 def test_too_little_time_needs_a_review_and_makes_nothing_wrong(name: str, seconds: float) -> None:
     made = document(name)

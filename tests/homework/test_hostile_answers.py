@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from functools import cache
+from itertools import product
 from pathlib import Path
 from typing import Any
 
 import pytest
+from shared.known_scenes import spread
 from shared.work import counted
 
 from dofkit.homework.answers.submission import of_value
@@ -178,8 +180,7 @@ def test_what_is_no_text(question: str, answer: Any) -> None:
 FILLED = [",", ";", "$", "`", "«", "\\;", "&", '"', "because ", "or ", "(", "²", "1 (a) ", "not ", "non-", "a’b", "x, "]
 
 
-@pytest.mark.parametrize("question", QUESTIONS)
-@pytest.mark.parametrize("unit", FILLED, ids=named)
+@pytest.mark.parametrize(("question", "unit"), spread(product(QUESTIONS, FILLED), several=True), ids=named)
 def test_what_is_only_repeated_is_refused_in_few_words(question: str, unit: str) -> None:
     item, calls = counted(lambda: graded(grader(), question, (unit * 2000)[:2000]))
     assert calls < GRADED

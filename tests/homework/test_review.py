@@ -17,6 +17,7 @@ from typing import Any
 
 import pytest
 from shared.command_line import called
+from shared.sources import one_process, tree_at
 
 import dofkit
 from dofkit.homework.assignment import load_assignment
@@ -492,11 +493,12 @@ def test_the_pages_show_answers_as_typed_and_no_codes(course: Course) -> None:
     assert "8 students" in page
 
 
+@one_process
 def test_every_code_has_a_text() -> None:
     room = Path(dofkit.homework.__file__ or "").parent
     codes: set[str] = set()
     for path in [*(room / "questions").glob("*.py"), *(room / "key").glob("*.py")]:
-        tree = ast.parse(path.read_text(encoding="utf-8"))
+        tree = tree_at(path)
         texts = {n.value for n in ast.walk(tree) if isinstance(n, ast.Constant) and isinstance(n.value, str)}
         codes |= {text for text in texts if re.fullmatch(r"[A-Z][A-Z0-9]+(_[A-Z0-9]+)+", text)}
     assert len(codes) > 20

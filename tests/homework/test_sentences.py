@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from shared.sources import one_process, tree_at
 
 import dofkit.homework
 from dofkit.homework.assignment import load_assignment
@@ -16,6 +17,7 @@ from dofkit.homework.grading import grade
 from dofkit.homework.key.misconceptions import ERRORS
 from dofkit.homework.sentences import Language, catalogue, meanings, stopped
 
+pytestmark = one_process
 ROOM = Path(dofkit.homework.__file__).parent
 TOLD = [
     *(ROOM / "questions").glob("*.py"),
@@ -28,7 +30,7 @@ TOLD = [
 #: Whose sentences stand among other texts.
 SHOWN = [
     *(ROOM / "formats").glob("*.py"),
-    *(ROOM / name for name in ("autograder.py", "grading.py", "runs/batch.py")),
+    *(ROOM / name for name in ("autograder.py", "grading.py", "runs/batch.py", "handout/page_sheets.py")),
 ]
 STUDENT_PAGE = ROOM / "formats" / "templates" / "student.html"
 #: Calls whose texts are for lecturers, or are no sentences.
@@ -61,10 +63,10 @@ def told_by_calls(tree: ast.AST) -> Iterator[str]:
 
 @pytest.mark.parametrize("language", ["de", "fr", "es"])
 def test_every_sentence_is_in_the_catalogue(language: str) -> None:
-    told = {text for path in TOLD for text in sentences(ast.parse(path.read_text(encoding="utf-8")))}
+    told = {text for path in TOLD for text in sentences(tree_at(path))}
     assert len(told) > 60
     assert {m.code for m in ERRORS} <= set(meanings())
-    trees = [ast.parse(path.read_text(encoding="utf-8")) for path in (*TOLD, *SHOWN)]
+    trees = [tree_at(path) for path in (*TOLD, *SHOWN)]
     calls = re.findall(r'page\.told\("([^"]+)"(?: if [^"]+ else "([^"]+)")?', STUDENT_PAGE.read_text(encoding="utf-8"))
     page = {text for call in calls for text in call} - {"", "{fault}", "{text}"}
     told |= page | set(STATUSES.values()) | {text for tree in trees for text in told_by_calls(tree)} - {"{fault}"}
@@ -119,7 +121,7 @@ def _filled(part: ast.expr) -> str:
 @pytest.mark.parametrize("language", ["de", "fr", "es"])
 def test_why_reading_stopped_is_told_in_the_language(language: Language) -> None:
     rooms = [path for name in ("answers", "key", "questions") for path in (ROOM / name).glob("*.py")]
-    told = {text for path in rooms for text in faults(ast.parse(path.read_text(encoding="utf-8")))}
+    told = {text for path in rooms for text in faults(tree_at(path))}
     assert len(told) > 15
     assert {text for text in told if stopped(text, language) == text} == set()
 

@@ -10,6 +10,7 @@ from typing import Any
 
 import pytest
 import sympy
+from shared.known_scenes import spread
 from sympy.polys.rings import ring
 
 import dofkit
@@ -127,7 +128,7 @@ def test_a_flag_that_one_curve_does_not_see() -> None:
     assert agree(["u", "v", "a", "b", "c", "e"], slopes, ["u", "v"])[-1] == 6
 
 
-@pytest.mark.parametrize("seed", range(14))
+@pytest.mark.parametrize("seed", spread(range(14)))
 def test_growth_of_random_polynomial_fields(seed: int) -> None:
     rng = random.Random(seed)
     fields, n = rng.choice([(2, 5), (2, 6), (2, 7), (3, 6), (3, 7), (2, 8)])
@@ -141,7 +142,7 @@ def test_growth_of_random_polynomial_fields(seed: int) -> None:
     agree(names, slopes, names[:fields])
 
 
-@pytest.mark.parametrize("seed", range(16))
+@pytest.mark.parametrize("seed", spread(range(16)))
 def test_growth_of_random_nilpotent_fields(seed: int) -> None:
     """Each coordinate's slope mentions earlier ones only: long flags."""
     rng = random.Random(100 + seed)

@@ -78,7 +78,7 @@ def disagreements(told: Report, auto: Report) -> list[str]:
 
 #: Every method on one scene in twenty, each on others; on all of them where they are swept.
 BY_EACH = [pytest.param(method, *case.values, marks=case.marks, id=f"{method}-{case.values[0].stem}")
-           for method in ALONE for case in few(method, VARIED, 28)]  # fmt: skip
+           for method in ALONE for case in few(method, VARIED, 56)]  # fmt: skip
 by_each = pytest.mark.parametrize(("method", "path"), BY_EACH)
 
 

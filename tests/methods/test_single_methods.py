@@ -19,7 +19,7 @@ from dofkit.report import Report
 HOME = Path(dofkit.methods.__file__).parent
 #: Modules of the package that are no method.
 SHARED = {
-    "__init__", "as_written", "ask", "classify", "stages", "table",
+    "__init__", "as_written", "ask", "classify", "stages", "supervised", "table",
 }  # fmt: skip
 RIVALS: tuple[MethodName, ...] = tuple(m for m in METHODS if not METHODS[m].engines)
 #: Rivals that are quick enough for every scene.
@@ -144,13 +144,6 @@ def test_every_row_has_a_module_and_every_module_a_row() -> None:
 def test_a_method_answers_what_its_row_says(method: MethodName) -> None:
     assert all(use.sound and use.costs for use in METHODS[method].uses.values())
     assert METHODS[method].engines or all(callable(function_of(method, question)) for question in METHODS[method].uses)
-
-
-def test_a_prime_of_few_bits_divides_what_is_not_zero() -> None:
-    """x + y = 0 and x + 18 y = 0 are dependent modulo 17, the one prime of 5 bits that is 1 modulo 8."""
-    given = scene("x + y = 0", "x + 18 y = 0", coordinates=("x", "y"))
-    assert [answered(given, "dof", "field", Knobs(prime_bits=b)).value for b in (5, 61)] == [1, 0]
-    assert answered(given, "dof", "field", Knobs(prime_bits=4)).value is None
 
 
 def test_balls_of_few_bits_do_not_tell_a_small_number_from_zero() -> None:

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from shared.known_scenes import OURS, scene_of, stem
+from shared.known_scenes import OURS, scene_of, spread, stem
 
 import dofkit
 from dofkit.configuration import at_reference as local
@@ -358,7 +358,7 @@ DEPENDENT = [
 ]
 
 
-@pytest.mark.parametrize("name", DEPENDENT)
+@pytest.mark.parametrize("name", spread(DEPENDENT))
 def test_looking_at_dependent_relations_alone_changes_nothing(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     apart = told(name)
     monkeypatch.setattr(local, "_by_parts", lambda *_: None)

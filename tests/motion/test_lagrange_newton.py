@@ -148,7 +148,7 @@ class Newton:
         return [float(x) for x in found[:n]]
 
 
-@pytest.mark.parametrize("name", [swept(name) if k % 2 else name for k, name in enumerate(CASES)])
+@pytest.mark.parametrize("name", [swept(name) if k % 4 else name for k, name in enumerate(CASES)])
 def test_the_equations_hold_for_newtons_accelerations(name: str) -> None:
     import numpy as np
 

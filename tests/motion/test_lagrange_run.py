@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 import sympy
 from shared.command_line import called
-from shared.known_scenes import swept
+from shared.known_scenes import spread, swept
 from shared.motions import PLANE, energies, names_of, scene, vanishes, zero
 from shared.work import calls_of
 
@@ -73,7 +73,7 @@ def drift(made: Scene, begin: Sequence[float] = ()) -> float:
     return max(abs(h - heights[0]) for h in heights) / max(1.0, abs(heights[0]))
 
 
-@pytest.mark.parametrize("name", CONSERVATIVE)
+@pytest.mark.parametrize("name", spread(CONSERVATIVE))
 def test_energy_is_conserved_along_a_run(name: str) -> None:
     assert drift(dofkit.load(name)) < 1e-9
 

@@ -84,11 +84,17 @@ def test_what_does_not_move_says_so() -> None:
     assert len(list(found.pages())) == 1
 
 
-def test_coordinates_alone_move_too() -> None:
+def test_what_is_placed_by_coordinates_moves_with_them() -> None:
     disc = dofkit.animate("disc-rolling-on-plane")
-    assert {s.text for s in disc.sketch.shapes if s.kind == "words"} == {"x", "y", "theta", "phi"}
     frames = disc.clips[0].frames
-    assert frames[0]["phi"].shift[0] != frames[-1]["phi"].shift[0]
+    assert max(abs(frame["shape 1.0"].shift[2] - 1.0) for frame in frames) < 1e-9
+    assert max(abs(frame["shape 1.0"].shift[0] - frames[0]["shape 1.0"].shift[0]) for frame in frames) > 0.5
+
+
+def test_a_graph_does_not_move() -> None:
+    free = dofkit.animate({"coordinates": ["a", "b", "c", "d"]})
+    assert free.clips == ()
+    assert "`picture`" in free.sketch.notes[0]
 
 
 # -- files -----------------------------------------------------------------------------------------

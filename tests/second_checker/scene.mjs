@@ -8,7 +8,7 @@ import * as tr from "./trees.mjs";
 import { add, call, isNumber, linearIn, mul, neg, number, pow, sub, substitute, symbol } from "./trees.mjs";
 
 const NULLS = new Set([null, undefined, "", "~", "null", "Null", "NULL"]);
-const SILENT = new Set(["name", "title", "source", "notes", "left_out", "expect"]);
+const SILENT = new Set(["name", "title", "source", "notes", "left_out", "expect", "picture"]);
 const SIGNS = new Set(["real", "positive", "nonzero"]);
 const ROLES = { 1: ["x"], 2: ["x", "y", "theta"], 3: ["x", "y", "z", "phi", "theta", "psi"] };
 const VALUE = /^\s*([-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?)(?:\s*\/\s*([0-9]*[1-9][0-9]*))?\s*$/;

@@ -5,7 +5,7 @@ Tests that have the parameter ``path`` run where the others of that scene do: se
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -50,6 +50,15 @@ def few(what: str, paths: Sequence[Path], of: int, always: Collection[str] = ())
 def swept(*values: Any) -> Any:
     """A case for `pytest -m sweep`."""
     return pytest.param(*values, marks=pytest.mark.sweep)
+
+
+def spread(cases: Iterable[Any], of: int = 3, *, several: bool = False) -> list[Any]:
+    """One in so many of a test's cases, from the first on; the others are swept. ``several``: a case is a tuple."""
+    params = (case if hasattr(case, "marks") else pytest.param(*(case if several else [case])) for case in cases)
+    return [
+        pytest.param(*param.values, marks=[*param.marks, pytest.mark.sweep], id=param.id) if k % of else param
+        for k, param in enumerate(params)
+    ]
 
 
 def dealt(what: str, paths: Sequence[Path], hands: int) -> list[list[Path]]:

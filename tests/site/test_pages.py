@@ -112,7 +112,8 @@ def test_an_answer_in_a_line() -> None:
 
 def test_the_gallery_shows_a_scene_with_its_answer(disc: ShownScene) -> None:
     pages = {page.path: page.text for page in gallery_pages([disc], folders())}
-    assert set(pages) == {"gallery/index.md", "gallery/l6.md", "gallery/disc.svg"}
+    assert set(pages) == {"gallery/index.md", "gallery/l6.md", "gallery/disc.svg", "gallery/disc-small.svg"}
+    assert "<text" not in pages["gallery/disc-small.svg"]
     assert "f = 4, velocity freedom 2, non-holonomic, scleronomic (proved)" in pages["gallery/l6.md"]
     assert 'href="l6.html#disc"' in pages["gallery/index.md"]
     assert "Lecture 6" in pages["gallery/index.md"]

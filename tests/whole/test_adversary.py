@@ -24,6 +24,8 @@ from dofkit.base.runs import Pool
 from dofkit.benchmark.trials.construction import KnownScene, scene_of, truths
 
 KEPT = sorted(FOUND.glob("*.json"))
+#: Those that take seconds.
+SLOW = ("times-cancelled-311f4784", "primes-solved-17fd7e82")
 #: Seconds of processor time for a case of the short run: what takes longer is undecided.
 SECONDS = 3.0
 
@@ -81,7 +83,7 @@ DRAWN = replace(registry.drawn("hinges/planar-loop", 1, 0), elsewhere={})
 def test_a_disguise_keeps_what_is_true(disguise: str) -> None:
     """Of a simple system, whose answers are right in any disguise."""
     case = DRAWN if disguise == "turned" else SIMPLE
-    for seed in range(6):
+    for seed in range(3):
         worn = DISGUISES[disguise](random.Random(seed), case)
         assert worn is not None
         assert worn.scene != case.scene
@@ -151,7 +153,9 @@ def test_nothing_is_answered_wrongly(trial: Trial) -> None:
     assert outcome(case, answer) in ("right", "undecided", "refused"), (case.scene, faults(case, answer), case.truth)
 
 
-@pytest.mark.parametrize("path", KEPT, ids=lambda path: path.stem)
+@pytest.mark.parametrize(
+    "path", [swept(path) if path.stem in SLOW else path for path in KEPT], ids=lambda path: path.stem
+)
 def test_what_was_found_is_not_answered_wrongly_again(path: Path) -> None:
     kind, case = registry.read(path)
     if kind in OPEN or path.name in OPEN:

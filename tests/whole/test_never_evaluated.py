@@ -4,16 +4,10 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
-from pathlib import Path
 
-import dofkit
+from shared.sources import calls, one_process, trees
 
-PACKAGE = Path(dofkit.__file__).parent
-#: Every module's syntax tree, by its path in the package.
-MODULES = {
-    str(path.relative_to(PACKAGE)): ast.parse(path.read_text(encoding="utf-8"))
-    for path in sorted(PACKAGE.rglob("*.py"))
-}
+pytestmark = one_process
 #: Functions that evaluate text, or may.
 FORBIDDEN = frozenset(
     {"sympify", "parse_expr", "parse_latex", "parse_mathematica", "eval", "exec", "compile", "lambdify", "S",
@@ -30,13 +24,6 @@ ALLOWED = {
     ("methods/table.py", "import_module"): "a method's own module, by the name of its row in the table",
     ("base/workers.py", "import_module"): "the module of a job's function, which the parent process names",
 }
-
-
-def calls(module: ast.Module) -> Iterator[tuple[str, ast.Call]]:
-    """Every call in a module, with its function as written."""
-    for node in ast.walk(module):
-        if isinstance(node, ast.Call):
-            yield ast.unparse(node.func), node
 
 
 def is_text(node: ast.expr) -> bool:
@@ -59,7 +46,7 @@ def named(module: ast.Module, modules: frozenset[str]) -> set[str]:
 
 
 def test_there_is_something_to_look_at() -> None:
-    assert len(MODULES) > 20
+    assert len(trees()) > 20
 
 
 def may_evaluate(place: str, function: str) -> bool:
@@ -70,29 +57,26 @@ def may_evaluate(place: str, function: str) -> bool:
 
 
 def test_nothing_evaluates_text() -> None:
-    for place, module in MODULES.items():
-        wrong = [f"{place}:{call.lineno}: {name}(...)" for name, call in calls(module) if may_evaluate(place, name)]
-        assert wrong == []
+    assert [f"{place}:{call.lineno}: {name}(...)" for place, name, call in calls() if may_evaluate(place, name)] == []
 
 
 def test_nothing_evaluating_is_imported() -> None:
-    for place, module in MODULES.items():
+    for place, module in trees().items():
         imported = named(module, frozenset({"sympy", "ast", "code", "pickle", "shelve"}))
         assert not imported & (FORBIDDEN | {"sympy.parsing"}), place
 
 
-def given_a_text(module: ast.Module) -> Iterator[str]:
+def given_a_text() -> Iterator[str]:
     """Calls of sympy's that would make an expression of a text."""
-    from_sympy = named(module, frozenset({"sympy"})) - NAMED
-    for function, call in calls(module):
+    from_sympy = {place: named(module, frozenset({"sympy"})) - NAMED for place, module in trees().items()}
+    for place, function, call in calls():
         owner, _, name = function.rpartition(".")
-        sympifies = function in from_sympy or owner in ("sympy", "sp") or (name == "subs")
+        sympifies = function in from_sympy[place] or owner in ("sympy", "sp") or (name == "subs")
         if sympifies and name not in NAMED:
             given = [*call.args, *(keyword.value for keyword in call.keywords if keyword.arg is None)]
             if any(map(is_text, given)):
-                yield f"{call.lineno}: {function}"
+                yield f"{place}:{call.lineno}: {function}"
 
 
 def test_sympy_is_given_no_text() -> None:
-    for place, module in MODULES.items():
-        assert list(given_a_text(module)) == [], place
+    assert list(given_a_text()) == []

@@ -27,7 +27,7 @@ def scene(*texts: str) -> dict[str, Any]:
     }
 
 
-@settings(max_examples=40)
+@settings(max_examples=20)
 @example(scene("sin(s)/s = 1"))
 @example(scene("abs(g(s)) = g(s)"))
 @example(scene("(1 - m)/g'(s) <= 0"))
@@ -59,12 +59,15 @@ def is_answered_or_refused(document: dict[str, Any]) -> None:
     assert len(report.constraints) == len(document["constraints"])
 
 
-@pytest.mark.parametrize("path", few("evidence", VARIED, 24), ids=stem)
+@pytest.mark.parametrize("path", few("evidence", VARIED, 48), ids=stem)
 def test_asking_for_evidence_takes_no_answer_away(path: Path) -> None:
     """A claim may become weaker only where the checker contradicts it, which happens in none of these scenes."""
     report = report_of(path)
     asked = with_certificate(scene_of(path), report)
-    assert [*told_fields(asked)] == [*told_fields(report)]
+    kept = (
+        (place, value, verdict.model_copy(update={"checked": None})) for place, value, verdict in told_fields(asked)
+    )
+    assert [*kept] == [*told_fields(report)]
     assert asked.warnings == report.warnings
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
+from shared.known_scenes import spread
 
 import dofkit
 from dofkit.classification.study import study
@@ -146,7 +147,9 @@ RIGHT: list[tuple[str, dict[str, Any], dict[str, Any]]] = [
 ]
 
 
-@pytest.mark.parametrize(("made", "truth"), [row[1:] for row in RIGHT], ids=[row[0] for row in RIGHT])
+@pytest.mark.parametrize(
+    ("made", "truth"), spread((row[1:] for row in RIGHT), 2, several=True), ids=[row[0] for row in RIGHT]
+)
 def test_right(made: dict[str, Any], truth: dict[str, Any]) -> None:
     report = dofkit.classify(made)
     if "log(" in str(made) and report.verdict == "undecided":
@@ -210,6 +213,7 @@ def test_a_quotient_that_is_rounded_excludes_no_solution() -> None:
     assert dofkit.classify(scene("u w z s", *parts)).consistent is not False
 
 
+@pytest.mark.sweep
 def test_an_exact_form_with_arguments_in_two_writings_is_not_called_inexact() -> None:
     """It is d(x sin(1/(1+y)))."""
     entry = dofkit.classify(scene("x y", "sin(1/(1+y))*xdot + x*cos(2/(2+2*y))*(-1)/(1+y)^2*ydot = 0")).constraints[0]

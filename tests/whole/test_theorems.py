@@ -6,19 +6,17 @@
 from __future__ import annotations
 
 import ast
-import io
 import re
-import tokenize
 from collections import defaultdict
 from functools import cache
-from pathlib import Path
 
-import dofkit
+from shared.sources import PACKAGE, SOURCES, one_process, tree_of
+
 from dofkit.checker.dimension_rules import MOST
 from dofkit.checker.verification import RULES
 from dofkit.configuration.local.criteria import CRITERIA
 
-PACKAGE = Path(dofkit.__file__).parent
+pytestmark = one_process
 TABLE = PACKAGE / "THEOREMS.md"
 #: A key in a comment or a docstring: a name in brackets that is no subscript, and no word in capitals for a field.
 KEY = re.compile(r"(?<![\w\]])\[([A-Z][A-Za-z]+\d{1,4}|[A-Z]+[a-z][A-Za-z]*)\]")
@@ -26,24 +24,22 @@ IN_CERTIFICATES = re.compile(r"\(in certificates: ([^)]+)\)")
 ROW = re.compile(r"^\| `(\w+)` \| ([^|]+) \| ([^|]+) \| ([^|]+) \| ([^|]*) ?\|$", re.MULTILINE)
 
 
-def remarks(path: Path) -> str:
-    """The comments and docstrings of a module."""
-    text = path.read_text(encoding="utf-8")
-    tokens = tokenize.generate_tokens(io.StringIO(text).readline)
-    comments = [t.string for t in tokens if t.type == tokenize.COMMENT]
+def remarks(name: str) -> str:
+    """The comments and docstrings of a module: what follows a # in any line, and what ``ast`` takes for docstrings."""
+    comments = re.findall(r"#.*", SOURCES[name].read_text(encoding="utf-8"))
     nodes = (ast.Module, ast.ClassDef, ast.FunctionDef)
-    docstrings = [ast.get_docstring(node) or "" for node in ast.walk(ast.parse(text)) if isinstance(node, nodes)]
+    docstrings = [ast.get_docstring(node) or "" for node in ast.walk(tree_of(name)) if isinstance(node, nodes)]
     return "\n".join([*comments, *docstrings])
 
 
 @cache
 def uses() -> dict[str, list[str]]:
     """The files that hold each key."""
-    found: defaultdict[str, list[str]] = defaultdict(list)
-    for path in sorted(PACKAGE.rglob("*.py")):
-        for key in sorted(set(KEY.findall(remarks(path)))):
-            found[key].append(path.relative_to(PACKAGE).as_posix())
-    return dict(found)
+    files: defaultdict[str, list[str]] = defaultdict(list)
+    for name in SOURCES:
+        for key in sorted(set(KEY.findall(remarks(name)))):
+            files[key].append(name)
+    return dict(files)
 
 
 @cache

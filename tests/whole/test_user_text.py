@@ -10,6 +10,7 @@ from typing import Any
 
 import pytest
 from shared.known_scenes import CATALOG, few, report_of, scene_of, stem
+from shared.sources import nodes_of, one_process
 
 import dofkit
 from dofkit.expressions.text.typesetting import typeset
@@ -49,7 +50,7 @@ def test_an_equation_doubled_in_latex(
     assert (report.dof, report.redundant, report.redundant_equations) == (dof, [names[1]], 1)
 
 
-@pytest.mark.parametrize("path", few("user text", CATALOG, 6), ids=stem)
+@pytest.mark.parametrize("path", few("user text", CATALOG, 12), ids=stem)
 def test_a_constraint_doubled_under_odd_names(path: Path) -> None:
     """The copy is redundant, and nothing else changes; every name and the title are shown as they were written."""
     document: dict[str, Any] = scene_of(path).model_dump(mode="json", exclude_unset=True)
@@ -82,18 +83,17 @@ OWN_TEMPLATES = {
 }
 
 
+@one_process
 def test_nothing_but_a_constant_is_a_format() -> None:
     """What stands before ``.format`` is a text in the code, or a constant by its name."""
-    root = Path(dofkit.__file__).parent
-    found = set()
-    for path in root.rglob("*.py"):
-        calls = [n for n in ast.walk(ast.parse(path.read_text(encoding="utf-8"))) if isinstance(n, ast.Call)]
-        for function in (call.func for call in calls if isinstance(call.func, ast.Attribute)):
+    files = set()
+    for name, call in nodes_of(ast.Call):
+        function = call.func
+        if isinstance(function, ast.Attribute) and function.attr in ("format", "format_map"):
             template = function.value.value if isinstance(function.value, ast.Subscript) else function.value
-            constant = isinstance(template, ast.Constant) or (isinstance(template, ast.Name) and template.id.isupper())
-            if function.attr in ("format", "format_map") and not constant:
-                found.add(path.relative_to(root).as_posix())
-    assert {name for name in found if not name.startswith("benchmark/")} == OWN_TEMPLATES
+            if not (isinstance(template, ast.Constant) or (isinstance(template, ast.Name) and template.id.isupper())):
+                files.add(name)
+    assert {name for name in files if not name.startswith("benchmark/")} == OWN_TEMPLATES
 
 
 def test_an_assignment_with_odd_texts_is_graded() -> None:

@@ -12,9 +12,8 @@ from dataclasses import dataclass
 from itertools import combinations
 
 from dofkit.base.deadline import check
-from dofkit.base.libraries import components
 from dofkit.classification.dependence.implication import Everywhere, NearDrawing, SufficientSets
-from dofkit.exact.matrices.sparse import SparseRow, Supports, echelon, rank_of_rows, transposed, vanishing
+from dofkit.exact.matrices.sparse import SparseRow, Supports, components, echelon, rank_of_rows, transposed, vanishing
 from dofkit.relations.answer import Redundancies
 
 #: Sets of constraints are searched exhaustively up to this many members of a group.

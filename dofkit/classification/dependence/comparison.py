@@ -16,10 +16,10 @@ from itertools import product as cartesian
 
 from flint import arb
 
+from dofkit.base.errors import NoValueError
 from dofkit.classification.dependence.implication import follows
-from dofkit.configuration.generic_points import field_jacobian
 from dofkit.configuration.search import find
-from dofkit.exact.errors import NoValueError
+from dofkit.configuration.variety import field_jacobian
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.sparse import rank_of_rows
 from dofkit.exact.points.balls import BallPoint, jacobian

@@ -29,7 +29,8 @@ from dofkit.exact.points.field import FieldPoint
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Answer
-from dofkit.relations.blocks import Block, Row, coordinates_of, linear, make_chart, presolve, split
+from dofkit.relations.blocks import Block, Row, coordinates_of, make_chart, split
+from dofkit.relations.linear_relations import linear, presolve
 from dofkit.relations.normal.domain import DomainCondition, conditions_of
 from dofkit.relations.normal.no_solution import hold_nowhere, no_solution
 from dofkit.relations.normal.pieces import Finite, Nonlinear, Normal, Pfaffian, Piece

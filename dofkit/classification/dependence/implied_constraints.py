@@ -17,7 +17,7 @@ from dofkit.classification.freedom.preparation import all_of
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Redundancies, undecided_dependence
-from dofkit.relations.blocks import linear, presolve
+from dofkit.relations.linear_relations import linear, presolve
 from dofkit.relations.normal.pieces import Finite, Normal, Reduced
 from dofkit.relations.setting import Setting
 from dofkit.system import System

@@ -9,7 +9,7 @@ from functools import partial
 from typing import Literal
 
 from dofkit.base.deadline import unless_late
-from dofkit.base.libraries import components
+from dofkit.base.errors import NoValueError
 from dofkit.base.verdicts import About
 from dofkit.classification.dependence import removal
 from dofkit.classification.dependence.circuits import OwnedRows, analyse
@@ -17,9 +17,8 @@ from dofkit.classification.dependence.implication import SLACK, implication_of
 from dofkit.classification.dependence.implied_constraints import MAX_CHOICES, constraint_follows, implied
 from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.freedom.preparation import algebraic, all_of, branches_at_reference
-from dofkit.exact.errors import NoValueError
 from dofkit.exact.ideals import dimension_of
-from dofkit.exact.matrices.sparse import SparseRow
+from dofkit.exact.matrices.sparse import SparseRow, components
 from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex

@@ -24,13 +24,12 @@ from itertools import combinations, groupby
 from typing import NamedTuple
 
 from dofkit.base.deadline import OutOfTimeError, check, limited
-from dofkit.base.libraries import components
 from dofkit.base.verdicts import Verdict, weakest
 from dofkit.classification.dependence.implication import Everywhere, NearDrawing, SufficientSets, is_drawn
 from dofkit.classification.dependence.implied_constraints import LEAVING_SECONDS
 from dofkit.classification.freedom.block import answer
 from dofkit.classification.freedom.preparation import all_of
-from dofkit.exact.matrices.sparse import echelon
+from dofkit.exact.matrices.sparse import components, echelon
 from dofkit.relations.answer import Answer, Redundancies
 from dofkit.relations.blocks import Block, Row, split
 from dofkit.relations.setting import Setting

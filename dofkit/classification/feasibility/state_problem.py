@@ -19,15 +19,16 @@ from typing import Literal, NamedTuple
 
 from flint import fmpq
 
-from dofkit.base.libraries import components
 from dofkit.exact.linear_inequalities import LinearCondition, solution
+from dofkit.exact.matrices.sparse import components
 from dofkit.exact.zero import zero_and_verdict
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import accelerations_of, substitute
 from dofkit.expressions.enclosures import has_call
 from dofkit.expressions.terms import linear_terms
 from dofkit.expressions.tree import Expr
-from dofkit.relations.blocks import Row, coordinates_of, presolve, with_rows
+from dofkit.relations.blocks import Row, coordinates_of, with_rows
+from dofkit.relations.linear_relations import presolve
 from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.no_solution import no_solution
 from dofkit.relations.normal.normal_form import velocities_of

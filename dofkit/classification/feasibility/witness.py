@@ -14,10 +14,10 @@ from typing import NamedTuple
 from flint import arb, fmpq, fmpq_mat
 
 from dofkit.base.deadline import check
+from dofkit.base.errors import NoValueError
 from dofkit.base.verdicts import Verdict
 from dofkit.classification.feasibility.state_problem import StateProblem
 from dofkit.exact.boxes import WHOLE, BoxProgram, EmptyError, Interval, bounds
-from dofkit.exact.errors import NoValueError
 from dofkit.exact.linear_inequalities import LinearCondition, solution
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.points.balls import BallPoint, jacobian
@@ -29,7 +29,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.enclosures import interval_of
 from dofkit.expressions.tree import Expr
-from dofkit.relations.blocks import linear
+from dofkit.relations.linear_relations import linear
 from dofkit.relations.normal.domain import DomainCondition
 
 #: Searches along slacks, from so many starts each, with so many steps; equations and conditions that one may have.
@@ -196,7 +196,7 @@ def _by_slacks(problem: StateProblem, positive: frozenset[Expr]) -> Witness | No
 
 def _is_certified(problem: StateProblem, search: _Search, point: RealPoint) -> bool:
     """Return whether all conditions hold at the point and a motion passes through it."""
-    if not _defined(problem, point.point) or not point.solved == point.rank == len(search.rows):
+    if not _defined(problem, point.point) or not point.solved == point.part.rank == len(search.rows):
         return False
     rows, columns = problem.independent
     return problem.rigidly or _rank(search.ring, point.point, rows, columns) == len(rows)

@@ -10,15 +10,14 @@ from dofkit.classification.freedom.bridged_blocks import bridged_answer
 from dofkit.configuration import distance_geometry
 from dofkit.configuration.at_reference import at_reference
 from dofkit.configuration.components import is_graph, is_irreducible
-from dofkit.configuration.finite_blocks import LEVEL, finite_answer, level_angle
+from dofkit.configuration.finite_blocks import finite_answer
 from dofkit.configuration.linear_blocks import confirmed, eliminated
-from dofkit.configuration.measured.equations import is_measured
-from dofkit.configuration.search import find
+from dofkit.configuration.search import LEVEL, find, level_angle
 from dofkit.configuration.variety import Variety, of_real_point, of_reference
-from dofkit.exact.errors import NoPointError
 from dofkit.exact.matrices.sparse import echelon
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import pairing
+from dofkit.exact.ring.program import NoPointError
 from dofkit.exact.zero import BALLS, BOTH, doubt, independent_generators
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.lie_algebra import SampledSpan, on_the_same_part, span_at
@@ -33,7 +32,7 @@ from dofkit.integrability.pfaffian_system import (
 from dofkit.integrability.row_labels import ball_labels, field_labels, reference_points, regular_reference
 from dofkit.mobility.general_position import framework_answer
 from dofkit.relations.answer import Answer, Size
-from dofkit.relations.blocks import Block, Row, split
+from dofkit.relations.blocks import Block, Row, is_measured, split
 from dofkit.relations.setting import Setting
 
 RELATED = "the functions or numbers that occur may satisfy an identity that arithmetic modulo primes does not detect"

@@ -25,9 +25,9 @@ from dofkit.relations.answer import Answer, AnsweredPart
 from dofkit.relations.blocks import Block, Row, blocks_of, names_in, with_rows
 from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.no_solution import holds_somewhere
-from dofkit.relations.normal.pieces import JointEquation, Reduced, Still
+from dofkit.relations.normal.pieces import JointEquation, Nonlinear, Reduced, Still
 from dofkit.relations.setting import Setting
-from dofkit.relations.velocity_reductions import MAX_WAYS, RewrittenRow, ways_of, with_boundaries
+from dofkit.relations.velocity_reductions import MAX_WAYS, RewrittenRow, Way, ways_of, with_boundaries
 from dofkit.system import System
 
 #: Choices of branches that are looked at.
@@ -153,7 +153,9 @@ def solve(system: System, reduced: Sequence[Reduced], setting: Setting) -> Outco
                 impossible.append(i)
             elif i not in copied:
                 rows += [Row(i, p) for p in normal.branches[branch]]
-        ways = ways_of(with_boundaries(with_rows(rows, constants)), positive)
+        rows = with_rows(rows, constants)
+        plain = not any(isinstance(row.piece, Nonlinear | DomainCondition) for row in rows)
+        ways = [Way(rows)] if plain else ways_of(with_boundaries(rows), positive)
         why = _LEFT_OUT if len(ways) >= MAX_WAYS else why
         for way in reductions_at_reference(ways, setting):
             names = [*(c.name for c in system.coordinates), *names_in(way.rows, constants)]

@@ -7,8 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from dofkit.base.verdicts import VERDICTS, weakest
-from dofkit.configuration.generic_points import field_jacobian, pose_point
-from dofkit.configuration.variety import of_reference
+from dofkit.configuration.variety import field_jacobian, of_reference, pose_point
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.vectors import difference

@@ -14,14 +14,13 @@ from typing import NamedTuple
 
 from flint import arb
 
-from dofkit.base.errors import TextError
-from dofkit.base.libraries import components
+from dofkit.base.errors import NoValueError, TextError
 from dofkit.base.verdicts import weakest
 from dofkit.configuration.components import explicit_relations
 from dofkit.configuration.generic_dimension import BALL_COLUMNS
 from dofkit.configuration.variety import Witness, of_real_point
 from dofkit.exact.analyticity import is_analytic
-from dofkit.exact.errors import NoValueError
+from dofkit.exact.matrices.sparse import components
 from dofkit.exact.points.real_search import RealPoint, RealSearch
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
@@ -102,8 +101,8 @@ def _point_within(chart: Chart, conditions: Sequence[DomainCondition], dof: int 
             continue
         if point is not None and point.certified and point.consistent:
             points.append(point)
-    wanted = max((p.rank for p in points), default=0) if dof is None else chart.coordinates - dof
-    return next((p for p in points if p.rank == wanted and _hold_strictly(conditions, p.point.symbols)), None)
+    wanted = max((p.part.rank for p in points), default=0) if dof is None else chart.coordinates - dof
+    return next((p for p in points if p.part.rank == wanted and _hold_strictly(conditions, p.point.symbols)), None)
 
 
 def _is_same_component(block: Block, result: Answer) -> bool:

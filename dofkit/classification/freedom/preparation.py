@@ -11,11 +11,10 @@ from collections.abc import Hashable, Iterable, Iterator, Sequence
 from itertools import chain, count
 
 from dofkit.base.deadline import check
-from dofkit.base.errors import Fault, SceneError, TextError
+from dofkit.base.errors import Fault, NoValueError, SceneError, TextError
 from dofkit.configuration.at_reference import ball_matrix, ball_point
-from dofkit.configuration.generic_points import on_variety, pose_point
+from dofkit.configuration.variety import on_variety, pose_point
 from dofkit.exact.analyticity import is_analytic
-from dofkit.exact.errors import NoValueError
 from dofkit.exact.zero import is_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
@@ -53,7 +52,8 @@ def prepared(system: System, reductions: Reductions = ALL) -> tuple[list[Reduced
     positive = frozenset(ex.parameter(p) for p, sign in system.parameters.items() if sign == "positive")
     generic = tuple([ex.parameter(p) for p in system.generic])
     positive |= frozenset([p for p in generic if p.args[1].startswith("_L")])
-    apart = bridges(system) if "bridges" in reductions and system.tolerance is None else Bridges()
+    exact = system.joints and system.tolerance is None
+    apart = bridges(system) if "bridges" in reductions and exact else Bridges()
     reduced = reduce_all(system, positive, apart.joints)
     setting = Setting(
         positive,

@@ -7,9 +7,10 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import Any
 
-from flint import arb, ctx, nmod, nmod_mat
+from flint import arb, ctx
 
 from dofkit.base.deadline import OutOfTimeError, expired, limited
+from dofkit.base.errors import NoValueError
 from dofkit.base.verdicts import Verdict, weakest
 from dofkit.base.wording import many, verb
 from dofkit.classification.freedom.branches import Outcome
@@ -27,15 +28,16 @@ from dofkit.classification.special.minors import (
     candidates,
     table_of,
 )
-from dofkit.configuration.generic_points import on_variety
-from dofkit.exact.errors import NoValueError, raising_no_value
+from dofkit.configuration.variety import on_variety
+from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.sparse import rank_of
 from dofkit.exact.points.balls import PRECISION, BallPoint
 from dofkit.exact.points.field import FieldPoint
-from dofkit.exact.points.frames import certified_rank, field_frame
+from dofkit.exact.points.frames import field_frame
 from dofkit.exact.points.real_search import RealSearch
+from dofkit.exact.residues import null_vectors, residue, residue_matrix
 from dofkit.exact.ring.canonical import Canon
-from dofkit.exact.ring.program import values
+from dofkit.exact.ring.program import raising_no_value, values
 from dofkit.exact.triangular import TriangularSolver
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
@@ -69,7 +71,7 @@ def points_of(chart: Chart) -> tuple[FieldPoint, BallPoint, bool] | None:
     real = search.search(starts=STARTS, steps=STEPS)
     if real is None or not real.certified or not real.consistent:
         return None
-    return drawn, real.point, real.rank == len(chart.nodes)
+    return drawn, real.point, real.part.rank == len(chart.nodes)
 
 
 @dataclass(frozen=True)
@@ -107,7 +109,7 @@ def place(
         matrix = rows.matrix(values(chart.ring, point), point.number(ex.ZERO.args[0]))
         with ctx.workprec(PRECISION):
             balls = rows.matrix(values(chart.ring, real), arb(0))
-            certified = certified_rank(_part(balls, n)), certified_rank(balls)
+            certified = ball_part(_part(balls, n)).rank, ball_part(balls).rank
     except NoValueError:
         return None
     rank, whole = rank_of(_part(matrix, n), point.p), rank_of(matrix, point.p)
@@ -132,11 +134,11 @@ def _dependent(a: Answer, matrix: list[list[Any]], p: int) -> set[int]:
     chosen: Sequence[int] = range(len(matrix))
     if len(a.matrix) == len(matrix):
         chosen = field_frame(
-            [[nmod(row.get(c, 0), a.modulus) for c in range(n)] for row in a.matrix], n, a.modulus
+            [[residue(row.get(c, 0), a.modulus) for c in range(n)] for row in a.matrix], n, a.modulus
         ).rows
-    columns = nmod_mat([[int(matrix[r][c]) for r in chosen] for c in range(n)], p)
-    basis, nullity = columns.nullspace()
-    return {r for i, r in enumerate(chosen) if any(int(basis[i, k]) for k in range(nullity))}
+    columns = residue_matrix([[int(matrix[r][c]) for r in chosen] for c in range(n)], p)
+    vectors = null_vectors(columns)
+    return {r for i, r in enumerate(chosen) if any(vector[i] for vector in vectors)}
 
 
 def _owners(block: Block, a: Answer, rows: Iterable[int]) -> tuple[int, ...]:

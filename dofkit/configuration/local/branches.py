@@ -11,8 +11,8 @@ from dofkit.base.deadline import check
 from dofkit.base.libraries import np
 from dofkit.configuration.local.manifold import Form, Manifold
 from dofkit.configuration.local.neighbourhood import FAULTS, SURE, Neighbourhood, damped, independent
+from dofkit.exact.matrices.sparse import Pivots
 from dofkit.exact.points.balls import BallPoint, jacobian
-from dofkit.exact.points.frames import Pivots
 from dofkit.exact.ring.program import values
 from dofkit.expressions.tree import Expr
 

@@ -12,15 +12,16 @@ from typing import Literal
 
 from flint import ctx
 
+from dofkit.base.errors import NoValueError
 from dofkit.base.verdicts import ArgumentKey, Verdict, weakest
-from dofkit.configuration.generic_points import frame_at
 from dofkit.configuration.local import conclusions
 from dofkit.configuration.local.germ import Conclusion, Germ
 from dofkit.configuration.local.manifold import LocalDimension, Manifold
-from dofkit.exact.errors import NoValueError, raising_no_value
+from dofkit.configuration.variety import frame_at
+from dofkit.exact.matrices.sparse import Pivots
 from dofkit.exact.points.balls import BallPoint, precision
 from dofkit.exact.points.field import FieldPoint
-from dofkit.exact.points.frames import Pivots
+from dofkit.exact.ring.program import raising_no_value
 from dofkit.relations.blocks import Chart
 
 UNDECIDED = LocalDimension(

@@ -203,7 +203,7 @@ class _Weights:
                 if column in dependent and column not in self.explicit:
                     self.explicit[column] = others
                     break
-        self.known: dict[int, int] = {}
+        self.degrees: dict[int, int] = {}
 
     def of(self, node: int) -> int:
         """Return the degree of an instruction."""
@@ -221,11 +221,11 @@ class _Weights:
         return degrees[node]
 
     def _generator(self, column: int) -> int:
-        if column not in self.known:
-            self.known[column] = 1
+        if column not in self.degrees:
+            self.degrees[column] = 1
             inside = self.ring.vars[column].args or self.explicit.get(column, ())
-            self.known[column] = max((1, *(self.of(n) for n in inside)))
-        return self.known[column]
+            self.degrees[column] = max((1, *(self.of(n) for n in inside)))
+        return self.degrees[column]
 
 
 def _explicit_columns(ring: Ring, row: int) -> Iterable[tuple[int, list[int]]]:

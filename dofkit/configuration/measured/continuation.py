@@ -10,9 +10,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from dofkit.base.errors import NoValueError
 from dofkit.base.libraries import np
 from dofkit.configuration.measured.equations import GREY, SLACK, MeasuredPose, Point, clear_rank
-from dofkit.exact.errors import NoValueError
 
 #: A motion is followed over `STEP`, as a fraction of the size, or farther where second-order effects of that length
 #: would not exceed the tolerance by `FAR`; then over `BEYOND` times as much, where what is flat at first shows.

@@ -257,21 +257,6 @@ def _separate_rows(j: Any, rank: int, tolerance: float) -> list[int]:
     return rows
 
 
-def is_measured(block: Block, setting: Setting) -> bool:
-    """Return whether measured numbers enter a block: geometry, or positions of particles and bodies.
-
-    Texts on coordinates that belong to no particle and no body, or to one without a position, hold no such numbers.
-    """
-    if setting.tolerance is None:
-        return False
-    if any(row.constraint in setting.geometric for row in block.rows):
-        return True
-    bodies = {c.owner for c in setting.roles if c.role not in ("x", "y", "z")}
-    placed = {c.name for c in setting.roles if c.owner and ex.coordinate(c.name) in setting.pose and
-              (setting.reference is not None or c.owner not in bodies)}  # fmt: skip
-    return not placed.isdisjoint(block.coordinates)
-
-
 def is_tree(block: Block, setting: Setting) -> bool:
     """Return whether constraints of geometry alone join particles, bodies and the ground without a loop.
 

@@ -8,15 +8,16 @@ from __future__ import annotations
 
 import random
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Set
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass
 from heapq import heapify, heappop, heappush
 from typing import Any
 
-from flint import fmpq, nmod_mat
+from flint import fmpq
 
 from dofkit.base.deadline import affordable, check
-from dofkit.exact.errors import PoleError
+from dofkit.base.errors import PoleError
+from dofkit.exact.residues import residue_matrix
 
 Numbers = Sequence[Any]
 LinearRow = dict[int, Any]
@@ -311,13 +312,13 @@ class FactoredMatrix:
 
     def __init__(self, rows: Sequence[Mapping[int, int]], p: int) -> None:
         self.p = p
-        self._found = _Reduction(rows, p)
-        if self._found.dependent:
+        self._reduction = _Reduction(rows, p)
+        if self._reduction.dependent:
             raise PoleError("the matrix is singular")
 
     def solve(self, right: Sequence[int]) -> list[int]:
         """Return the x with A x = ``right``: what was done to the rows is done to it, then the pivots backwards."""
-        return self._found.solved(right)
+        return self._reduction.solved(right)
 
 
 def rank_of(matrix: Sequence[Sequence[Any]], p: int) -> int:
@@ -325,9 +326,55 @@ def rank_of(matrix: Sequence[Sequence[Any]], p: int) -> int:
     if not matrix or not matrix[0]:
         return 0
     affordable(len(matrix), len(matrix[0]))
-    return int(nmod_mat([[int(v) for v in row] for row in matrix], p).rank())
+    return int(residue_matrix([[int(v) for v in row] for row in matrix], p).rank())
 
 
 def without_time(rows: Sequence[SparseRow], n: int) -> list[SparseRow]:
     """Return the first n columns."""
     return [{c: v for c, v in row.items() if c < n} for row in rows]
+
+
+@dataclass(frozen=True)
+class Pivots:
+    """A choice of independent rows and of dependent columns, regular at a point."""
+
+    rows: tuple[int, ...]
+    dependent: tuple[int, ...]
+    free: tuple[int, ...]
+
+
+def sparse_frame(rows: Sequence[SparseRow], n: int, p: int) -> Pivots:
+    """Return the first independent rows in order, and columns solved for (the last ones where there is a choice)."""
+    kept = echelon(rows, p).independent
+    dependent = last_columns([rows[i] for i in kept], n, p)
+    solved = set(dependent)
+    return Pivots(kept, dependent, tuple(c for c in range(n) if c not in solved))
+
+
+def components(names_of: Iterable[Iterable[Hashable]]) -> list[list[int]]:
+    """Return the groups of things that are joined by names in common, by their numbers and in order.
+
+    >>> components([("x", "y"), ("z",), ("y", "u"), ()])
+    [[0, 2], [1], [3]]
+    """
+    leader: list[int] = []
+    owner: dict[Hashable, int] = {}
+
+    def led(i: int) -> int:
+        while leader[i] != i:
+            leader[i] = i = leader[leader[i]]
+        return i
+
+    for i, names in enumerate(names_of):
+        leader.append(i)
+        root = i
+        for name in names:
+            first_owner = owner.setdefault(name, root)
+            if first_owner != root:
+                first_owner = led(first_owner)
+                root, first_owner = (root, first_owner) if root < first_owner else (first_owner, root)
+                leader[first_owner] = root
+    groups: dict[int, list[int]] = {}
+    for i in range(len(leader)):
+        groups.setdefault(led(i), []).append(i)
+    return list(groups.values())

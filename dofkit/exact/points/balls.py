@@ -16,8 +16,8 @@ from typing import Any, NamedTuple
 
 from flint import arb, ctx, fmpq, fmpq_mat
 
-from dofkit.exact.errors import NoPointError, NoValueError, OutsideDomainError
-from dofkit.exact.ring.program import Scalar, Var, gradient, values
+from dofkit.base.errors import NoValueError
+from dofkit.exact.ring.program import NoPointError, OutsideDomainError, Scalar, Var, gradient, values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions.tree import Expr
 
@@ -190,6 +190,31 @@ class BallPoint(_RealPoint):
         if var.kind == "atan2":
             return arb.atan2(args[0], args[1])
         return arb(getattr(args[0], var.kind)())
+
+
+def random_values(ring: Ring, positive: frozenset[Expr], seed: int) -> dict[Expr, float]:
+    """Return random dyadic values of the symbols, so that what is not solved for is an exact number.
+
+    Time and a parameter that has a name have the same value wherever they occur: so points of sets fit.
+    """
+    rng = random.Random(f"dofkit start {seed}")
+    symbols = [var.key for var in ring.vars if var.kind == "symbol"]
+    return {s: _random_value(s, rng, seed, s in positive) for s in symbols}
+
+
+def _random_value(symbol: Expr, rng: random.Random, seed: int, positive: bool) -> float:
+    kind, name = symbol.args
+    constant = kind in ("time", "parameter")
+    low = 256 if positive or constant else -1024
+    value = rng.randrange(low, 1025) / 512 or 0.25
+    if constant and name[0] != "_":
+        return random.Random(f"dofkit start {seed} {name}").randrange(low, 1025) / 512
+    return value
+
+
+def random_ball_point(ring: Ring, positive: frozenset[Expr], seed: int) -> BallPoint:
+    """Return a point of random values, which are exact."""
+    return BallPoint({s: arb(v) for s, v in random_values(ring, positive, seed).items()}, seed)
 
 
 def jacobian(

@@ -7,18 +7,17 @@ and certified by the interval Newton test: the ball then contains a true real ze
 from __future__ import annotations
 
 import math
-import random
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from flint import arb, arb_mat, ctx
 
 from dofkit.base.deadline import check
+from dofkit.base.errors import NoValueError
 from dofkit.base.libraries import np
-from dofkit.exact.errors import NoValueError, raising_no_value
 from dofkit.exact.matrices.certified import PivotedPart, ball_part, independent_part
-from dofkit.exact.points.balls import BallPoint, FloatPoint, jacobian, precision
-from dofkit.exact.ring.program import values
+from dofkit.exact.points.balls import BallPoint, FloatPoint, jacobian, precision, random_values
+from dofkit.exact.ring.program import raising_no_value, values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions.tree import TIME, Expr
 
@@ -52,18 +51,6 @@ class RealPoint:
     matrix: list[list[arb]]
     solved: int = 0
 
-    @property
-    def rank(self) -> int:
-        return self.part.rank
-
-    @property
-    def rows(self) -> tuple[int, ...]:
-        return tuple(self.part.rows)
-
-    @property
-    def gap(self) -> float:
-        return self.part.gap
-
 
 class RealSearch:
     """Looks for real points on the zero set of ``nodes``, moving ``unknowns``.
@@ -89,13 +76,8 @@ class RealSearch:
         self.upto = len(ring.code)
 
     def start(self, seed: int, initial: Mapping[Expr, float]) -> dict[Expr, float]:
-        """Random dyadic values, so that what is not solved for is an exact number.
-
-        Time and a parameter that has a name have the same value wherever they occur: so points of sets fit.
-        """
-        rng = random.Random(f"dofkit start {seed}")
-        symbols = [var.key for var in self.ring.vars if var.kind == "symbol"]
-        drawn = {s: _start_value(s, rng, seed, s in self.positive) for s in symbols}
+        """Return the initial values of symbols, and random ones of the others."""
+        drawn = random_values(self.ring, self.positive, seed)
         return {s: initial.get(s, value) for s, value in drawn.items()}
 
     @raising_no_value
@@ -284,16 +266,6 @@ def at_another_time(search: RealSearch, seed: int = 0) -> RealPoint | None:
         if point is not None and point.certified and point.consistent:
             return point
     return None
-
-
-def _start_value(symbol: Expr, rng: random.Random, seed: int, positive: bool) -> float:
-    kind, name = symbol.args
-    constant = kind in ("time", "parameter")
-    low = 256 if positive or constant else -1024
-    value = rng.randrange(low, 1025) / 512 or 0.25
-    if constant and name[0] != "_":
-        return random.Random(f"dofkit start {seed} {name}").randrange(low, 1025) / 512
-    return value
 
 
 @raising_no_value

@@ -9,22 +9,64 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property, reduce
+from functools import cached_property, reduce, wraps
 from hashlib import sha256
 from math import prod
 from operator import add, mul
-from typing import Any, Protocol
+from typing import Any, ParamSpec, Protocol, TypeVar
 
 from flint import arb
+from flint.utils.flint_exceptions import DomainError
 
 from dofkit.base.deadline import check
-from dofkit.exact.errors import raising_no_value
+from dofkit.base.errors import NoValueError, PoleError
 from dofkit.expressions.tree import Expr
 
 #: A value of whatever the program runs over: an element of GF(p), a ball, a float, a truncated series.
 Scalar = Any
 #: The operations.
 NUM, VAR, ADD, MUL, POW = range(5)
+
+
+# How exact arithmetic fails: there is no value, for one reason or another, FLINT's own included
+
+P = ParamSpec("P")
+T = TypeVar("T")
+
+
+class TooLargeError(NoValueError):
+    """The canonical form grew past its bound, or needs a root of a quotient."""
+
+    reason = "a canonical form grew past its bound"
+
+
+class OutsideDomainError(NoValueError):
+    """A function has no real value at the point."""
+
+    reason = "a function has no real value at the point"
+
+
+class NoPointError(NoValueError):
+    """No point was found at this draw (a radicand is no square, a division by zero)."""
+
+    reason = "no point was found"
+
+
+def raising_no_value(work: Callable[P, T]) -> Callable[P, T]:
+    """Return ``work``, whose divisions by zero are PoleErrors, and FLINT's errors about a domain NoValueErrors."""
+
+    @wraps(work)
+    def wrapper(*args: P.args, **kwargs: P.kwargs) -> T:
+        try:
+            return work(*args, **kwargs)
+        except NoValueError:
+            raise
+        except ZeroDivisionError as error:
+            raise PoleError(str(error)) from error
+        except DomainError as error:
+            raise NoValueError(str(error)) from error
+
+    return wrapper
 
 
 @dataclass(frozen=True)

@@ -93,7 +93,9 @@ def _angle_arguments(expressions: Iterable[Expr], alias: Mapping[Expr, Expr]) ->
         family = _family(node) if node.op in ("fn", "pow") else None
         if family:
             argument = node.args[1] if node.op == "fn" else node.args[1] * ex.fn("log", node.args[0])
-            for term, factor in linear_terms(over_primes(substitute(argument, alias))).items():
+            argument = substitute(argument, alias)
+            argument = over_primes(argument) if "log" in argument.functions else argument
+            for term, factor in linear_terms(argument).items():
                 if term == ex.PI and family == "cis" and _in_twelfths(factor):
                     continue
                 old = denominators.get((family, term), 1)

@@ -6,12 +6,21 @@ from collections.abc import Callable
 from itertools import islice
 from typing import NoReturn
 
-from dofkit.expressions.calculus import by_time, diff, of_function, of_power, over_dt, total_differential
+from dofkit.expressions.calculus import (
+    Comparison,
+    applied,
+    by_time,
+    diff,
+    inverse,
+    of_function,
+    of_power,
+    over_dt,
+    total_differential,
+)
 from dofkit.expressions.text.characters import MAX_DIFFERENTIATED, MAX_ORDER
 from dofkit.expressions.text.grammar import Parser
-from dofkit.expressions.text.names import AmbiguousError
-from dofkit.expressions.text.reader import applied, inverse, product
-from dofkit.expressions.text.tokens import Token
+from dofkit.expressions.text.names import AmbiguousError, Names
+from dofkit.expressions.text.tokens import Token, tokenize
 from dofkit.expressions.tree import DT, FUNCTIONS, MINUS_ONE, TIME, Expr, call, mul, nodes
 
 _BARE = frozenset({"number", "value", "motion", "call", "function", "root", "frac", "|"})
@@ -83,7 +92,7 @@ def _bare_argument(parser: Parser, token: Token) -> Expr:
         doubtful = beyond.start == after.end and beyond.kind in ("value", "number", "(")
     if doubtful:
         _ask_extent(parser, token, first)
-    return product(factors)
+    return factors[0] if len(factors) == 1 else mul(*factors)
 
 
 def _ask_extent(parser: Parser, token: Token, first: Token) -> NoReturn:
@@ -265,3 +274,16 @@ APPLICATIONS: dict[str, Callable[[Parser, Token], Expr]] = {
     "root": root,
     "frac": fraction,
 }
+
+
+def parse_relations(text: str, names: Names) -> tuple[Comparison, ...]:
+    """Return the relations in ``text``: one, or several for a chain such as ``0 <= x <= L``.
+
+    A text without a relation means ``... = 0``. Raises TextError for what cannot be read.
+    """
+    return Parser(tokenize(text, names.lookup), names, APPLICATIONS).relations()
+
+
+def parse_expression(text: str, names: Names) -> Expr:
+    """Return the value of ``text``; a relation in it is an error. Raises TextError for what cannot be read."""
+    return Parser(tokenize(text, names.lookup), names, APPLICATIONS).value()

@@ -26,10 +26,6 @@ MAX_NAME = 64
 #: Digits of one number, and bits of all numbers of a text together.
 MAX_DIGITS = 30
 MAX_TEXT_BITS = 8192
-#: Constant exponents, powers of ten included, and the product of nested ones.
-MAX_EXPONENT = 64
-#: Bits of one number after folding.
-MAX_BITS = 2048
 #: An expression with more nodes than this is not differentiated while it is being read.
 MAX_DIFFERENTIATED = 150
 #: How often `diff` differentiates.

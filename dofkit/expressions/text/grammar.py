@@ -1,10 +1,8 @@
 """The grammar: tokens -> expressions, by precedence climbing.
 
-An LALR table (lark) reads the plain part of this grammar in 0.06 ms warm, but costs 0.1 s at the
-first text, a third of what `import sympy` does; and most rules here depend on more than the kind of
-the next token: on what a name means (``x(t)``, ``dx/dt``), on the space around a sign
-(``sin theta/2``), on what was read just before (``1/2x``), and each doubtful place asks its own
-question. So the rules are the methods below, from loosest to tightest:
+Most rules depend on more than the kind of the next token, as an LALR table (lark) does: on what a name means (``x(t)``,
+``dx/dt``), on the space around a sign (``sin theta/2``), on what was read just before (``1/2x``); and each doubtful
+place asks its own question. So the rules are the methods below, from loosest to tightest:
 
     relation  sum (sign sum)*          sum      term (+|- term)*
     term      factor (*|/ factor | factor written side by side)*
@@ -14,35 +12,129 @@ question. So the rules are the methods below, from loosest to tightest:
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
-from typing import Literal, NoReturn, cast
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import replace
+from typing import Any, NoReturn, cast
 
-from dofkit.expressions.calculus import Requirement, is_differential, of_power, over_dt
+from dofkit.base.errors import TextError
+from dofkit.expressions.calculus import (
+    Comparison,
+    RelationSign,
+    Requirement,
+    UndefinedError,
+    bounded,
+    inverse,
+    is_differential,
+    of_power,
+    over_dt,
+    raised,
+)
 from dofkit.expressions.text.characters import MAX_DEPTH
 from dofkit.expressions.text.names import AmbiguousError, Names, derivative
-from dofkit.expressions.text.reader import TextReader, bounded, inverse, product, raised
 from dofkit.expressions.text.tokens import Token, Tokens
 from dofkit.expressions.tree import DT, MINUS_ONE, PI, TIME, ZERO, E, Expr, add, fn, mul, num
 
-RelationSign = Literal["=", "<=", ">=", "<", ">"]
 #: The kinds of tokens that begin a factor which may stand right after another one.
 STARTS = frozenset({"value", "motion", "function", "call", "operator", "(", "|", "frac", "root"})
 _PAIRS = {"(": ")", "[": "]", "{": "}"}
 
 
-@dataclass(frozen=True)
-class Comparison:
-    """One relation; ``column`` is where its sign stands (where the text begins, if it has none).
+_OPEN = frozenset("(+-*/^,|") | {"relation"}
 
-    ``domain``: the conditions under which the text, as it was written, has a value.
-    """
 
-    left: Expr
-    relation: RelationSign
-    right: Expr
-    column: int
-    domain: tuple[Requirement, ...] = ()
+class TextReader:
+    """Moves through the tokens of one text; ``domain`` collects where the text, as it was written, has a value."""
+
+    def __init__(self, tokens: Tokens, names: Names) -> None:
+        self.tokens, self.text, self.columns = tokens
+        self.names = names
+        self.at = 0
+        self.depth = 0
+        self.bars = 0
+        self.domain: dict[Requirement, None] = {}
+
+    @property
+    def next(self) -> Token:
+        """The token that comes next."""
+        return self.tokens[self.at]
+
+    @property
+    def last(self) -> Token:
+        """The token that was taken last."""
+        return self.tokens[self.at - 1]
+
+    def take(self) -> Token:
+        """Return the next token and move past it."""
+        token = self.tokens[self.at]
+        self.at += 1
+        return token
+
+    def source(self, start: int, end: int) -> str:
+        """Return what the person wrote there."""
+        return self.text[start:end].strip()
+
+    def fail(self, message: str, token: Token, hint: str) -> NoReturn:
+        """Raise a TextError at ``token``."""
+        raise TextError(message, self.columns[token.start], hint)
+
+    def deeper(self, token: Token) -> None:
+        """Count one more level of nesting."""
+        self.depth += 1
+        if self.depth > MAX_DEPTH:
+            message = f"this text is nested more than {MAX_DEPTH} levels deep"
+            self.fail(message, token, "write it with fewer parentheses")
+
+    def computed(
+        self, token: Token, operation: Callable[..., Expr], *arguments: Any, needs: Iterable[Requirement] = ()
+    ) -> Expr:
+        """Return what an operation gives, whose domain ``needs`` is kept; a fault stands at ``token``."""
+        self.domain |= dict.fromkeys(needs)
+        try:
+            return operation(*arguments)
+        except UndefinedError as fault:
+            self.fail(fault.message, token, fault.hint)
+
+    def check_allowed(self, e: Expr, token: Token) -> None:
+        """Refuse time, velocities or accelerations where the names do not allow them."""
+        what = self.names.refused(e)
+        if what is not None:
+            written = self.source(token.start, self.last.end)
+            self.fail(f"`{written}` is {what}, which cannot be used here", token, f"write it without {what}")
+
+    def unexpected(self, token: Token) -> NoReturn:
+        """Say why ``token`` cannot stand where it does."""
+        kind = token.kind
+        if kind == "end" and len(self.tokens) == 1:
+            self.fail("the text is empty", token, "write an equation, such as `x^2 + y^2 = L^2`")
+        before = self.tokens[self.tokens.index(token) - 1] if token.start else token
+        if kind == "end":
+            message = f"something is missing after `{self.source(before.start, before.end)}`"
+            self.fail(message, token, "complete the expression")
+        if kind == ")":
+            sign = self.text[token.start]
+            missing = before.kind in _OPEN
+            message = f"something is missing before this `{sign}`" if missing else f"this `{sign}` closes nothing"
+            self.fail(message, token, "check the parentheses")
+        if kind == ",":
+            self._unexpected_comma(token)
+        if kind == "prime":
+            hint = "a prime follows the name of a coordinate or of a declared function; text needs no quotes"
+            self.fail("a prime or quote cannot stand here", token, hint)
+        if kind == "relation" and not (before.kind in _OPEN or before is token):
+            self.fail(f"`{token.name}` cannot stand inside parentheses", token, "write one relation, outside them")
+        hint = "write both sides" if kind == "relation" else "write a number or name"
+        what = token.name if kind == "relation" else self.source(token.start, token.end)
+        self.fail(f"something is missing before `{what}`", token, hint)
+
+    def _unexpected_comma(self, token: Token) -> NoReturn:
+        """Say why a comma cannot stand where it does: between two relations, or in a decimal."""
+        index = self.tokens.index(token)
+        if all(any(t.kind == "relation" for t in side) for side in (self.tokens[:index], self.tokens[index:])):
+            first, second = self.source(0, token.start), self.source(token.end, len(self.text))
+            hint = f"give each its own text: `{first}` and `{second}`"
+            self.fail("this comma separates two relations, and a text holds one", token, hint)
+        hint = "write decimals with a point; a comma stands between the arguments of a function"
+        self.fail("a comma cannot stand here", token, hint)
 
 
 class Parser(TextReader):
@@ -61,15 +153,14 @@ class Parser(TextReader):
         first = self.next
         left_side = self.computed(first, bounded, self.sum())
         token = self.take()
-        if token.kind == "end":
-            return (Comparison(left_side, "=", ZERO, self.columns[first.start], tuple(self.domain)),)
-        comparisons = []
+        comparisons = list[Comparison]()
         while token.kind == "relation":
             right = self.computed(token, bounded, self.sum())
             comparisons.append(Comparison(left_side, cast(RelationSign, token.name), right, self.columns[token.start]))
             left_side, token = right, self.take()
         if token.kind != "end":
             self.unexpected(token)
+        comparisons = comparisons or [Comparison(left_side, "=", ZERO, self.columns[first.start])]
         return tuple(replace(c, domain=tuple(self.domain)) for c in comparisons)
 
     def value(self) -> Expr:
@@ -118,7 +209,7 @@ class Parser(TextReader):
             elif kind == "number":
                 _ask_number(self, token)
             else:
-                return product(factors)
+                return factors[0] if len(factors) == 1 else mul(*factors)
 
     def divide(self, factors: list[Expr]) -> bool:
         """Divide by the next factor; return True for a derivative such as dx/dt, which is one unit."""

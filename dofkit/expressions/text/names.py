@@ -62,6 +62,15 @@ class Names:
     allow_velocities: bool = True
     allow_accelerations: bool = False
 
+    def refused(self, symbol: Expr) -> str | None:
+        """Return what a symbol is that cannot be used here; None for one that can."""
+        kind = symbol.args[0]
+        if kind == "acceleration" and not self.allow_accelerations:
+            return "an acceleration"
+        if kind in ("velocity", "differential", "dt") and not self.allow_velocities:
+            return "a velocity or differential"
+        return "time" if kind in ("time", "dt") and not self.allow_time else None
+
     @cached_property
     def lookup(self) -> Lookup:
         """The words' meanings, worked out once and then remembered."""

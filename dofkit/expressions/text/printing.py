@@ -5,7 +5,8 @@ from __future__ import annotations
 from fractions import Fraction
 from itertools import chain, repeat
 
-from dofkit.expressions.text.characters import MAX_DIGITS, MAX_EXPONENT
+from dofkit.expressions.calculus import MAX_EXPONENT
+from dofkit.expressions.text.characters import MAX_DIGITS
 from dofkit.expressions.tree import HALF, TIME, Expr, num, power
 
 _SUM, _PRODUCT, _POWER, _ATOM = range(4)

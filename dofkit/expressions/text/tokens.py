@@ -12,6 +12,7 @@ from functools import cache
 from typing import NamedTuple, NoReturn
 
 from dofkit.base.errors import TextError
+from dofkit.expressions.calculus import MAX_EXPONENT
 from dofkit.expressions.text.characters import (
     DEGREE,
     DOT,
@@ -20,7 +21,6 @@ from dofkit.expressions.text.characters import (
     GREEK_LETTERS,
     MAX_CHARACTERS,
     MAX_DIGITS,
-    MAX_EXPONENT,
     MAX_NAME,
     MAX_NODES,
     MAX_TEXT_BITS,

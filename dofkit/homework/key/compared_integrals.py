@@ -51,19 +51,19 @@ def _judgement(way: AnswerReading, key: Key, name: str) -> Judgement:
     """The same of one reading, all names of its own constants."""
     read = _with_constants(way, key)
     if read.moving:
-        return wrong(read.shown, "NOT_INTEGRATED")
+        return wrong(read.text, "NOT_INTEGRATED")
     remark = "" if read.constants else _LEFT_OUT
     integral = with_answer(
         key, read, lambda posed: is_integral(posed.system, posed.system.numbers_of(name), posed.numbers)
     )
     if integral:
-        return right(read.shown, remark)
+        return right(read.text, remark)
     family = _leaves(key, read, name)
     if family is Leaves.ALL or (family is Leaves.ONE and not read.constants):
-        return right(read.shown, remark)
+        return right(read.text, remark)
     if family is Leaves.OPEN:
-        return needs_review(read.shown, "it could not be decided in the time available whether this is an integral.")
-    return wrong(read.shown, "WRONG_INTEGRAL")
+        return needs_review(read.text, "it could not be decided in the time available whether this is an integral.")
+    return wrong(read.text, "WRONG_INTEGRAL")
 
 
 def _with_constants(way: AnswerReading, key: Key) -> Read:
@@ -89,7 +89,7 @@ def _leaves(key: Key, read: Read, name: str) -> Leaves:
 
 def _with_still(scene: Scene, read: Read) -> Scene:
     """The scene with the answer, its constants as coordinates that do not change."""
-    plain = Read(read.texts, frozenset(), read.shown, read.moving)
+    plain = Read(read.texts, frozenset(), read.text, read.moving)
     posed = with_equations(scene, plain, ANSWER)
     still = tuple(Equation(name=f"{ANSWER} keeps {c}", text=f"d{c} = 0") for c in sorted(read.constants))
     more = {"coordinates": (*posed.coordinates, *sorted(read.constants))}

@@ -6,8 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from dofkit.base.errors import DofkitError
-from dofkit.exact.errors import NoValueError
+from dofkit.base.errors import DofkitError, NoValueError
 from dofkit.exact.points.field import field_point
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring

@@ -27,7 +27,7 @@ Samples = list[dict[str, float]]
 
 def families(room: Room, size: int) -> Iterator[Told]:
     """The rule `family` with so many freedoms, for some motions through the main point."""
-    size_of_all = sum(relation.left.size for relation in room.problem.relations) * len(room.problem.coordinates)
+    size_of_all = sum(relation.tree.size for relation in room.problem.relations) * len(room.problem.coordinates)
     if room.point is None or room.scenery.evidence.moving or size_of_all > MOST_FOLLOWED:
         return
     for seed in range(2):
@@ -228,7 +228,7 @@ def graph_order(room: Room, names: Sequence[str] | None = None, columns: Sequenc
 def _moved(room: Room, name: str) -> set[str]:
     """The variables of a finite relation; those with velocities in another."""
     equation = room.scenery.evidence.relation(name)
-    held = equation.left.symbols
+    held = equation.tree.symbols
     if equation.kind == "finite":
         return set(held) & set(room.scenery.evidence.variables)
     return {q for q in room.problem.coordinates if f"{q}dot" in held}
@@ -252,7 +252,7 @@ def _gives(room: Room, name: str, q: str) -> bool:
 def own_symbols(room: Room) -> dict[str, str]:
     """For each relation a generic symbol or parameter that occurs in no other."""
     relations = room.problem.relations
-    held = {relation.name: relation.left.symbols for relation in relations}
+    held = {relation.name: relation.tree.symbols for relation in relations}
     chosen: dict[str, str] = {}
     for relation in relations:
         for symbol in (*room.problem.world.generic, *room.problem.world.signs):
@@ -271,7 +271,7 @@ def _split(
     coordinates = set(room.problem.coordinates)
 
     def free(name: str) -> frozenset[str]:
-        held = room.scenery.evidence.relation(name).left.symbols & coordinates
+        held = room.scenery.evidence.relation(name).tree.symbols & coordinates
         return frozenset().union(*(dependencies.get(q, frozenset((q,))) for q in held))
 
     for name, q in order:
@@ -329,6 +329,6 @@ def _bends(room: Room, standing: Standing, zero: str, way: dict[str, int], order
     try:
         minor = evidence.minor(room.minor(standing))
         speeds = {q: arb(value) for q, value in way.items()}
-        return float(along_curve(evidence, minor, speeds, evidence.relation(zero).left, order).mid())
+        return float(along_curve(evidence, minor, speeds, evidence.relation(zero).tree, order).mid())
     except (CheckError, ArithmeticError):
         return 0.0

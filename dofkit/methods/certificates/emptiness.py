@@ -65,7 +65,7 @@ def refutations(room: Room, names: Sequence[str]) -> Iterator[Told]:
 def combination(room: Room, names: Sequence[str]) -> Told | None:
     """Return numbers c with sum c_i relation_i = -1, as polynomials in the ring's generators, or None."""
     ring, width = room.scenery.evidence.ring, len(names)
-    trees = [substituted(room.scenery.evidence.relation(name).left, {"tdot": ONE}) for name in names]
+    trees = [substituted(room.scenery.evidence.relation(name).tree, {"tdot": ONE}) for name in names]
     for tree in trees:
         ring.read(tree)  # all generators are there before the first normal form is used
     normals = [ring.read(tree) for tree in trees]
@@ -92,7 +92,7 @@ def _by_squares(room: Room, name: str) -> Iterator[Told]:
     """Yield evidence that one relation is never satisfied: it is a positive number and squares, or their negative."""
     checked = room.scenery.evidence.relation(name)
     for sign in (1, -1):
-        positive = positive_sum(checked.left, Fraction(sign))
+        positive = positive_sum(checked.tree, Fraction(sign))
         if positive is None:
             continue
         squares = [[c, text_of(base)] for c, base in positive[1]]

@@ -35,7 +35,7 @@ def integral_of_text(room: Room, text: str) -> str | None:
 def combined_integral(room: Room, function: str, alone: str = "") -> str | None:
     """Return the id of a step by which a function keeps its value: by one form ``alone``, or whatever that takes."""
     name = f"{room.scenery.label}{function} is constant{f' by {alone}' if alone else ''}"
-    if name in room.scenery.evidence.known:
+    if name in room.scenery.evidence.by_name:
         return name
     if room.point is None:
         return None
@@ -114,7 +114,7 @@ def variables_of(form: Components) -> frozenset[str]:
 
 def components(room: Room, name: str) -> Components:
     """The components of a linear relation of velocities."""
-    tree = room.scenery.evidence.relation(name).left
+    tree = room.scenery.evidence.relation(name).tree
     return {v: derivative(tree, f"{v}dot") for v in room.scenery.evidence.variables}
 
 
@@ -228,7 +228,7 @@ def _reached(room: Room, owner: str, alone: bool) -> Told | None:
         for word, vector in zip(words.words, words.vectors, strict=True):
             if len(word) > 1 and abs(pairing(room, name, standing.point, vector)) > FAR:
                 used = {"fields": words.fields, "rows": words.rows, "word": word, "pairs": name}
-                if any(map(evidence.is_open, (evidence.relation(other).left for other in evidence.finite))):
+                if any(map(evidence.is_open, (evidence.relation(other).tree for other in evidence.finite))):
                     used["minor"] = room.minor(standing)
                 return {"rule": "bracket", "at": standing.point.name, **used}
     return None
@@ -311,7 +311,7 @@ def _turning(room: Room, name: str, field: str) -> Iterator[Told]:
     if room.scenery.evidence.relation(name).kind == "velocity":
         yield from _turning_form(room, name, field)
         return
-    turned = derivative(room.scenery.left(name), "t")
+    turned = derivative(room.scenery.tree(name), "t")
     if turned == number(0):
         return
     for point in _points_of(room, name):
@@ -330,7 +330,7 @@ def _turning_form(room: Room, name: str, field: str) -> Iterator[Told]:
     form, point = form_or_none(room, name), room.point
     if point is None:
         return
-    tree = room.scenery.left(name)
+    tree = room.scenery.tree(name)
     rates = {v: times(symbol(v), derivative(tree, v)) for v in room.scenery.evidence.velocities if v in tree.symbols}
     turned = form.get("t", number(0)) if form else derivative(tree, "t")
     if field == "catastatic" and form is None:

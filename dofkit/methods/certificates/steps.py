@@ -37,7 +37,7 @@ def _reduced(scenery: Scenery, name: str) -> list[str]:
     bases = [base for base, source in scenery.reduced_from.items() if source == name]
     if bases:
         return bases
-    tree = scenery.evidence.relation(name).left
+    tree = scenery.evidence.relation(name).tree
     steps = _steps(scenery.label, name, tree)
     if not steps or not _stand(scenery, *steps):
         return [name]
@@ -94,7 +94,7 @@ def _square(term: Tree) -> tuple[Fraction, Tree, int] | None:
 
 def without_factor(scenery: Scenery, name: str) -> str:
     """The id of a step that drops a factor that is a positive number plus squares; the relation's own without one."""
-    step, tree = f"{scenery.label}{name} without its factor", scenery.evidence.relation(name).left
+    step, tree = f"{scenery.label}{name} without its factor", scenery.evidence.relation(name).tree
     if scenery.has_step(step):
         return step
     terms = [_operands(term, "product") for term in _operands(tree, "sum")]
@@ -145,10 +145,10 @@ LARGEST_OF_PAIR = 30
 def given_in_order(names: Iterable[str], scenery: Scenery, gives: Callable[[str, str], bool]) -> Order:
     """Return relations with a coordinate each that those before do not hold, the ones with few coordinates first."""
     coordinates, evidence = scenery.problem.coordinates, scenery.evidence
-    held = {name: evidence.relation(name).left.symbols.intersection(coordinates) for name in names}
+    held = {name: evidence.relation(name).tree.symbols.intersection(coordinates) for name in names}
     order: Order = []
     taken: set[str] = set()
-    for name in sorted(held, key=lambda one: len(held[one])):
+    for name in sorted(held, key=lambda name: len(held[name])):
         fit = next((q for q in coordinates if q in held[name] - taken and gives(name, q)), None)
         if fit is not None:
             order.append([name, fit])
@@ -170,7 +170,7 @@ def _gives(scenery: Scenery, name: str, q: str) -> bool:
     evidence = scenery.evidence
 
     def look() -> bool:
-        return evidence.is_nowhere_zero(put_in(ZERO, q, evidence.relation(name).left)[0])
+        return evidence.is_nowhere_zero(put_in(ZERO, q, evidence.relation(name).tree)[0])
 
     return evidence.once(("gives", name, q), look)
 
@@ -178,7 +178,7 @@ def _gives(scenery: Scenery, name: str, q: str) -> bool:
 def with_puts(scenery: Scenery, tree: Tree, order: Order) -> Tree:
     """A tree with coordinates put in."""
     for name, q in order:
-        tree = put_in(tree, q, scenery.evidence.relation(name).left)[1]
+        tree = put_in(tree, q, scenery.evidence.relation(name).tree)[1]
     return tree
 
 
@@ -188,14 +188,14 @@ def needed_puts(scenery: Scenery, trees: Iterable[Tree], order: Order) -> Order:
     for name, q in order:
         if q in held:
             needed.append([name, q])
-            held |= scenery.evidence.relation(name).left.symbols
+            held |= scenery.evidence.relation(name).tree.symbols
     return needed
 
 
 def solved_pairs(scenery: Scenery, names: Sequence[str], point: FoundPoint) -> list[str]:
     """Steps by which coordinates are 0: of two relations that are linear in them, and hold nothing beside."""
     ids = []
-    short = [name for name in names if scenery.evidence.relation(name).left.size <= LARGEST_OF_PAIR]
+    short = [name for name in names if scenery.evidence.relation(name).tree.size <= LARGEST_OF_PAIR]
     for pair in combinations(short, 2):
         for step in _pair_steps(scenery, pair, point):
             if _stand(scenery, step):
@@ -204,7 +204,7 @@ def solved_pairs(scenery: Scenery, names: Sequence[str], point: FoundPoint) -> l
 
 
 def _pair_steps(scenery: Scenery, pair: tuple[str, str], point: FoundPoint) -> Iterator[dict[str, object]]:
-    lefts = [scenery.evidence.relation(name).left for name in pair]
+    lefts = [scenery.evidence.relation(name).tree for name in pair]
     shared = lefts[0].symbols & lefts[1].symbols
     for first, other in combinations([q for q in scenery.problem.coordinates if q in shared], 2):
         linear = [linear_in(tree, (first, other)) for tree in lefts]
@@ -259,14 +259,14 @@ def _combination(
     scenery: Scenery, name: str, rows: Sequence[str], point: FoundPoint, order: Order
 ) -> dict[str, Any] | None:
     """Numbers by which a relation is a sum of multiples of others, once coordinates that relations give are put in."""
-    trees = {row_name: with_puts(scenery, scenery.left(row_name), order) for row_name in (name, *rows)}
+    trees = {row_name: with_puts(scenery, scenery.tree(row_name), order) for row_name in (name, *rows)}
     put = {row for row, _ in order}
     target = trees.pop(name)
     factors = constant_cofactors(scenery, target, {row: tree for row, tree in trees.items() if row not in put}, point)
     if factors is None:
         return None
     combination: dict[str, Any] = {"c": {row: number_text(value) for row, value in factors.items()}}
-    used = [scenery.evidence.relation(row_name).left for row_name in (name, *factors)]
+    used = [scenery.evidence.relation(row_name).tree for row_name in (name, *factors)]
     return {**combination, "put": needed_puts(scenery, used, order)} if order else combination
 
 

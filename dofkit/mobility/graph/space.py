@@ -17,8 +17,8 @@ from functools import cached_property
 from itertools import combinations
 from typing import Any, NamedTuple
 
-from dofkit.base.libraries import components, np, nx
-from dofkit.exact.matrices.sparse import SparseRow, echelon, rank_of_rows, vector_in_kernel
+from dofkit.base.libraries import np, nx
+from dofkit.exact.matrices.sparse import SparseRow, components, echelon, rank_of_rows, vector_in_kernel
 from dofkit.exact.points.field import prime_for
 from dofkit.mobility.graph.links import Ends, LinkageError, Proof, Question
 

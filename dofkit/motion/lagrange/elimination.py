@@ -13,8 +13,8 @@ from typing import NamedTuple
 
 from dofkit.base.deadline import check
 from dofkit.base.errors import NoValueError
-from dofkit.exact.errors import raising_no_value
 from dofkit.exact.ring.canonical import Canon, divided, is_identically_zero
+from dofkit.exact.ring.program import raising_no_value
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import calculus
 from dofkit.expressions import tree as ex

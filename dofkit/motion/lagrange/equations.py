@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from dofkit.base.deadline import DEFAULT_SECONDS, OutOfTimeError, by_processor, check, left, limited
+from dofkit.base.deadline import DEFAULT_SECONDS, OutOfTimeError, by_processor, check, limited, remaining_seconds
 from dofkit.base.errors import Fault, SceneError
 from dofkit.base.wording import seconds_of
 from dofkit.classification.passes import Examined, studied
@@ -129,7 +129,7 @@ def derived_of(scene: Scene) -> Derived:
         model = _sorted(model)
         if _short(model.energy.lagrangian):
             try:
-                with by_processor(min(TRYING, left())):
+                with by_processor(min(TRYING, remaining_seconds())):
                     derived = derive(model)
             except OutOfTimeError:
                 check()
@@ -151,7 +151,7 @@ def _by_joints(source: MotionSource) -> Derived | None:
     surveyed = survey(scene)
     joint_source = replace(source, system=system_of(scene, surveyed), energy=energy, names=surveyed.names)
     try:
-        with by_processor(min(JOINTS_TRYING, 0.5 * left())):
+        with by_processor(min(JOINTS_TRYING, 0.5 * remaining_seconds())):
             derived = derive(_sorted(joint_source.model()))
     except OutOfTimeError:
         check()

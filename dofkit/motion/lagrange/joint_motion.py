@@ -109,13 +109,12 @@ def joint_motion(scene: Scene, drawing: Drawing, system: System) -> JointMotion 
     if scene.energies is not None or tree_coordinates(system) is None:
         return None
     reader = _TreeReader(scene, drawing, system, {})
-    joints = [c for c in system.connections if c.facts.freedoms or c.facts.welded]
-    steps = [reader.steps_of(c) for c in joints]
+    steps = [reader.steps_of(c) for c in system.joints]
     complete = [of_joint for of_joint in steps if of_joint is not None]
     couplings = reader.couplings()
     if len(complete) < len(steps) or couplings is None:
         return None
-    energy = reader.energy({c.members: of_pair for c, of_pair in zip(joints, complete, strict=True)})
+    energy = reader.energy({c.members: of_pair for c, of_pair in zip(system.joints, complete, strict=True)})
     if energy is None:
         return None
     kept = {"name": scene.name, "title": scene.title, "parameters": scene.parameters, "functions": scene.functions}

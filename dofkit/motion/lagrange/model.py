@@ -9,8 +9,8 @@ from functools import cached_property
 from dofkit.base.errors import DofkitError, Fault, NoValueError, SceneError, TextError
 from dofkit.classification.freedom.branches import in_time
 from dofkit.classification.passes import Examined
-from dofkit.exact.errors import raising_no_value
 from dofkit.exact.matrices.sparse import echelon, without_time
+from dofkit.exact.ring.program import raising_no_value
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.text import parse_relations

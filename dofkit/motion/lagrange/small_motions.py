@@ -11,10 +11,10 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import combinations, islice, product
 from typing import Any, NamedTuple
 
-from dofkit.base.deadline import OutOfTimeError, by_processor, check, left
+from dofkit.base.deadline import OutOfTimeError, by_processor, check, remaining_seconds
 from dofkit.base.errors import NoValueError
-from dofkit.exact.errors import raising_no_value
 from dofkit.exact.ring.canonical import is_identically_zero
+from dofkit.exact.ring.program import raising_no_value
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.sympy_bridge import Bridge, UntranslatableError
@@ -145,7 +145,7 @@ class _Equilibria(_Translated):
         forces = [self.bridge.sympy(_at_rest(e, marks)) for e in self.derived.equations.values()]
         unknowns = [self.bridge.sympy(mark) for mark in marks.values()]
         try:
-            with by_processor(min(SOLVING, left())):
+            with by_processor(min(SOLVING, remaining_seconds())):
                 solutions = sympy.solve(forces, unknowns, dict=True)
         except OutOfTimeError:
             check()

@@ -11,9 +11,8 @@ from fractions import Fraction
 from itertools import product as cartesian
 from typing import Any
 
-from dofkit.exact.errors import NoValueError
-from dofkit.exact.points.balls import BallPoint
-from dofkit.exact.points.real_search import RealSearch
+from dofkit.base.errors import NoValueError
+from dofkit.exact.points.balls import random_ball_point
 from dofkit.exact.ring.canonical import Canon, lowest_terms, square_root
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
@@ -108,7 +107,7 @@ def _sign(e: Expr, positive: frozenset[Expr]) -> int | None:
     """The sign of a constant, for generic parameters that of some values of them."""
     ring = Ring([e], positive)
     node = ring.node(e)
-    point = BallPoint(RealSearch(ring, (), (), positive).start(0, {}), 0)
+    point = random_ball_point(ring, positive, 0)
     value = values(ring, point)[node]
     if not value.contains(0):
         return 1 if value > 0 else -1

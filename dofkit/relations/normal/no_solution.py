@@ -18,8 +18,8 @@ from typing import Any, NamedTuple
 from flint import arb, ctx, fmpq_mat, fmpz_poly
 
 from dofkit.base.deadline import OutOfTimeError, check
+from dofkit.base.errors import NoValueError, PoleError
 from dofkit.exact.boxes import NON_NEGATIVE, UNIT, WHOLE, Box, BoxProgram, EmptyError, Interval, bounds, middle
-from dofkit.exact.errors import NoValueError, PoleError
 from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.program import Var, values

@@ -16,8 +16,7 @@ from typing import Any, NamedTuple
 
 from flint import fmpq
 
-from dofkit.base.errors import TextError
-from dofkit.exact.errors import NoValueError
+from dofkit.base.errors import NoValueError, TextError
 from dofkit.exact.ring.canonical import Canon, divided, lowest_terms
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero import is_proved_zero
@@ -112,7 +111,7 @@ def _completed(
     slope = whole.derivative(place)
     lead = slope.derivative(place)
     discriminant = canon.reduce(slope * slope - 2 * lead * whole)
-    content = canon.one * _square_content(discriminant)
+    content = canon.unit * _square_content(discriminant)
     root = prod((f ** (k // 2) for f, k in canon.factors(discriminant)), start=content)
     radicand = divided(discriminant, root * root)
     common = slope.gcd(root)

@@ -9,7 +9,7 @@ from typing import Any
 
 from flint import fmpq
 
-from dofkit.exact.errors import NoValueError
+from dofkit.base.errors import NoValueError
 from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring

@@ -11,8 +11,8 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
 from dofkit.base.deadline import check
+from dofkit.base.errors import NoValueError
 from dofkit.exact.analyticity import is_analytic
-from dofkit.exact.errors import NoValueError
 from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex

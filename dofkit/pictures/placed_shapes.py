@@ -1,0 +1,264 @@
+"""The shapes that a scene's `picture` places: how each looks, and where it is at given values of the coordinates.
+
+What moves is carried by a carrier of its own: a disc, ball or box by a frame, the ends of a rod by a place each.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Mapping
+from fractions import Fraction
+from itertools import product
+from typing import NamedTuple
+
+import numpy as np
+
+from dofkit.expressions.calculus import substitute
+from dofkit.expressions.tree import Expr, num
+from dofkit.expressions.vectors import Vec
+from dofkit.pictures.evaluation import Values, evaluated
+from dofkit.pictures.shapes import (
+    SQUARE,
+    Array,
+    Displacement,
+    Kind,
+    Role,
+    Shape,
+    Vertex,
+    about,
+    circle,
+    fixed,
+    place,
+)
+from dofkit.scene.picture import PlacedPicture, PlacedShape
+from dofkit.system import GROUND
+
+#: Points of a curve that rests and of one that moves, lines of a surface in each direction and their points, corners
+#: of a disc, strokes of the ground.
+CURVE, MOVING_CURVE, MESH, MESH_POINTS, RIM, STROKES = 61, 15, 9, 25, 40, 12
+#: Shapes that are one line or dot: its kind and role, and its size in symbols where no radius is given.
+_LINES: Mapping[str, tuple[Kind, Role, float]] = {
+    "rod": ("line", "bar", 0.0), "string": ("line", "rope", 0.0), "spring": ("coil", "force", 0.8),
+    "arrow": ("arrow", "arrow", 0.8), "point": ("ball", "point", 0.42), "curve": ("line", "guide", 0.0),
+}  # fmt: skip
+#: The sides of the ground, of axes and of a blade whose size is not given.
+SIDE, AXIS, BLADE = 4.0, 1.0, 0.8
+
+
+class ShapePlacement(NamedTuple):
+    """Where a carrier is: a place, and in space its axis or heading, and its turn about that."""
+
+    at: Vec
+    axis: Vec | None = None
+    heading: Expr | None = None
+    turn: Expr | None = None
+    #: Whether a heading is that of a wheel that stands upright in space.
+    upright: bool = False
+
+    @property
+    def moves(self) -> bool:
+        """Whether it depends on coordinates or time."""
+        exprs = [*self.at, *(self.axis or ()), *(e for e in (self.heading, self.turn) if e is not None)]
+        return any(s.args[0] in ("coordinate", "time") for e in exprs for s in e.symbols)
+
+    def pose(self, values: Values) -> Displacement:
+        """Return the displacement of the carrier, whose own frame has its axis along z and its mark along y."""
+
+        def number(e: Expr | None) -> float:
+            return 0.0 if e is None else float(evaluated(e, values))
+
+        shift = np.array(place(number(e) for e in self.at))
+        heading, turn = number(self.heading), number(self.turn)
+        if self.axis is not None and len(self.axis) == 3:
+            across = np.array([number(e) for e in self.axis])
+        elif self.upright and self.heading is not None:
+            across = np.array([-math.sin(heading), math.cos(heading), 0.0])
+        else:
+            return Displacement(about(2, heading + turn), shift)
+        return Displacement(_frame(across) @ about(2, turn), shift)
+
+
+def _frame(across: Array) -> Array:
+    """Return a rotation that takes z to a direction, with y as far upwards as that leaves."""
+    size = float(np.linalg.norm(across))
+    normal = across / size if size > 1e-12 else np.array([0.0, 0.0, 1.0])
+    up = np.array([0.0, 0.0, 1.0]) - normal[2] * normal
+    up = up / np.linalg.norm(up) if np.linalg.norm(up) > 1e-6 else np.array([0.0, 1.0, 0.0])
+    return np.column_stack([np.cross(up, normal), up, normal])
+
+
+def placements_of(picture: PlacedPicture) -> Mapping[str, ShapePlacement]:
+    """Return the placements of everything in a picture, by the names of their carriers."""
+    placements: dict[str, ShapePlacement] = {}
+    for k, shape in enumerate(picture.shapes):
+        for j, at in enumerate(_sampled(shape)):
+            upright = picture.dimension == 3 and shape.kind in ("disc", "wheel")
+            placements[_carrier(k, j)] = ShapePlacement(at, shape.axis, shape.heading, shape.turn, upright)
+    return placements
+
+
+def _carrier(shape: int, number: int) -> str:
+    return f"shape {shape}.{number}"
+
+
+def _sampled(shape: PlacedShape) -> Iterator[Vec]:
+    """Yield the places of a shape; of a curve and a surface, points along it."""
+    if not shape.range:
+        yield from shape.places
+        return
+    ends = [e for _, low, high in shape.range for e in (low, high)]
+    moves = ShapePlacement((*shape.places[0], *ends)).moves
+    for fractions in _grid(len(shape.range), MOVING_CURVE if moves else CURVE):
+        values = {
+            s: low + num(part) * (high - low) for (s, low, high), part in zip(shape.range, fractions, strict=True)
+        }
+        yield tuple(substitute(e, values) for e in shape.places[0])
+
+
+def _grid(count: int, points: int) -> Iterator[tuple[Fraction, ...]]:
+    """Yield where points of a curve are between its ends, or those of the lines of a surface."""
+    if count == 1:
+        yield from ((part,) for part in _fractions(points))
+        return
+    for line, along in product(_fractions(MESH), _fractions(MESH_POINTS)):
+        yield line, along
+    for line, along in product(_fractions(MESH), _fractions(MESH_POINTS)):
+        yield along, line
+
+
+def _fractions(count: int) -> list[Fraction]:
+    return [Fraction(k, count - 1) for k in range(count)]
+
+
+def picture_shapes(picture: PlacedPicture, values: Values, unit: float) -> Iterator[Shape]:
+    """Yield the shapes of a picture; ``unit``: the size of symbols."""
+    placements = placements_of(picture)
+    for k, shape in enumerate(picture.shapes):
+        drawn = list(_Drawing(k, shape, picture.dimension, placements, values, unit).shapes())
+        yield from drawn
+        if shape.name and shape.kind not in ("text", "axes") and drawn:
+            yield Shape("words", drawn[0].vertices, "name", owner=shape.name, text=shape.name)
+
+
+class _Drawing(NamedTuple):
+    """One shape with what is needed to draw it."""
+
+    number: int
+    shape: PlacedShape
+    dimension: int
+    placements: Mapping[str, ShapePlacement]
+    values: Values
+    unit: float
+
+    def shapes(self) -> Iterator[Shape]:
+        """Yield what is drawn of the shape."""
+        shape = self.shape
+        if shape.kind in _LINES:
+            kind, role, size = _LINES[shape.kind]
+            yield self._made(kind, self._places(), role, self._value(shape.radius, size * self.unit))
+        elif shape.kind == "surface":
+            places = self._places()
+            for start in range(0, len(places), MESH_POINTS):
+                yield self._made("line", places[start : start + MESH_POINTS], "mesh")
+        elif shape.kind == "text":
+            yield Shape("words", self._places(), "name", owner=shape.name, text=shape.name)
+        elif shape.kind == "ball":
+            yield self._made("ball", self._in_frame([(0, 0, 0)]), "body", self._value(shape.radius, 1.0))
+        elif shape.kind in ("disc", "wheel"):
+            yield from self._round(self._value(shape.radius, 1.0))
+        elif shape.kind == "axes":
+            yield from self._axes()
+        elif shape.kind == "plane":
+            yield from self._ground(self._sizes(1, SIDE)[0] / 2)
+        elif shape.kind == "box":
+            yield from self._box()
+        else:
+            yield from self._blade(self._sizes(1, BLADE)[0] / 2)
+
+    def _made(self, kind: Kind, vertices: tuple[Vertex, ...], role: Role, size: float = 0.0) -> Shape:
+        moves = any(v.carrier != GROUND for v in vertices)
+        return Shape(kind, vertices, role, "moving" if moves else "plain", self.shape.name, size)
+
+    def _value(self, e: Expr | None, default: float) -> float:
+        return default if e is None else float(evaluated(e, self.values))
+
+    def _sizes(self, count: int, default: float) -> list[float]:
+        sizes = [self._value(e, default) for e in self.shape.size] or [default]
+        return [*sizes, *[sizes[-1]] * count][:count]
+
+    def _places(self) -> tuple[Vertex, ...]:
+        carriers = (_carrier(self.number, j) for j in range(len(self.placements)))
+        return tuple(self._vertex(c, (0, 0, 0)) for c in carriers if c in self.placements)
+
+    def _in_frame(self, points: Iterable[Iterable[float]]) -> tuple[Vertex, ...]:
+        carrier = _carrier(self.number, 0)
+        return tuple(self._vertex(carrier, p) for p in points)
+
+    def _vertex(self, carrier: str, at: Iterable[float]) -> Vertex:
+        """Return a point of a carrier, fixed in the world where the carrier never moves."""
+        placement = self.placements[carrier]
+        if placement.moves:
+            return Vertex(carrier, place(at))
+        return fixed(placement.pose(self.values).moved(place(at)))[0]
+
+    def _round(self, radius: float) -> Iterator[Shape]:
+        yield self._made("area", self._in_frame(radius * circle(RIM)), "body")
+        if self.shape.kind == "disc":
+            yield self._made("line", self._in_frame([(0, 0, 0), (0, radius, 0)]), "guide")
+            yield self._made("ball", self._in_frame([(0, 0.86 * radius, 0)]), "point", 0.09 * radius)
+            return
+        for spoke in radius * circle(6)[:3]:
+            yield self._made("line", self._in_frame([spoke, -spoke]), "guide")
+        yield self._made("ball", self._in_frame([(0, 0, 0)]), "joint", 0.14 * radius)
+
+    def _axes(self) -> Iterator[Shape]:
+        origin = self._in_frame([(0, 0, 0)]) if self.shape.places else fixed((0.0, 0.0, 0.0))
+        for way, letter in zip(self._sizes(1, AXIS)[0] * np.eye(3)[: self.dimension], "xyz", strict=False):
+            tip = self._in_frame([way]) if self.shape.places else fixed(way)
+            yield self._made("arrow", (*origin, *tip), "axis", self.unit)
+            yield Shape("words", tip, "name", text=letter)
+
+    def _ground(self, half: float) -> Iterator[Shape]:
+        """Yield the ground: in the plane a line with strokes on the side that its axis turns away from."""
+        if self.dimension == 3:
+            yield self._made("area", self._in_frame([(half * x, half * y, 0) for x, y in SQUARE]), "plane")
+            return
+        up = np.array(place(self._value(e, 0.0) for e in self.shape.axis or ())) if self.shape.axis else np.eye(3)[1]
+        up = up / max(float(np.linalg.norm(up)), 1e-12)
+        along = half * np.array([up[1], -up[0], 0.0])
+        yield self._made("line", self._in_frame([-along, along]), "ground")
+        for part in np.linspace(-1, 1, STROKES):
+            foot = part * along - 0.9 * self.unit * (up + along / max(half, 1e-12))
+            yield self._made("line", self._in_frame([part * along, foot]), "hatch")
+
+    def _box(self) -> Iterator[Shape]:
+        half = np.array(self._sizes(3, 1.0)) / 2
+        for face in [[(x, y, 0) for x, y in SQUARE]] if self.dimension == 2 else faces(np.ones(3)):
+            yield self._made("area", self._in_frame([half * corner for corner in np.array(face)]), "body")
+
+    def _blade(self, half: float) -> Iterator[Shape]:
+        wide = half / 5
+        if self.dimension == 2:
+            rim = [
+                (-half, 0.0),
+                (-half / 2, -wide),
+                (half / 2, -wide),
+                (half, 0.0),
+                (half / 2, wide),
+                (-half / 2, wide),
+            ]
+        else:
+            rim = [(-half, half / 2), (-0.7 * half, 0.0), (0.7 * half, 0.0), (half, half / 2)]
+            upright = [(along, 0.0, up) for along, up in rim]
+            yield self._made("area", self._in_frame(upright), "body")
+            return
+        yield self._made("area", self._in_frame(rim), "body")
+
+
+def faces(half: Array) -> list[list[Array]]:
+    """Return the faces of a box about the origin."""
+    return [
+        [np.insert(np.array(corner), axis, side) * half for corner in SQUARE]
+        for axis in range(3)
+        for side in (-1.0, 1.0)
+    ]
