@@ -27,6 +27,9 @@ GC_THRESHOLD = (200_000, 20, 20)
 CALLS = 64
 OUT_OF_TIME = "the time allowed for the scene was used up"
 
+#: Seconds of processor time of this thread; of the clock on a platform that does not count them (WebAssembly).
+thread_time: Callable[[], float] = getattr(time, "thread_time", time.monotonic)
+
 T = TypeVar("T")
 _until: ContextVar[float] = ContextVar("until", default=float("inf"))
 _clock: ContextVar[Callable[[], float] | None] = ContextVar("clock", default=None)
@@ -63,7 +66,7 @@ def by_processor(seconds: float) -> Iterator[None]:
 
     Limits within the block are counted so too, so that the same work ends at the same place.
     """
-    clock, token = _clock.set(time.thread_time), _until.set(time.thread_time() + seconds)
+    clock, token = _clock.set(thread_time), _until.set(thread_time() + seconds)
     try:
         yield
     finally:

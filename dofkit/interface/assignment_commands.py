@@ -64,6 +64,27 @@ def handout(
     typer.echo(target)
 
 
+@assignment_app.command("practice")
+def practice(
+    assignment: options.Assignment,
+    out: Annotated[Path, typer.Option("--out", metavar="FOLDER", callback=options.folder, help="The folder to write.")],
+    bench: Annotated[
+        Path | None,
+        typer.Option("--bench", metavar="FOLDER", help="A bench as the site has it; by default that of this clone."),
+    ] = None,
+) -> None:
+    """Write a practice sheet: a static page that reads answers as they are typed, and judges them on request.
+
+    Nothing is handed in and nothing leaves the browser. Whoever reads the source of the page can find the key.
+    """
+    from dofkit.homework.assignment import load_assignment
+    from dofkit.homework.handout.page_sheets import BENCH, write_practice
+
+    with failures_of(assignment):
+        write_practice(load_assignment(assignment), drawing(), out, bench or BENCH)
+    typer.echo(out / "index.html")
+
+
 @assignment_app.command("template")
 def template(
     assignment: options.Assignment,

@@ -164,12 +164,25 @@ _HEAD = re.compile(r"^\| key .*\n\|[-| ]+\|\n", re.MULTILINE)
 _ROW = re.compile(r"^\| `(\w+)` \|([^|]+)\|([^|]+)\|(.+)\|([^|]+)\|$", re.MULTILINE)
 
 
-def readme_page(readme: str) -> SitePage:
-    """Return the first page: the README, with its links as the site has them.
+#: A small bench, which is loaded when it is opened.
+_SMALL_BENCH = """
+<details class="bench">
+<summary>Try it: change the disc in the bench, here in your browser</summary>
+<iframe src="bench/index.html?embed#example=disc-rolling-on-plane" title="The bench" loading="lazy"></iframe>
+</details>
+
+## Install
+"""
+
+
+def readme_page(readme: str, has_bench: bool = False) -> SitePage:
+    """Return the first page: the README, with its links as the site has them, and with a small bench if there is one.
 
     >>> readme_page("[how](dofkit/site/pages/tutorial.md) and [why](dofkit/THEOREMS.md)").text
     '[how](tutorial.md) and [why](about/theorems.md)'
     """
+    if has_bench:
+        readme = readme.replace("\n## Install\n", _SMALL_BENCH, 1)
     return SitePage(
         "index.md", readme.replace("](dofkit/site/pages/", "](").replace("](dofkit/THEOREMS.md)", f"]({THEOREMS})")
     )

@@ -30,7 +30,7 @@ TOLD = [
 #: Whose sentences stand among other texts.
 SHOWN = [
     *(ROOM / "formats").glob("*.py"),
-    *(ROOM / name for name in ("autograder.py", "grading.py", "runs/batch.py")),
+    *(ROOM / name for name in ("autograder.py", "grading.py", "runs/batch.py", "handout/page_sheets.py")),
 ]
 STUDENT_PAGE = ROOM / "formats" / "templates" / "student.html"
 #: Calls whose texts are for lecturers, or are no sentences.

@@ -19,7 +19,7 @@ from dofkit.report import Report
 HOME = Path(dofkit.methods.__file__).parent
 #: Modules of the package that are no method.
 SHARED = {
-    "__init__", "as_written", "ask", "classify", "stages", "table",
+    "__init__", "as_written", "ask", "classify", "stages", "supervised", "table",
 }  # fmt: skip
 RIVALS: tuple[MethodName, ...] = tuple(m for m in METHODS if not METHODS[m].engines)
 #: Rivals that are quick enough for every scene.
