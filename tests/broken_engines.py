@@ -36,8 +36,8 @@ class Bug(NamedTuple):
 BUGS: Mapping[str, Bug] = {
     "rank": Bug(
         "exact/matrices/sparse.py",
-        "return int(nmod_mat([[int(v) for v in row] for row in matrix], p).rank())",
-        "return int(nmod_mat([[int(v) for v in row] for row in matrix[1:]], p).rank())",
+        "return int(residue_matrix([[int(v) for v in row] for row in matrix], p).rank())",
+        "return int(residue_matrix([[int(v) for v in row] for row in matrix[1:]], p).rank())",
         "tests/scenes/textbook/gear-pair.yaml",
     ),
     "rank of sparse rows": Bug(

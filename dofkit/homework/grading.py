@@ -19,7 +19,7 @@ from dofkit.exact.points.balls import PRECISION
 from dofkit.homework.answers.prose import says_nothing
 from dofkit.homework.answers.sources import read_submission
 from dofkit.homework.answers.submission import Submission
-from dofkit.homework.answers.words import in_whole, shown_text
+from dofkit.homework.answers.words import shown_text
 from dofkit.homework.assignment import Prepared, load_assignment
 from dofkit.homework.judgement import (
     FULL,
@@ -151,7 +151,7 @@ class Grader:
     def _decided(self, problem: Problem, question: QuestionBase, decision: Decision, answer: Given) -> Item:
         """An answer with the points that a person gave it."""
         share = decision.points / question.points if question.points else FULL
-        judgement = partly(share, "", decision.remark or "A person has reviewed this answer.")
+        judgement = partly(share, "", why=decision.remark or "A person has reviewed this answer.")
         item = self._item(problem, question, judgement, answer)
         return item.model_copy(update={"score": float(decision.points), "decided_by": decision.by})
 
@@ -192,20 +192,20 @@ class Grader:
         except DoubtError as error:
             return replace(needs_review("", error.message), certain=False)
         except TextError as error:
-            return self._unread(error, question, answer, key)
+            return self._unread(error, answer)
         understood, certain = shown_text_of(readings), all(way.certain for way in readings)
         try:
             judgement = verdict(readings, lambda reading: question.judged(reading, key, earlier))
         except DoubtError as error:
             judgement = needs_review(understood, error.message)
         except TextError as error:  # no scene can hold what it says
-            return self._unread(error, question, answer, key)
+            return self._unread(error, answer)
         several = len({way.text for way in readings}) > 1
         return replace(judgement, read_as=understood, certain=certain and not several)
 
-    def _unread(self, error: TextError, question: QuestionBase, answer: Given, key: Key) -> Judgement:
-        """Return that an answer could not be read, and where."""
-        judgement = unreadable(in_whole(answer, error, lambda part: question.read(part, key.declared)))
+    def _unread(self, error: TextError, answer: Given) -> Judgement:
+        """Return that an answer could not be read, and where; of a list no place is known."""
+        judgement = unreadable(error if isinstance(answer, str) else TextError(error.message, 1, error.hint))
         return judgement if self.prepared.assignment.unreadable == "review" else replace(judgement, share=NOTHING)
 
     def _item(

@@ -13,7 +13,6 @@ from pydantic import TypeAdapter
 
 from dofkit.homework.assignment import Prepared
 from dofkit.homework.key.key import Key
-from dofkit.homework.key.own_coordinates import polar_angles
 from dofkit.homework.questions import AnyQuestion
 from dofkit.scene.reading import load
 
@@ -42,9 +41,7 @@ def starting(sources: Sequence[str], every: bool = False) -> str:
         name = _unused(scene.name or Path(source).stem, [p["id"] for p in problems])
         key = Key(scene)
         asked = list(questions(key)) if every else list(best_questions(key))
-        angles = polar_angles(key)
-        also = {"also": angles} if angles else {}
-        problems.append({"id": name, **title, "scene": source, **also, "questions": asked})
+        problems.append({"id": name, **title, "scene": source, "questions": asked})
     assignment = {"title": "Assignment", "convention": "configuration", "problems": problems}
     return yaml.safe_dump(assignment, sort_keys=False, allow_unicode=True, width=110)
 

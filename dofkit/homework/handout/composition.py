@@ -36,11 +36,15 @@ _FREEDOM = {
 
 @dataclass(frozen=True)
 class SheetComposer:
-    """Writes one sheet; ``figures``: the pictures by problem; ``whose``: the student, where it is one student's."""
+    """Writes one sheet; ``figures``: the pictures by problem; ``whose``: the student, where it is one student's.
+
+    ``has_fields``: answers are written into the page itself, not into a file.
+    """
 
     prepared: Prepared
     figures: dict[str, SheetFigure]
     whose: str | None = None
+    has_fields: bool = False
 
     @property
     def language(self) -> Language:
@@ -145,11 +149,13 @@ class SheetComposer:
         kinds = {question.kind(): type(question) for question in asked}
         if {"dof", "k"} & set(kinds):
             yield self._text(_FREEDOM[self.prepared.assignment.convention])
-        (first, question), *_ = self.prepared.columns().values()
-        yield self._text(
-            "Submit a file such as answers.yaml with a line for each answer, as in {line}, or a filled-in template.",
-            line=f"`{first}.{question}: ...`",
-        )
+        if not self.has_fields:
+            (first, question), *_ = self.prepared.columns().values()
+            yield self._text(
+                "Submit a file such as answers.yaml with a line for each answer, as in {line}, or a filled-in "
+                "template.",
+                line=f"`{first}.{question}: ...`",
+            )
         for cls in kinds.values():
             example = safe_example(self.prepared, cls)
             lead = self._text("Example (for a different system):")

@@ -96,14 +96,9 @@ class IntegralQuestion(QuestionBase):
         if reading.value is None:
             if entry.holonomic is None:
                 return needs_review("none", "it is not known whether the constraint is integrable.")
-            hint = "The constraint is integrable, on its own or together with the other constraints."
-            return wrong("none", hint, "INTEGRABLE") if entry.holonomic else right("none")
+            return wrong("none", "INTEGRABLE") if entry.holonomic else right("none")
         if entry.holonomic is False:
-            return wrong(
-                reading.text,
-                ("This is not an integral of the constraint: its differential is a different condition."),
-                "NOT_INTEGRABLE",
-            )
+            return wrong(reading.text, "NOT_INTEGRABLE")
         return integral_judgement(reading.value, key, self.constraint)
 
 

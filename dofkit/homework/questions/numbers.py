@@ -86,13 +86,12 @@ class NumberQuestion(QuestionBase):
             return needs_review(text, "the correct number is not known for certain.")
         if amount == truth:
             return right(text)
-        codes, hint = explain(amount, self.kind(), key)
+        codes = explain(amount, self.kind(), key)
         if amount in set(self.consequences(key, earlier)):
-            why = "This is consistent with your earlier answer, which is wrong: half of the points."
-            return partly(HALF, text, why, CARRIED, *codes)
+            return partly(HALF, text, CARRIED, *codes)
         if amount == self.other(key):
-            return wrong(text, self.clash(key), OTHER_CONVENTION, *codes)
-        return wrong(text, hint or self.advice(key), *codes)
+            return wrong(text, OTHER_CONVENTION, *codes, why=self.clash(key))
+        return wrong(text, *codes, why="" if codes else self.advice(key))
 
 
 class Dof(NumberQuestion):
