@@ -128,13 +128,13 @@ class LoopSampler:
 
 def _independent_columns(basis: Array, plain: int) -> list[int]:
     """Return as many independent columns as there are rows: of the first ``plain`` ones where that is possible."""
-    rest, columns = basis.copy(), []
+    remainder, columns = basis.copy(), []
     for _ in range(len(basis)):
-        sizes = np.linalg.norm(rest, axis=0)
+        sizes = np.linalg.norm(remainder, axis=0)
         column = int(np.argmax(sizes[:plain])) if plain else 0
         if not plain or sizes[column] < LEAST * np.max(sizes):
             column = int(np.argmax(sizes))
-        direction = rest[:, column] / sizes[column]
-        rest = rest - np.outer(direction, direction @ rest)
+        direction = remainder[:, column] / sizes[column]
+        remainder = remainder - np.outer(direction, direction @ remainder)
         columns.append(column)
     return sorted(columns)
