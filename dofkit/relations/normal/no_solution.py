@@ -1,8 +1,8 @@
 """Relations without a real solution: a proof by exclusion.
 
 Space is cut into boxes; a box is excluded where interval evaluation of the relations leaves nothing [Moore1966]. If
-every box is excluded there is no solution. So there is none where a polynomial in the generators of the relations has
-no real zero that vanishes where they do: linear combinations and resultants are tried.
+every box is excluded there is no solution. Two descriptions of the same set are tried: the relations as written, and
+polynomials in their generators with linear combinations and resultants of these.
 """
 
 from __future__ import annotations
@@ -13,16 +13,16 @@ from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from functools import lru_cache
 from itertools import combinations, islice
-from typing import Any
+from typing import Any, NamedTuple
 
-from flint import ctx, fmpq_mat, fmpz_poly
+from flint import arb, ctx, fmpq_mat, fmpz_poly
 
 from dofkit.base.deadline import OutOfTimeError, check
 from dofkit.base.errors import NoValueError, PoleError
-from dofkit.exact.boxes import NON_NEGATIVE, WHOLE, Box, BoxProgram, EmptyError, Interval, middle
+from dofkit.exact.boxes import NON_NEGATIVE, UNIT, WHOLE, Box, BoxProgram, EmptyError, Interval, bounds, middle
 from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.canonical import Canon
-from dofkit.exact.ring.program import values
+from dofkit.exact.ring.program import Var, values
 from dofkit.exact.ring.radicals import known_signs
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero import is_proved_zero
@@ -60,7 +60,11 @@ def no_solution(relations: Sequence[Expr], positive: frozenset[Expr], conditions
     with ctx.workprec(BITS):
         try:
             soon = _excluded(wanted, ranges, SOON)
-            return bool(soon or (soon is None and (_contradict(relations, positive) or _excluded(wanted, ranges))))
+            system = None if soon else _system(relations, positive)
+            excluded = _excluded(wanted, ranges) if soon is None else soon
+            return bool(excluded or (excluded is None and system is not None and _is_excluded(system)))
+        except EmptyError:
+            return True
         except NoValueError:
             return False
 
@@ -115,9 +119,17 @@ def _widest(box: Box) -> int | None:
     return best
 
 
-# Polynomials in the generators
+# -- polynomials in the generators ------------------------------------------------------------------
 
 Poly = Any
+
+
+class PolynomialSystem(NamedTuple):
+    """Polynomials that vanish wherever the relations hold, and the ``ranges`` of the generators."""
+
+    polynomials: tuple[Poly, ...]
+    symbols: tuple[Expr, ...]
+    ranges: Mapping[Expr, Interval]
 
 
 def _faithful(relations: Sequence[Expr], positive: frozenset[Expr]) -> bool:
@@ -136,31 +148,55 @@ def _is_exp(e: Expr) -> bool:
     return e.op == "fn" and e.args[0] in ("exp", "cosh")
 
 
-def _contradict(relations: Sequence[Expr], positive: frozenset[Expr]) -> bool:
-    """Return whether a polynomial that vanishes wherever the relations hold has no real zero."""
+def _system(relations: Sequence[Expr], positive: frozenset[Expr]) -> PolynomialSystem | None:
+    """Polynomials that vanish wherever the relations hold; None where there are none to be had.
+
+    Raises EmptyError where one of them has no real root.
+    """
     try:
-        return _faithful(relations, positive) and _some_without_zeros(relations, positive)
+        return _polynomials(relations, positive) if _faithful(relations, positive) else None
     except NoValueError:
-        return False
+        return None
 
 
-def _some_without_zeros(relations: Sequence[Expr], positive: frozenset[Expr]) -> bool:
-    """Look at numerators in the canonical ring, the generators' relations and linear combinations of both."""
+def _polynomials(relations: Sequence[Expr], positive: frozenset[Expr]) -> PolynomialSystem:
+    """Return numerators in the canonical ring, the generators' relations and linear combinations of both."""
     ring = Ring(relations, positive)
     nodes = [ring.node(e) for e in relations]
     canon = Canon(ring)
-    numerators = [p for node in nodes if (p := canon.quotient(node)[0]) != 0]
+    numerators = [canon.quotient(node)[0] for node in nodes]
+    if any(p == 0 for p in numerators):
+        numerators = [p for p in numerators if p != 0]
     present = {i for p in numerators for i in canon.generators_in(p)}
     numerators += [g for g in canon.relations if not present.isdisjoint(canon.generators_in(g))]
     everything = _resultants(_combined(canon, numerators))
-    return any(_without_real_roots(p) for p in everything) or any(
-        _without_hidden_numbers(canon, p) and never_vanishes(canon.to_expr(p), positive) for p in everything
-    )
+    count = len(ring.vars)
+    symbols = tuple(ex.parameter(f"generator {count - 1 - i}") for i in range(count))
+    ranges = {symbols[count - 1 - v.index]: _range(v, ring) for v in ring.vars}
+    if any(_without_hidden_numbers(canon, p) and never_vanishes(canon.to_expr(p), positive) for p in everything):
+        raise EmptyError
+    if any(_without_real_roots(p) for p in everything):
+        raise EmptyError
+    return PolynomialSystem(tuple(everything), symbols, ranges)
 
 
 def _without_hidden_numbers(canon: Canon, p: Poly) -> bool:
     """No generator is a number of its own: such numbers may be related, and their polynomials hidden zeros."""
     return all(canon.ring.var_expr[i].symbols for i in canon.generators_in(p))
+
+
+def _range(var: Var, ring: Ring) -> Interval:
+    if var.kind in ("cos", "sin", "sign"):
+        return UNIT
+    if var.kind in ("asin", "atan"):
+        return -1.6, 1.6
+    if var.kind == "atan2":
+        return -3.2, 3.2
+    if var.kind == "pi":
+        return bounds(arb.pi())
+    if var.kind == "exp" or (var.kind == "root" and var.degree % 2 == 0):
+        return NON_NEGATIVE
+    return NON_NEGATIVE if var.kind == "symbol" and var.key in ring.positive else WHOLE
 
 
 def _combined(canon: Canon, polynomials: Sequence[Poly]) -> list[Poly]:
@@ -205,8 +241,24 @@ def _without_real_roots(p: Poly) -> bool:
     return all(not root.imag.contains(0) for root, _ in roots)
 
 
+def _is_excluded(system: PolynomialSystem) -> bool:
+    """Return whether every box of the space of the generators is excluded."""
+    return bool(_excluded([(_expression(p, system.symbols), ZERO) for p in system.polynomials], system.ranges))
+
+
+def _expression(p: Poly, symbols: Sequence[Expr]) -> Expr:
+    return ex.add(*(_term(c, m, symbols) for m, c in p.to_dict().items()))
+
+
+def _term(coefficient: Any, exponents: Sequence[int], symbols: Sequence[Expr]) -> Expr:
+    powers = [ex.power(s, ex.num(int(k))) for s, k in zip(symbols, exponents, strict=True) if k]
+    return ex.mul(ex.num(Fraction(int(coefficient.p), int(coefficient.q))), *powers)
+
+
 #: Values that are tried for every symbol, and for all alike.
 _SIMPLE = (ex.ZERO, ex.ONE, ex.MINUS_ONE, ex.TWO, ex.PI, ex.PI * ex.HALF, -ex.PI * ex.HALF)
+#: Functions that are defined and continuous everywhere.
+_TOTAL = frozenset({"sin", "cos", "exp", "sinh", "cosh", "tanh", "atan", "abs"})
 #: Random points, and how far out they lie.
 POINTS, SCALES = 40, (1, 10, 1000, Fraction(1, 1000))
 #: Starts of the search along a slack variable.
@@ -225,7 +277,9 @@ def holds_somewhere(e: Expr, strict: bool, positive: frozenset[Expr]) -> bool | 
         plain = None
     if plain is not None and any(_holds_at(plain, strict, point) for point in _points(plain, positive)):
         return True
-    if never_holds(e, strict, positive) or no_solution([], positive, [e]):
+    if never_holds(e, strict, positive) or _never_by_bounds(e, strict, positive) or no_solution([], positive, [e]):
+        return False
+    if _negative_everywhere(e, positive):
         return False
     return True if plain is not None and _holds_along_slack(plain, strict, positive) else None
 
@@ -262,6 +316,33 @@ def _holds_at(e: Expr, strict: bool, point: dict[Expr, Expr]) -> bool:
         return bool(value > 0) or (not strict and is_proved_zero(there, frozenset()))
     except (NoValueError, ArithmeticError, ValueError):
         return False
+
+
+def _never_by_bounds(e: Expr, strict: bool, positive: frozenset[Expr]) -> bool:
+    """Return whether an upper bound of ``e`` over all of space is below 0, or 0 where > 0 is asked."""
+    try:
+        program = BoxProgram([(e, WHOLE)])
+        box = [NON_NEGATIVE if v in positive else WHOLE for v in program.variables]
+        top = program.forward(box)[e][1]
+    except (EmptyError, NoValueError):
+        return False
+    return top <= 0 if strict else top < 0
+
+
+def _negative_everywhere(e: Expr, positive: frozenset[Expr]) -> bool:
+    """Continuous on all of space, without a zero, and below 0 at one point (the intermediate value theorem)."""
+    if not all(map(_continuous, ex.nodes(e))):
+        return False
+    point = dict.fromkeys(e.symbols, ex.ONE)
+    return _holds_at(-e, True, point) and (never_vanishes(e, positive) or no_solution([e], positive))
+
+
+def _continuous(node: Expr) -> bool:
+    """Return whether an operation is defined and continuous everywhere."""
+    if node.op == "pow":
+        exponent = node.args[1]
+        return exponent.op == "num" and bool(exponent.args[0] > 0) and exponent.args[0].denominator == 1
+    return node.op in ("num", "const", "sym", "add", "mul") or (node.op == "fn" and node.args[0] in _TOTAL)
 
 
 def _holds_along_slack(e: Expr, strict: bool, positive: frozenset[Expr]) -> bool:
