@@ -58,13 +58,15 @@ class FieldVerdict(ReportModel):
 
     ``bound``: for ``probable`` the chance of an error (``2^-40``), for ``numeric`` the ratio that separates zero from
     non-zero. ``about``: ``reference``, the configurations near the reference configuration; ``component``, those near
-    the report's ``witness``; or ``everywhere``. A verdict without an argument cannot be constructed: ValidationError.
+    the report's ``witness``; or ``everywhere``. ``checked``: whether the checker accepted evidence for the field, where
+    a certificate was asked for, else None. A verdict without an argument cannot be constructed: ValidationError.
     """
 
     verdict: Verdict
     argument: ArgumentKey | None = None
     bound: str | None = None
     about: About | None = None
+    checked: bool | None = None
 
     @model_validator(mode="after")
     def _is_founded(self) -> Self:

@@ -30,8 +30,9 @@ TOP = {
 LONGEST_FUNCTION, MOST_PARAMETERS, LONGEST_CLASS, LONGEST_FILE, MOST_METHODS = 40, 6, 200, 400, 20
 #: Heavy, optional, or what nothing but this needs: imported where they are used.
 LATE_IMPORTS = frozenset(
-    {"sympy", "rich", "matplotlib", "distributed", "jinja2", "flint", "mujoco", "typst", "latex2mathml"}
-)
+    {"sympy", "rich", "matplotlib", "distributed", "jinja2", "flint", "mujoco", "typst", "latex2mathml",
+     "dofkit.methods.supervised", "dofkit.methods.certificates.lowering"}
+)  # fmt: skip
 #: Where one bad file or answer must not stop the others, whatever it does.
 CATCH_ALL = frozenset(
     {"base/workers.py", "homework/assignment.py", "homework/grading.py", "interface/answers.py",
@@ -105,7 +106,7 @@ def late_imports() -> Iterator[str]:
         for part in ast.walk(node):
             if isinstance(part, ast.Import | ast.ImportFrom):
                 modules = [part.module or ""] if isinstance(part, ast.ImportFrom) else [a.name for a in part.names]
-                if any(module.split(".")[0] not in LATE_IMPORTS for module in modules):
+                if any(LATE_IMPORTS.isdisjoint({module, module.split(".")[0]}) for module in modules):
                     yield place
 
 

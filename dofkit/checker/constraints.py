@@ -149,7 +149,7 @@ def cam(world: Surroundings, entry: Entry) -> Iterator[Tree]:
     point, frame = world.point(entry["point"]), world.frames[entry["body"]]
     (profile,) = world.between([entry["curve"]], "xy")
     refuse(profile.sign != "=", "a profile is one equation in x and y")
-    yield substituted(profile.tree, dict(zip("xy", frame.own(point.place), strict=True)))
+    yield substituted(profile.tree, dict(zip("xy", frame.in_body_axes(point.place), strict=True)))
 
 
 def link(world: Surroundings, entry: Entry) -> Iterator[Tree]:
@@ -340,5 +340,5 @@ TYPES: dict[str, tuple[Callable[[Surroundings, Entry], Iterator[Tree | Sided]], 
     "slot": (slot, "point body at axis", "23"), "coincident": (coincident, "between", "123"),
     "gear": (gear, "between ratio carrier", "2"), "cam": (cam, "point body curve", "2"),
     "coupling": (coupling, "joints text", "23"),
-    **{name: (partial(joint, keeps=keeps), f"between {own}", where) for name, (keeps, own, where) in JOINTS.items()},
+    **{name: (partial(joint, keeps=keeps), f"between {more}", where) for name, (keeps, more, where) in JOINTS.items()},
 }  # fmt: skip

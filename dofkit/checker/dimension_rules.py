@@ -27,7 +27,7 @@ def bounds(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
         rows = least["minor"]["rows"] if least["rule"] == "family" else None
         other = evidence.accounts(evidence.minor(least["minor"], rows), evidence.equations)
         for row in map(evidence.relation, rows or ()):
-            refuse(row.kind != "finite" or (not row.owner and evidence.is_open(row.left)), "it is no family of poses")
+            refuse(row.kind != "finite" or (not row.owner and evidence.is_open(row.tree)), "it is no family of poses")
         point, lower = other.point, size - len(other.rows)
     refuse(point is not minor.point or above != lower, f"{lower} at least and {above} at most, or of two points")
     verified[f"{path} at"] = evidence.is_about(claim["about"], point)
@@ -205,7 +205,7 @@ def _depend_plainly(evidence: CheckedEvidence, minor: CheckedMinor, others: set[
 
 
 def _is_general(evidence: CheckedEvidence, name: str) -> bool:
-    slopes = (derivative(evidence.relation(name).left, q) for q in evidence.problem.coordinates)
+    slopes = (derivative(evidence.relation(name).tree, q) for q in evidence.problem.coordinates)
     return all(evidence.ring.rational(slope) is not None for slope in slopes) or bool(evidence.own_symbol(name))
 
 
@@ -228,7 +228,7 @@ def generalized_coordinates(evidence: CheckedEvidence, claim: Told, verified: To
     refuse(not whole, "the columns of the minor are not all the other coordinates")
     other = evidence.minor(claim.get("beside", claim["minor"]))
     refuse(other.point is not minor.point or set(other.rows) != set(minor.rows), "another minor is of other rows")
-    held = (evidence.relation(name).left.symbols for name in evidence.finite)
+    held = (evidence.relation(name).tree.symbols for name in evidence.finite)
     still = {q for names in held for q in names if names <= {q}}
     turned = [angles for angles in evidence.problem.turns if angles[1] not in other.columns or {*angles} <= still]
     if turned:
@@ -321,7 +321,7 @@ def _is_analytic(evidence: CheckedEvidence, name: str, graphic: bool) -> bool:
     """Whether a relation is analytic at all places; a form, and what gives no coordinate, up to a denominator."""
     checked = evidence.relation(name)
     quotient = not graphic or checked.kind != "finite"
-    return evidence.has_value_everywhere(checked.left, quotient) and not checked.left.applied
+    return evidence.has_value_everywhere(checked.tree, quotient) and not checked.tree.applied
 
 
 def _is_affine(evidence: CheckedEvidence, name: str) -> bool:
@@ -340,12 +340,12 @@ def _free(evidence: CheckedEvidence, order: list[list[str]], point: CheckedPoint
         sure = evidence.ring.rational(slope) or evidence.is_nowhere_zero(slope)
         gives = sure or (plain and point and not_zero(point.value(slope)))
         refuse(not gives or q + dot == "tdot", f"`{name}` does not give `{q}` everywhere")
-        refuse(not checked.left.symbols.isdisjoint(q + dot for q in later[i + 1 :]), f"`{name}` holds what comes later")
+        refuse(not checked.tree.symbols.isdisjoint(q + dot for q in later[i + 1 :]), f"`{name}` holds what comes later")
         if not dot:
             dependencies[q] = _coordinates(evidence, name, dependencies) - {q}
     return dependencies
 
 
 def _coordinates(evidence: CheckedEvidence, name: str, dependencies: dict[str, frozenset[str]]) -> frozenset[str]:
-    held = evidence.relation(name).left.symbols & set(evidence.problem.coordinates)
+    held = evidence.relation(name).tree.symbols & set(evidence.problem.coordinates)
     return frozenset().union(*(dependencies.get(q, frozenset((q,))) for q in held))

@@ -47,8 +47,8 @@ class CheckedEvidence(CheckedRelations):
 
     def named(self, part: str, name: Any) -> dict[str, Any]:
         """A point, minor, field or cover by its id."""
-        self.effort.spend(len(self.parts[part]))
-        return {entry["id"]: entry for entry in self.parts[part]}[name]
+        self.effort.spend(len(self.entries[part]))
+        return {entry["id"]: entry for entry in self.entries[part]}[name]
 
     def point(self, name: Any) -> CheckedPoint:
         """A point by its id: exact, or certified by interval Newton."""
@@ -73,7 +73,7 @@ class CheckedEvidence(CheckedRelations):
         point = CheckedPoint(entry["id"], exact, functions, self.effort, balls, frozenset(rows))
         if columns:
             radius = evaluated(self.text(entry["radius"]), {}, self.effort)
-            point.settle([self.relation(name).left for name in rows], columns, radius)
+            point.settle([self.relation(name).tree for name in rows], columns, radius)
         for name, sign in self.problem.world.signs.items():
             fits = name not in balls or balls[name] > 0 or (sign != "positive" and not_zero(balls[name]))
             refuse(sign != "real" and not fits, f"the parameter `{name}` is declared {sign}")
@@ -81,11 +81,11 @@ class CheckedEvidence(CheckedRelations):
 
     def holds(self, name: str, point: CheckedPoint) -> bool:
         """Whether a relation is 0 at a point, exactly."""
-        return self.once(("holds", name, point.name), lambda: self.is_zero(self.relation(name).left, point))
+        return self.once(("holds", name, point.name), lambda: self.is_zero(self.relation(name).tree, point))
 
     def is_zero(self, tree: Tree, point: CheckedPoint) -> bool:
         """Whether a tree is 0 at a point: of a row of its box, or in the ring; and its ball holds 0."""
-        row = any(self.known[name].left == tree for name in point.rows)
+        row = any(self.by_name[name].tree == tree for name in point.rows)
         return bool(point.value(tree).contains(0)) and (row or self.ring.vanishes(point.prepared(tree)))
 
     def on_set(self, point: CheckedPoint, names: Iterable[str], states: bool = False) -> None:
@@ -99,12 +99,12 @@ class CheckedEvidence(CheckedRelations):
         states |= not all(self.is_linear(wanted_relation.name) for wanted_relation in wanted)
         for wanted_relation in wanted:
             still = wanted_relation.name in finite
-            for velocity in self.met_by(wanted_relation.left):
+            for velocity in self.met_by(wanted_relation.tree):
                 point.value(self.slope(wanted_relation.name, velocity[:-3]))
-            wrong = still and not_zero(point.value(wanted_relation.left))
+            wrong = still and not_zero(point.value(wanted_relation.tree))
             if states:
                 wrong |= not self.is_zero(
-                    total_derivative(wanted_relation.left, self.variables) if still else wanted_relation.left, point
+                    total_derivative(wanted_relation.tree, self.variables) if still else wanted_relation.tree, point
                 )
             refuse(
                 wrong,
@@ -128,14 +128,14 @@ class CheckedEvidence(CheckedRelations):
     def is_linear(self, name: str) -> bool:
         """Whether a relation is finite, or a linear form in the velocities (dt included)."""
         checked = self.relation(name)
-        linear = self.once(("linear", name), lambda: linear_in(checked.left, self.velocities))
+        linear = self.once(("linear", name), lambda: linear_in(checked.tree, self.velocities))
         return checked.kind != "velocity" or (linear is not None and self.ring.vanishes(linear[1]))
 
     def slope(self, row: str, column: str) -> Tree:
         """The entry of a row: by a coordinate, or by its velocity."""
         checked = self.relation(row)
         name = column if checked.kind == "finite" else column + "dot"
-        return self.once(("slope", row, column), lambda: derivative(checked.left, name))
+        return self.once(("slope", row, column), lambda: derivative(checked.tree, name))
 
     def accounts(self, minor: CheckedMinor, wanted: Collection[str]) -> CheckedMinor:
         """The minor; `CheckError` unless relations hold at its point, and near it wherever its rows do."""
@@ -149,14 +149,14 @@ class CheckedEvidence(CheckedRelations):
         That is so where each has a generic symbol of its own, and where they follow from the rows of a minor.
         """
         finite = [name for name in names if self.relation(name).kind == "finite"]
-        if any(self.is_open(self.relation(name).left) and not self.own_symbol(name) for name in finite):
+        if any(self.is_open(self.relation(name).tree) and not self.own_symbol(name) for name in finite):
             minor = self.accounts(self.minor(claim["minor"]), finite)
             refuse(minor.point is not point, "the minor is not at the point")
 
     def own_symbol(self, name: str, letters: Iterable[str] | None = None) -> str:
         """A generic symbol (or one of ``letters``) of one relation alone, in which it is never stationary."""
-        tree = self.relation(name).left
-        others = frozenset().union(*(other.left.symbols for other in self.problem.relations if other.name != name))
+        tree = self.relation(name).tree
+        others = frozenset().union(*(other.tree.symbols for other in self.problem.relations if other.name != name))
         wanted = self.chosen.intersection(self.problem.world.generic if letters is None else letters) - others
         fit = (other for other in sorted(tree.symbols & wanted) if self.is_nowhere_zero(derivative(tree, other)))
         return next(fit, "") if self.has_value_everywhere(tree) else ""
@@ -182,7 +182,7 @@ class CheckedEvidence(CheckedRelations):
         for name, tree in {**self.problem.reference, **({"t": ZERO} if "t" in point.balls else {})}.items():
             told_here = name in point.exact and self.same(point.prepared(symbol(name)), point.prepared(tree))
             refuse(not told_here, f"`{name}` is not that of the scene's configuration")
-        for equation in (self.relation(name).left for name in self.finite):
+        for equation in (self.relation(name).tree for name in self.finite):
             if self.is_open(equation):
                 self.identity(self.at_reference(equation), ZERO, "a relation at the configuration")
         return "reference"
@@ -217,10 +217,10 @@ def on_row(evidence: CheckedEvidence, row: str, field: VelocityField) -> Tree:
     """What a row says of a field: 0 where the field is tangent to it."""
     checked = evidence.relation(row)
     if checked.kind == "finite":
-        return along(field, checked.left)
+        return along(field, checked.tree)
     slow = not evidence.is_linear(row) and field.get("t", ZERO) != ONE
     refuse(slow, f"`{row}` is not linear in velocities, and the field does not have time go by 1")
-    return substituted(checked.left, {name + "dot": field.get(name, ZERO) for name in evidence.variables})
+    return substituted(checked.tree, {name + "dot": field.get(name, ZERO) for name in evidence.variables})
 
 
 def tangent(evidence: CheckedEvidence, fields: Iterable[VelocityField], rows: Sequence[str]) -> None:
@@ -287,13 +287,13 @@ def take_cover(evidence: CheckedEvidence, name: Any) -> list[str]:
     minor, rows = evidence.minor(cover["minor"]), [row for block in cover["blocks"] for row in block["rows"]]
     once = len(rows) == len(set(rows)) and set(minor.rows) <= set(rows) <= set(evidence.finite)
     for row in rows:
-        tree = evidence.relation(row).left
+        tree = evidence.relation(row).tree
         chosen = "t" in tree.symbols or (evidence.is_open(tree) and not evidence.own_symbol(row))
         refuse(chosen, f"`{row}` holds time, or what the point chose: it may be met for that alone")
     evidence.on_set(minor.point, rows)
     for block in cover["blocks"]:
         fields = [field_named(evidence, field) for field in block["fields"]]
-        held = frozenset().union(*(evidence.relation(row).left.symbols for row in block["rows"]))
+        held = frozenset().union(*(evidence.relation(row).tree.symbols for row in block["rows"]))
         variables = held & set(evidence.problem.coordinates)
         refuse(
             not set(block["columns"]) <= variables or any("t" in field for field in fields), "a column of no coordinate"
@@ -313,7 +313,7 @@ def along_curve(evidence: CheckedEvidence, minor: CheckedMinor, speeds: Told, tr
     the k-th derivative is J q^(k) and a rest without q^(k), by which q^(k) is found.
     """
     refuse(type(order) is not int or not 1 <= order <= HIGHEST_ORDER, "the order of a derivative is small")
-    lefts, moved = [*(evidence.relation(row).left for row in minor.rows), tree], [*minor.columns, *speeds]
+    lefts, moved = [*(evidence.relation(row).tree for row in minor.rows), tree], [*minor.columns, *speeds]
     names, rates = list(moved), dict[str, Any]()
     with ctx.workprec(PRECISION):
         slopes = [[minor.point.value(evidence.slope(row, column)) for column in minor.columns] for row in minor.rows]
@@ -339,7 +339,7 @@ def isolated(evidence: CheckedEvidence, claim: Told) -> CheckedMinor:
     evidence.on_set(minor.point, (*minor.rows, name))
     speeds = {q: minor.point.value(evidence.text(text)) for q, text in claim["speeds"].items()}
     refuse(not speeds.keys() <= {*evidence.problem.coordinates} - {*minor.columns}, "speeds are of free coordinates")
-    value = along_curve(evidence, minor, speeds, evidence.relation(name).left, claim["order"])
+    value = along_curve(evidence, minor, speeds, evidence.relation(name).tree, claim["order"])
     refuse(not not_zero(value), "the zero on the curve is not shown to be isolated")
     return minor
 

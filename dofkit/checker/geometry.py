@@ -116,7 +116,7 @@ class CheckedFrame(NamedTuple):
             return MaterialPoint(self.position, ONE, a)
         return MaterialPoint(tuple(map(add, scaled(self.under, self.position), self.carry(arm))), self.under, a)
 
-    def own(self, a: Vector) -> Vector:
+    def in_body_axes(self, a: Vector) -> Vector:
         """R(theta)^T (a - p): a place of the plane in the body's own coordinates."""
         turn = rotation(2, 0, 1, symbol(list(self.reference)[2]) if self.reference else ZERO)
         return tuple(dot(column, less(a, self.position)) for column in zip(*turn, strict=True))

@@ -124,7 +124,7 @@ class KnownNames:
         word = spelled_out(word)
         return self.words.get(word) or self.moved(word) or (_E if word == "E" else None)
 
-    def parts(self, word: str) -> list[Lexeme]:
+    def factors(self, word: str) -> list[Lexeme]:
         """The factors of a word; an index, a dot and a prime belong to the letter before them."""
         refuse(len(word) > LONGEST_NAME, f"a name of {len(word)} letters is too long")
         if whole := self.meaning(word):
@@ -147,7 +147,7 @@ def tokens_of(text: object, names: KnownNames) -> list[Lexeme]:
         kind = str(match.lastgroup)
         word, touching = match[kind], not match[1]
         if kind == "word":
-            tokens += [part._replace(touching=touching or i > 0) for i, part in enumerate(names.parts(word))]
+            tokens += [part._replace(touching=touching or i > 0) for i, part in enumerate(names.factors(word))]
         elif kind == "number":
             refuse(any(names.words.get(c, _E) != _E for c in "eE" if c in word), f"`{word}` may be a power of ten")
             tokens.append(Lexeme(kind, number(Fraction(word)), word, touching))

@@ -26,7 +26,7 @@ Form = dict[str, Tree]
 EQUATIONS, EVERY = ("finite", "velocity"), ("finite", "velocity", "inequality")
 
 
-def own(evidence: CheckedEvidence, claim: Told, kinds: tuple[str, ...] = EQUATIONS) -> tuple[str, ...]:
+def constraint_relations(evidence: CheckedEvidence, claim: Told, kinds: tuple[str, ...] = EQUATIONS) -> tuple[str, ...]:
     """The relations of the claim's constraint, all of some kinds."""
     names = evidence.owned(claim["owner"], EVERY)
     fits = names and all(evidence.relation(name).kind in kinds for name in names)
@@ -36,13 +36,13 @@ def own(evidence: CheckedEvidence, claim: Told, kinds: tuple[str, ...] = EQUATIO
 
 def by_kind(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     """Relations between coordinates and time are holonomic; inequalities are not, and no independent equations."""
-    own(evidence, claim, (claim["rule"],))
+    constraint_relations(evidence, claim, (claim["rule"],))
     return 0 if claim["field"] == "independent" else claim["rule"] == "finite"
 
 
 def _setting(evidence: CheckedEvidence, claim: Told) -> tuple[str, ...]:
     """The relations that may be used: all, or the constraint's own where it is taken alone."""
-    return own(evidence, claim) if claim["field"] == "holonomic_alone" else evidence.equations
+    return constraint_relations(evidence, claim) if claim["field"] == "holonomic_alone" else evidence.equations
 
 
 def integrable(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
@@ -58,7 +58,7 @@ def integrable(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
     evidence.on_set(point, start)
     if claim["field"] != "holonomic_alone":
         evidence.is_about("here", point)
-    evidence.follow(own(evidence, claim), {*start, *rows}, point, "what keeps its value")
+    evidence.follow(constraint_relations(evidence, claim), {*start, *rows}, point, "what keeps its value")
     return True
 
 
@@ -70,13 +70,13 @@ def bracket(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
     (point, _), name = admissible(evidence, claim, _setting(evidence, claim)), claim["pairs"]
     if claim["field"] != "holonomic_alone":
         evidence.is_about("here", point)
-    forbids = name in own(evidence, claim) and evidence.relation(name).kind == "velocity"
+    forbids = name in constraint_relations(evidence, claim) and evidence.relation(name).kind == "velocity"
     refuse(not forbids, "what the bracket pairs with is no velocity relation of the constraint")
     vector = of_word(evidence, claim["word"], claim["fields"])
     slow = not evidence.is_linear(name) and not evidence.same(point.prepared(vector.get("t", ZERO)), ONE)
     refuse(slow, "the direction does not have time go by 1")
     values = {q + "dot": point.value(vector.get(q, ZERO)) for q in evidence.variables}
-    value = point.value_with(evidence.relation(name).left, values)
+    value = point.value_with(evidence.relation(name).tree, values)
     refuse(not not_zero(value), "the form may be 0 in that direction")
     return False
 
@@ -85,21 +85,23 @@ def form_of(evidence: CheckedEvidence, name: str) -> Form:
     """The coefficients of a relation that is linear in velocities."""
     checked = evidence.relation(name)
     refuse(checked.kind != "velocity" or not evidence.is_linear(name), f"`{name}` is no form")
-    return {v: evidence.slope(name, v) for v in evidence.variables if v + "dot" in checked.left.symbols}
+    return {v: evidence.slope(name, v) for v in evidence.variables if v + "dot" in checked.tree.symbols}
 
 
 def _forms(evidence: CheckedEvidence, claim: Told, single: bool = False) -> dict[str, Form]:
     """The forms of the claim's constraint, by their names; all, or a single one, that is all it says."""
-    names = own(evidence, claim)
+    names = constraint_relations(evidence, claim)
     forms = {name: form_of(evidence, name) for name in names if evidence.relation(name).kind == "velocity"}
     refuse(not forms or (single and len(names) > 1), "there is no form, or several")
     return forms
 
 
-def _part(form: Form, i: str, j: str, k: str = "") -> Tree:
+def exterior_part(form: Form, i: str, j: str, k: str = "") -> Tree:
     """A component of the derivative of a form; of the form times its derivative, where three are named."""
     if k:
-        return add(*(times(form.get(a, ZERO), _part(form, b, c)) for a, b, c in ((i, j, k), (j, k, i), (k, i, j))))
+        return add(
+            *(times(form.get(a, ZERO), exterior_part(form, b, c)) for a, b, c in ((i, j, k), (j, k, i), (k, i, j)))
+        )
     return difference(derivative(form.get(j, ZERO), i), derivative(form.get(i, ZERO), j))
 
 
@@ -110,11 +112,11 @@ def _is_closed(evidence: CheckedEvidence, claim: Told, forms: Collection[Form], 
         for form in forms:
             held = frozenset(form).union(*(part.symbols for part in form.values()))
             for names in combinations([name for name in evidence.variables if name in held], size):
-                evidence.identity(_part(form, *names), ZERO, f"the part for {', '.join(names)}")
+                evidence.identity(exterior_part(form, *names), ZERO, f"the part for {', '.join(names)}")
         return True
     (form,) = forms
     refuse(len(named) != size or not set(named) <= set(evidence.variables), "a form has parts for coordinates and t")
-    refuse(not not_zero(evidence.point(claim["at"]).value(_part(form, *named))), "it may be 0 at the point")
+    refuse(not not_zero(evidence.point(claim["at"]).value(exterior_part(form, *named))), "it may be 0 at the point")
     return False
 
 
@@ -135,21 +137,21 @@ def timeless(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
     One relation that was verified not to integrate is scleronomic where t does not occur.
     """
     catastatic = claim["field"] == "catastatic"
-    names = own(evidence, claim, EQUATIONS if catastatic else EVERY)
+    names = constraint_relations(evidence, claim, EQUATIONS if catastatic else EVERY)
     ones = [evidence.relation(name) for name in claim.get("steps", names)]
     evidence.follow([checked.name for checked in ones], names, None, "the constraint")
     evidence.follow(names, [checked.name for checked in ones], None, "the steps")
     refuse(catastatic and all(checked.kind != "velocity" for checked in ones), "there is no form")
     apart = not catastatic and len(names) == 1 and verified.get(f"holonomic {claim['owner']}") is False
     for checked in ones:
-        mixed = not apart and homogeneous_degree(checked.left, evidence.velocities) is None
+        mixed = not apart and homogeneous_degree(checked.tree, evidence.velocities) is None
         refuse(
             mixed and not evidence.is_linear(checked.name),
             f"`{checked.name}` is no form, or not homogeneous in velocities",
         )
-        refuse(checked.kind == "inequality" and evidence.met_by(checked.left), "an inequality between velocities")
+        refuse(checked.kind == "inequality" and evidence.met_by(checked.tree), "an inequality between velocities")
         for name in ["tdot"] if catastatic else ["t"] if apart else ["t", "tdot"]:
-            evidence.identity(derivative(checked.left, name), ZERO, f"the derivative of `{checked.name}` by {name}")
+            evidence.identity(derivative(checked.tree, name), ZERO, f"the derivative of `{checked.name}` by {name}")
     return True
 
 
@@ -160,10 +162,10 @@ def turns(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
     What is not homogeneous in velocities is not catastatic.
     """
     name, point, catastatic = claim["relation"], evidence.point(claim["at"]), claim["field"] == "catastatic"
-    names, checked = own(evidence, claim, EVERY), evidence.relation(claim["relation"])
+    names, checked = constraint_relations(evidence, claim, EVERY), evidence.relation(claim["relation"])
     plain = len(names) == 1 or all(evidence.relation(other).kind == "finite" for other in names)
     refuse(name not in names or not plain, "the rule `turns` is for one relation of the constraint, or finite ones")
-    turned = derivative(checked.left, "t")
+    turned = derivative(checked.tree, "t")
     if checked.kind == "velocity" and evidence.is_linear(name):
         turned = evidence.slope(name, "t")
         integrates = _has_timed_integral(evidence, claim, verified)
@@ -177,7 +179,7 @@ def turns(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
         held = checked.kind == "finite" or evidence.holds(name, point)
         refuse((catastatic and checked.kind != "velocity") or not held, "it holds no velocities, or is not 0 there")
         slopes = {
-            v: derivative(checked.left, v) for v in sorted(checked.left.symbols.difference(evidence.chosen, ["t"]))
+            v: derivative(checked.tree, v) for v in sorted(checked.tree.symbols.difference(evidence.chosen, ["t"]))
         }
         if catastatic:
             turned = add(*(times(symbol(v), slopes[v]) for v in slopes if v in evidence.velocities))
@@ -205,8 +207,8 @@ def integral(evidence: CheckedEvidence, claim: Told, verified: Told) -> object:
     point, function = evidence.point(claim["at"]), evidence.text(told_integral(evidence, claim["value"]))
     moves = any(not_zero(point.value(derivative(function, v))) for v in evidence.variables)
     refuse(evidence.met_by(function) or not moves, "the integral may be constant near the point")
-    evidence.identity(evidence.relation(claim["step"]).left, function, "the integral of the step")
-    others, whole = [*claim.get("integrals", [])], own(evidence, claim)
+    evidence.identity(evidence.relation(claim["step"]).tree, function, "the integral of the step")
+    others, whole = [*claim.get("integrals", [])], constraint_relations(evidence, claim)
     refuse(set(whole) <= set(evidence.finite), "a holonomic equation has no integral")
     if not others:
         evidence.follow([claim["step"]], {*evidence.finite, *whole}, point, "the constraint")
@@ -231,7 +233,7 @@ def integrable_part(evidence: CheckedEvidence, claim: Told, verified: Told) -> T
     for text, name in zip(part["basis"], steps, strict=True):
         function, checked = told_integral(evidence, text), evidence.relation(name)
         refuse(not checked.leaf, "a relation of the basis is an integral")
-        evidence.identity(evidence.text(function), checked.left, "a relation of the basis as claimed")
+        evidence.identity(evidence.text(function), checked.tree, "a relation of the basis as claimed")
     return part
 
 
@@ -250,14 +252,14 @@ def consistent(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
     """
     point, places = moves(evidence, claim, evidence.equations), claim.get("inequalities", {})
     sided = [relation for relation in evidence.problem.relations if relation.kind == "inequality"]
-    together, moving = claim["path"] == "/feasible", any(evidence.met_by(relation.left) for relation in sided)
+    together, moving = claim["path"] == "/feasible", any(evidence.met_by(relation.tree) for relation in sided)
     refuse(together and (not sided or (moving and claim["rule"] != "regular")), "inequalities, and a regular point")
     if together and moving:
         evidence.on_set(point, evidence.equations, states=True)
     for relation in sided:
         place = point if together else evidence.point(places.get(relation.name, places.get(relation.owner, point.name)))
-        equal_will_do = not relation.strict and not evidence.is_open(relation.left)
-        met = place.value(relation.left) > 0 or (equal_will_do and evidence.holds(relation.name, place))
+        equal_will_do = not relation.strict and not evidence.is_open(relation.tree)
+        met = place.value(relation.tree) > 0 or (equal_will_do and evidence.holds(relation.name, place))
         refuse(not met, f"the inequality `{relation.name}` is not shown to be satisfied at its point")
     return True
 
@@ -269,12 +271,12 @@ def moves(evidence: CheckedEvidence, claim: Told, wanted: Sequence[str]) -> Chec
     point, still = evidence.point(claim["at"]), [name for name in wanted if evidence.relation(name).kind == "finite"]
     evidence.on_set(point, still)
     evidence.settled(point, still, claim)
-    chosen = any(evidence.is_open(evidence.relation(name).left) for name in still)
+    chosen = any(evidence.is_open(evidence.relation(name).tree) for name in still)
     exact = {} if chosen else {name: tree for name, tree in point.exact.items() if name != "t"}
     still_values = {**dict.fromkeys(evidence.velocities, ZERO), "tdot": ONE}
     balls = {rate: point.value(tree) for rate, tree in still_values.items()}
     for name in wanted:
-        equation = evidence.relation(name).left
+        equation = evidence.relation(name).tree
         if name not in still or "t" in equation.symbols:
             for tree in (equation, *(derivative(equation, v) for v in evidence.met_by(equation))):
                 point.value_with(tree, balls)
@@ -300,7 +302,7 @@ def refuted(evidence: CheckedEvidence, refutation: Told, verified: Told, names: 
         fits = name in held and not checked.leaf and (checked.kind == "inequality") == (name in sided)
         whole = fits and evidence.has_value_everywhere(factor)
         refuse(not whole, f"`{name}` is not shown to follow everywhere, or has a cofactor without a value")
-        total.append(times(factor, checked.left))
+        total.append(times(factor, checked.tree))
     evidence.identity(substituted(add(*total), {"tdot": ONE}), ZERO, "what is left over")
     return False
 

@@ -226,7 +226,7 @@ def _leaves(evidence: CheckedEvidence, claim: Told, put: Told, places: Told, lim
             "a cofactor contains velocities, or a holonomic equation depends on others",
         )
         total = add(*(times(tree, limits[name]) for name, tree in factors.items()))
-        evidence.identity(substituted(checked.left, put), total, f"`{checked.name}` where coordinates are put in")
+        evidence.identity(substituted(checked.tree, put), total, f"`{checked.name}` where coordinates are put in")
         used += factors.values()
     if places or limits:
         minor = evidence.minor(claim["minor"])

@@ -118,7 +118,7 @@ class CheckedRelation(NamedTuple):
     name: str
     owner: str
     kind: str
-    left: Tree
+    tree: Tree
     strict: bool = False
     leaf: bool = False
 
@@ -248,7 +248,7 @@ def _reference(
         poses |= {str(q.value): part for q, part in zip(point.over, point.start or (), strict=False)}
     for frame in world.frames.values():
         poses |= frame.reference
-    symbols = frozenset[str]().union(*(relation.left.symbols for relation in relations))
+    symbols = frozenset[str]().union(*(relation.tree.symbols for relation in relations))
     held = {q for q in coordinates if not symbols.isdisjoint((q, f"{q}dot"))} or {*coordinates}
     placed = all(name in drawn or held.isdisjoint(frame.reference) for name, frame in world.frames.items())
     return {q: poses.get(q, ZERO) for q in coordinates} if placed and poses.keys() >= held else {}

@@ -141,10 +141,10 @@ def total_derivative(tree: Tree, names: Sequence[str]) -> Tree:
 class CheckedRelations(CheckedTexts):
     """The relations of the scene and of the steps, each step looked at once."""
 
-    def __init__(self, problem: CheckedProblem, parts: Mapping[str, list[dict[str, Any]]], effort: Effort) -> None:
+    def __init__(self, problem: CheckedProblem, entries: Mapping[str, list[dict[str, Any]]], effort: Effort) -> None:
         super().__init__(problem, effort)
-        self.parts = parts
-        self.known = {relation.name: relation for relation in problem.relations}
+        self.entries = entries
+        self.by_name = {relation.name: relation for relation in problem.relations}
         self.finite, self.moving = self.owned(None, ("finite",)), self.owned(None, ("velocity",))
         self.equations = (*self.finite, *self.moving)
         self.timed = self.holds_time(self.equations)
@@ -155,20 +155,20 @@ class CheckedRelations(CheckedTexts):
     def _take_steps(self) -> None:
         makers = {"rate": self._rate, "implied": self._implied, "integral": self._implied}
         makers["assumed"] = lambda step: (self.text(step["function"]), None)
-        for step in self.parts["relations"]:
+        for step in self.entries["relations"]:
             name, by = step["id"], step.get("by")
             try:
                 of = self.relation(step["of"]) if "of" in step else None
                 wrong = of and (of.kind == "inequality" or (of.leaf and by != "rate"))
                 refuse(wrong, "a step is made from an equation, and of an integral there is a rate and no more")
-                refuse(name in self.known, "a name of this step is taken")
+                refuse(name in self.by_name, "a name of this step is taken")
                 tree, consequence = makers[step["by"]](step)
                 if tree is not None:
                     kind = "velocity" if self.met_by(tree) else "finite"
-                    self.known[name] = CheckedRelation(name, "", kind, tree, leaf=by == "integral")
+                    self.by_name[name] = CheckedRelation(name, "", kind, tree, leaf=by == "integral")
                 self.consequences += [consequence] if consequence else []
             except FAULTS as error:
-                self.faults[name] = f"step `{name[:60]}`: {told(error)}"
+                self.faults[name] = f"step `{name[:60]}`: {fault_text(error)}"
 
     def _implied(self, step: dict[str, Any]) -> tuple[Tree | None, Consequence | None]:
         """h g^k + squares = sum c_i r_i: g is 0 where all r_i are and h is not; what has the rate g keeps its value.
@@ -179,7 +179,7 @@ class CheckedRelations(CheckedTexts):
         """
         leaf, k, squares = step["by"] == "integral", step.get("power", 1), self.squares(step.get("sos", []))
         new = leaf or "function" in step
-        tree = self.text(step["function"]) if new else self.relation(step["of"]).left
+        tree = self.text(step["function"]) if new else self.relation(step["of"]).tree
         sources, substitutions = [self.relation(name) for name in step["c"]], step.get("put", [])
         refuse(
             any(source.leaf or source.kind == "inequality" for source in sources),
@@ -190,10 +190,10 @@ class CheckedRelations(CheckedTexts):
         definite = not step.get("sos") or (k % 2 == 0 and self.is_nowhere_zero(h, True))
         refuse(type(k) is not int or not 1 <= k <= 64 or not definite, "a sum that is 0 where its terms are not")
         change = total_derivative(tree, self.variables) if leaf else tree
-        combination = add(*(times(c, source.left) for c, source in zip(cofactors, sources, strict=True)))
+        combination = add(*(times(c, source.tree) for c, source in zip(cofactors, sources, strict=True)))
         total = add(times(h, power(change, number(k))), squares, negative(combination))
         for name, q in substitutions:
-            source, (slope, total) = self.relation(name), put_in(total, q, self.relation(name).left)
+            source, (slope, total) = self.relation(name), put_in(total, q, self.relation(name).tree)
             refuse(
                 source.kind != "finite" or source.leaf or not self.is_nowhere_zero(slope),
                 f"`{name}` does not give `{q}`",
@@ -210,7 +210,7 @@ class CheckedRelations(CheckedTexts):
         """What is constantly 0, or keeps its value, has the derivative 0."""
         of = self.relation(step["of"])
         refuse(of.kind != "finite", "only a holonomic equation has a rate")
-        return total_derivative(of.left, self.variables), Consequence(step["id"], (of.name,), (), (of.left,))
+        return total_derivative(of.tree, self.variables), Consequence(step["id"], (of.name,), (), (of.tree,))
 
     def owned(self, owner: str | None, kinds: Collection[str] = ("finite", "velocity")) -> tuple[str, ...]:
         """The relations of a constraint, or of all."""
@@ -219,13 +219,13 @@ class CheckedRelations(CheckedTexts):
 
     def holds_time(self, names: Iterable[str]) -> bool:
         """Whether time or dt occurs in a relation."""
-        return any(not {"t", "tdot"}.isdisjoint(self.relation(name).left.symbols) for name in names)
+        return any(not {"t", "tdot"}.isdisjoint(self.relation(name).tree.symbols) for name in names)
 
     def relation(self, name: Any) -> CheckedRelation:
         """A relation by its id."""
-        if name not in self.known:
+        if name not in self.by_name:
             raise CheckError(self.faults.get(str(name).partition(".")[0], f"no relation `{str(name)[:60]}`"))
-        return self.known[name]
+        return self.by_name[name]
 
     def closure(self, start: Iterable[str], point: CheckedPoint | None) -> set[str]:
         """All that holds near a point (or, without one, everywhere) where ``start`` does, by the steps."""
@@ -269,7 +269,7 @@ class CheckedRelations(CheckedTexts):
         return self.once(("met", place, point.name), look)
 
 
-def told(error: Exception) -> str:
+def fault_text(error: Exception) -> str:
     """A fault in one line."""
     expected = isinstance(error, CheckError)
     return str(error)[:200] if expected else f"a field is missing or of another kind ({error!s:.80})"

@@ -33,14 +33,14 @@ class QuotientRing:
     def __init__(self, effort: Effort, symbols: int = 0) -> None:
         self.effort = effort
         self.context = fmpq_mpoly_ctx.get([f"g{i}" for i in range(64 + symbols)], "lex")
-        self.generators, self.one = self.context.gens()[::-1], self.context.constant(1)
+        self.generators, self.unit = self.context.gens()[::-1], self.context.constant(1)
         self.places: dict[Any, int] = {}
         self.rules: dict[int, tuple[int, Any]] = {}
         self.memory: dict[int, tuple[Tree, Quotient]] = {}
 
     def constant(self, value: Fraction | int) -> Quotient:
         """A rational number."""
-        return Quotient(self.context.constant(fmpq(value.numerator, value.denominator)), self.one)
+        return Quotient(self.context.constant(fmpq(value.numerator, value.denominator)), self.unit)
 
     def generator(self, key: Any, order: int = 0, rule: Any = None) -> Quotient:
         """The generator of a key, new or known; its power of an order is the polynomial ``rule``."""
@@ -50,7 +50,7 @@ class QuotientRing:
             raise CheckError("too many functions and symbols")
         if order and place not in self.rules:
             self.rules[place] = order, self.generators[place] ** order - rule
-        return Quotient(self.generators[place], self.one)
+        return Quotient(self.generators[place], self.unit)
 
     def _pay(self, first: Any, second: Any) -> None:
         self.effort.spend(len(first) * len(second) + 1)
@@ -97,7 +97,7 @@ class QuotientRing:
         """A quotient without common factors, where these are found at a moderate price."""
         refuse(below == 0, "a denominator is 0 everywhere")
         if above == 0:
-            return Quotient(above, self.one)
+            return Quotient(above, self.unit)
         if not below.is_constant() and len(above) * len(below) < 20_000:
             self.effort.spend(len(above) * len(below) // 10)
             common = above.gcd(below)
@@ -127,7 +127,7 @@ class QuotientRing:
             return self._number_root(value, order) if value != 0 else u
         size = abs(u.above.leading_coefficient())
         radicand = Quotient(u.above / size, u.below)
-        rule = self._product(radicand.above, repeated(self.one, u.below, order - 1, self._product))
+        rule = self._product(radicand.above, repeated(self.unit, u.below, order - 1, self._product))
         symbol = self.generator(("root", order, self.key(radicand)), order, rule)
         return self.times(Quotient(symbol.above, u.below), self._number_root(size, order))
 

@@ -41,12 +41,12 @@ class Effort:
     """A purse of units of work, the same on every machine: who has spent them all is refused."""
 
     def __init__(self, units: int = MOST_WORK) -> None:
-        self.left = units
+        self.remaining = units
 
     def spend(self, units: int) -> None:
         """Take units out of the purse."""
-        self.left -= units
-        refuse(self.left < 0, "the work that a certificate may cost is used up")
+        self.remaining -= units
+        refuse(self.remaining < 0, "the work that a certificate may cost is used up")
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,7 +14,7 @@ from dofkit.checker.evidence import CheckedEvidence, take_cover
 from dofkit.checker.motion import motion
 from dofkit.checker.problem import CheckedProblem as Problem
 from dofkit.checker.problem import canonical, document_of, read_problem, sha256_of
-from dofkit.checker.relations import FAULTS, told
+from dofkit.checker.relations import FAULTS, fault_text
 from dofkit.checker.trees import CheckError, Effort, refuse
 
 LARGEST_TEXT, MOST_ENTRIES = 20_000_000, 20_000
@@ -88,9 +88,9 @@ def certificate_of(content: Any) -> dict[str, Any]:
 class Verifier:
     """One certificate while it is verified."""
 
-    def __init__(self, document: Any, given: Any, problem: Any = None) -> None:
-        self.document, self.given, self.effort = document, given, Effort()
-        other = given["scene"].get("sha256") != sha256_of(document)
+    def __init__(self, document: Any, certificate: Any, problem: Any = None) -> None:
+        self.document, self.certificate, self.effort = document, certificate, Effort()
+        other = certificate["scene"].get("sha256") != sha256_of(document)
         refuse(other, "the certificate is of another scene, or of this one before it was edited")
         self.problem: Problem = problem or read_problem(document)
         refuse("tolerance" in canonical(document), "what is measured up to a tolerance is not proved")
@@ -100,14 +100,14 @@ class Verifier:
     def evidence(self, cayley: bool) -> CheckedEvidence:
         """The evidence in the plain reading, or with Cayley parameters."""
         if cayley not in self.evidences:
-            bodies = frozenset(self.given["cayley"])
+            bodies = frozenset(self.certificate["cayley"])
             problem = read_problem(self.document, bodies) if cayley else self.problem
-            self.evidences[cayley] = CheckedEvidence(problem, self.given, self.effort)
+            self.evidences[cayley] = CheckedEvidence(problem, self.certificate, self.effort)
         return self.evidences[cayley]
 
     def run(self) -> Verification:
         """Every claim in its order; where the type of a constraint is not known, all are uncovered."""
-        unread, whole, uncovered = self.problem.world.unread, self.given["claims"], self.given["uncovered"]
+        unread, whole, uncovered = self.problem.world.unread, self.certificate["claims"], self.certificate["uncovered"]
         failed, seen, claims = list[dict[str, str]](), set(uncovered), [] if unread else whole
         for claim in claims:
             path, rule = str(claim.get("path"))[:200], str(claim.get("rule"))[:60]
@@ -115,9 +115,9 @@ class Verifier:
                 refuse(path in seen, "the path is claimed twice, or claimed and uncovered")
                 self.check(claim)
             except FAULTS as error:
-                failed.append({"path": path, "rule": rule, "why": told(error)})
+                failed.append({"path": path, "rule": rule, "why": fault_text(error)})
             seen.add(path)
-        name = str(self.given["scene"].get("name", self.document.get("name")))[:200]
+        name = str(self.certificate["scene"].get("name", self.document.get("name")))[:200]
         uncovered = uncovered + [str(claim.get("path"))[:200] for claim in whole if unread]
         return Verification(name, len(whole), len(claims) - len(failed), failed, uncovered)
 

@@ -35,6 +35,7 @@ from dofkit.exact.points.balls import FloatPoint, jacobian
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.points.series import Series
+from dofkit.exact.residues import modulus
 from dofkit.exact.ring.program import values
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
@@ -186,7 +187,7 @@ def needed_along(field: Manifold, other: int) -> list[int]:
     curve = field.line(random_direction(field), ORDER)
     columns = [field.columns[c] for c in field.frame.dependent]
     slopes = curve.slopes([*field.rows, other], columns)
-    p = int(field.sample.modulus())
+    p = modulus(field.sample)
     orders = [[_sparse(row, k) for row in slopes[:-1]] for k in range(ORDER)]
     turned = FactoredMatrix(transposed(orders[0], len(columns)), p)
     multipliers: list[list[int]] = []

@@ -8,7 +8,7 @@ Types
 
 Two engines, each of which can prove one thing (`zero` says which of them may be asked)
     1. *Field*: a random point modulo a prime. A value that is not zero there is not identically zero; one that is
-       zero is identically zero but for a chance that the degree bounds [SchwartzZippel].
+       zero is identically zero but for a chance that the degree bounds [SchwartzZippel]. `residues` are its numbers.
     2. *Balls*: a real point enclosed in a ball. A value whose ball excludes zero is proved not to be zero.
 
 Mechanisms

@@ -7,11 +7,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from flint import nmod, nmod_poly
-
 from dofkit.base.deadline import check
 from dofkit.base.errors import NoValueError, PoleError
 from dofkit.exact.points.field import FieldPoint
+from dofkit.exact.residues import Residue, ResiduePolynomial, modulus, residue, residue_polynomial
 from dofkit.exact.ring.program import ADD, MUL, NUM, POW, VAR, raising_no_value, reachable
 from dofkit.exact.ring.ring import Ring
 
@@ -118,11 +117,11 @@ def root_relations(ring: Ring, relations: list[int]) -> list[int]:
 
 
 @raising_no_value
-def univariate(ring: Ring, node: int, unit: Unit, point: FieldPoint) -> nmod_poly:
+def univariate(ring: Ring, node: int, unit: Unit, point: FieldPoint) -> ResiduePolynomial:
     """Return the numerator of a relation as a polynomial in one unknown. Raises NoValueError."""
     check()
-    x = nmod_poly([0, 1], point.p)
-    constant_one = nmod_poly([1], point.p)
+    x = residue_polynomial([0, 1], point.p)
+    constant_one = residue_polynomial([1], point.p)
     if unit[0] == "angle":
         below = 5 * (constant_one + x * x)
         cos, sin = (Rational(top, below) for top in circle(x, constant_one))
@@ -131,7 +130,9 @@ def univariate(ring: Ring, node: int, unit: Unit, point: FieldPoint) -> nmod_pol
     else:
         pair = {unit[1]: Rational(x, constant_one)}
     result = value_along(ring, node, pair, point)
-    top: nmod_poly = result.numerator() if isinstance(result, Rational) else nmod_poly([result], point.p)
+    top: ResiduePolynomial = (
+        result.numerator() if isinstance(result, Rational) else residue_polynomial([result], point.p)
+    )
     return top
 
 
@@ -169,7 +170,7 @@ def _step(ring: Ring, i: int, values: dict[int, Any], pair: dict[int, Rational],
 def _independent(ring: Ring, index: int, point: FieldPoint) -> Any:
     """Return a generator's value where its argument is not looked at."""
     var = ring.vars[index]
-    value = point.given.get((var.kind, var.key))
+    value = point.values.get((var.kind, var.key))
     if value is not None:
         return value
     if not stands_for_number(ring, index):
@@ -179,19 +180,19 @@ def _independent(ring: Ring, index: int, point: FieldPoint) -> Any:
 
 def is_linear(ring: Ring, node: int, index: int, point: FieldPoint) -> bool:
     """Return whether the relation is a polynomial of degree 1 in a generator. Raises NoValueError."""
-    x, constant_one = nmod_poly([0, 1], point.p), nmod_poly([1], point.p)
+    x, constant_one = residue_polynomial([0, 1], point.p), residue_polynomial([1], point.p)
     result = value_along(ring, node, {index: Rational(x, constant_one)}, point)
     return isinstance(result, Rational) and result.bottom.degree() == 0 and result.top.degree() == 1
 
 
-def roots_of(polynomial: nmod_poly) -> list[nmod]:
+def roots_of(polynomial: ResiduePolynomial) -> list[Residue]:
     """Return the roots of a polynomial over GF(p)."""
     if polynomial.degree() > 1:
         return [root for root, _ in polynomial.roots()]
     if polynomial.degree() < 1:
         return []
-    p = polynomial.modulus()
-    return [-nmod(int(polynomial[0]), p) / nmod(int(polynomial[1]), p)]
+    p = modulus(polynomial)
+    return [-residue(int(polynomial[0]), p) / residue(int(polynomial[1]), p)]
 
 
 def circle(w: Any, unit: Any) -> tuple[Any, Any]:

@@ -223,7 +223,7 @@ def _independent_arguments(ring: Ring, kind: str) -> bool:
     canon = Canon(ring)
     try:
         pairs = [canon.quotient(v.args[0]) for v in moving]
-        below = canon.one
+        below = canon.unit
         for _, bottom in pairs:
             below = below * divided(bottom, below.gcd(bottom))
         rows = [below, *(top * divided(below, bottom) for top, bottom in pairs)]

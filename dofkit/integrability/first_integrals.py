@@ -15,14 +15,13 @@ from fractions import Fraction
 from itertools import combinations_with_replacement, permutations
 from math import isqrt
 
-from flint import nmod, nmod_mat
-
 from dofkit.base.deadline import check
 from dofkit.base.errors import NoValueError
 from dofkit.configuration.variety import free_point
 from dofkit.exact.matrices.sparse import rank_of
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import field_frame, kernel, pairing
+from dofkit.exact.residues import Residue, null_vectors, residue_matrix
 from dofkit.exact.ring.canonical import Canon, Poly, determinant, polynomials, remainder
 from dofkit.exact.ring.program import Scalar, gradient, values
 from dofkit.exact.triangular import TriangularSolver
@@ -85,13 +84,13 @@ class FormSample:
     """A point over GF(p): the functions' values there, their gradients by column, a basis of D, and the rows."""
 
     point: FieldPoint
-    at: list[nmod]
-    gradients: list[dict[int, nmod]]
-    basis: list[list[nmod]]
-    matrix: list[list[nmod]]
-    _products: dict[Monomial, tuple[nmod, list[nmod]]] = field(default_factory=dict)
+    at: list[Residue]
+    gradients: list[dict[int, Residue]]
+    basis: list[list[Residue]]
+    matrix: list[list[Residue]]
+    _products: dict[Monomial, tuple[Residue, list[Residue]]] = field(default_factory=dict)
 
-    def product(self, m: Monomial) -> tuple[nmod, list[nmod]]:
+    def product(self, m: Monomial) -> tuple[Residue, list[Residue]]:
         """Return a product of functions, and its rate along each vector of the basis: (f g)' = f' g + f g'."""
         value_and_rates = self._products.get(m)
         if value_and_rates is None:
@@ -104,7 +103,7 @@ class FormSample:
             self._products[m] = value_and_rates
         return value_and_rates
 
-    def across(self, row: int) -> list[nmod] | None:
+    def across(self, row: int) -> list[Residue] | None:
         """Return a velocity that only ``row`` forbids, or None where the row depends on the others."""
         others = [r for i, r in enumerate(self.matrix) if i != row]
         n, unit = len(self.matrix[row]), self.point.number(Fraction(1))
@@ -142,7 +141,7 @@ class IntegralSearch:
 
     def candidates(self, monomials: Sequence[Monomial]) -> Iterator[Expr]:
         """Yield combinations of products that are constant along D at all points, the simplest first."""
-        equations: list[list[nmod]] = []
+        equations: list[list[Residue]] = []
         number = 0
         while len(equations) < len(monomials) + SPARE:
             sample = self.sample(number)
@@ -152,12 +151,12 @@ class IntegralSearch:
             equations += [list(row) for row in zip(*columns, strict=True)]
             number += 1
         p = self.points[0].point.p
-        for weights in _simplest_first(nmod_mat(equations, p)):
+        for weights in null_vectors(residue_matrix(equations, p)):  # each one's last monomial, from simple to hard
             f = self._combination(monomials, weights, p)
             if f is not None:
                 yield f
 
-    def slope(self, f: Expr, sample: FormSample, v: Sequence[nmod]) -> Scalar:
+    def slope(self, f: Expr, sample: FormSample, v: Sequence[Residue]) -> Scalar:
         """Return df on a vector at a point."""
         return pairing(self._gradient(f, sample), [v])[0]
 
@@ -196,7 +195,7 @@ class IntegralSearch:
                 return True
         return False
 
-    def _gradient(self, f: Expr, sample: FormSample) -> list[nmod]:
+    def _gradient(self, f: Expr, sample: FormSample) -> list[Residue]:
         node, unit = self.ring.node(f), sample.point.number(Fraction(1))
         g = gradient(self.ring, values(self.ring, sample.point), sample.point, [(node, unit)])
         return [g.get(c, unit * 0) for c in self.forms.chart.columns]
@@ -204,7 +203,7 @@ class IntegralSearch:
     def _point(self, seed: int) -> FieldPoint | None:
         return free_point(self.forms.chart, seed) if self.solver is None else self.solver.draw(seed)
 
-    def _combination(self, monomials: Sequence[Monomial], weights: Sequence[nmod], p: int) -> Expr | None:
+    def _combination(self, monomials: Sequence[Monomial], weights: Sequence[Residue], p: int) -> Expr | None:
         """Return the combination with the small fractions that the weights are modulo p, or None if one is none."""
         terms = []
         for m, weight in zip(monomials, weights, strict=True):
@@ -247,25 +246,6 @@ def _sample_at(forms: Codistribution, point: FieldPoint | None) -> FormSample | 
         return FormSample(point, [at[node] for node in ring.var_node], gradients, basis, matrix)
     except NoValueError:
         return None
-
-
-def _simplest_first(equations: nmod_mat) -> Iterator[list[nmod]]:
-    """Yield a basis of the null space by its last monomial, the simplest first.
-
-    Monomials, which are the columns, run from simple to hard; each that depends on those before it is a vector's last.
-    """
-    reduced, rank = equations.rref()
-    rows, kept = reduced.table()[:rank], list[int]()
-    zero, unit = nmod(0, equations.modulus()), nmod(1, equations.modulus())
-    for column in range(equations.ncols()):
-        if len(kept) < rank and rows[len(kept)][column]:
-            kept.append(column)
-            continue
-        weights = [zero] * equations.ncols()
-        weights[column] = unit
-        for row, pivot in zip(rows, kept, strict=False):
-            weights[pivot] = -row[column]
-        yield weights
 
 
 def _rational(value: int, p: int) -> Fraction | None:
@@ -316,7 +296,7 @@ class BorderedMinors:
         row = polynomials(canon, slopes, len(symbols))
         for j in self.frame.free:
             terms = (canon.reduce(row[c] * m) for c, m in self._along(canon, j).items() if row[c] != 0)
-            minor = canon.reduce(sum(terms, canon.one * 0))
+            minor = canon.reduce(sum(terms, canon.unit * 0))
             yield minor if relation is None or minor == 0 else remainder(minor, relation)
 
     def _along(self, canon: Canon, j: int) -> dict[int, Poly]:
@@ -327,7 +307,7 @@ class BorderedMinors:
             cofactors = {}
             for k, c in enumerate(columns):
                 others = [d for d in columns if d != c]
-                minor = determinant(canon, [[row[d] for d in others] for row in rows]) if rows else canon.one
+                minor = determinant(canon, [[row[d] for d in others] for row in rows]) if rows else canon.unit
                 cofactors[c] = -minor if k % 2 else minor
             self._cofactors[j] = cofactors
         return self._cofactors[j]

@@ -7,7 +7,7 @@ for random controls and q' = X_s(q) on the curve, the Lie algebra is spanned by 
 pulled back, V(s) = Psi(s) B(s), Psi' = -Psi S, S = dX/dq (linearised controllability along a generic control
 [SontagCoron1992]). All of it is series in one variable; the brackets found are never too many.
 
-Series of matrices are lists of coefficient matrices; over GF(p) `nmod_mat`, over balls `arb_mat`.
+Series of matrices are lists of coefficient matrices; over GF(p) `ResidueMatrix`, over balls `arb_mat`.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from itertools import chain, pairwise
 from typing import Any
 
-from flint import arb, arb_mat, arb_poly, nmod_mat, nmod_poly
+from flint import arb, arb_mat, arb_poly
 
 from dofkit.base.deadline import affordable, check
 from dofkit.base.errors import NoValueError
@@ -30,6 +30,7 @@ from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import FormRows, field_frame, kernel, rank_over
 from dofkit.exact.points.real_search import RealPoint
 from dofkit.exact.points.series import Series, SeriesPoint, zero_poly
+from dofkit.exact.residues import ResiduePolynomial, modulus, residue_matrix, residue_polynomial
 from dofkit.exact.ring.program import Scalar, gradient, raising_no_value, values
 from dofkit.expressions import tree as ex
 from dofkit.integrability.pfaffian_system import Codistribution
@@ -54,13 +55,13 @@ class PointMatrices:
         """The matrix with the given entries, row by row."""
         if self.modulus is None:
             return arb_mat(rows, columns, list(entries))
-        return nmod_mat(rows, columns, [int(v) for v in entries], self.modulus)
+        return residue_matrix(rows, columns, [int(v) for v in entries], self.modulus)
 
     def polynomial(self, coefficients: Sequence[Scalar]) -> Any:
         """The polynomial in s with the given coefficients."""
         if self.modulus is None:
             return arb_poly(list(coefficients))
-        return nmod_poly([int(v) for v in coefficients], self.modulus)
+        return residue_polynomial([int(v) for v in coefficients], self.modulus)
 
 
 def product_coefficient(a: MatrixSeries, b: MatrixSeries, k: int, first: int = 0) -> Matrix:
@@ -81,7 +82,7 @@ class AdmissibleCurve:
         at = values(rows.ring, base)
         self.sample = at[0] if at else base.number(0)
         self.like = zero_poly(base, self.sample)
-        self.numbers = PointMatrices(self.like.modulus() if isinstance(self.like, nmod_poly) else None)
+        self.numbers = PointMatrices(modulus(self.like) if isinstance(self.like, ResiduePolynomial) else None)
         zero = self.sample * 0
         self.path = [[at[rows.ring.var_node[c]] if c >= 0 else zero] for c in rows.columns]
         self.controls: list[list[Scalar]] = [[] for _ in frame.free]

@@ -382,9 +382,9 @@ def _moving(ring: Ring, point: FieldPoint | BallPoint, moved: dict[Expr, Scalar]
     other = point.copy()
     for var in ring.vars:
         if moves(ring, var.index):
-            other.given.pop((var.kind, var.key), None)
+            other.values.pop((var.kind, var.key), None)
     for s, value in moved.items():
-        other.given["symbol", s] = value
+        other.values["symbol", s] = value
     return other
 
 

@@ -11,8 +11,9 @@ import random
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from operator import mul
 
-from flint import arb, ctx, nmod_mat
+from flint import arb, ctx
 
 from dofkit.base.errors import NoValueError
 from dofkit.base.verdicts import Verdict, weakest
@@ -25,6 +26,7 @@ from dofkit.exact.points.balls import precision
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import field_frame, pairing
 from dofkit.exact.points.real_search import RealPoint
+from dofkit.exact.residues import null_vectors, residue_matrix
 from dofkit.exact.ring.canonical import error_bits
 from dofkit.exact.ring.program import Scalar, values
 from dofkit.exact.zero import independent_on_set, zero_and_verdict
@@ -37,7 +39,7 @@ from dofkit.integrability.pfaffian_system import Codistribution, is_nonzero, lin
 from dofkit.integrability.traits import CurlAtPoint, proof
 from dofkit.relations.answer import Answer, HolonomyLabel
 from dofkit.relations.blocks import Block
-from dofkit.relations.normal.pieces import Finite, Pfaffian, Still, with_constants
+from dofkit.relations.normal.pieces import Finite, Pfaffian
 from dofkit.relations.setting import Setting
 
 #: Lie algebras are certified with balls up to this many columns.
@@ -191,15 +193,9 @@ def _rank_verdict(forms_at_points: SampledForms, proof_of: Certificate | None, s
         return "probable"
     if sampled.span.dimension == n or n - rank <= 1:
         return "proved"
-    constants = {
-        c: ex.parameter(c)
-        for r in forms_at_points.block.forms
-        if isinstance(r.piece, Still)
-        for c in r.piece.coefficients
-    }
-    forms = [p for r in forms_at_points.block.forms if isinstance(p := with_constants(r.piece, constants), Pfaffian)]
+    forms = [r.piece for r in forms_at_points.block.forms if isinstance(r.piece, Pfaffian)]
     wanted = n - sampled.span.dimension - (len(sampled.matrix) - len(forms))
-    flat = forms if constants or wanted > len(forms) else _flat(forms_at_points, forms)
+    flat = forms if wanted > len(forms) else _flat(forms_at_points, forms)
     if wanted > len(flat):
         return "probable"
     return "proved" if sum(proof(f, setting.positive) is not None for f in flat) == wanted else "probable"
@@ -238,10 +234,9 @@ def _modulo_the_others(place: int, sampled: SampledSpan, p: int) -> bool:
     if not others or rank_of(others, p) == rank_of(sampled.matrix, p):
         return False
     vectors = sampled.span.vectors
-    paired = nmod_mat([[int(v) for v in pairing(row, vectors)] for row in others], p)
-    null, nullity = paired.nullspace()
-    pairings = [int(v) for v in pairing(sampled.matrix[place], vectors)]
-    return all(sum(int(null[r, c]) * pairings[r] for r in range(len(pairings))) % p == 0 for c in range(nullity))
+    paired = residue_matrix([[int(v) for v in pairing(row, vectors)] for row in others], p)
+    pairings = pairing(sampled.matrix[place], vectors)
+    return all(sum(map(mul, vector, pairings)) == 0 for vector in null_vectors(paired))
 
 
 def _integrable_names(forms_at_points: SampledForms) -> tuple[str, ...]:
@@ -249,9 +244,7 @@ def _integrable_names(forms_at_points: SampledForms) -> tuple[str, ...]:
     chart, p, spanning = forms_at_points.forms.chart, forms_at_points.point.p, forms_at_points.sampled.span.vectors
     if not spanning:
         return tuple(str(s.args[1]) for s in chart.symbols if s != ex.TIME)
-    vectors = nmod_mat([[int(v) for v in vector] for vector in spanning], p)
-    basis, nullity = vectors.nullspace()
-    rows = [[basis[i, k] for i in range(basis.nrows())] for k in range(nullity)]
+    rows = null_vectors(residue_matrix([[int(v) for v in vector] for vector in spanning], p))
     return dependent_names(sparse(rows), chart, p) if rows else ()
 
 
@@ -355,7 +348,7 @@ def _along(curve: AdmissibleCurve, row: Mapping[int, int], order: int, p: int) -
     """Return the coefficient of an order, along the curve, of a row on each of the admissible fields."""
     total = [0] * len(curve.frame.free)
     for j in range(order + 1):
-        fields: nmod_mat = curve.full_frame[order - j]
+        fields = curve.full_frame[order - j]
         for column, node in row.items():
             factor = int(curve.at[node].coefficient(j))
             total = [t + factor * int(fields[column, f]) for f, t in enumerate(total)] if factor else total

@@ -11,8 +11,8 @@ Types
     settings, a `MethodReply` its answer. `ask` returns a `Reply` with its verdict.
 
 Mechanisms, in the order in which a scene meets them
-    1. `stages` yields a report in which everything is undecided, then the finished one; or the same from a worker
-       process that can be killed.
+    1. `stages` yields a report in which everything is undecided, then the finished one; with a budget `supervised` has
+       it from a worker process that can be killed, where there are processes.
     2. The row's engines classify the scene. A method without engines has a module of its name; of its answers the
        report decides only what its own argument proves, the rest are warnings.
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from dataclasses import replace
 from typing import overload
 
@@ -10,8 +11,7 @@ from dofkit.base.errors import ArgumentError, Fault, SceneError
 from dofkit.base.wording import require_one_of, seconds_of
 from dofkit.classification.study import study
 from dofkit.exact.points.balls import precise_for
-from dofkit.methods.certificates.lowering import with_certificate
-from dofkit.methods.stages import classified, report_from_worker
+from dofkit.methods.stages import classified
 from dofkit.methods.table import METHODS, MethodName
 from dofkit.report import Report
 from dofkit.scene.lowering import lower
@@ -102,19 +102,25 @@ def _all_read(scenes: Scenes) -> list[Scene | System]:
 
 
 def _certified(loaded: Scene | System, budget: float | None, method: MethodName, certificate: bool) -> Report:
-    if certificate and isinstance(loaded, System):
+    if not certificate:
+        return _classified(loaded, budget, method).with_scene(loaded)
+    if isinstance(loaded, System):
         raise ArgumentError("a certificate needs a Scene: a System has no text that the checker could read")
-    report = _classified(loaded, budget, method).with_scene(loaded)
-    return with_certificate(loaded, report) if certificate and isinstance(loaded, Scene) else report
+    from dofkit.methods.certificates.lowering import with_certificate
+
+    return with_certificate(loaded, _classified(loaded, budget, method).with_scene(loaded))
 
 
 def _classified(loaded: Scene | System, budget: float | None, method: MethodName) -> Report:
     if budget is None:
         return classified(loaded, DEFAULT_SECONDS, method)
     seconds = seconds_of(budget)
-    report = report_from_worker(loaded, seconds, method)
-    if report is not None:
-        return report
+    if sys.platform != "emscripten":  # a browser has no processes
+        from dofkit.methods.supervised import report_from_worker
+
+        report = report_from_worker(loaded, seconds, method)
+        if report is not None:
+            return report
     report = classified(loaded, seconds, method)
     return report.model_copy(update={"warnings": [*report.warnings, _UNWATCHED]})
 

@@ -1,24 +1,21 @@
 """A scene classified in stages: first a report in which everything is undecided, then the finished one.
 
-`report_from_worker` does the same in a process that can be killed, and `worker_stages` is what that process runs.
+`supervised` does the same in a process that can be killed.
 """
 
 from __future__ import annotations
 
 import time
 from collections.abc import Iterator, Mapping
-from dataclasses import asdict
 from typing import Any
 
-from dofkit.base.deadline import OUT_OF_TIME, OutOfTimeError, gc_rarely, limit, limited
-from dofkit.base.errors import Fault, PoleError, SceneError
-from dofkit.base.runs import shared
+from dofkit.base.deadline import OUT_OF_TIME, OutOfTimeError, gc_rarely, limited
+from dofkit.base.errors import PoleError
 from dofkit.base.verdicts import OPEN, About, Claim, Verdict, weakest
 from dofkit.base.wording import many
-from dofkit.base.workers import Job, Json
 from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.passes import PASSES, PLAIN, examined
-from dofkit.classification.undecided import open_entry, open_report, sketch, undecided, why_nothing
+from dofkit.classification.undecided import open_entry, open_report, sketch, why_nothing
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
@@ -30,9 +27,6 @@ from dofkit.scene.lowering import lower
 from dofkit.scene.names import names_by_position
 from dofkit.scene.scene import Scene
 from dofkit.system import BODY_ROLES, Constraint, System
-
-#: The function that a worker runs.
-WORKER_STAGES = "dofkit.methods.stages:worker_stages"
 
 
 def stages(scene: Scene | System, seconds: float, method: MethodName = "auto") -> Iterator[Report]:
@@ -104,41 +98,6 @@ def blank(scene: Scene, why: str) -> Report:
         for name, f in zip(names_by_position("f", [f.name for f in scene.forces]), scene.forces, strict=True)
     ]
     return open_report(scene.name, count, [open_entry(c, why) for c in constraints], forces, [why_nothing(why)])
-
-
-# in a worker process
-
-
-def report_from_worker(scene: Scene | System, budget: float, method: MethodName) -> Report | None:
-    """Return the report on a scene from a worker, or None where no process can be started here.
-
-    Raises SceneError with the faults of the scene, RuntimeError where the classification itself fails.
-    """
-    outcome = shared(__name__).run(Job(WORKER_STAGES, (scene, budget, method), limit(budget)))
-    value = outcome.value or {}
-    if "faults" in value:
-        faults = tuple(Fault(**{**fault, "where": tuple(fault["where"])}) for fault in value["faults"])
-        raise SceneError(faults, value["source"])
-    if outcome.ended == "absent":
-        return None
-    if outcome.ended == "failed":
-        error = RuntimeError(f"the classification failed with {outcome.reason}")
-        error.add_note(outcome.trace)
-        raise error
-    if "report" in value:
-        report = Report.model_validate(value["report"])
-        return report if outcome.finished else undecided(report, outcome.reason)
-    return sketch(scene, outcome.reason) if isinstance(scene, System) else blank(scene, outcome.reason)
-
-
-def worker_stages(payload: tuple[Scene | System, float, MethodName]) -> Iterator[Json]:
-    """Yield the stages of a scene's report, in the worker, or the faults of the scene."""
-    scene, budget, method = payload
-    try:
-        for report in stages(scene, budget, method):
-            yield {"report": report.model_dump(mode="json")}
-    except SceneError as error:
-        yield {"faults": [asdict(fault) for fault in error.faults], "source": error.source}
 
 
 #: The questions that a report answers, and how each is called in a warning.
@@ -265,7 +224,7 @@ def without_time(constraint: Constraint) -> bool:
 
 def _without_time(e: Expr) -> bool:
     kinds = {s.args[0] for s in e.symbols}
-    if kinds & {"time", "dt", "acceleration"}:
+    if kinds & {"time", "dt"}:
         return False
     moving = [s for s in e.symbols if s.args[0] in ("velocity", "differential")]
     try:

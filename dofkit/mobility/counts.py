@@ -13,11 +13,10 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
-from flint import nmod_mat
-
 from dofkit.base.libraries import nx
 from dofkit.base.wording import many, verb
 from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows
+from dofkit.exact.residues import null_vectors, residue_matrix
 from dofkit.mobility.placement import TURNS, Located, Member, Placement, rows_of
 from dofkit.report import ConstraintEntry, Count, Mobility
 from dofkit.system import DRIVE, GROUND, System
@@ -181,9 +180,8 @@ def allowed(joint: Located, dimension: int, p: int) -> list[SparseRow]:
 
 def _kernel(rows: Sequence[SparseRow], size: int, p: int) -> list[SparseRow]:
     """Return a basis of the vectors on which few rows modulo p vanish."""
-    matrix = nmod_mat([[row.get(c, 0) for c in range(size)] for row in rows] or [[0] * size], p)
-    columns, nullity = matrix.nullspace()
-    return [{c: v for c in range(size) if (v := int(columns[c, k]))} for k in range(nullity)]
+    matrix = residue_matrix([[row.get(c, 0) for c in range(size)] for row in rows] or [[0] * size], p)
+    return [{c: int(v) for c, v in enumerate(vector) if v} for vector in null_vectors(matrix)]
 
 
 def _loops(joints: Sequence[CountedJoint]) -> list[list[CountedJoint]]:

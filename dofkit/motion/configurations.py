@@ -23,7 +23,7 @@ from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian, Reduced
 from dofkit.relations.setting import Setting
 from dofkit.scene.lowering import lower
 from dofkit.scene.reading import SceneLike, scene_or_system
-from dofkit.system import Coordinate, System
+from dofkit.system import System
 
 #: Random configurations from which one is looked for where there is no reference.
 STARTS = 24
@@ -105,14 +105,12 @@ class MotionSampler:
     def __init__(self, system: System, numbers: Mapping[str, float], along: str | None) -> None:
         reduced, setting = prepared(system)
         outcome = solve(system, reduced, setting)
-        names = {c.name: c for c in system.coordinates}
-        touched = [*(n for b in outcome.blocks for n in b.coordinates), *outcome.untouched]
-        coordinates = [*system.coordinates, *(Coordinate(n) for n in dict.fromkeys(touched) if n not in names)]
+        names = [c.name for c in system.coordinates]
         if along is not None and along not in names:
             raise NoMotionError(no_such(along, names, "coordinate"))
-        self.system, self.setting, self.along, self.names = system, setting, along, list(names)
+        self.system, self.setting, self.along, self.names = system, setting, along, names
         self.numbers = _known_symbols(system, numbers)
-        self.relations = _relations(system, outcome, setting, coordinates, _limits(reduced, outcome))
+        self.relations = _relations(system, outcome, setting, _limits(reduced, outcome))
         self.relations.constants |= {s: v for s, v in self.numbers.items() if s.args[0] == "parameter"}
         self.follower = Follower(self.relations, _freedom(outcome, self.relations.timed))
         self.start = self._first()
@@ -215,9 +213,7 @@ def _limits(reduced: Sequence[Reduced], outcome: Outcome) -> list[Expr]:
     return [e for e in limits if all(s.args[0] in ("coordinate", "time", "parameter") for s in e.symbols)]
 
 
-def _relations(
-    system: System, outcome: Outcome, setting: Setting, coordinates: Sequence[Coordinate], limits: Sequence[Expr]
-) -> PoseRelations:
+def _relations(system: System, outcome: Outcome, setting: Setting, limits: Sequence[Expr]) -> PoseRelations:
     """What is to be held; raises where that is not possible."""
     if system.functions:
         raise NoMotionError(f"'{next(iter(system.functions))}' is a function without a formula")
@@ -231,7 +227,7 @@ def _relations(
         raise NoMotionError("motions under relations that are nonlinear in the velocities are not followed")
     finite = [*(p.expr for p in pieces if isinstance(p, Finite)), *(g for a in outcome.answers for g in a.hidden)]
     forms = [p for p in pieces if isinstance(p, Pfaffian)]
-    return PoseRelations(system, coordinates, finite, forms, setting.positive, limits)
+    return PoseRelations(system, finite, forms, setting.positive, limits)
 
 
 def _freedom(outcome: Outcome, timed: bool) -> int:

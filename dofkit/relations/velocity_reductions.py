@@ -69,26 +69,23 @@ class RewrittenRow:
         return self.rows == (self.written,)
 
 
-@dataclass(frozen=True)
-class Way:
+class Way(NamedTuple):
     """All rows on one choice of branches, in the order in which they were written.
 
-    ``divided``: to rewrite one, what may vanish somewhere was divided by.
+    ``slots``: what became of each row, where a relation nonlinear in the velocities is among them; ``reduced``: of
+    those that were nonlinear and are so no more; ``divided``: to rewrite one, what may vanish somewhere was divided by.
     """
 
-    slots: tuple[RewrittenRow, ...]
+    rows: list[Row]
+    slots: tuple[RewrittenRow, ...] = ()
+    reduced: tuple[RewrittenRow, ...] = ()
     divided: bool = False
 
-    @property
-    def rows(self) -> list[Row]:
-        return [row for slot in self.slots for row in slot.rows]
-
-    @property
-    def reduced(self) -> tuple[RewrittenRow, ...]:
-        """What was written nonlinear in the velocities and is so no more."""
-        return tuple(
-            s for s in self.slots if not s.unchanged and not any(isinstance(r.piece, Nonlinear) for r in s.rows)
-        )
+    @classmethod
+    def of(cls, slots: tuple[RewrittenRow, ...], divided: bool) -> Way:
+        """Return the way with these rows."""
+        linear = (s for s in slots if not s.unchanged and not any(isinstance(r.piece, Nonlinear) for r in s.rows))
+        return cls([row for slot in slots for row in slot.rows], slots, tuple(linear), divided)
 
 
 def ways_of(rows: Sequence[Row], positive: frozenset[Expr]) -> list[Way]:
@@ -97,7 +94,7 @@ def ways_of(rows: Sequence[Row], positive: frozenset[Expr]) -> list[Way]:
     Velocities that the linear rows give are put into the nonlinear ones, which may then split into linear ones:
     xdot^2 + ydot^2 = zdot^2 with y = 2 x is zdot = +-sqrt(5) xdot. What is new is used in the next round.
     """
-    ways, done = [Way(tuple(RewrittenRow(r, (r,)) for r in rows))], list[Way]()
+    ways, done = [Way.of(tuple(RewrittenRow(r, (r,)) for r in rows), False)], list[Way]()
     for _ in range(MAX_ROUNDS):
         following: list[Way] = []
         for way in ways:
@@ -128,7 +125,7 @@ def _step(way: Way, positive: frozenset[Expr]) -> list[Way] | None:
     for slot in way.slots:
         choices = cartesian(*(by_linear.get(id(r), [(r,)]) for r in slot.rows))
         options.append([RewrittenRow(slot.written, tuple(r for part in choice for r in part)) for choice in choices])
-    return [Way(choice, way.divided or divided) for choice in islice(cartesian(*options), MAX_WAYS)]
+    return [Way.of(choice, way.divided or divided) for choice in islice(cartesian(*options), MAX_WAYS)]
 
 
 class _Rewriting(NamedTuple):

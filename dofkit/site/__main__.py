@@ -15,10 +15,12 @@ def main() -> int:
     parser.add_argument("--out", type=Path, default=ROOT / "build" / "site", help="the folder of its pages")
     out: Path = parser.parse_args().out
     try:
-        build(out)
+        missing = build(out)
     except SiteError as error:
         sys.stderr.write(f"error: {error}\n")
         return 2
+    if missing is not None:
+        sys.stderr.write(f"The site is built without the bench: {missing}\n")
     sys.stdout.write(f"{out / 'index.html'}\n")
     return 0
 

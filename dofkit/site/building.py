@@ -17,6 +17,7 @@ import yaml
 from dofkit.base.errors import DofkitError
 from dofkit.scene.catalog import catalog_folder
 from dofkit.scene.constraints import TYPES
+from dofkit.site.bench import BenchError, build_bench
 from dofkit.site.gallery import FOLDER as GALLERY
 from dofkit.site.gallery import ShownScene, catalog_scenes, gallery_pages
 from dofkit.site.markdown import SitePage
@@ -35,28 +36,42 @@ class SiteError(DofkitError):
     """The site could not be built."""
 
 
-def build(out: Path, kept: Path | None = None) -> None:
+def build(out: Path, kept: Path | None = None) -> str | None:
     """Build the site into ``out``; ``kept``: answers of earlier builds.
 
-    Raises SiteError where MkDocs is missing, or finds a broken link.
+    Returns why it has no bench, or None. Raises SiteError where MkDocs is missing, or finds a broken link.
     """
     if not all(map(importlib.util.find_spec, ("material", "mkdocstrings"))):
         raise SiteError("mkdocs-material or mkdocstrings is missing: run pip install '.[docs]' in a clone")
     sources_folder = out.parent / f"{out.name}-sources"
-    sources(sources_folder, kept or out.parent / f"{out.name}-answers")
+    catalog = list(catalog_scenes(kept or out.parent / f"{out.name}-answers"))
+    bench = out.parent / f"{out.name}-bench"
+    missing = _without_bench(bench, catalog)
+    sources(sources_folder, catalog, has_bench=missing is None)
     command = [sys.executable, "-m", "mkdocs", "build", "--strict", "--quiet", "-f", str(sources_folder / "mkdocs.yml")]
     run = subprocess.run([*command, "-d", str(out.resolve())], capture_output=True, text=True, check=False)
     if run.returncode:
         raise SiteError(f"mkdocs refused:\n{run.stdout}{run.stderr}")
+    if missing is None:
+        shutil.copytree(bench, out / "bench")
+    return missing
 
 
-def sources(folder: Path, kept: Path) -> None:
+def _without_bench(out: Path, catalog: Sequence[ShownScene]) -> str | None:
+    """Build the bench, and return None; else why it cannot be built."""
+    try:
+        build_bench(out, catalog)
+    except BenchError as error:
+        return str(error)
+    return None
+
+
+def sources(folder: Path, catalog: Sequence[ShownScene], has_bench: bool = False) -> None:
     """Write all that MkDocs reads into ``folder``: its settings, the pages, their pictures."""
     shutil.rmtree(folder, ignore_errors=True)
     shutil.copytree(WRITTEN, folder / "pages")
     shutil.copytree(CHARTS, folder / "pages" / "charts", ignore=shutil.ignore_patterns("*.csv", "*.json"))
-    catalog = list(catalog_scenes(kept))
-    for page in generated(catalog):
+    for page in generated(catalog, has_bench):
         target = folder / "pages" / page.path
         target.parent.mkdir(parents=True, exist_ok=True)
         target.write_text(page.text, encoding="utf-8")
@@ -64,14 +79,14 @@ def sources(folder: Path, kept: Path) -> None:
     (folder / "mkdocs.yml").write_text(json.dumps(settings(catalog)), encoding="utf-8")
 
 
-def generated(catalog: Sequence[ShownScene]) -> Iterator[SitePage]:
-    """Return every page and picture that is generated from the package."""
-    yield readme_page((ROOT / "README.md").read_text(encoding="utf-8"))
+def generated(catalog: Sequence[ShownScene], has_bench: bool = False) -> Iterator[SitePage]:
+    """Return every page and picture that is generated from the package; ``has_bench``: with links to the bench."""
+    yield readme_page((ROOT / "README.md").read_text(encoding="utf-8"), has_bench)
     yield rooms_page()
     yield from constraint_pages(catalog)
     yield from report_pages((WRITTEN / GLOSSARY).read_text(encoding="utf-8"))
     yield from command_pages()
-    yield from gallery_pages(catalog, folders())
+    yield from gallery_pages(catalog, folders(), has_bench)
 
 
 def folders() -> dict[str, str]:

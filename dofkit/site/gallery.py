@@ -107,7 +107,9 @@ def in_a_line(report: Report) -> str:
     return f"{', '.join(labels)} ({report.verdict})"
 
 
-def gallery_pages(catalog: Sequence[ShownScene], sources: dict[str, str]) -> Iterator[SitePage]:
+def gallery_pages(
+    catalog: Sequence[ShownScene], sources: dict[str, str], has_bench: bool = False
+) -> Iterator[SitePage]:
     """Yield the pages and pictures; ``sources``: what each folder of the catalog was taken from."""
     blocks = []
     for folder, scenes in groupby(catalog, key=attrgetter("folder")):
@@ -119,7 +121,7 @@ def gallery_pages(catalog: Sequence[ShownScene], sources: dict[str, str]) -> Ite
             f"[{len(members)} scenes]({folder}.md)",
             f'<div class="gallery">\n{cards}\n</div>',
         ]
-        yield SitePage(f"{FOLDER}/{folder}.md", page(source, *(_entry(scene) for scene in members)))
+        yield SitePage(f"{FOLDER}/{folder}.md", page(source, *(_entry(scene, has_bench) for scene in members)))
         yield from (SitePage(f"{FOLDER}/{scene.name}.svg", scene.svg) for scene in members)
         yield from (SitePage(f"{FOLDER}/{scene.name}-small.svg", scene.thumbnail) for scene in members)
     yield SitePage(
@@ -134,12 +136,14 @@ def gallery_pages(catalog: Sequence[ShownScene], sources: dict[str, str]) -> Ite
     )
 
 
-def _entry(scene: ShownScene) -> str:
+def _entry(scene: ShownScene, has_bench: bool) -> str:
+    link = f'<p><a href="../bench/index.html#example={scene.name}">Open in the bench</a></p>'
     return "\n\n".join(
         (
             f"## {prose(scene.title)} {{#{scene.name}}}",
             f"{code(scene.name)}: {prose(scene.answer)}",
             picture(f"{scene.name}.svg", scene.alternative),
+            *([link] if has_bench else []),
             folded("The scene", fence("yaml", scene.written)),
             folded("The report", fence("text", scene.report)),
         )

@@ -16,7 +16,7 @@ from pydantic import BaseModel
 from dofkit.base.wording import series
 from dofkit.classification.arguments import TABLE
 from dofkit.expressions.text.printing import to_text
-from dofkit.homework.key.misconceptions import CODES
+from dofkit.homework.sentences import meanings
 from dofkit.interface.cli import app
 from dofkit.interface.explanations import all_explanations
 from dofkit.interface.show.assurance import VERDICT_MEANS
@@ -164,12 +164,25 @@ _HEAD = re.compile(r"^\| key .*\n\|[-| ]+\|\n", re.MULTILINE)
 _ROW = re.compile(r"^\| `(\w+)` \|([^|]+)\|([^|]+)\|(.+)\|([^|]+)\|$", re.MULTILINE)
 
 
-def readme_page(readme: str) -> SitePage:
-    """Return the first page: the README, with its links as the site has them.
+#: A small bench, which is loaded when it is opened.
+_SMALL_BENCH = """
+<details class="bench">
+<summary>Try it: change the disc in the bench, here in your browser</summary>
+<iframe src="bench/index.html?embed#example=disc-rolling-on-plane" title="The bench" loading="lazy"></iframe>
+</details>
+
+## Install
+"""
+
+
+def readme_page(readme: str, has_bench: bool = False) -> SitePage:
+    """Return the first page: the README, with its links as the site has them, and with a small bench if there is one.
 
     >>> readme_page("[how](dofkit/site/pages/tutorial.md) and [why](dofkit/THEOREMS.md)").text
     '[how](tutorial.md) and [why](about/theorems.md)'
     """
+    if has_bench:
+        readme = readme.replace("\n## Install\n", _SMALL_BENCH, 1)
     return SitePage(
         "index.md", readme.replace("](dofkit/site/pages/", "](").replace("](dofkit/THEOREMS.md)", f"]({THEOREMS})")
     )
@@ -213,7 +226,7 @@ def _tables() -> Iterator[str]:
     yield _arguments()
     yield "## Feedback codes"
     yield "Every mistake in homework that dofkit recognizes has a code, so that it can be counted over a class."
-    yield table(("code", "meaning"), [(code(name), prose(meaning)) for name, meaning in CODES.items()])
+    yield table(("code", "meaning"), [(code(name), prose(meaning)) for name, meaning in meanings().items()])
 
 
 def _fields(model: type[BaseModel]) -> str:

@@ -45,7 +45,7 @@ def test_couplings_of_the_plane_count_from_the_drawing() -> None:
 def test_a_coupling_of_space_tells_angle_and_displacement() -> None:
     """A turns by psi_A about z where phi_A and theta_A rest, which is read at such places."""
     text = "\n- {name: k, type: coupling, joints: {q: sleeve.angle, s: sleeve.displacement}, text: s = q/3}"
-    (left,) = (one.left for one in read(SLEEVE + text).relations if one.name == "k")
+    (left,) = (one.tree for one in read(SLEEVE + text).relations if one.name == "k")
     values = dict.fromkeys(("x_A", "y_A", "phi_A", "theta_A"), 0.0) | {"z_A": 0.7, "psi_A": 0.6}
     assert of_tree(left, values) == pytest.approx(0.7 - 0.6 / 3)
 

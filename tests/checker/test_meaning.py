@@ -83,7 +83,7 @@ def test_the_drawing_is_the_reference_and_meets_every_finite_relation(path: Path
     drawn = {c.name for c in system.constraints if c.type not in ("equation", "on")}
     for relation in problem.relations:
         if relation.kind == "finite" and relation.owner in drawn and not system.tolerance:
-            assert of_tree(relation.left, {**fixed, **ours, "t": 0.0}) == pytest.approx(0, abs=1e-9), relation.name
+            assert of_tree(relation.tree, {**fixed, **ours, "t": 0.0}) == pytest.approx(0, abs=1e-9), relation.name
 
 
 def parameters_of(problem: Problem, rng: random.Random) -> dict[str, float]:
@@ -99,7 +99,7 @@ class Compared:
         self.theirs = [(in_velocities(relation.expr)[0], relation.sense) for relation in constraint.relations]
         self.ours = [relation for relation in problem.relations if relation.owner == constraint.name]
         self.rng = random.Random(f"{path.stem} {constraint.name}")
-        mentioned = frozenset().union(*(relation.left.symbols for relation in self.ours))
+        mentioned = frozenset().union(*(relation.tree.symbols for relation in self.ours))
         used = {s for e, _ in self.theirs for s in e.symbols} | {s for s, n in self.names.items() if n in mentioned}
         used -= {sym("dt", "dt")}
         self.columns = sorted(used, key=lambda s: s.args)
@@ -119,7 +119,7 @@ class Compared:
         return [of_engine(e, by_args(values)) for e, _ in self.theirs]
 
     def of_ours(self, values: Mapping[Expr, float]) -> list[float]:
-        return [of_tree(relation.left, self.by_name(values)) for relation in self.ours]
+        return [of_tree(relation.tree, self.by_name(values)) for relation in self.ours]
 
     def by_name(self, values: Mapping[Expr, float]) -> dict[str, float]:
         return {**{self.names[s]: v for s, v in values.items()}, "tdot": 1.0}
@@ -127,7 +127,7 @@ class Compared:
     def rows(self, values: Mapping[Expr, float]) -> tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]:
         theirs = rows_of_engine([e for e, _ in self.theirs], self.columns, by_args(values))
         columns = [self.names[s] for s in self.columns]
-        return theirs, rows_of_trees([r.left for r in self.ours], columns, self.by_name(values))
+        return theirs, rows_of_trees([r.tree for r in self.ours], columns, self.by_name(values))
 
     def solved(self, values: dict[Expr, float]) -> dict[Expr, float] | None:
         """A point of the engines' set near a point, by Newton's method."""

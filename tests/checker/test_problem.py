@@ -37,7 +37,7 @@ def agrees(problem: Problem, name: str, text: str, factor: float = 1) -> None:
     known = KnownNames(frozenset(names) - {"t"})
     for seed in range(4):
         values = {q: random.Random(f"{q} {seed}").uniform(0.2, 1.2) for q in names}
-        assert of_tree(relation.left, values) == pytest.approx(factor * of_tree(parse(text, known), values)), name
+        assert of_tree(relation.tree, values) == pytest.approx(factor * of_tree(parse(text, known), values)), name
 
 
 def test_texts_are_finite_relations_forms_velocities_and_inequalities() -> None:
@@ -312,8 +312,8 @@ def test_both_charts_of_a_body_say_the_same(path: Path) -> None:
         assert path.stem in ANGLES_IN_TEXTS
         return
     for owner in dict.fromkeys(relation.owner for relation in cayley.relations):
-        ours = [r.left for r in cayley.relations if r.owner == owner and r.kind == "finite"]
-        others = [r.left for r in angles.relations if r.owner == owner and r.kind == "finite"]
+        ours = [r.tree for r in cayley.relations if r.owner == owner and r.kind == "finite"]
+        others = [r.tree for r in angles.relations if r.owner == owner and r.kind == "finite"]
         point = solved(ours, cayley, random.Random(f"{path.stem} {owner}"))
         same = {**point, **in_angles(point, names, document["configuration"])}
         assert [of_tree(tree, same) for tree in others] == pytest.approx([0.0] * len(others), abs=1e-7)

@@ -8,7 +8,7 @@ from fractions import Fraction
 
 import pytest
 import sympy
-from flint import arb, arb_poly, ctx, nmod
+from flint import arb, arb_poly, ctx
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from shared.known_scenes import swept
@@ -21,6 +21,7 @@ from dofkit.exact.points.field import field_point
 from dofkit.exact.points.frames import FormRows, certified_rank, field_frame
 from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.points.series import Series, SeriesPoint
+from dofkit.exact.residues import residue
 from dofkit.exact.ring.canonical import is_identically_zero
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
@@ -218,7 +219,7 @@ def test_ranks_agree_with_sympy(matrix: list[list[Fraction]], weights: list[Frac
     last = [sum((w * row[c] for w, row in zip(weights, matrix, strict=False)), Fraction(0)) for c in range(4)]
     rows = [*matrix, last]
     true = sympy.Matrix([[sympy.Rational(v.numerator, v.denominator) for v in row] for row in rows]).rank()
-    assert rank_of([[nmod(v.numerator, P) / nmod(v.denominator, P) for v in row] for row in rows], P) == true
+    assert rank_of([[residue(v.numerator, P) / residue(v.denominator, P) for v in row] for row in rows], P) == true
     assert certified_rank([[arb(v.numerator) / arb(v.denominator) for v in row] for row in rows]) <= true
     exact = [[arb(int(v * 1728**2)) for v in row] for row in matrix]
     assert certified_rank(exact) <= true

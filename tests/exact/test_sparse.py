@@ -5,15 +5,15 @@ from __future__ import annotations
 import random
 
 import pytest
-from flint import nmod_mat
 
 from dofkit.exact.matrices.sparse import echelon, last_columns, rank_of_rows, sparse
+from dofkit.exact.residues import residue_matrix
 
 P = (1 << 61) - 1
 
 
 def rank(rows: list[list[int]]) -> int:
-    return int(nmod_mat(rows, P).rank()) if rows and rows[0] else 0
+    return int(residue_matrix(rows, P).rank()) if rows and rows[0] else 0
 
 
 def random_matrix(seed: int) -> list[list[int]]:

@@ -374,9 +374,9 @@ def test_the_overview(prepared: Prepared, tmp_path: Path) -> None:
     shown = " ".join(pages(prepared, tmp_path, given)["index.html"].shown.split())
     assert "5 submissions 3.33 mean of 10 points 4 median 1 answer to review 1 not gradable" in shown
     assert "3 submissions by points. 1 with answers awaiting review is not included" in shown
-    assert "p.f the number of degrees of freedom 1 / 2 ✓ 2 correct ✗ 2 incorrect" in shown
-    assert "(rod) 2.67 / 8 ◐ 2 partly correct ? 1 not readable … 1 awaiting review" in shown
-    assert "2 The same set of configurations, but the gradient vanishes on it, as for a squared equation. IRR" in shown
+    assert "p.f How many degrees of freedom does the system have? 1 / 2 ✓ 2 correct ✗ 2 incorrect" in shown
+    assert " 2.67 / 8 ◐ 2 partly correct ? 1 not readable … 1 awaiting review" in shown
+    assert "2 The solutions are correct, but the gradient vanishes on all of them" in shown
     assert "p.rod 8 points The time was not enough. d Points" in shown
 
 

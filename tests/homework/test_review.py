@@ -22,10 +22,10 @@ from shared.sources import one_process, tree_at
 import dofkit
 from dofkit.homework.assignment import load_assignment
 from dofkit.homework.formats.wording import stop_of
-from dofkit.homework.key.misconceptions import CODES
 from dofkit.homework.result import Item
 from dofkit.homework.review import Decision, ReviewError, answer_id, mark_of, question_mark, read_table
 from dofkit.homework.runs.run import fingerprint
+from dofkit.homework.sentences import meanings
 
 ROD = {
     "dimension": 2,
@@ -132,7 +132,6 @@ def test_what_cannot_be_read_is_open_unless_the_assignment_says_otherwise() -> N
     [
         ("rod", UNREAD, [UNREAD, "^"]),
         ("rod", "x_A = 1\nzzz_A = 2", ["zzz_A = 2", "^"]),
-        ("q", ["x_A", "zz"], ["x_A; zz", "     ^"]),
         ("q", "x_A, zz", ["x_A, zz", "     ^"]),
     ],
 )
@@ -483,13 +482,12 @@ def test_the_pages_show_answers_as_typed_and_no_codes(course: Course) -> None:
     course.hand_in([(f"s{i}", {"rod": UNREAD if i < 8 else "x_A = 1", "f": "7"}) for i in range(15)])
     course.grade("--format", "html")
     index, student = (course.out / "index.html").read_text(), (course.out / "students" / "s1.html").read_text()
-    assert "8 of 15 answers could not be read: is the question clear?" in index
     assert index.index("To review") < index.index("<h2>Points</h2>")
     assert '<span class="stop">x<sub>^</sub></span><span class="rest">_B^2 + y_A^2 = l^2</span>' in student
     assert "<code>x_B</code> is not declared" in student
     other = (course.out / "students" / "s9.html").read_text()
     assert "`" not in student + other
-    assert not [code for code in CODES if re.search(rf"\b{code}\b", student + other)]
+    assert not [code for code in meanings() if re.search(rf"\b{code}\b", student + other)]
     page = (course.out / "review.html").read_text()
     assert course.table()[0]["id"] in page
     assert "8 students" in page
@@ -504,5 +502,5 @@ def test_every_code_has_a_text() -> None:
         texts = {n.value for n in ast.walk(tree) if isinstance(n, ast.Constant) and isinstance(n.value, str)}
         codes |= {text for text in texts if re.fullmatch(r"[A-Z][A-Z0-9]+(_[A-Z0-9]+)+", text)}
     assert len(codes) > 20
-    assert codes - set(CODES) == set()
-    assert all(told.strip() for told in CODES.values())
+    assert codes - set(meanings()) == set()
+    assert all(told.strip() for told in meanings().values())

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from flint import nmod
-
 from dofkit.configuration.local.manifold import Manifold
 from dofkit.exact.points.balls import BallPoint
 from dofkit.exact.points.field import field_point
 from dofkit.exact.points.frames import field_frame
+from dofkit.exact.residues import residue
 from dofkit.exact.ring.program import gradient, values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
@@ -29,7 +28,7 @@ def manifolds(relations: Sequence[Expr], at: dict[Expr, int]) -> list[Manifold]:
     point = field_point([ring], 5)
     for s, value in at.items():
         if (index := ring.var_index(s)) is not None:
-            point.set(ring.vars[index], nmod(value, point.p))
+            point.set(ring.vars[index], residue(value, point.p))
     placed = values(ring, point)
     assert all(placed[n] == 0 for n in nodes)
     zero = placed[0] * 0

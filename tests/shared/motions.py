@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from flint import nmod_mat
-
 import dofkit
 from dofkit.base.errors import NoValueError
 from dofkit.exact.points.field import field_point
+from dofkit.exact.residues import residue_matrix
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions.calculus import diff, substitute
@@ -94,7 +93,7 @@ def regular(report: MotionReport, names: Names) -> bool:
             found = values(ring, point)
         except NoValueError:
             continue
-        matrix = nmod_mat([[int(found[i]) for i in row] for row in nodes], point.p)
+        matrix = residue_matrix([[int(found[i]) for i in row] for row in nodes], point.p)
         return not rows or int(matrix.rank()) == len(rows)
     raise AssertionError("no point was found")
 

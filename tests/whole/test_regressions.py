@@ -273,8 +273,17 @@ def test_the_time_for_a_scene_is_bounded() -> None:
 
 def test_a_mixture_of_differentials_and_finite_terms_is_refused_with_its_line() -> None:
     with pytest.raises(dofkit.SceneError) as caught:
-        dofkit.loads("coordinates: [x]\nconstraints:\n- dx + 1 = 0\n- xddot^2 = 1\n")
+        dofkit.loads("coordinates: [x]\nconstraints:\n- dx + 1 = 0\n- sin(dx) = 0\n")
     assert [fault.line for fault in caught.value.faults] == [3, 4]
+
+
+@pytest.mark.parametrize("text", ["xddot = 0", "x xddot + xdot^2 = 0", "xddot^2 = 1", "xddot >= 0", "d^2x/dt^2 = x"])
+def test_a_second_derivative_in_a_constraint_is_refused_with_its_line(text: str) -> None:
+    with pytest.raises(dofkit.SceneError) as caught:
+        dofkit.loads(f"coordinates: [x]\nconstraints:\n- {text}\n")
+    (fault,) = caught.value.faults
+    assert fault.line == 3
+    assert "second derivative" in fault.message
 
 
 def test_hidden_relations_are_found_at_real_points_too() -> None:
@@ -311,8 +320,19 @@ def test_redundancy_that_was_not_looked_for_is_not_denied() -> None:
 @pytest.mark.parametrize(
     ("coordinates", "constraints", "dof"),
     [
-        # flat to order 20: the set is the point
+        # flat to order 20, and to order 64: the set is the point
         ("x y", ["y = 0", "y = x^20"], 0),
+        ("x y", ["y = 0", "y = x^64"], 0),
+        # y^2 = x^60 (x - 2) < 0 for 0 < |x| < 2: the origin is isolated, the other points are on a curve with x >= 2
+        ("x y", ["y^2 + x^60 (2 - x) = 0"], 0),
+        # a cusp: x = s^2, y = s^63
+        ("x y", ["y^2 = x^63"], 1),
+        # x = y = 0 of the second, which makes the first 0
+        ("x y z", ["x y = 0", "x^2 + y^2 + z^64 = 0"], 0),
+        # two smooth curves y = x^32 and y = -x^32
+        ("x y", ["y^2 = x^64"], 1),
+        # the lines x = 0 and z = 0 in the plane y = 0
+        ("x y z", ["y = 0", "y = x^64 z"], 1),
         # x^9 + z^9 = 0 is the line z = -x
         ("x y z", ["y = 0", "y = x^9 + z^9"], 1),
         # a motion for t >= 0

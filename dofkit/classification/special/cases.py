@@ -7,7 +7,7 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import Any
 
-from flint import arb, ctx, nmod, nmod_mat
+from flint import arb, ctx
 
 from dofkit.base.deadline import OutOfTimeError, expired, limited
 from dofkit.base.errors import NoValueError
@@ -35,6 +35,7 @@ from dofkit.exact.points.balls import PRECISION, BallPoint
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import field_frame
 from dofkit.exact.points.real_search import RealSearch
+from dofkit.exact.residues import null_vectors, residue, residue_matrix
 from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.program import raising_no_value, values
 from dofkit.exact.triangular import TriangularSolver
@@ -133,11 +134,11 @@ def _dependent(a: Answer, matrix: list[list[Any]], p: int) -> set[int]:
     chosen: Sequence[int] = range(len(matrix))
     if len(a.matrix) == len(matrix):
         chosen = field_frame(
-            [[nmod(row.get(c, 0), a.modulus) for c in range(n)] for row in a.matrix], n, a.modulus
+            [[residue(row.get(c, 0), a.modulus) for c in range(n)] for row in a.matrix], n, a.modulus
         ).rows
-    columns = nmod_mat([[int(matrix[r][c]) for r in chosen] for c in range(n)], p)
-    basis, nullity = columns.nullspace()
-    return {r for i, r in enumerate(chosen) if any(int(basis[i, k]) for k in range(nullity))}
+    columns = residue_matrix([[int(matrix[r][c]) for r in chosen] for c in range(n)], p)
+    vectors = null_vectors(columns)
+    return {r for i, r in enumerate(chosen) if any(vector[i] for vector in vectors)}
 
 
 def _owners(block: Block, a: Answer, rows: Iterable[int]) -> tuple[int, ...]:

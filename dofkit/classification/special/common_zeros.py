@@ -137,7 +137,7 @@ class Reals:
 
     def implied(self, index: int, value: Poly) -> list[tuple[int, Poly]] | None:
         """Values of other generators that follow from that of one; None where they cannot be told."""
-        ring, zero = self.canon.ring, self.canon.one * 0
+        ring, zero = self.canon.ring, self.canon.unit * 0
         var = ring.vars[index]
         if var.kind in ("cos", "sin"):
             return [(var.partner, zero)] if value**2 == 1 else []
@@ -148,7 +148,7 @@ class Reals:
             if other.kind != "symbol" and var.key in ring.var_expr[other.index].symbols:
                 if value != 0 or other.kind not in ("cos", "sin") or other.key[0] != var.key:
                     return None
-                result.append((other.index, self.canon.one if other.kind == "cos" else zero))
+                result.append((other.index, self.canon.unit if other.kind == "cos" else zero))
         return result
 
     # -- one condition ------------------------------------------------------------------------

@@ -165,26 +165,26 @@ class EliminatedTable:
         """Vectors that span the kernel wherever the rank is not smaller (Cramer). Raises TooLargeError."""
         if comb(len(self.free), size + 1) * comb(len(self.remaining_rows), size) > MAX_VECTORS:
             raise TooLargeError
-        zero, result = self.canon.one * 0, []
+        zero, result = self.canon.unit * 0, []
         for rows in combinations(self.remaining_rows, size):
             for columns in combinations(self.free, size + 1):
                 vector = [zero] * len(self.table.symbols)
                 for k, c in enumerate(columns):
                     others = [d for d in columns if d != c]
-                    value = self._minor(rows, others) if size else self.canon.one
+                    value = self._minor(rows, others) if size else self.canon.unit
                     vector[c] = value if k % 2 == 0 else -value
                 result.append(self._lifted(vector))
         return result
 
     def _lifted(self, vector: list[Poly]) -> list[Poly]:
         """With the pivots' components, all times the pivots that are no numbers."""
-        below: Poly = self.canon.one
+        below: Poly = self.canon.unit
         for r, c in self.solved:
             if not self.work[r][c].is_constant():
                 below = below * self.work[r][c]
         lifted = [below * v if v != 0 else v for v in vector]
         for r, c in self.solved:
-            total = self.canon.one * 0
+            total = self.canon.unit * 0
             for f in self.free:
                 if vector[f] != 0 and self.work[r][f] != 0:
                     total = total - self.work[r][f] * lifted[f]
@@ -200,7 +200,7 @@ def curvatures(table: MinorTable, vectors: Sequence[Sequence[Poly]]) -> list[lis
         values = []
         for u, v in combinations(vectors, 2) if curl else ():
             check()
-            total = canon.one * 0
+            total = canon.unit * 0
             for (i, j), coefficient in curl.items():
                 if max(map(len, (*u, *v))) * len(coefficient) > MAX_SHORT:
                     raise TooLargeError

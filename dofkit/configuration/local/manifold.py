@@ -7,13 +7,14 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from flint import arb, arb_mat, nmod, nmod_mat
+from flint import arb, arb_mat
 
 from dofkit.base.deadline import check
 from dofkit.base.verdicts import ArgumentKey, Verdict
 from dofkit.exact.matrices.sparse import FactoredMatrix, Pivots
-from dofkit.exact.points.frames import pivots, solve
+from dofkit.exact.points.frames import field_frame, solve
 from dofkit.exact.points.series import Series, SeriesPoint, monomial, zero_poly
+from dofkit.exact.residues import Residue, ResidueMatrix, modulus, residue, residue_matrix
 from dofkit.exact.ring.program import Scalar, gradient, raising_no_value, values
 from dofkit.exact.ring.ring import Ring
 
@@ -87,11 +88,11 @@ class Manifold:
         """The inverse of the independent rows by the dependent columns, at the point."""
         at = values(self.ring, self.base)
         unit = self.sample + 1
-        if isinstance(self.sample, nmod):
+        if isinstance(self.sample, Residue):
             place = {self.columns[c]: k for k, c in enumerate(self.frame.dependent)}
             slopes = (gradient(self.ring, at, self.base, [(node, unit)]) for node in self.rows)
             sparse_rows = [{place[c]: int(v) for c, v in g.items() if c in place and v != 0} for g in slopes]
-            return FactoredMatrix(sparse_rows, self.sample.modulus())
+            return FactoredMatrix(sparse_rows, modulus(self.sample))
         rows = []
         for node in self.rows:
             g = gradient(self.ring, at, self.base, [(node, unit)])
@@ -177,18 +178,20 @@ def inverse(rows: list[list[Scalar]]) -> Any:
     """Return the inverse of a square matrix over GF(p) or balls; raises PoleError."""
     if not rows:
         return None
-    if isinstance(rows[0][0], nmod):
-        return nmod_mat([[int(v) for v in row] for row in rows], rows[0][0].modulus()).inv()
+    if isinstance(rows[0][0], Residue):
+        return residue_matrix([[int(v) for v in row] for row in rows], modulus(rows[0][0])).inv()
     return arb_mat(rows).inv()
 
 
 def product(matrix: Any, vector: Sequence[Scalar]) -> list[Scalar]:
     """Return the inverse of a matrix times a vector."""
     if isinstance(matrix, FactoredMatrix):
-        found_by_parts: list[Scalar] = [nmod(v, matrix.p) for v in matrix.solve([int(v) for v in vector])]
+        found_by_parts: list[Scalar] = [residue(v, matrix.p) for v in matrix.solve([int(v) for v in vector])]
         return found_by_parts
-    over_field = isinstance(matrix, nmod_mat)
-    column = nmod_mat([[int(v)] for v in vector], matrix.modulus()) if over_field else arb_mat([[v] for v in vector])
+    over_field = isinstance(matrix, ResidueMatrix)
+    column = (
+        residue_matrix([[int(v)] for v in vector], modulus(matrix)) if over_field else arb_mat([[v] for v in vector])
+    )
     image = matrix * column
     return [image[i, 0] for i in range(len(vector))]
 
@@ -220,13 +223,9 @@ class Split:
 def split(forms: Sequence[Form]) -> Split:
     """Return a choice of equations and of coordinates that they determine, from forms over GF(p)."""
     m = len(forms[0])
-    p = forms[0][0][0].modulus()
     rows = [(i, j) for i in range(len(forms)) for j in range(m)]
-    columns = [[int(forms[i][j][c]) for i, j in rows] for c in range(m)]
-    kept = pivots(nmod_mat(columns, p))
-    chosen = [[int(forms[rows[a][0]][rows[a][1]][c]) for c in range(m)] for a in kept]
-    solved = pivots(nmod_mat(chosen, p)) if chosen else []
-    return Split(tuple(rows[a] for a in kept), tuple(solved), tuple(c for c in range(m) if c not in set(solved)))
+    frame = field_frame([forms[i][j] for i, j in rows], m, modulus(forms[0][0][0]))
+    return Split(tuple(rows[a] for a in frame.rows), frame.dependent, frame.free)
 
 
 def series_on_critical(

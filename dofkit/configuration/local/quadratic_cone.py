@@ -12,10 +12,11 @@ from fractions import Fraction
 from itertools import combinations_with_replacement
 from typing import Any
 
-from flint import arb, nmod, nmod_mat
+from flint import arb
 
 from dofkit.base.deadline import check
 from dofkit.base.libraries import np
+from dofkit.exact.residues import Residue, modulus, residue_matrix
 from dofkit.exact.ring.program import Scalar
 
 Form = Sequence[Sequence[Scalar]]
@@ -35,7 +36,7 @@ def bound(forms: Sequence[Form], rigid: int) -> int:
     full rank modulo p is full rank.
     """
     m = len(forms[0])
-    p = forms[0][0][0].modulus()
+    p = modulus(forms[0][0][0])
     independent = rank([[v for row in f for v in row] for f in forms], p)
     for cuts in range(min(m - rigid, independent, MAX_CUTS), 0, -1):
         if _only_zero(forms, cuts, p):
@@ -43,23 +44,23 @@ def bound(forms: Sequence[Form], rigid: int) -> int:
     return m
 
 
-def rank(rows: Sequence[Sequence[nmod]], p: int) -> int:
+def rank(rows: Sequence[Sequence[Residue]], p: int) -> int:
     """Return the rank of a matrix over GF(p)."""
-    return int(nmod_mat([[int(v) for v in row] for row in rows], p).rank()) if rows and rows[0] else 0
+    return int(residue_matrix([[int(v) for v in row] for row in rows], p).rank()) if rows and rows[0] else 0
 
 
 def _only_zero(forms: Sequence[Form], c: int, p: int) -> bool:
     """Return whether the forms have no common zero but 0 on a random subspace of dimension c."""
     rng = random.Random("dofkit cone")
     m = len(forms[0])
-    basis = nmod_mat([[rng.randrange(p) for _ in range(c)] for _ in range(m)], p)
+    basis = residue_matrix([[rng.randrange(p) for _ in range(c)] for _ in range(m)], p)
     cuts = []
     for form in forms:
         check()
-        cut = basis.transpose() * nmod_mat([[int(v) for v in row] for row in form], p) * basis
+        cut = basis.transpose() * residue_matrix([[int(v) for v in row] for row in form], p) * basis
         cuts.append([[int(cut[i, j]) for j in range(c)] for i in range(c)])
     rows = [[v % p for v in row] for row in macaulay_matrix(cuts, c)]
-    return bool(nmod_mat(rows, p).rank() == len(rows[0]))
+    return bool(residue_matrix(rows, p).rank() == len(rows[0]))
 
 
 def macaulay_matrix(forms: Sequence[Sequence[Sequence[Any]]], c: int) -> list[list[Any]]:

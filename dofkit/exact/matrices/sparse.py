@@ -13,10 +13,11 @@ from dataclasses import dataclass
 from heapq import heapify, heappop, heappush
 from typing import Any
 
-from flint import fmpq, nmod_mat
+from flint import fmpq
 
 from dofkit.base.deadline import affordable, check
 from dofkit.base.errors import PoleError
+from dofkit.exact.residues import residue_matrix
 
 Numbers = Sequence[Any]
 LinearRow = dict[int, Any]
@@ -325,7 +326,7 @@ def rank_of(matrix: Sequence[Sequence[Any]], p: int) -> int:
     if not matrix or not matrix[0]:
         return 0
     affordable(len(matrix), len(matrix[0]))
-    return int(nmod_mat([[int(v) for v in row] for row in matrix], p).rank())
+    return int(residue_matrix([[int(v) for v in row] for row in matrix], p).rank())
 
 
 def without_time(rows: Sequence[SparseRow], n: int) -> list[SparseRow]:

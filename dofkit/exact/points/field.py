@@ -14,9 +14,10 @@ from functools import lru_cache, partial
 from math import gcd, lcm, prod
 from typing import Any
 
-from flint import fmpz, fmpz_mat, nmod, nmod_poly
+from flint import fmpz, fmpz_mat
 from flint.utils.flint_exceptions import DomainError
 
+from dofkit.exact.residues import residue, residue_polynomial
 from dofkit.exact.ring.program import NUM, NoPointError, Scalar, Var
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
@@ -56,7 +57,7 @@ class Character:
         """Return the value at an argument, from relations or else drawn. Raises NoPointError for a fraction."""
         u = int(argument)
         if u == 0:
-            return nmod(1, self.p)
+            return residue(1, self.p)
         if u not in self.values:
             related = self._related(u)
             self.values[u] = draw() if related is None else related
@@ -84,7 +85,7 @@ class Character:
             raise NoPointError("an argument is a fraction of pi that is none of those written")
         settled = {**self.values} if self._unit is None else {**self.values, int(self._unit[0]): self._unit[1]}
         sign = 1 if degree > 0 else -1
-        power = prod((settled[v] ** (-k * sign) for v, k in relation.items()), start=nmod(1, self.p))
+        power = prod((settled[v] ** (-k * sign) for v, k in relation.items()), start=residue(1, self.p))
         return _root(power, abs(degree), self.p)
 
     def _multiple_of_unit(self, u: int) -> Any | None:
@@ -92,9 +93,9 @@ class Character:
         if self._unit is None:
             return None
         unit, root, order = self._unit
-        for at, value in ((0, nmod(1, self.p)), *self.values.items()):
+        for at, value in ((0, residue(1, self.p)), *self.values.items()):
             for other, factor in ((at, value), (-at, 1 / value)):
-                k = int((nmod(u, self.p) - other) / unit)
+                k = int((residue(u, self.p) - other) / unit)
                 k = k if 2 * k < self.p else k - self.p
                 if abs(k) <= TURNS * order:
                     return factor * root**k
@@ -127,7 +128,7 @@ def _root(value: Any, degree: int, p: int) -> Any:
     if value ** ((p - 1) // shared) != 1:
         raise NoPointError("an argument is a fraction of others, and there is no root")
     if shared > 1:
-        value = min((w for w, _ in nmod_poly([-value, *([0] * (shared - 1)), 1], p).roots()), key=int)
+        value = min((w for w, _ in residue_polynomial([-value, *([0] * (shared - 1)), 1], p).roots()), key=int)
     return value ** pow(degree // shared, -1, (p - 1) // shared)
 
 
@@ -188,7 +189,7 @@ class FieldPoint:
         self.p = p
         self.rng = rng
         self.order = order
-        self.given: dict[tuple[str, object], Scalar] = {}
+        self.values: dict[tuple[str, object], Scalar] = {}
         self._taken: dict[tuple[object, ...], Scalar] = {}
         self._drawn: set[int] = set()
         self._exponentials, self._turns = Character(p, self._drawn), Character(p, self._drawn)
@@ -198,7 +199,7 @@ class FieldPoint:
 
     def set(self, var: Var, value: Scalar) -> None:
         """Give a generator its value."""
-        self.given[var.kind, var.key] = value
+        self.values[var.kind, var.key] = value
         if var.kind == "pi":  # angles that come out as multiples of pi / D have the values of these
             self._setup_unity()
             self._turns.settle(value / self.order, self._zeta, 2 * self.order)
@@ -206,7 +207,7 @@ class FieldPoint:
     def copy(self) -> FieldPoint:
         """Return a point with the same values so far; what is drawn later differs."""
         other = FieldPoint(self.p, self.rng, self.order)
-        other.given = dict(self.given)
+        other.values = dict(self.values)
         other._taken, other._agreed = dict(self._taken), set(self._agreed)
         other._drawn = set(self._drawn)
         other._exponentials, other._turns = self._exponentials.copy(other._drawn), self._turns.copy(other._drawn)
@@ -215,17 +216,17 @@ class FieldPoint:
 
     def number(self, value: Fraction) -> Scalar:
         if value.denominator == 1:
-            return nmod(value.numerator, self.p)
-        return nmod(value.numerator, self.p) / nmod(value.denominator, self.p)
+            return residue(value.numerator, self.p)
+        return residue(value.numerator, self.p) / residue(value.denominator, self.p)
 
     def random(self) -> Scalar:
-        return nmod(self.rng.randrange(2, self.p - 1), self.p)
+        return residue(self.rng.randrange(2, self.p - 1), self.p)
 
     def generator(self, var: Var, args: Sequence[Scalar]) -> Scalar:
         name = (var.kind, var.key)
-        value = self.given.get(name)
+        value = self.values.get(name)
         if value is None:
-            value = self.given[name] = self._draw(var, args)
+            value = self.values[name] = self._draw(var, args)
         elif args and name not in self._agreed:
             self._agreed.add(name)
             self._agree(var, args, value)
@@ -234,21 +235,21 @@ class FieldPoint:
     def whatever(self, var: Var) -> Scalar:
         """Return a generator's value where its argument is not known yet: that is drawn later, or found to agree."""
         name = (var.kind, var.key)
-        if name not in self.given and var.kind in ("cos", "sin"):
+        if name not in self.values and var.kind in ("cos", "sin"):
             self._setup_unity()
             self._set_angle(var, self._turn())
-        elif name not in self.given:
-            self.given[name] = self._sign() if var.kind == "sign" else self.random()
-        return self.given[name]
+        elif name not in self.values:
+            self.values[name] = self._sign() if var.kind == "sign" else self.random()
+        return self.values[name]
 
     def _agree(self, var: Var, args: Sequence[Scalar], value: Scalar) -> None:
         """Take the value that a generator was given. Raises NoPointError where its function has another one there."""
         if var.kind == "exp":
             self._exponentials.agree(args[0], value)
         elif var.kind in ("cos", "sin"):
-            if var.key[0] != ex.PI and ("sin" if var.kind == "cos" else "cos", var.key) in self.given:
+            if var.key[0] != ex.PI and ("sin" if var.kind == "cos" else "cos", var.key) in self.values:
                 self._setup_unity()
-                cos, sin = self.given["cos", var.key], self.given["sin", var.key]
+                cos, sin = self.values["cos", var.key], self.values["sin", var.key]
                 self._turns.agree(args[0], cos + self._imaginary * sin)
         elif self._of_arguments(var, args, lambda: value) != value:
             raise NoPointError("a function with two values at one place")
@@ -267,7 +268,7 @@ class FieldPoint:
     def _draw(self, var: Var, args: Sequence[Scalar]) -> Scalar:
         if var.kind in ("cos", "sin"):
             self._draw_angle(var, args)
-            return self.given[var.kind, var.key]
+            return self.values[var.kind, var.key]
         if var.kind == "exp" and args:
             return self._exponentials.at(args[0], self.random)
         if args:
@@ -285,7 +286,7 @@ class FieldPoint:
         if var.kind == "sign":
             return self._sign()
         if args and var.kind != "call" and args[0] == 0:
-            return nmod(0, self.p)
+            return residue(0, self.p)
         return self.random()
 
     def _draw_angle(self, var: Var, args: Sequence[Scalar]) -> None:
@@ -293,21 +294,21 @@ class FieldPoint:
         if angle == ex.PI:
             cos, sin = self._root_of_unity(denominator)
         elif args[0] == 0:
-            cos, sin = nmod(1, self.p), nmod(0, self.p)
+            cos, sin = residue(1, self.p), residue(0, self.p)
         else:
             self._setup_unity()
             self._set_angle(var, self._turns.at(args[0], self._turn))
             return
-        self.given["cos", var.key] = cos
-        self.given["sin", var.key] = sin
+        self.values["cos", var.key] = cos
+        self.values["sin", var.key] = sin
 
     def _set_angle(self, var: Var, z: Scalar) -> None:
         """Cosine and sine from z = cos + i sin."""
-        self.given["cos", var.key] = (z + 1 / z) / 2
-        self.given["sin", var.key] = (z - 1 / z) / (2 * self._imaginary)
+        self.values["cos", var.key] = (z + 1 / z) / 2
+        self.values["sin", var.key] = (z - 1 / z) / (2 * self._imaginary)
 
     def _sign(self) -> Scalar:
-        return nmod(self.rng.choice((1, self.p - 1)), self.p)
+        return residue(self.rng.choice((1, self.p - 1)), self.p)
 
     def _turn(self) -> Scalar:
         """z = cos + i sin of a random angle, which is 1 + i w over 1 - i w."""
@@ -343,7 +344,7 @@ class FieldPoint:
             except DomainError as error:
                 raise NoPointError("no square root") from error
             return root if self.rng.random() < 0.5 else -root
-        roots = nmod_poly([-value, *([0] * (var.degree - 1)), 1], self.p).roots()
+        roots = residue_polynomial([-value, *([0] * (var.degree - 1)), 1], self.p).roots()
         if not roots:
             raise NoPointError("no root")
         return self.rng.choice(roots)[0]
@@ -358,7 +359,7 @@ class FieldPoint:
             return None
         self._setup_unity()
         zeta = self._zeta ** (2 * self.order // prime)
-        total = nmod(0, self.p)
+        total = residue(0, self.p)
         for a in range(1, prime):
             total += zeta**a if pow(a, (prime - 1) // 2, prime) == 1 else -(zeta**a)
         return total if prime % 4 == 1 else total / self._imaginary

@@ -6,13 +6,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from flint import arb, arb_mat, fmpq_mat, nmod, nmod_mat
+from flint import arb, arb_mat, fmpq_mat
 
 from dofkit.base.deadline import check
 from dofkit.base.errors import PoleError
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.sparse import Pivots, rank_of
 from dofkit.exact.points.series import Series
+from dofkit.exact.residues import Residue, ResidueMatrix, modulus, residue_matrix
 from dofkit.exact.ring.program import Scalar, raising_no_value
 from dofkit.exact.ring.ring import Ring
 
@@ -35,17 +36,17 @@ class FormRows:
         return [[at[row[c]] if c in row else zero for c in range(n)] for row in self.entries]
 
 
-def field_frame(matrix: list[list[nmod]], n: int, p: int) -> Pivots:
+def field_frame(matrix: list[list[Residue]], n: int, p: int) -> Pivots:
     """Return the first independent rows in order, and columns solved for (the last ones where there is a choice)."""
     if not matrix or not n:
         return Pivots((), (), tuple(range(n)))
-    rows = pivots(nmod_mat([[int(v) for v in column] for column in zip(*matrix, strict=True)], p))
+    rows = pivots(residue_matrix([[int(v) for v in column] for column in zip(*matrix, strict=True)], p))
     chosen = [[int(v) for v in reversed(matrix[r])] for r in rows]
-    dependent = sorted(n - 1 - c for c in pivots(nmod_mat(chosen, p))) if chosen else []
+    dependent = sorted(n - 1 - c for c in pivots(residue_matrix(chosen, p))) if chosen else []
     return Pivots(tuple(rows), tuple(dependent), tuple(c for c in range(n) if c not in set(dependent)))
 
 
-def pivots(matrix: nmod_mat | fmpq_mat) -> list[int]:
+def pivots(matrix: ResidueMatrix | fmpq_mat) -> list[int]:
     """Return the pivot columns of a matrix over GF(p) or the rationals."""
     reduced, rank = matrix.rref()
     columns, column = [], 0
@@ -76,9 +77,9 @@ def kernel(matrix: list[list[Scalar]], frame: Pivots, zero: Scalar) -> list[list
 def solve(a: list[list[Scalar]], b: list[list[Scalar]]) -> list[list[Scalar]]:
     """a^-1 b for scalars or series, by elimination with invertible pivots; raises PoleError."""
     n = len(a)
-    if n and isinstance(a[0][0], nmod) and b[0]:
-        p = a[0][0].modulus()
-        matrix, right = (nmod_mat([[int(v) for v in row] for row in side], p) for side in (a, b))
+    if n and isinstance(a[0][0], Residue) and b[0]:
+        p = modulus(a[0][0])
+        matrix, right = (residue_matrix([[int(v) for v in row] for row in side], p) for side in (a, b))
         solution = matrix.solve(right)
         return [[solution[i, j] for j in range(len(b[0]))] for i in range(n)]
     if n and isinstance(a[0][0], arb) and b[0]:
@@ -112,8 +113,8 @@ def rank_over(vectors: Sequence[Sequence[Scalar]], sample: Scalar) -> int:
     """Return the rank over GF(p), or a certified lower bound with balls, by the kind of ``sample``."""
     if not vectors:
         return 0
-    if isinstance(sample, nmod):
-        return rank_of(vectors, sample.modulus())
+    if isinstance(sample, Residue):
+        return rank_of(vectors, modulus(sample))
     return ball_part(vectors).rank
 
 

@@ -7,9 +7,10 @@ from fractions import Fraction
 from math import factorial
 from typing import Any
 
-from flint import arb, arb_poly, nmod, nmod_poly
+from flint import arb, arb_poly
 
 from dofkit.base.errors import PoleError
+from dofkit.exact.residues import Residue, ResiduePolynomial, modulus, residue_polynomial
 from dofkit.exact.ring.program import Point, Scalar, Var
 
 #: An unknown function's composition uses this many of its derivatives by several arguments at most.
@@ -17,7 +18,7 @@ MAX_JET = 400
 
 
 class Series:
-    """A power series modulo s^order; ``poly`` is an nmod_poly or an arb_poly."""
+    """A power series modulo s^order; ``poly`` is an ResiduePolynomial or an arb_poly."""
 
     __slots__ = ("order", "poly")
 
@@ -56,7 +57,7 @@ class Series:
         """Return 1/self; raises PoleError where the constant term is 0."""
         if not self.invertible:
             raise PoleError("a series without constant term has no inverse")
-        if isinstance(self.poly, nmod_poly):
+        if isinstance(self.poly, ResiduePolynomial):
             return Series(self.poly.inverse_series_trunc(self.order), self.order)
         first = 1 / self.poly[0]
         coefficients = [first]
@@ -95,11 +96,11 @@ class Series:
 
 
 def _mul_low(a: Any, b: Any, order: int) -> Any:
-    return a.mul_low(b, order) if isinstance(a, nmod_poly) else _truncate(a * b, order)
+    return a.mul_low(b, order) if isinstance(a, ResiduePolynomial) else _truncate(a * b, order)
 
 
 def _truncate(poly: Any, order: int) -> Any:
-    if isinstance(poly, nmod_poly):
+    if isinstance(poly, ResiduePolynomial):
         return poly.truncate(order) if poly.length() > order else poly
     coefficients = poly.coeffs()
     return poly if len(coefficients) <= order else arb_poly(coefficients[:order])
@@ -209,8 +210,8 @@ class SeriesPoint:
         return total
 
     def _series(self, coefficients: list[Scalar]) -> Series:
-        if isinstance(self.like, nmod_poly):
-            return Series(nmod_poly([int(c) for c in coefficients], self.like.modulus()), self.order)
+        if isinstance(self.like, ResiduePolynomial):
+            return Series(residue_polynomial([int(c) for c in coefficients], modulus(self.like)), self.order)
         return Series(arb_poly(coefficients), self.order)
 
 
@@ -223,9 +224,9 @@ def _multi_indices(n: int, total: int) -> list[tuple[int, ...]]:
 
 def zero_poly(base: Point, sample: Scalar) -> Any:
     """Return the zero polynomial over the numbers that ``sample`` belongs to."""
-    return nmod_poly([0], sample.modulus()) if isinstance(sample, nmod) else arb_poly([])
+    return residue_polynomial([0], modulus(sample)) if isinstance(sample, Residue) else arb_poly([])
 
 
 def monomial(like: Any) -> Any:
     """Return the polynomial s, of the kind of ``like``."""
-    return nmod_poly([0, 1], like.modulus()) if isinstance(like, nmod_poly) else arb_poly([0, 1])
+    return residue_polynomial([0, 1], modulus(like)) if isinstance(like, ResiduePolynomial) else arb_poly([0, 1])

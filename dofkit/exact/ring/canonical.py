@@ -41,7 +41,7 @@ class Canon:
         self.ctx = fmpq_mpoly_ctx.get(tuple(names) or ("v",), Ordering.lex)
         gens = self.ctx.gens()
         self.gens: list[Poly] = list(reversed(gens)) if names else []
-        self.one = self.ctx.constant(1)
+        self.unit = self.ctx.constant(1)
         self._memo: dict[int, Quotient] = {}
         self._relations: list[Poly] | None = None
 
@@ -56,7 +56,7 @@ class Canon:
     def _compute(self, node: int) -> Quotient:
         op, payload = self.ring.code[node]
         if op == NUM:
-            return self.ctx.constant(fmpq(payload.numerator, payload.denominator)), self.one
+            return self.ctx.constant(fmpq(payload.numerator, payload.denominator)), self.unit
         if op == ADD:
             total = self._memo[payload[0]]
             for i in payload[1:]:
@@ -70,7 +70,7 @@ class Canon:
             return total
         if op == POW:
             return self._power(*payload)
-        return self.gens[payload], self.one
+        return self.gens[payload], self.unit
 
     def _sum(self, a: Quotient, b: Quotient) -> Quotient:
         if a[1] == b[1]:
@@ -90,7 +90,7 @@ class Canon:
             top, bottom, exponent = bottom, top, -exponent
         if exponent > MAX_POWER:
             raise TooLargeError
-        power = (self.one, self.one)
+        power = (self.unit, self.unit)
         for _ in range(exponent):
             power = (self._times(power[0], top), self._times(power[1], bottom))
         return power
@@ -220,7 +220,7 @@ def is_identically_zero(expression: Expr, positive: frozenset[Expr] = frozenset(
 @raising_no_value
 def cleared(canon: Canon, row: Sequence[Quotient]) -> tuple[list[Poly], Poly]:
     """Return a row's entries times their common denominator, as polynomials, and that denominator."""
-    whole = canon.one
+    whole = canon.unit
     for _, bottom in row:
         if bottom != whole:
             whole = whole * (bottom / bottom.gcd(whole))
@@ -229,7 +229,7 @@ def cleared(canon: Canon, row: Sequence[Quotient]) -> tuple[list[Poly], Poly]:
 
 def polynomials(canon: Canon, row: Mapping[int, int], n: int) -> list[Poly]:
     """Return the entries of a row, nodes by column, times their common denominator, as polynomials."""
-    zero = (canon.one * 0, canon.one)
+    zero = (canon.unit * 0, canon.unit)
     return cleared(canon, [canon.quotient(row[c]) if c in row else zero for c in range(n)])[0]
 
 
@@ -237,7 +237,7 @@ def determinant(canon: Canon, matrix: Sequence[Sequence[Poly]]) -> Poly:
     """Return the determinant in the canonical ring, expanded along the first row."""
     if len(matrix) == 1:
         return matrix[0][0]
-    total = canon.one * 0
+    total = canon.unit * 0
     for c, entry in enumerate(matrix[0]):
         if entry != 0:
             below = determinant(canon, [[*row[:c], *row[c + 1 :]] for row in matrix[1:]])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from base64 import b64encode
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -24,7 +25,7 @@ from dofkit.homework.problem import DRAWN, UNDRAWN, Problem
 from dofkit.report import Report
 from dofkit.scene.scene import Scene
 
-_TEMPLATE = Path(__file__).parent / "templates" / "sheet.html"
+_TEMPLATES = Path(__file__).parent / "templates"
 #: Typed text, which stays as it is, or a formula.
 _FORMULA = re.compile(r"```.*?```|`[^`\n]*`|\\\$|(\$\$?)([^$]+)\1", re.DOTALL)
 #: What the converter raises for what is no LaTeX, and the parser for what is no MathML.
@@ -122,11 +123,20 @@ def with_latex(markdown: str) -> str:
     return _FORMULA.sub(lambda m: m[0] if m[2] is None else f"{m[1]}{formula(m[2].strip()).latex}{m[1]}", markdown)
 
 
-def page_of(markdown: str, title: str, language: str, figures: Mapping[str, SheetFigure]) -> str:
-    """Return the page of a text; ``figures`` by their paths in it."""
-    page = _TEMPLATE.read_text(encoding="utf-8")
-    fields = {"language": language, "title": escape(line(title)), "body": reader().render(markdown, dict(figures))}
-    return re.sub(r"\{\{(language|title|body)\}\}", lambda place: fields[place[1]], page)
+def page_of(
+    markdown: str,
+    title: str,
+    language: str,
+    figures: Mapping[str, SheetFigure],
+    template: str = "sheet.html",
+    data: Any = None,
+) -> str:
+    """Return the page of a text; ``figures`` by their paths in it, ``data`` for a script of the page."""
+    page = (_TEMPLATES / template).read_text(encoding="utf-8")
+    body = reader().render(markdown, dict(figures))
+    packed = json.dumps(data, ensure_ascii=False).replace("<", "\\u003c")
+    fields = {"language": language, "title": escape(line(title)), "body": body, "data": packed}
+    return re.sub(r"\{\{(language|title|body|data)\}\}", lambda place: fields[place[1]], page)
 
 
 #: Draws a scene, under a title, as SVG; None for a scene that has no places. Its report is known.

@@ -35,8 +35,11 @@ class WrittenSheet(NamedTuple):
     figures: dict[str, SheetFigure]
 
 
-def written_sheet(prepared: Prepared, draw: Draw, whose: str | None = None) -> WrittenSheet:
-    """The sheet of an assignment. Raises FigureError, and OSError for a figure that cannot be read."""
+def written_sheet(prepared: Prepared, draw: Draw, whose: str | None = None, has_fields: bool = False) -> WrittenSheet:
+    """The sheet of an assignment. Raises FigureError, and OSError for a figure that cannot be read.
+
+    ``has_fields``: answers are written into a page of it.
+    """
     of_problem: dict[str, SheetFigure] = {}
     others: dict[str, SheetFigure] = {}
     for problem in prepared.assignment.problems:
@@ -46,7 +49,7 @@ def written_sheet(prepared: Prepared, draw: Draw, whose: str | None = None) -> W
         for n, source in enumerate(dict.fromkeys(pictures_of(problem.text or "")), 1):
             others[source] = file_of(source, prepared.base, f"{_path(problem, whose)}-{n}")
     assignment = prepared.assignment
-    markdown = SheetComposer(prepared, of_problem, whose).markdown()
+    markdown = SheetComposer(prepared, of_problem, whose, has_fields).markdown()
     for source, figure in others.items():
         markdown = markdown.replace(f"]({source}", f"]({figure.path}")
     figures = {figure.path: figure for figure in (*of_problem.values(), *others.values())}

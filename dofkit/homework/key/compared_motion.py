@@ -13,10 +13,9 @@ from enum import Enum
 from functools import cached_property
 from typing import NamedTuple
 
-from flint import nmod_mat
-
 from dofkit.base.errors import NoValueError
 from dofkit.exact.matrices.sparse import rank_of
+from dofkit.exact.residues import residue_matrix
 from dofkit.exact.ring.program import raising_no_value
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero import independent_generators
@@ -74,7 +73,7 @@ def _accelerations(rows: Sequence[Sequence[int]], p: int) -> list[int] | None:
     """Some accelerations that satisfy rows whose last entry is the constant term, random where they are free."""
     n = len(rows[0]) - 1
     chosen = [pow(3, 7 + i, p) for i in range(n)]
-    reduced, rank = nmod_mat([list(row) for row in rows], p).rref()
+    reduced, rank = residue_matrix([list(row) for row in rows], p).rref()
     for i in range(int(rank)):
         row = [int(reduced[i, j]) for j in range(n + 1)]
         pivot = next(j for j, v in enumerate(row) if v)
@@ -220,8 +219,8 @@ def _solve(rows: list[list[int]], p: int) -> list[int]:
     """The solution of rows whose last entry is the constant term."""
     if not rows:
         return []
-    matrix = nmod_mat([row[:-1] for row in rows], p)
-    column = nmod_mat([[-row[-1] % p] for row in rows], p)
+    matrix = residue_matrix([row[:-1] for row in rows], p)
+    column = residue_matrix([[-row[-1] % p] for row in rows], p)
     solution = matrix.solve(column)
     return [int(solution[i, 0]) for i in range(len(rows))]
 

@@ -7,12 +7,11 @@ in lowest terms, identities with a proof, and linear systems.
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Iterable, Sequence
 from fractions import Fraction
 from typing import Any, TypeVar
 
-from dofkit.base.deadline import OutOfTimeError, by_processor, check, checked_calls, remaining_seconds
+from dofkit.base.deadline import OutOfTimeError, by_processor, check, checked_calls, remaining_seconds, thread_time
 from dofkit.base.errors import NoValueError
 from dofkit.exact.ring.canonical import Canon, soon_factored
 from dofkit.exact.ring.program import TooLargeError, raising_no_value
@@ -163,7 +162,7 @@ def factored(canon: Canon, poly: Poly) -> Expr:
     if poly == 0 or not bounded(poly):
         return canon.to_expr(poly)
     constant, factors = poly.factor()
-    return ex.mul(canon.to_expr(canon.one * constant), *(canon.to_expr(f) ** int(k) for f, k in factors))
+    return ex.mul(canon.to_expr(canon.unit * constant), *(canon.to_expr(f) ** int(k) for f, k in factors))
 
 
 # -- linear systems over quotients of polynomials --------------------------------------------------
@@ -380,7 +379,7 @@ def _by_sympy(work: Algebra, e: Expr, x: Expr) -> Expr | None:
     if size(e) > MAX_SYMPY or any(n.op == "call" for n in ex.nodes(e)):
         return None
     work.tick(SYMPY_STEPS)
-    start = time.thread_time()
+    start = thread_time()
     try:
         with by_processor(min(work.seconds, remaining_seconds())), checked_calls():
             return antiderivative_by_sympy(e, x, work.positive)
@@ -389,5 +388,5 @@ def _by_sympy(work: Algebra, e: Expr, x: Expr) -> Expr | None:
     except (UntranslatableError, NoValueError):
         pass
     finally:
-        work.seconds -= time.thread_time() - start
+        work.seconds -= thread_time() - start
     return None

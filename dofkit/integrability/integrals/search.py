@@ -218,11 +218,11 @@ def _constants(work: Algebra, form: Form, logs: list[Expr]) -> list[Expr] | None
     width = len(logs) + 1
     for start in range(0, len(quotients), width):
         row = quotients[start : start + width]
-        below = canon.one
+        below = canon.unit
         for _, bottom in row:
             below = below * (bottom / below.gcd(bottom))
         system.extend(_compared([canon.reduce(top * (below / bottom)) for top, bottom in row], fixed, canon))
-    solution = solve(system, canon.one)
+    solution = solve(system, canon.unit)
     return None if solution is None else [canon.to_expr(a) / canon.to_expr(b) for a, b in solution]
 
 
@@ -235,7 +235,7 @@ def _compared(polys: list[Poly], fixed: frozenset[int], canon: Canon) -> list[li
             inside = tuple(int(k) if count - 1 - i in fixed else 0 for i, k in enumerate(exponents))
             outside = tuple(int(k) - j for k, j in zip(exponents, inside, strict=True))
             by_monomial.setdefault(outside, [{} for _ in polys])[column][inside] = coefficient
-    return [[(canon.ctx.from_dict(part), canon.one) for part in row] for row in by_monomial.values()]
+    return [[(canon.ctx.from_dict(part), canon.unit) for part in row] for row in by_monomial.values()]
 
 
 #: (integral, factor).

@@ -145,6 +145,20 @@ def not_proved(report: Report) -> list[Remark]:
     return [Remark(", ".join(names), said) for said, names in together.items()]
 
 
+def checked_claims(report: Report) -> list[Remark]:
+    """Return how many proved claims the checker confirmed, and which not; empty where no certificate was asked for."""
+    proved = {name: verdict.checked for name, verdict in report.verdicts.items() if verdict.verdict == "proved"}
+    for entry in report.constraints:
+        proved |= {f"{entry.name} {label}": v.checked for label, v in entry.verdicts.items() if v.verdict == "proved"}
+    if report.certificate is None:
+        return []
+    unconfirmed = [name.replace("_", " ") for name, checked in proved.items() if not checked]
+    confirmed = f"{len(proved) - len(unconfirmed)} of {len(proved)}"
+    remarks = [Remark(confirmed, "proved claims are confirmed by the checker")]
+    listed = ", ".join(unconfirmed[:_MOST_FIELDS]) + (", ..." if len(unconfirmed) > _MOST_FIELDS else "")
+    return [*remarks, *([Remark("without evidence", listed)] if unconfirmed else [])]
+
+
 def _because(entry: FieldVerdict, method: str) -> str:
     """Return the argument in parentheses, with the chance of an error or the gap."""
     if entry.verdict == "undecided":

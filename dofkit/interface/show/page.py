@@ -10,7 +10,7 @@ from importlib.resources import files
 from dofkit.base.display import schemes
 from dofkit.expressions.text.typesetting import mathml, typeset
 from dofkit.interface.show.faults import safe
-from dofkit.interface.show.sheet import Content, Fact, Grid, Matrix, Remark, Sheet, SheetSection
+from dofkit.interface.show.sheet import Content, Fact, Formula, Grid, Matrix, Remark, Sheet, SheetSection
 
 #: What only the words of a joint or a link hold: two names with a line between them, or one of these.
 _WORDS = re.compile(
@@ -76,10 +76,15 @@ def _set(text: Content) -> str:
     """Return a formula as mathematics, if it is one; everything else as text."""
     if isinstance(text, str):
         return _plain(text)
-    formula = _matrix(text) if isinstance(text, Matrix) else _formula(text.text)
+    formula = mathematics_of(text)
     if formula is None:
         return _plain(str(text))
     return f'<math displaystyle="true" aria-label="{_plain(str(text))}">{formula}</math>'
+
+
+def mathematics_of(content: Formula | Matrix) -> str | None:
+    """Return a formula or a matrix in MathML; None for words."""
+    return _matrix(content) if isinstance(content, Matrix) else _formula(content.text)
 
 
 def _formula(text: str) -> str | None:

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 
 from dofkit.base.wording import many, verb
-from dofkit.interface.show.assurance import how_sure, left_out, not_proved, reservation
+from dofkit.interface.show.assurance import checked_claims, how_sure, left_out, not_proved, reservation
 from dofkit.interface.show.sheet import TONES, Column, Fact, Formula, Grid, Remark, Sheet, SheetSection, Tone
 from dofkit.report import ConstraintEntry, Report, SpecialCase
 
@@ -64,6 +64,7 @@ def _sections(report: Report, how: bool) -> Iterator[SheetSection]:
     yield _listed("Redundancy", list(_redundancy(report)))
     yield _listed("Forces", [Remark(force.name, force.reason) for force in report.forces])
     yield _listed("Warnings", [Remark("!", _sentence(warning)) for warning in report.warnings])
+    yield _listed("Checked", checked_claims(report))
     if how:
         yield SheetSection("How", how_sure(report))
         yield SheetSection("Not proved", not_proved(report))

@@ -2,7 +2,7 @@
 
 The evidence is written in the checker's own reading of the scene, and every claim is tried by the checker's rules
 before it is written down, so that a certificate holds nothing that the checker refuses. Claims without evidence are
-listed as uncovered; a claim that the evidence contradicts is lowered.
+listed as uncovered; a claim whose evidence gives another value is lowered.
 
 Types
     A `scenery.Scenery` is the checker's reading of a scene with values chosen for parameters and unknown functions. A
@@ -15,8 +15,8 @@ From a report to a certificate
     3. `freedom` writes numbers and redundancy, `dimension` what holds of the whole set and at points where rows are
        stationary, `labels` labels and integrals, `fields` velocity fields and brackets, `emptiness` contradictions
        between equations. `steps` writes what these rest on: equations that follow from others by cofactors.
-    4. `contradictions` searches for evidence of another value where a proved claim has none; `lowering` makes such a
-       claim undecided.
+    4. `lowering` says in each verdict whether it is checked, and makes a claim undecided whose evidence gives another
+       value.
 
 `motion_evidence` writes certificates of equations of motion; `verifying` is the public `dofkit.verify`.
 """

@@ -3,27 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from typing import Any, TypeVar
+from typing import Any
 
 from dofkit.checker.problem import CheckedProblem as Problem
 from dofkit.checker.problem import read_problem
 from dofkit.checker.trees import CheckError
 from dofkit.methods.certificates import emptiness, fields, freedom, labels
-from dofkit.methods.certificates.contradictions import (
-    as_if,
-    is_decisive,
-    is_of_largest_part,
-    is_told_of_less,
-    other_reports,
-    refutations,
-)
 from dofkit.methods.certificates.numerics import NoEstimateError
 from dofkit.methods.certificates.room import ClaimTrial, Room, Told, empty_certificate
-from dofkit.methods.certificates.scenery import Scenery
+from dofkit.methods.certificates.scenery import FAR, Scenery
 from dofkit.report import ConstraintEntry, Report
 
 Maker = Callable[[Room], Iterator[Told]]
-Candidate = TypeVar("Candidate")
 
 NUMBERS: dict[str, Maker] = {
     "consistent": freedom.consistent,
@@ -57,8 +48,6 @@ LAST = (
     *("/singular", "/holonomic", "/scleronomic", "/redundant_equations", "/redundancies", "/integrable_part"),
     "/growth_vector",
 )
-#: Numbers that may differ from one part of the set to another.
-OF_A_POINT = ("dof", "velocity_dof", "redundant", "generalized_coordinates", "growth_vector", "independent", "circuit")
 HINDRANCES = (CheckError, NoEstimateError, RecursionError, KeyError, ValueError, ZeroDivisionError, OverflowError)
 
 
@@ -68,17 +57,17 @@ def certificate_of(document: Mapping[str, Any], report: Report) -> dict[str, Any
 
 
 def made(document: Mapping[str, Any], report: Report) -> tuple[dict[str, Any], list[tuple[str, str]]]:
-    """The certificate, of claims that the checker's rules have shown, and what the evidence contradicts, with why."""
+    """The certificate of the claims that the checker accepts, and the claims that evidence contradicts, with why."""
     making = Certifying(document, report)
     return making.written(), list(making.contradictions.items())
 
 
 class Certifying:
-    """A certificate while it is made."""
+    """A certificate while it is made; ``contradictions``: claims whose evidence gives another value, and why."""
 
     def __init__(self, document: Mapping[str, Any], report: Report) -> None:
         self.document, self.report = document, report
-        self.found = empty_certificate(report.scene, document)
+        self.certificate = empty_certificate(report.scene, document)
         self.rooms: list[Room] = []
         self.trial: ClaimTrial | None = None
         self.contradictions: dict[str, str] = {}
@@ -86,104 +75,60 @@ class Certifying:
     def written(self) -> dict[str, Any]:
         """All claims that are said to be proved, each with evidence or among the uncovered."""
         try:
-            self.rooms = _rooms(self.document, self.report, self.found)
-            self.trial = ClaimTrial(self.document, self.found, self.rooms[-1].problem)
+            self.rooms = _rooms(self.document, self.report, self.certificate)
+            self.trial = ClaimTrial(self.document, self.certificate, self.rooms[-1].problem)
             for room in self.rooms:
                 self.trial.admit(room.scenery)
         except CheckError:
             self.rooms = []
-        unshown = []
+        claims, uncovered = self.certificate["claims"], self.certificate["uncovered"]
         for path, value, make in sorted(_asked(self.report), key=lambda asked: asked[0] in LAST):
-            claim = self._made(path, value, make)
-            if claim is None and self._is_proved(path):
-                self.found["uncovered"].append(path)
-                unshown.append((path, value, make))
-            elif claim is None:
-                self.contradictions.pop(path, None)
-            else:
-                self.found["claims"].append(claim)
-                self._compare_about(path, claim)
-        written = without_spare_parts({**self.found})  # what is searched for below adds parts to the lists
-        for path, value, make in unshown:
-            self._look_for_others(path, value, make)
-        written["uncovered"] = [path for path in written["uncovered"] if path not in self.contradictions]
-        return written
+            verdict = self.report.verdicts.get(path[1:])
+            is_proved = verdict is None or verdict.verdict == "proved"
+            claim = self._confirmed(path, value, make, is_proved)
+            claims += [claim] if claim else []
+            uncovered += [path] if is_proved and not claim and path not in self.contradictions else []
+            # a number shown near a point only, that is stated of all points, is uncovered in that
+            elsewhere = claim and is_proved and verdict and claim.get("about", verdict.about) != verdict.about
+            uncovered += [f"/verdicts{path}/about"] if elsewhere else []
+        return without_spare_parts(self.certificate)
 
-    def _is_proved(self, path: str) -> bool:
-        """Whether a claim is said to be proved; numbers that are probable are tried as well."""
-        verdict = self.report.verdicts.get(path[1:])
-        return verdict is None or verdict.verdict == "proved"
-
-    def _look_for_others(self, path: str, value: Any, make: Maker) -> None:
-        """Write down why a claim without evidence cannot be, where something shows it."""
-        if path not in self.contradictions and path in LAST:
-            self._made(path, value, make)
-        asked_path, asked_value = path, value
-        if path == "/generalized_coordinates":  # there are as many as degrees of freedom
-            asked_path, asked_value = "/dof", len(value)
-        for room in self.rooms:
-            for other in _guarded(self._others(room, asked_path, asked_value)):
-                self.contradictions.setdefault(path, f"the evidence gives {other!r}, not {str(asked_value)[:80]!r}")
-                return
-            for why in _guarded(refutations(room, self.report, path, value)):
-                self.contradictions.setdefault(path, why)
-
-    def _others(self, room: Room, path: str, value: Any) -> Iterator[Any]:
-        """Other values of a claim that are shown where the claim is made."""
-        for report in other_reports(self.report, path, value, len(room.problem.coordinates)):
-            freedom_asked = path, report.dof, NUMBERS["dof"]
-            _, other, make = next((entry for entry in _asked(report) if entry[0] == path), freedom_asked)
-            for evidence in _guarded(make(as_if(room, report))):
-                claim = self._claim(room, path, other, evidence)
-                if is_decisive(room, claim) and self.trial and self.trial.outcome(claim) == "shown":
-                    yield other
-
-    @staticmethod
-    def _claim(room: Room, path: str, value: Any, evidence: Told) -> Told:
-        return {"path": path, "value": value, **evidence, **({"cayley": True} if room.scenery.cayley else {})}
-
-    def _made(self, path: str, value: Any, make: Maker) -> Told | None:
-        """A claim that is shown; None where none is. What the evidence contradicts is written down elsewhere."""
+    def _confirmed(self, path: str, value: Any, make: Maker, is_proved: bool) -> Told | None:
+        """A claim that the checker accepts, or None; where the evidence for it gives another value, that is noted."""
         contradicted = ""
         for room in self.rooms:
             for evidence in _guarded(make(room)):
-                claim = self._claim(room, path, value, evidence)
+                claim = {"path": path, "value": value, **evidence, **({"cayley": True} if room.scenery.cayley else {})}
                 outcome = self.trial.outcome(claim) if self.trial else "open"
                 if outcome == "shown":
                     return claim
-                counts = outcome == "contradicted" and (self._counts(room, claim) or is_decisive(room, claim))
-                if counts and self.trial:
+                if outcome == "contradicted" and self.trial and self._is_of_same_points(room, claim):
                     contradicted = contradicted or self.trial.reasons[path]
-        if contradicted:
+        if contradicted and is_proved:
             self.contradictions[path] = contradicted
         return None
 
-    def _counts(self, room: Room, claim: Told) -> bool:
-        """Whether evidence for another value contradicts what is told, and is not of another place or reading.
+    def _is_of_same_points(self, room: Room, claim: Told) -> bool:
+        """Whether evidence is of the configuration, of all points as the report is, or of no point.
 
-        Numbers at a point that was looked for may be those of another part of the set; what is reduced (squares) or
-        vanishes at the configuration may be told of what it was reduced to.
+        Numbers at a point that was looked for may be those of another component of the set. What is reduced (squares),
+        or vanishes at the configuration, may be stated of what it was reduced to.
         """
-        path = claim["path"]
-        if is_told_of_less(room, path[1:]):
+        field = claim["path"][1:]
+        verdict = self.report.verdicts.get(field)
+        if room.scenery.reduced_from or (field == "instantaneous_dof" and _has_stationary_row(room)):
             return False
-        verdict = self.report.verdicts.get(path[1:])
-        whole = verdict is not None and verdict.about == "everywhere"
-        if path == "/dof" and whole and self.trial and not room.problem.reference:
-            number = self.trial.reasons[path].removeprefix("the evidence gives ").partition(",")[0]
-            if number.isdigit() and int(number) > claim["value"]:
-                return True
-        pointed = any(key in claim for key in ("minor", "at", "most")) and path.rpartition("/")[2] in OF_A_POINT
-        return not pointed or room.at_reference or is_of_largest_part(room, claim)
-
-    def _compare_about(self, path: str, claim: Told) -> None:
-        """A number shown near a point only, that is told of everywhere, is uncovered in that."""
-        verdict = self.report.verdicts.get(path[1:])
-        if verdict is not None and self._is_proved(path) and "about" in claim and claim["about"] != verdict.about:
-            self.found["uncovered"].append(f"/verdicts{path}/about")
+        whole = verdict is not None and claim.get("about") == "everywhere" == verdict.about
+        return whole or room.at_reference or not any(key in claim for key in ("minor", "at", "most"))
 
 
-def _guarded(candidates: Iterator[Candidate]) -> Iterator[Candidate]:
+def _has_stationary_row(room: Room) -> bool:
+    """Whether an equation has the differential 0 at the main point, as far as floats tell."""
+    rows = [] if room.point is None else [room.row(name, room.point) for name in room.equations]
+    return any(all(abs(value) <= FAR for value in row.values()) for row in rows)
+
+
+def _guarded(candidates: Iterator[Told]) -> Iterator[Told]:
     """Yield candidates until something stands in the way."""
     try:
         yield from candidates

@@ -54,7 +54,7 @@ def backing(room: Room, standing: Standing | None) -> Told | None:
         return {}
     if (blocks := covering(room, standing)) is None:
         return None
-    covers, cover = room.scenery.parts["covers"], {"minor": room.minor(standing), "blocks": blocks}
+    covers, cover = room.scenery.entries["covers"], {"minor": room.minor(standing), "blocks": blocks}
     for entry in covers:
         if all(entry[key] == value for key, value in cover.items()):
             return {"covers": [entry["id"]]}
@@ -73,7 +73,7 @@ def covering(room: Room, standing: Standing) -> list[Told] | None:
         if rank == len(names):
             blocks.append({"rows": names, "fields": [], "columns": []})
             continue
-        held = {symbol for name in names for symbol in scenery.evidence.relation(name).left.symbols}
+        held = {symbol for name in names for symbol in scenery.evidence.relation(name).tree.symbols}
         variables = [q for q in room.problem.coordinates if q in held]
         fields = [{q: text for q, text in motion.items() if q in held} for motion in candidates]
         columns = _chosen(scenery, fields, standing)
@@ -99,7 +99,7 @@ def parts_of(scenery: Scenery, names: Sequence[str]) -> list[list[str]]:
     """Return the relations in groups that share no coordinate."""
     classes, groups = UnionFind(), dict[Any, list[str]]()
     for name in names:
-        held = scenery.evidence.relation(name).left.symbols
+        held = scenery.evidence.relation(name).tree.symbols
         classes.union((name,), *(q for q in scenery.problem.coordinates if not held.isdisjoint((q, f"{q}dot"))))
     for name in names:
         groups.setdefault(classes[name,], []).append(name)
@@ -128,7 +128,7 @@ def _kept(scenery: Scenery, ids: Sequence[str], names: Sequence[str]) -> bool:
 
 def field_id(scenery: Scenery, field: Told) -> str:
     """The id of a field, new or known."""
-    fields = scenery.parts["fields"]
+    fields = scenery.entries["fields"]
     for entry in fields:
         if all(entry.get(key) == value for key, value in field.items()):
             return str(entry["id"])
@@ -158,7 +158,7 @@ def tangent_fields(room: Room, standing: Standing) -> list[str] | None:
     """Fields that span the kernel of rows: one for every coordinate (and time) that is no column."""
     scenery, pairs = room.scenery, dict(zip(standing.rows, standing.columns, strict=True))
     evidence = scenery.evidence
-    timed = any(not {"t", "tdot"}.isdisjoint(evidence.relation(row).left.symbols) for row in standing.rows)
+    timed = any(not {"t", "tdot"}.isdisjoint(evidence.relation(row).tree.symbols) for row in standing.rows)
     free = [q for q in (*room.problem.coordinates, *(["t"] if timed else [])) if q not in pairs.values()]
     ids = []
     for coordinate in free:
@@ -187,9 +187,9 @@ def _touched(room: Room, standing: Standing, free: str) -> list[str]:
     evidence = room.scenery.evidence
     groups = parts_of(room.scenery, standing.rows)
     if free == "t":
-        moved = [part for part in groups if any(_holds(evidence.relation(row).left, "t") for row in part)]
+        moved = [part for part in groups if any(_holds(evidence.relation(row).tree, "t") for row in part)]
     else:
-        moved = [part for part in groups if any(_holds(evidence.relation(row).left, free) for row in part)]
+        moved = [part for part in groups if any(_holds(evidence.relation(row).tree, free) for row in part)]
     return [row for row in standing.rows if any(row in part for part in moved)]
 
 
@@ -330,7 +330,7 @@ def growth_vector(room: Room) -> Iterator[Told]:
 def pairing(room: Room, name: str, point: FoundPoint, vector: dict[str, float]) -> float:
     """The value of a form in a direction."""
     rates = {f"{q}dot": vector.get(q, 0.0) for q in (*room.problem.coordinates, "t")}
-    return Estimates({**point.floats, **rates}).value(room.scenery.left(name))
+    return Estimates({**point.floats, **rates}).value(room.scenery.tree(name))
 
 
 def determinant(rows: list[list[Tree]]) -> Tree:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import combinations
 
-from dofkit.checker.label_rules import form_of
+from dofkit.checker.label_rules import exterior_part, form_of
 from dofkit.checker.trees import ZERO, CheckError, Tree, add, derivative, negative, number, symbol, times
 from dofkit.methods.certificates.fields import (
     LARGEST_CRAMER,
@@ -35,7 +35,7 @@ def integral_of_text(room: Room, text: str) -> str | None:
 def combined_integral(room: Room, function: str, alone: str = "") -> str | None:
     """Return the id of a step by which a function keeps its value: by one form ``alone``, or whatever that takes."""
     name = f"{room.scenery.label}{function} is constant{f' by {alone}' if alone else ''}"
-    if name in room.scenery.evidence.known:
+    if name in room.scenery.evidence.by_name:
         return name
     if room.point is None:
         return None
@@ -114,7 +114,7 @@ def variables_of(form: Components) -> frozenset[str]:
 
 def components(room: Room, name: str) -> Components:
     """The components of a linear relation of velocities."""
-    tree = room.scenery.evidence.relation(name).left
+    tree = room.scenery.evidence.relation(name).tree
     return {v: derivative(tree, f"{v}dot") for v in room.scenery.evidence.variables}
 
 
@@ -201,18 +201,9 @@ def _wedge(room: Room, name: str) -> Told | None:
     if point is None or form is None:
         return None
     for triple in combinations([v for v in room.scenery.evidence.variables if v in variables_of(form)], 3):
-        i, j, k = triple
-        cycles = ((i, j, k), (j, k, i), (k, i, j))
-        tree = add(*(times(form.get(a, number(0)), curl(form, b, c)) for a, b, c in cycles))
-        if room.scenery.differs(tree, point.floats):
+        if room.scenery.differs(exterior_part(form, *triple), point.floats):
             return {"rule": "wedge", "at": point.name, "triple": list(triple)}
     return None
-
-
-def curl(form: dict[str, Tree], i: str, j: str) -> Tree:
-    """d_i form_j - d_j form_i."""
-    zero = number(0)
-    return add(derivative(form.get(j, zero), i), negative(derivative(form.get(i, zero), j)))
 
 
 def _reached(room: Room, owner: str, alone: bool) -> Told | None:
@@ -228,7 +219,7 @@ def _reached(room: Room, owner: str, alone: bool) -> Told | None:
         for word, vector in zip(words.words, words.vectors, strict=True):
             if len(word) > 1 and abs(pairing(room, name, standing.point, vector)) > FAR:
                 used = {"fields": words.fields, "rows": words.rows, "word": word, "pairs": name}
-                if any(map(evidence.is_open, (evidence.relation(other).left for other in evidence.finite))):
+                if any(map(evidence.is_open, (evidence.relation(other).tree for other in evidence.finite))):
                     used["minor"] = room.minor(standing)
                 return {"rule": "bracket", "at": standing.point.name, **used}
     return None
@@ -281,7 +272,7 @@ def exact(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
     for name in names:
         form = form_or_none(room, name) or {}
         for i, j in combinations([v for v in room.scenery.evidence.variables if v in variables_of(form)], 2):
-            if room.scenery.differs(curl(form, i, j), point.floats):
+            if room.scenery.differs(exterior_part(form, i, j), point.floats):
                 which = {"relation": name} if len(names) > 1 else {}
                 yield {"rule": "not exact", "at": point.name, "pair": [i, j], **which}
                 break
@@ -311,7 +302,7 @@ def _turning(room: Room, name: str, field: str) -> Iterator[Told]:
     if room.scenery.evidence.relation(name).kind == "velocity":
         yield from _turning_form(room, name, field)
         return
-    turned = derivative(room.scenery.left(name), "t")
+    turned = derivative(room.scenery.tree(name), "t")
     if turned == number(0):
         return
     for point in _points_of(room, name):
@@ -330,7 +321,7 @@ def _turning_form(room: Room, name: str, field: str) -> Iterator[Told]:
     form, point = form_or_none(room, name), room.point
     if point is None:
         return
-    tree = room.scenery.left(name)
+    tree = room.scenery.tree(name)
     rates = {v: times(symbol(v), derivative(tree, v)) for v in room.scenery.evidence.velocities if v in tree.symbols}
     turned = form.get("t", number(0)) if form else derivative(tree, "t")
     if field == "catastatic" and form is None:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from functools import partial
-from typing import Any
+from typing import Any, TypeVar
 
 from dofkit.base.verdicts import weakest
 from dofkit.expressions.text.characters import DEGREE, GREEK_LETTERS
@@ -15,14 +15,10 @@ from dofkit.scene.lowering import survey_of
 from dofkit.scene.scene import Scene
 from dofkit.scene.synonyms import SAID, with_plain_subscripts
 
-_UNDECIDED = FieldVerdict(verdict="undecided")
-#: What fields are where they are undecided; the others stay as they are.
-_OPEN: Mapping[str, Any] = {
-    **dict.fromkeys(("consistent", "dof", "velocity_dof", "instantaneous_dof", "singular", "holonomic", "scleronomic")),
-    **dict.fromkeys(("redundant", "redundant_equations", "generalized_coordinates", "growth_vector")),
-    **dict.fromkeys(("integrable_part", "feasible")),
-    **{"redundancies": [], "conflicting": [], "infeasible": []},
-}
+UNDECIDED = FieldVerdict(verdict="undecided", checked=False)
+Model = TypeVar("Model", Report, ConstraintEntry)
+#: What fields are where they are undecided, if not None.
+_OPEN: Mapping[str, Any] = {"redundancies": [], "conflicting": [], "infeasible": []}
 
 
 #: A number of degrees; `deg` where that is no declared name.
@@ -54,27 +50,15 @@ def _plain(value: Any, unit: Callable[[re.Match[str]], str]) -> Any:
 
 
 def with_certificate(scene: Scene, report: Report) -> Report:
-    """Return the report with a certificate; a claim whose evidence gives another value is lowered, with a warning."""
+    """Return the report with a certificate, and in each verdict whether the checker accepted evidence for it.
+
+    A claim whose evidence gives another value is undecided, with a warning.
+    """
     making = Certifying(document_of_scene(scene), report)
     certificate = making.written()
-    against = making.contradictions
-    if against:
-        report = lowered(report, {**against, **_doubted(report, against, certificate["uncovered"])})
-    return report.model_copy(update={"certificate": certificate})
-
-
-def _doubted(report: Report, contradictions: Mapping[str, str], uncovered: list[str]) -> dict[str, str]:
-    """Return the claims without evidence that rest on the argument of one that failed, or on consistency that did."""
-    verdicts = {path: verdict for path, _, verdict in told_fields(report)}
-    failed = {verdicts[path].argument: path for path in contradictions}
-    doubted = {}
-    for path in uncovered:
-        verdict = verdicts.get(path)
-        if verdict is not None and verdict.argument in failed:
-            doubted[path] = f"it rests on the argument of {failed[verdict.argument]}"
-        elif verdict is not None and "/consistent" in contradictions and path.count("/") == 1:
-            doubted[path] = "it rests on /consistent"
-    return doubted
+    confirmed = {claim["path"] for claim in certificate["claims"]}
+    confirmed -= {path.removeprefix("/verdicts").removesuffix("/about") for path in certificate["uncovered"]}
+    return _checked(report, confirmed, making.contradictions).model_copy(update={"certificate": certificate})
 
 
 def told_fields(report: Report) -> Iterator[tuple[str, Any, FieldVerdict]]:
@@ -90,28 +74,24 @@ def _entry_path(entry: ConstraintEntry) -> str:
     return "/constraints/" + entry.name.replace("~", "~0").replace("/", "~1")
 
 
-def lowered(report: Report, contradictions: Mapping[str, str]) -> Report:
-    """Return the report with the claims at some paths undecided, and why in its warnings."""
-    fields = {
-        path[1:]: _OPEN.get(path[1:], getattr(report, path[1:])) for path in contradictions if path.count("/") == 1
-    }
+def _checked(report: Report, confirmed: Collection[str], contradictions: Mapping[str, str]) -> Report:
+    """Return the report with ``checked`` in each verdict, and what is contradicted undecided, with a warning."""
+
+    def revised(model: Model, start: str) -> Model:
+        verdicts = {
+            field: UNDECIDED
+            if f"{start}/{field}" in contradictions
+            else verdict.model_copy(update={"checked": f"{start}/{field}" in confirmed})
+            for field, verdict in model.verdicts.items()
+        }
+        fields = {field: _OPEN.get(field) for field, verdict in verdicts.items() if verdict is UNDECIDED}
+        weaker = {"verdict": weakest(model.verdict, "undecided")} if fields else {}
+        return model.model_copy(update={**fields, **weaker, "verdicts": verdicts})
+
     warnings = [
         f"{path}: a second program finds otherwise ({why}); it is undecided" for path, why in contradictions.items()
     ]
-    changes = {
-        **fields,
-        "verdicts": {**report.verdicts, **dict.fromkeys(fields, _UNDECIDED)},
-        "constraints": [_entry(entry, contradictions) for entry in report.constraints],
-        "verdict": weakest(report.verdict, "undecided"),
-        "warnings": [*report.warnings, *warnings],
-    }
-    return report.model_copy(update=changes)
-
-
-def _entry(entry: ConstraintEntry, contradictions: Mapping[str, str]) -> ConstraintEntry:
-    start = _entry_path(entry)
-    fields = [field for field in entry.verdicts if f"{start}/{field}" in contradictions]
-    if not fields:
-        return entry
-    verdicts = {**entry.verdicts, **dict.fromkeys(fields, _UNDECIDED)}
-    return entry.model_copy(update={**dict.fromkeys(fields), "verdicts": verdicts, "verdict": "undecided"})
+    entries = [revised(entry, _entry_path(entry)) for entry in report.constraints]
+    weaker = {"verdict": weakest(report.verdict, "undecided")} if contradictions else {}
+    changes = {"constraints": entries, "warnings": [*report.warnings, *warnings], **weaker}
+    return revised(report, "").model_copy(update=changes)

@@ -1,4 +1,4 @@
-"""Evidence for equations of motion: a point of the motions that are told, rows, and what relations are multiples of."""
+"""Evidence for equations of motion: a point of the motions, rows, and what relations are multiples of."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def certificate_of_motion(scene: Scene, motion: Mapping[str, Any], report: Repor
         room = Room(report, document, Scenery(problem, False, certificate))
         trial = ClaimTrial(document, certificate, problem)
         trial.admit(room.scenery)
-        for evidence in MotionEvidence(room, {name: motion[name] for name in MOTION_FIELDS}).found():
+        for evidence in MotionEvidence(room, {name: motion[name] for name in MOTION_FIELDS}).claims():
             if trial.outcome(evidence) == "shown":
                 certificate |= {"claims": [evidence], "uncovered": []}
                 break
@@ -46,19 +46,19 @@ def certificate_of_motion(scene: Scene, motion: Mapping[str, Any], report: Repor
 
 
 class MotionEvidence:
-    """What is told of a motion, in the checker's reading."""
+    """A motion of the report, in the checker's reading."""
 
-    def __init__(self, room: Room, told: dict[str, Any]) -> None:
-        self.room, self.told, self.evidence = room, told, room.scenery.evidence
+    def __init__(self, room: Room, motion: dict[str, Any]) -> None:
+        self.room, self.motion, self.evidence = room, motion, room.scenery.evidence
         self.problem: Problem = room.problem
         self.constants = self._constants()
-        self.places = {q: self.read(text) for q, text in told["eliminated"].items()}
-        self.limits = dict(zip(told["multipliers"], map(self.read, told["constraints"]), strict=True))
+        self.places = {q: self.read(text) for q, text in motion["eliminated"].items()}
+        self.limits = dict(zip(motion["multipliers"], map(self.read, motion["constraints"]), strict=True))
 
     def _constants(self) -> dict[str, str]:
         """Names in the eliminated coordinates that are none of the scene's: constants of integration."""
         constants: dict[str, str] = {}
-        for text in self.told["eliminated"].values():
+        for text in self.motion["eliminated"].values():
             for k in range(1, 5):
                 for name in (f"C{k}", f"C_{k}", "C"):
                     if name in text and name not in (*self.problem.world.signs, *self.problem.coordinates):
@@ -67,12 +67,12 @@ class MotionEvidence:
 
     def read(self, text: str) -> Tree:
         """A text of the report."""
-        kept = (f"{q}ddot" for q in self.told["coordinates"])
-        return self.evidence.text(text.removesuffix("= 0"), [*self.told["multipliers"], *self.constants, *kept])
+        kept = (f"{q}ddot" for q in self.motion["coordinates"])
+        return self.evidence.text(text.removesuffix("= 0"), [*self.motion["multipliers"], *self.constants, *kept])
 
-    def found(self) -> Iterator[Told]:
+    def claims(self) -> Iterator[Told]:
         """Claims, one point after another."""
-        claim: Told = {"path": PATH, "value": self.told, "rule": "lagrange", "c": self.cofactors()}
+        claim: Told = {"path": PATH, "value": self.motion, "rule": "lagrange", "c": self.cofactors()}
         claim |= {"constants": self.constants} if self.constants else {}
         size = len(self.places) + len(self.limits)
         for point in self.points() if size else ():
@@ -88,17 +88,17 @@ class MotionEvidence:
     def factors(self) -> Iterator[Told]:
         """None, or exponentials that the equations were divided by."""
         yield {}
-        for power_of_e in sorted(_exponentials(self.read(self.told["lagrangian"]))):
-            yield {"factors": dict.fromkeys(self.told["coordinates"], power_of_e)}
+        for power_of_e in sorted(_exponentials(self.read(self.motion["lagrangian"]))):
+            yield {"factors": dict.fromkeys(self.motion["coordinates"], power_of_e)}
 
     def cofactors(self) -> dict[str, dict[str, str]]:
-        """For every relation that is not 0 where coordinates are put in, the told constraint whose multiple it is."""
+        """For every relation that is not 0 where coordinates are put in, the constraint whose multiple it is."""
         rates = {**{q: symbol(f"{q}dot") for q in self.problem.coordinates}, "t": ONE}
         put: dict[str, Tree] = {"tdot": ONE, **self.places}
         put |= {f"{q}dot": along(rates, tree) for q, tree in self.places.items()}
         multiples, ring = {}, self.evidence.ring
         for name in self.evidence.equations:
-            residue = substituted(self.evidence.relation(name).left, put)
+            residue = substituted(self.evidence.relation(name).tree, put)
             for multiplier, tree in self.limits.items() if not ring.vanishes(residue) else ():
                 ratio = ring.rational(times(residue, power(tree, MINUS)))
                 if ratio is not None:
@@ -119,7 +119,7 @@ class MotionEvidence:
 
     def _put_in(self, attempt: int) -> FoundPoint | None:
         values = dict(self.room.scenery.parameters)
-        values |= {q: Fraction(k + attempt + 2, 7 + 2 * attempt) for k, q in enumerate(self.told["coordinates"])}
+        values |= {q: Fraction(k + attempt + 2, 7 + 2 * attempt) for k, q in enumerate(self.motion["coordinates"])}
         values |= {"t": Fraction(attempt, 3)} if self.room.scenery.timed else {}
         values |= {name: Fraction(self.constants[name]) for name in self.constants}
         texts = {name: number_text(value) for name, value in values.items() if name not in self.constants}

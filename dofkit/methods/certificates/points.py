@@ -49,7 +49,7 @@ _ROUNDINGS = (4, 32, 1024, 2**20)
 def residual(scenery: Scenery, floats: Mapping[str, float], names: Sequence[str]) -> float:
     """How far relations are from 0."""
     estimates = Estimates(floats)
-    return max((abs(estimates.value(scenery.left(name))) for name in names), default=0.0)
+    return max((abs(estimates.value(scenery.tree(name))) for name in names), default=0.0)
 
 
 ATTEMPTS = 5
@@ -64,7 +64,7 @@ def solved_rows(
     solution, wanted = dict(floats), set(columns)
     for _ in range(ITERATIONS):
         estimates = Estimates(solution)
-        pairs = [estimates.value_and_gradient(scenery.left(name)) for name in rows]
+        pairs = [estimates.value_and_gradient(scenery.tree(name)) for name in rows]
         matrix = [{n: s for n, s in slope.items() if n in wanted} for _, slope in pairs]
         step = solved(matrix, [value for value, _ in pairs], columns)
         if step is None or any(abs(change) > 1e6 for change in step.values()):
@@ -81,7 +81,7 @@ def refined(
     """Decimals of the columns, by Newton's method with a fixed matrix in balls."""
     estimates = Estimates(floats)
     wanted = set(columns)
-    lefts: list[Tree] = [scenery.left(name) for name in rows]
+    lefts: list[Tree] = [scenery.tree(name) for name in rows]
     matrix = [{n: s for n, s in estimates.gradient(tree).items() if n in wanted} for tree in lefts]
     with ctx.workprec(PRECISION):
         balls = {n: arb(fmpq(v.numerator, v.denominator)) for n, v in exact.items()}
@@ -156,7 +156,7 @@ class PointSearch:
 
     def _is_positive(self, point: FoundPoint, name: str) -> bool:
         try:
-            return Estimates(point.floats).value(self.scenery.left(name)) > NEAR
+            return Estimates(point.floats).value(self.scenery.tree(name)) > NEAR
         except NoEstimateError:
             return False
 
@@ -196,7 +196,7 @@ class PointSearch:
         for _ in range(ITERATIONS):
             self.scenery.effort.spend(40 * len(names) * (1 + len(names)))
             estimates = Estimates(floats)
-            pairs = [estimates.value_and_gradient(self.scenery.left(name)) for name in names]
+            pairs = [estimates.value_and_gradient(self.scenery.tree(name)) for name in names]
             if max((abs(value) for value, _ in pairs), default=0.0) < 1e-13:
                 return floats
             rows = [{n: s for n, s in slope.items() if n in unknowns} for _, slope in pairs]
@@ -213,7 +213,7 @@ class PointSearch:
         generic = set(self.problem.world.generic)
         estimates = Estimates(dict(floats))
         for name in names if generic else ():
-            value, slope = estimates.value_and_gradient(self.scenery.left(name))
+            value, slope = estimates.value_and_gradient(self.scenery.tree(name))
             symbols = [symbol for symbol in slope if symbol in generic]
             if len(symbols) == 1:
                 floats[symbols[0]] -= value / slope[symbols[0]]
@@ -222,7 +222,7 @@ class PointSearch:
     def pivots(self, floats: Mapping[str, float], names: Sequence[str], unknowns: set[str]) -> list[Pivot]:
         """Independent rows, with columns that are easily solved for."""
         estimates = Estimates(floats)
-        lefts = [self.scenery.left(name) for name in names]
+        lefts = [self.scenery.tree(name) for name in names]
         rows = [{n: s for n, s in estimates.gradient(tree).items() if n in unknowns} for tree in lefts]
         generic = set(self.problem.world.generic)
 
@@ -275,7 +275,7 @@ class PointSearch:
 
     def _holds(self, values: Mapping[str, Fraction], names: Sequence[str]) -> bool:
         point = CheckedPoint("", {n: number(v) for n, v in values.items()}, {}, self.scenery.effort)
-        return all(self.scenery.evidence.ring.vanishes(point.prepared(self.scenery.left(name))) for name in names)
+        return all(self.scenery.evidence.ring.vanishes(point.prepared(self.scenery.tree(name))) for name in names)
 
 
 def _fraction(text: str) -> Fraction:

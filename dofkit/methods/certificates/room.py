@@ -9,7 +9,7 @@ from typing import Any, Literal
 
 from dofkit.checker.problem import CheckedProblem as Problem
 from dofkit.checker.problem import canonical, sha256_of
-from dofkit.checker.relations import FAULTS, told
+from dofkit.checker.relations import FAULTS, fault_text
 from dofkit.checker.trees import CheckError
 from dofkit.checker.verification import PARTS, Verifier
 from dofkit.methods.certificates.numerics import Estimates, NoEstimateError, echelon
@@ -45,9 +45,9 @@ class ClaimTrial:
         try:
             self.verifier.check(claim)
         except FAULTS as error:
-            self.reasons[claim["path"]] = told(error)
+            self.reasons[claim["path"]] = fault_text(error)
             self._forget(counts)
-            return "contradicted" if told(error).startswith("the evidence gives") else "open"
+            return "contradicted" if fault_text(error).startswith("the evidence gives") else "open"
         return "shown"
 
     def _forget(self, counts: Mapping[bool, int]) -> None:
@@ -94,7 +94,7 @@ class Room:
 
     def add_point(self, point: FoundPoint) -> str:
         """The id of a further point, written into the certificate."""
-        entries = self.scenery.parts["points"]
+        entries = self.scenery.entries["points"]
         if all(point_entry["id"] != point.name for point_entry in entries):
             entries.append(point.entry())
         return point.name
@@ -102,7 +102,7 @@ class Room:
     def minor(self, standing: Standing) -> str:
         """Return the id of the minor of the rows and columns."""
         entries = {"at": standing.point.name, "rows": standing.rows, "columns": standing.columns}
-        minors = self.scenery.parts["minors"]
+        minors = self.scenery.entries["minors"]
         for minor_entry in minors:
             if all(minor_entry[key] == value for key, value in entries.items()):
                 return str(minor_entry["id"])
@@ -154,7 +154,7 @@ class Room:
             place.values |= dict.fromkeys((f"{q}dot" for q in self.problem.coordinates), "0")
         if place is not None:
             place.name = f"{self.scenery.label}{place.name}"
-            self.scenery.parts["points"].append(place.entry())
+            self.scenery.entries["points"].append(place.entry())
         return place
 
     def _searched(self) -> FoundPoint | None:
@@ -204,7 +204,7 @@ class Room:
         scenery = self.scenery
         finite = scenery.evidence.relation(name).kind == "finite"
         rates = {f"{q}dot": 0.0 for q in (*self.problem.coordinates, "t")} | {"tdot": 1.0}
-        gradient = Estimates({**rates, **point.floats}).gradient(scenery.left(name))
+        gradient = Estimates({**rates, **point.floats}).gradient(scenery.tree(name))
         return {
             q: gradient[q if finite else f"{q}dot"]
             for q in self.problem.coordinates
@@ -232,6 +232,7 @@ class Room:
         """Independent rows in an order of their own, the others by steps where that is possible."""
         standing = self.standing_of(names)
         if standing is not None and standing.dependent:
-            followed = [accounted(self.scenery, name, standing.rows, standing.point) for name in standing.dependent]
-            standing.accounted = all(followed)
+            standing.accounted = all(
+                accounted(self.scenery, name, standing.rows, standing.point) for name in standing.dependent
+            )
         return standing

@@ -68,7 +68,7 @@ class Scenery:
     """A problem with its evidence so far, and values for parameters, unknown functions and time."""
 
     def __init__(self, problem: Problem, cayley: bool, lists: dict[str, list[dict[str, Any]]]) -> None:
-        self.problem, self.cayley, self.parts = problem, cayley, lists
+        self.problem, self.cayley, self.entries = problem, cayley, lists
         self.effort = Effort(WORK)
         self._view = dict(lists)
         self.evidence = CheckedEvidence(problem, self._view, self.effort)
@@ -92,7 +92,7 @@ class Scenery:
     @cached_property
     def parameters(self) -> dict[str, Fraction]:
         """A value for every parameter that occurs."""
-        used = {name for relation in self.problem.relations for name in relation.left.symbols}
+        used = {name for relation in self.problem.relations for name in relation.tree.symbols}
         used |= {name for tree in self.problem.reference.values() for name in tree.symbols}
         names = [name for name in self.problem.world.signs if name in used]
         return {name: _CHOICES[i % len(_CHOICES)] for i, name in enumerate(names)}
@@ -100,7 +100,7 @@ class Scenery:
     @cached_property
     def timed(self) -> bool:
         """Whether time occurs in any relation, inequalities included."""
-        return any(not {"t", "tdot"}.isdisjoint(relation.left.symbols) for relation in self.problem.relations)
+        return any(not {"t", "tdot"}.isdisjoint(relation.tree.symbols) for relation in self.problem.relations)
 
     def linear(self, name: str) -> bool:
         """Whether a relation is a linear form in the velocities; False where that cannot be told."""
@@ -109,10 +109,10 @@ class Scenery:
         except CheckError:
             return False
 
-    def left(self, name: str) -> Tree:
+    def tree(self, name: str) -> Tree:
         """A relation's left side with the functions chosen."""
         if name not in self._prepared:
-            tree = self.evidence.relation(name).left
+            tree = self.evidence.relation(name).tree
             self._prepared[name] = self.chosen(tree)
         return self._prepared[name]
 
@@ -139,17 +139,17 @@ class Scenery:
 
     def add_step(self, step: dict[str, Any]) -> None:
         """A further step, if it stands up; `CheckError` where it does not."""
-        before = dict(self.evidence.known), list(self.evidence.consequences)
+        before = dict(self.evidence.by_name), list(self.evidence.consequences)
         self._view["relations"] = [step]
         self.evidence.faults.pop(step["id"], None)
         try:
             self.evidence._take_steps()
         finally:
-            self._view["relations"] = self.parts["relations"]
+            self._view["relations"] = self.entries["relations"]
         if step["id"] in self.evidence.faults:
-            self.evidence.known, self.evidence.consequences = before
+            self.evidence.by_name, self.evidence.consequences = before
             raise CheckError(self.evidence.faults[step["id"]])
-        self.parts["relations"].append(step)
+        self.entries["relations"].append(step)
         self.steps.add(step["id"])
 
 

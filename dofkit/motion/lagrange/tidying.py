@@ -6,14 +6,13 @@ A form counts as shorter only where it is proved equal to the expression.
 from __future__ import annotations
 
 import re
-import time
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from math import comb, gcd, lcm, prod
 from typing import Any
 
-from dofkit.base.deadline import OutOfTimeError, by_processor, check, remaining_seconds
+from dofkit.base.deadline import OutOfTimeError, by_processor, check, remaining_seconds, thread_time
 from dofkit.base.errors import NoValueError
 from dofkit.exact.ring.canonical import Canon, Poly, is_identically_zero, lowest_terms
 from dofkit.exact.ring.ring import Ring
@@ -48,7 +47,7 @@ class Tidier:
     def shorter(self, e: Expr) -> Expr:
         """Return the shortest form that is proved equal, in the order of terms that people expect."""
         best, size = e, length(e)
-        start = time.thread_time()
+        start = thread_time()
         try:
             with by_processor(min(self.seconds, remaining_seconds())):
                 for form in self._forms(e):
@@ -57,7 +56,7 @@ class Tidier:
                         best, size = form, length(form)
         except OutOfTimeError:
             check()
-        self.seconds -= time.thread_time() - start
+        self.seconds -= thread_time() - start
         return ordered(best)
 
     def _forms(self, e: Expr) -> Iterator[Expr]:

@@ -1,0 +1,68 @@
+// The worker from a page's point of view: questions are asked, answers come, and what takes too long is replaced.
+
+/** @typedef {{resolve: (value: any) => void, reject: (error: Error) => void, since: number}} Asked */
+
+/** The answer of a worker that was replaced before it came. */
+export class Stopped extends Error {}
+
+export class Engine {
+  /** @param {(state: "loading" | "ready") => void} told is called when the worker is ready, or loads anew */
+  constructor(told) {
+    this.told = told;
+    /** @type {Map<number, Asked>} */
+    this.asked = new Map();
+    this.next = 0;
+    this.start();
+  }
+
+  start() {
+    this.told("loading");
+    this.worker = new Worker(new URL("./worker.js", import.meta.url), { type: "module" });
+    this.worker.addEventListener("message", ({ data }) => this.hear(data));
+    this.worker.addEventListener("error", (event) => this.fail(event.message || "the worker could not be started"));
+  }
+
+  hear({ id, value, error, ready }) {
+    if (ready) {
+      for (const asked of this.asked.values()) asked.since = performance.now();
+      this.ready = true;
+      this.told("ready");
+      return;
+    }
+    const asked = this.asked.get(id);
+    if (!asked) return;
+    this.asked.delete(id);
+    for (const other of this.asked.values()) other.since = performance.now();
+    if (error) asked.reject(new Error(error));
+    else asked.resolve(value);
+  }
+
+  /** @param {string} call @param {...any} args @returns {Promise<any>} */
+  ask(call, ...args) {
+    return new Promise((resolve, reject) => {
+      const id = this.next++;
+      this.asked.set(id, { resolve, reject, since: performance.now() });
+      this.worker.postMessage({ id, call, args });
+    });
+  }
+
+  /** Milliseconds for which the worker has been busy with one question; 0 while it loads. */
+  get busy() {
+    const first = this.asked.values().next().value;
+    return first && this.ready ? performance.now() - first.since : 0;
+  }
+
+  /** End what is running, and start another worker. */
+  replace() {
+    this.worker.terminate();
+    this.ready = false;
+    this.fail("stopped", Stopped);
+    this.start();
+  }
+
+  fail(reason, kind = Error) {
+    const waiting = [...this.asked.values()];
+    this.asked.clear();
+    for (const { reject } of waiting) reject(new kind(reason));
+  }
+}

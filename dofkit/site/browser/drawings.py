@@ -1,0 +1,23 @@
+"""The picture and the motion of a scene, which need numpy."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from dofkit.pictures.animation import animate
+from dofkit.pictures.player import player_data
+from dofkit.pictures.still import draw
+from dofkit.scene.reading import loads
+
+
+def picture(text: str) -> dict[str, str]:
+    """Return the picture of a scene as SVG, and what it says in words."""
+    drawn = draw(loads(text))
+    return {"svg": drawn.svg(), "alternative": drawn.alternative}
+
+
+def motion(text: str) -> dict[str, Any]:
+    """Return what the player shows of a scene."""
+    moving = animate(loads(text))
+    sketch = moving.sketch
+    return {"data": player_data(sketch, moving.clips), "alternative": sketch.alternative, "notes": list(sketch.notes)}

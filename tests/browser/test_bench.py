@@ -1,0 +1,242 @@
+"""The bench as a person uses it: typing, leaving out a constraint, examples, links, offline, embedded."""
+
+from __future__ import annotations
+
+import base64
+import zlib
+from pathlib import Path
+from typing import Any
+
+import pytest
+from shared.documented import ROOT
+from shared.served import Served
+
+pytestmark = [pytest.mark.browser, pytest.mark.xdist_group("browser"), pytest.mark.timeout(900)]
+AXE = ROOT / "dofkit" / "site" / "bench" / "node_modules" / "axe-core" / "axe.min.js"
+#: Milliseconds for an answer of a Python that has started, on a busy machine.
+SOON = 30_000
+KNIFE = """\
+coordinates: [x, y, theta]
+constraints:
+- {name: edge, type: equation, text: "sin(theta) dx - cos(theta) dy = 0"}
+"""
+HOSTILE = """\
+title: "<img src=x onerror=alert(1)><script>alert(2)</script>"
+coordinates: [x, y]
+constraints:
+- {name: "<svg onload=alert(3)>", type: equation, text: "x dy + y dx = 0"}
+- {name: "javascript:alert(4)", type: equation, text: "x = 1"}
+"""
+
+
+def fragment(text: str) -> str:
+    """Return the fragment that holds a text."""
+    return base64.urlsafe_b64encode(zlib.compress(text.encode(), 9, wbits=-15)).decode().rstrip("=")
+
+
+def write(page: Any, text: str) -> None:
+    """Put a text in place of all in the editor, as by pasting."""
+    page.locator(".cm-content").click()
+    page.keyboard.press("Control+A")
+    page.keyboard.insert_text(text)
+
+
+def seen(page: Any, selector: str, text: str) -> None:
+    """Wait until an element has a text."""
+    page.locator(selector).filter(has_text=text).first.wait_for(timeout=SOON)
+
+
+def shot(page: Any, served: Served, name: str) -> None:
+    """Keep screenshots at the width of a desk and of a telephone, to be looked at."""
+    folder = served.folder / "screenshots"
+    for device, width, height in (("desktop", 1280, 860), ("phone", 360, 740)):
+        page.set_viewport_size({"width": width, "height": height})
+        page.wait_for_timeout(200)
+        assert page.evaluate("document.documentElement.scrollWidth <= innerWidth"), f"{name} is too wide for {device}"
+        page.screenshot(path=folder / f"{name}-{device}.png", full_page=device == "phone")
+    page.set_viewport_size({"width": 1280, "height": 860})
+
+
+def test_a_fault_is_shown_while_typing_and_mended_by_a_click(served: Served, visit: Any) -> None:
+    page = visit.opened(f"{served.url}/bench/")
+    seen(page, "#report td", "non-holonomic, scleronomic")
+    write(page, KNIFE.replace("theta) dx", "thetta) dx"))
+    seen(page, "#faults", "thetta")
+    assert "line 3, column " in page.inner_text("#faults")
+    shot(page, served, "fault")
+    page.get_by_role("button", name="Write theta").click()
+    page.locator("#faults li").wait_for(state="detached", timeout=SOON)
+    seen(page, "#report th", "edge")
+    seen(page, "#report td", "(2, 3)")
+    assert visit.errors == []
+
+
+def test_a_constraint_is_left_out(served: Served, visit: Any) -> None:
+    page = visit.opened(f"{served.url}/bench/")
+    page.get_by_label("along_x").uncheck()
+    seen(page, "#report h3", "Without along_x")
+    seen(page, "#report p", "velocity freedom: 2 -> 3")
+    shot(page, served, "left-out")
+    page.get_by_label("along_x").check()
+    page.locator("#report h3", has_text="Without").wait_for(state="detached", timeout=SOON)
+    assert visit.errors == []
+
+
+def test_an_example_is_found_by_its_words(served: Served, visit: Any) -> None:
+    page = visit.opened(f"{served.url}/bench/")
+    page.get_by_role("button", name="Examples").click()
+    page.get_by_label("Search").fill("pendulum angle")
+    page.locator("#found button").first.wait_for()
+    shot(page, served, "examples")
+    page.get_by_role("button", name="pendulum", exact=False).first.click()
+    seen(page, "#report h2", "endulum")
+    assert page.locator("#picture").get_attribute("alt")
+    assert "#example=" in page.url
+    assert visit.errors == []
+
+
+def test_a_link_holds_the_scene(served: Served, visit: Any, chromium: Any) -> None:
+    page = visit.opened(f"{served.url}/bench/")
+    write(page, KNIFE)
+    seen(page, "#report th", "edge")
+    page.wait_for_url("**#scene=*")
+    fresh = chromium.new_context()
+    other = fresh.new_page()
+    other.goto(page.url)
+    other.locator("#report th", has_text="edge").wait_for(timeout=4 * SOON)
+    assert "sin(theta) dx" in other.locator(".cm-content").inner_text()
+    fresh.close()
+    page.goto("about:blank")
+    visit.opened(f"{served.url}/bench/#scene={fragment(KNIFE)}")
+    seen(page, "#report th", "edge")
+
+
+@pytest.mark.parametrize("broken", ["!!", "AAAA", "A" * 1_000_000, "QUJD", fragment("a: b\n" * 200_000)])
+def test_a_broken_or_long_link_hangs_nothing(served: Served, visit: Any, broken: str) -> None:
+    page = visit.page
+    page.goto(f"{served.url}/bench/index.html#scene={broken}")
+    page.locator(".cm-content").filter(has_text="no scene that can be read").wait_for(timeout=SOON)
+    assert not [error for error in visit.errors if "dialog" in error]
+
+
+def test_nothing_of_a_scene_becomes_html(served: Served, visit: Any) -> None:
+    page = visit.opened(f"{served.url}/bench/#scene={fragment(HOSTILE)}")
+    seen(page, "#report h2", "<img src=x")
+    seen(page, "#report th", "<svg onload")
+    assert page.locator("#report img, #report svg, #report script, #report a, #switches svg").count() == 0
+    write(page, HOSTILE.replace("x = 1", "<script>alert(5)</script>"))
+    page.locator("#faults li").first.wait_for(timeout=SOON)
+    assert page.locator("#faults script").count() == 0
+    assert visit.errors == []
+
+
+def test_the_policy_refuses_inline_scripts(served: Served, visit: Any) -> None:
+    page = visit.page
+    page.goto(f"{served.url}/bench/index.html")
+    page.evaluate(
+        "document.body.append(Object.assign(document.createElement('script'), {textContent: 'window.ran = 1'}))"
+    )
+    assert page.evaluate("window.ran") is None
+    for file in ("bench/index.html", "bench/player.html", "practice/index.html"):
+        text = (served.folder / file).read_text(encoding="utf-8")
+        assert "script-src 'self' 'wasm-unsafe-eval'" in text or "default-src 'self'\"" in text
+        assert "unsafe-inline" not in text
+        assert "style=" not in text.partition("<body")[2].replace("img style", "")
+
+
+def test_it_works_offline_after_the_first_visit(served: Served, visit: Any) -> None:
+    page = visit.opened(f"{served.url}/bench/")
+    page.evaluate("navigator.serviceWorker.ready.then(() => null)")
+    visit.context.set_offline(True)
+    page.reload()
+    page.locator("#report table").first.wait_for(timeout=4 * SOON)
+    write(page, KNIFE)
+    seen(page, "#report th", "edge")
+    visit.context.set_offline(False)
+
+
+def test_it_is_embedded_in_another_page(served: Served, visit: Any) -> None:
+    source = f"/bench/?embed#scene={fragment(KNIFE)}"
+    (served.folder / "course.html").write_text(f'<iframe src="{source}" width="700" height="700"></iframe>')
+    visit.page.goto(f"{served.url}/course.html")
+    frame = visit.page.frame_locator("iframe")
+    frame.locator("#report th", has_text="edge").wait_for(timeout=4 * SOON)
+    assert frame.get_by_role("button", name="Examples").is_hidden()
+    link = frame.get_by_role("link", name="Open in the bench").get_attribute("href")
+    assert link.startswith("./#scene=")
+    visit.page.screenshot(path=served.folder / "screenshots" / "embedded.png")
+    assert visit.errors == []
+
+
+def test_without_numpy_the_place_of_the_picture_says_so(served: Served, visit: Any) -> None:
+    page = visit.opened(f"{served.url}/bench/#scene={fragment(KNIFE)}")
+    seen(page, "#no-picture", "numpy could not be loaded")
+    seen(page, "#report td", "(2, 3)")
+    shot(page, served, "no-numpy")
+    page.get_by_role("button", name="Show the motion").click()
+    seen(page, "#state", "numpy could not be loaded")
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_axe_finds_no_violation(served: Served, visit: Any, scheme: str) -> None:
+    page = visit.page
+    page.emulate_media(color_scheme=scheme, reduced_motion="reduce")
+    visit.opened(f"{served.url}/bench/")
+    write(page, KNIFE.replace("theta) dx", "thetta) dx"))
+    seen(page, "#faults", "thetta")
+    shot(page, served, scheme)
+    assert violations(page) == []
+    page.get_by_role("button", name="Examples").click()
+    page.locator("#found button").first.wait_for()
+    assert violations(page) == []
+
+
+def violations(page: Any) -> list[str]:
+    """Return what axe-core finds."""
+    page.evaluate(Path(AXE).read_text(encoding="utf-8"))
+    found = page.evaluate("axe.run({iframes: false})")["violations"]
+    return [f"{v['id']}: {v['nodes'][0]['html'][:200]} {v['nodes'][0]['failureSummary']}" for v in found]
+
+
+def test_the_keyboard_alone_is_enough(served: Served, visit: Any) -> None:
+    page = visit.opened(f"{served.url}/bench/")
+    order = []
+    for _ in range(14):
+        page.keyboard.press("Tab")
+        order.append(
+            page.evaluate("(document.activeElement.shadowRoot?.activeElement ?? document.activeElement).outerHTML")
+        )
+    text = "\n".join(html[:200] for html in order)
+    positions = [text.find(word) for word in ("examples", "copy", "export", "cm-content", "along_y", "along_x")]
+    assert positions == sorted(positions)
+    assert positions[0] >= 0
+    page.locator("#examples").focus()
+    page.keyboard.press("Enter")
+    page.keyboard.type("four bar")
+    page.keyboard.press("Enter")
+    seen(page, "#report h2", "our-bar")
+
+
+def test_a_practice_sheet_in_german(served: Served, visit: Any) -> None:
+    page = visit.page
+    page.goto(f"{served.url}/practice/")
+    fields = page.locator("textarea")
+    assert fields.count() == 3
+    seen(page, ".note", "Dieses Blatt dient der Übung")
+    fields.nth(0).fill("f = 2")
+    fields.nth(1).fill("dx + R sin(theta dphi = 0")
+    fields.nth(2).fill("nicht-holonom, skleronom")
+    page.locator(".read").nth(2).filter(has_text="Gelesen als: nicht").wait_for(timeout=4 * SOON)
+    page.locator(".read pre").filter(has_text="^").wait_for(timeout=SOON)
+    shot(page, served, "practice-unread")
+    fields.nth(1).fill("dx + R sin(theta) dphi = 0")
+    page.locator(".read math").wait_for(timeout=SOON)
+    page.get_by_role("button", name="Alle Antworten prüfen").click()
+    page.locator(".judged").nth(2).filter(has_text="richtig").wait_for(timeout=4 * SOON)
+    assert "falsch" in page.locator(".judged").nth(0).inner_text()
+    assert "richtig" in page.locator(".judged").nth(1).inner_text()
+    shot(page, served, "practice-judged")
+    assert violations(page) == []
+    page.reload()
+    assert page.locator("textarea").nth(0).input_value() == "f = 2"
+    assert visit.errors == []

@@ -1,0 +1,57 @@
+"""A folder of pages, served from this machine and compressed as a web server does."""
+
+from __future__ import annotations
+
+import gzip
+from functools import cache
+from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
+from pathlib import Path
+from typing import ClassVar, NamedTuple
+
+#: Media types that the server of Python does not know.
+_KINDS = {".mjs": "text/javascript", ".wasm": "application/wasm"}
+
+
+@cache
+def _compressed(path: Path) -> bytes:
+    return gzip.compress(path.read_bytes())
+
+
+class PageHandler(SimpleHTTPRequestHandler):
+    """Files, compressed as a web server does; archives are compressed already."""
+
+    protocol_version = "HTTP/1.1"
+    extensions_map = SimpleHTTPRequestHandler.extensions_map | _KINDS
+    sent: ClassVar[int] = 0
+
+    def do_GET(self) -> None:
+        path = Path(self.translate_path(self.path))
+        path = path / "index.html" if path.is_dir() else path
+        if not path.is_file():
+            self.send_error(404)
+            return
+        data = path.read_bytes() if path.suffix == ".zip" else _compressed(path)
+        self.send_response(200)
+        self.send_header("Content-Type", self.guess_type(path))
+        if path.suffix != ".zip":
+            self.send_header("Content-Encoding", "gzip")
+        self.send_header("Content-Length", str(len(data)))
+        self.end_headers()
+        self.wfile.write(data)
+        PageHandler.sent += len(data)
+
+    def log_message(self, *_: object) -> None:
+        """Say nothing."""
+
+
+class Served(NamedTuple):
+    """The address of the pages, the folder that is served, and the server."""
+
+    url: str
+    folder: Path
+    server: ThreadingHTTPServer
+
+    @property
+    def sent(self) -> int:
+        """Bytes that were sent so far."""
+        return PageHandler.sent
