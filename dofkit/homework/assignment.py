@@ -292,7 +292,7 @@ def _scene_faults(i: int, problem: Problem, key: Key) -> Iterator[Fault]:
         yield Fault(f"the key is not proved ({', '.join(unproved)})", ("problems", i, "vary"), hint=hint)
     for fault in faults_of_own(key):
         yield replace(fault, where=("problems", i, "also", *fault.where))
-    for fault in faults_of_places(problem.text or "", key.scene):
+    for fault in faults_of_places(problem.text or "", problem.vary):
         yield replace(fault, where=("problems", i, "text"))
     for fault in faults_of_names(problem, key):
         yield replace(fault, where=("problems", i, *fault.where))

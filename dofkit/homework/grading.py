@@ -50,7 +50,7 @@ MOST_REMEMBERED, LONGEST_REMEMBERED = 10_000, 4000
 MOST_UNASKED, LONGEST_NAME = 100, 200
 
 #: An answer to judge, as a text: its problem, its question, what it says, and the numbers that it may follow from.
-Spot = str
+Identity = str
 
 
 class Grader:
@@ -60,13 +60,13 @@ class Grader:
     """
 
     def __init__(
-        self, prepared: Prepared, seconds: float = ANSWER_SECONDS, condemned: Mapping[Spot, str] | None = None
+        self, prepared: Prepared, seconds: float = ANSWER_SECONDS, condemned: Mapping[Identity, str] | None = None
     ) -> None:
         self.prepared = prepared
         self.seconds = seconds
         self.condemned = {} if condemned is None else condemned
         self.max_score = sum((q.points for _, q in prepared.questions()), Fraction(0))
-        self._judgements: dict[Spot, tuple[Judgement, Fraction | None]] = {}
+        self._judgements: dict[Identity, tuple[Judgement, Fraction | None]] = {}
         self._variants: dict[str, Grader] = {}
 
     def grade(self, submission: Submission) -> Result:
@@ -78,7 +78,7 @@ class Grader:
             except StopIteration as stop:
                 return cast(Result, stop.value)
 
-    def steps(self, submission: Submission) -> Generator[Spot, None, Result]:
+    def steps(self, submission: Submission) -> Generator[Identity, None, Result]:
         """The same, telling of every answer that takes work that it comes next.
 
         What fails outside one answer is the error of this submission alone; nobody else loses a result by it.
@@ -90,7 +90,7 @@ class Grader:
         except Exception as error:
             return self.refused(submission.student, f"an internal error occurred ({type(error).__name__})")
 
-    def _steps(self, submission: Submission) -> Generator[Spot, None, Result]:
+    def _steps(self, submission: Submission) -> Generator[Identity, None, Result]:
         if submission.error is not None:
             return self.refused(submission.student, submission.error)
         if self.prepared.assignment.variants is not None:
@@ -118,7 +118,7 @@ class Grader:
             student=student, score=float(score), max_score=float(self.max_score), items=items, needs_review=review
         )
 
-    def _problem(self, problem: Problem, answers: Mapping[str, Given]) -> Generator[Spot, None, list[Item]]:
+    def _problem(self, problem: Problem, answers: Mapping[str, Given]) -> Generator[Identity, None, list[Item]]:
         earlier: dict[str, Fraction] = {}
         items: list[Item] = []
         for question in problem.questions:
@@ -132,10 +132,12 @@ class Grader:
                 if (number := _number(question, answer)) is not None:
                     earlier.setdefault(question.kind(), number)
                 continue
-            spot = _spot(problem, question, answer, earlier) + self.prepared.marks.get((problem.id, question.id), "")
-            if spot not in self._judgements and spot not in self.condemned:
-                yield spot
-            judgement, number = self.judge(spot, problem, question, answer, earlier)
+            identity = _identity(problem, question, answer, earlier) + self.prepared.marks.get(
+                (problem.id, question.id), ""
+            )
+            if identity not in self._judgements and identity not in self.condemned:
+                yield identity
+            judgement, number = self.judge(identity, problem, question, answer, earlier)
             items.append(self._item(problem, question, judgement, answer))
             if number is not None:
                 earlier.setdefault(question.kind(), number)
@@ -156,16 +158,21 @@ class Grader:
         return item.model_copy(update={"score": float(decision.points), "decided_by": decision.by})
 
     def judge(
-        self, spot: Spot, problem: Problem, question: QuestionBase, answer: Given, earlier: Mapping[str, Fraction]
+        self,
+        identity: Identity,
+        problem: Problem,
+        question: QuestionBase,
+        answer: Given,
+        earlier: Mapping[str, Fraction],
     ) -> tuple[Judgement, Fraction | None]:
         """Return what an answer is worth, and its number; after the same earlier answers always the same."""
-        if spot in self.condemned:
-            return needs_review("", self.condemned[spot]), None
-        remembered = self._judgements.get(spot)
+        if identity in self.condemned:
+            return needs_review("", self.condemned[identity]), None
+        remembered = self._judgements.get(identity)
         if remembered is None:
             remembered = self._judgement(problem, question, answer, earlier), _number(question, answer)
-            if len(self._judgements) < MOST_REMEMBERED and len(spot) < LONGEST_REMEMBERED:
-                self._judgements[spot] = remembered
+            if len(self._judgements) < MOST_REMEMBERED and len(identity) < LONGEST_REMEMBERED:
+                self._judgements[identity] = remembered
         return remembered
 
     def _judgement(
@@ -237,7 +244,7 @@ def _points(share: Fraction | None, question: QuestionBase) -> float | None:
 _MISSING = Judgement("missing", NOTHING, said=(Said("No answer was given."),))
 
 
-def _spot(problem: Problem, question: QuestionBase, answer: Given, earlier: Mapping[str, Fraction]) -> Spot:
+def _identity(problem: Problem, question: QuestionBase, answer: Given, earlier: Mapping[str, Fraction]) -> Identity:
     return repr((problem.id, question.id, answer, *sorted(earlier.items())))
 
 

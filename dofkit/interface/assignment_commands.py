@@ -23,7 +23,7 @@ def new(
     scenes: Annotated[list[str], typer.Argument(metavar="SCENE...", help="Scenes: paths or catalog names.")],
     every: Annotated[bool, options.flag("--all", "Include every question that fits the scenes.")] = False,
 ) -> None:
-    """Print a first assignment with five questions per scene."""
+    """Print a first assignment with a question of each kind that fits the scenes."""
     with failures_of(None):
         from dofkit.homework.starting import starting
 

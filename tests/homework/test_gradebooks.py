@@ -240,16 +240,16 @@ def test_what_two_go_by_names_nobody(tmp_path: Path) -> None:
     ],
 )
 def test_whose_it_is(claims: tuple[str, ...], student: str, expected: str, doubted: bool, tmp_path: Path) -> None:
-    found = attributed(roster(CANVAS, tmp_path), claims, (), student, by_default=False)
+    found = attributed(roster(CANVAS, tmp_path), claims, student, by_default=False)
     assert (found.student, found.doubt is not None) == (expected, doubted)
 
 
 def test_what_names_nobody_is_its_owners(tmp_path: Path) -> None:
     known = roster(CANVAS, tmp_path)
     moodle = ("Ada Lovelace_3_assignsubmission_file_",)
-    assert attributed(known, ("ada",), (), "ada:3", by_default=True) == ("S1", True, None)
-    assert attributed(known, ("ada",), (), "ada:3", by_default=False).doubt is not None
-    assert attributed(known, moodle, (), "Ada Lovelace_3", by_default=True) == ("S1", True, None)
+    assert attributed(known, ("ada",), "ada:3", by_default=True) == ("S1", True, None)
+    assert attributed(known, ("ada",), "ada:3", by_default=False).doubt is not None
+    assert attributed(known, moodle, "Ada Lovelace_3", by_default=True) == ("S1", True, None)
 
 
 def test_whose_it_is_at_a_platform() -> None:

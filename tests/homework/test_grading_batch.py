@@ -216,26 +216,6 @@ def test_a_file_called_answers_is_its_folders(tmp_path: Path) -> None:
     assert (direct.name, direct.claims) == ("bob", ("Answers", "bob"))
 
 
-def test_gradescopes_export_says_whose_each_folder_is(tmp_path: Path) -> None:
-    (tmp_path / "submission_metadata.yml").write_text(
-        "---\nsubmission_12:\n  :submitters:\n  - :name: Ada Lovelace\n    :sid: ''\n    :email: ada@x\n  :score: 1.0\n"
-        'submission_13:\n  :submitters:\n  - :name: "Bob"\n    :sid: 7\n'
-        "submission_14:\n  :submitters:\n  - :name: C\n    :email: c@x\n  - :name: D\n    :email: d@x\n"
-    )
-    for folder in ("submission_12", "submission_13", "submission_14", "submission_15"):
-        (tmp_path / folder).mkdir()
-        (tmp_path / folder / "answers.yaml").write_text("p: {f: 2}")
-    (tmp_path / "submission_12" / "answers.yaml").write_text("student: zoe\np: {f: 2}")
-    handed = list(hand_ins([str(tmp_path)], KNOWN))
-    assert [(h.name, h.claims) for h in handed] == [
-        ("ada@x", ("answers", "submission_12", "ada@x")),
-        ("Bob", ("answers", "submission_13", "Bob")),
-        ("c@x, d@x", ("answers", "submission_14", "c@x, d@x")),
-        ("submission_15", ("answers", "submission_15")),
-    ]
-    assert [s.student for s in handed[0].submissions(KNOWN)] == ["zoe"]
-
-
 # the command
 
 

@@ -41,12 +41,6 @@ class LabelQuestion(QuestionBase):
         "Classification: write holonomic or non-holonomic, scleronomic or rheonomic, bilateral or unilateral,"
         " in any order."
     )
-    examples: ClassVar[tuple[str, ...]] = (
-        "non-holonomic, rheonomic",
-        "holonomic, rheonomic",
-        "non-holonomic, scleronomic",
-        "holonomic, scleronomic",
-    )
     ask: Literal["label"] = Field(description="the classification of a constraint")
     constraint: str = Field(description="the name of the constraint")
     parts: Annotated[tuple[Part, ...], Listed, Field(min_length=1)] = Field(
@@ -70,9 +64,6 @@ class LabelQuestion(QuestionBase):
         if hinted:
             raise DoubtError("a property is described but not named.", 1, None)
         return [Reading(labels, label_text(labels))]
-
-    def reveals(self, judgement: Judgement) -> bool:
-        return judgement.status in ("right", "needs_review")
 
     def solution(self, key: Key) -> Sentence:
         truth = truths(key.constraints[self.constraint])

@@ -86,7 +86,7 @@ class Lagrangian(_Value):
     how: ClassVar[str] = (
         "A Lagrangian: write xdot for a velocity, ^ for a power, and * or a space for a product; L = is optional."
     )
-    examples: ClassVar[tuple[str, ...]] = ("L = 1/2 M (udot^2 + wdot^2) - M g w", "L = 1/2 I chidot^2 + kappa u^4")
+    example: ClassVar[str] = "L = 1/2 M (udot^2 + wdot^2) - M g w"
     ask: Literal["lagrangian"] = Field(description="the Lagrangian")
 
     def _comparison(self, expression: Expr, motion: RightMotion, text: str) -> Judgement:
@@ -142,7 +142,7 @@ class Momentum(_OfCoordinate):
 
     wanted: ClassVar[str] = "What is the generalized momentum conjugate to {about}?"
     how: ClassVar[str] = "A generalized momentum: write it like a Lagrangian; p = is optional."
-    examples: ClassVar[tuple[str, ...]] = ("p = M udot + a chidot", "p = I chidot^3")
+    example: ClassVar[str] = "p = M udot + a chidot"
     code: ClassVar[str] = "WRONG_MOMENTUM"
     ask: Literal["momentum"] = Field(description="a generalized momentum")
 
@@ -155,7 +155,7 @@ class GeneralizedForce(_OfCoordinate):
 
     wanted: ClassVar[str] = "What is the generalized force for {about}?"
     how: ClassVar[str] = "A generalized force: write it like a Lagrangian; Q = is optional."
-    examples: ClassVar[tuple[str, ...]] = ("Q = -kappa u^3", "Q = -M g sin(chi)^2")
+    example: ClassVar[str] = "Q = -kappa u^3"
     code: ClassVar[str] = "WRONG_FORCE"
     ask: Literal["force"] = Field(description="a generalized force")
 
@@ -168,7 +168,7 @@ class MotionQuestion(_MotionQuestion):
 
     wanted: ClassVar[str] = "What are the equations of motion?"
     how: ClassVar[str] = "Equations of motion: write xddot for an acceleration, one equation per line."
-    examples: ClassVar[tuple[str, ...]] = ("M uddot + kappa u^3 = 0", "chiddot + nu^2 sin(chi)^2 = 0")
+    example: ClassVar[str] = "M uddot + kappa u^3 = 0"
     ask: Literal["motion"] = Field(description="an equation of motion, or all of them")
     coordinate: str | None = Field(None, description="the coordinate whose equation is asked for")
 

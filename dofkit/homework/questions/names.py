@@ -21,7 +21,7 @@ class Coordinates(QuestionBase):
 
     wanted: ClassVar[str] = "Give a complete set of independent generalized coordinates."
     how: ClassVar[str] = "Coordinates: write their names, separated by commas; define any coordinate of your own."
-    examples: ClassVar[tuple[str, ...]] = ("u, w", "chi, where u = a cos(chi), w = a sin(chi)")
+    example: ClassVar[str] = "chi, where u = a cos(chi), w = a sin(chi)"
     ask: Literal["coordinates"] = Field(description="an independent and complete set of generalized coordinates")
 
     def readings(self, answer: Given, names: DeclaredNames) -> list[Reading]:
@@ -56,7 +56,7 @@ class Redundant(QuestionBase):
         "Which constraints are redundant? Give a largest set that may be removed without changing the motion."
     )
     how: ClassVar[str] = "Constraints: write their names, separated by commas; if there are none, write: none."
-    examples: ClassVar[tuple[str, ...]] = ("bar_17, bar_23",)
+    example: ClassVar[str] = "bar_17, bar_23"
     ask: Literal["redundant"] = Field(description="a largest set of redundant constraints")
 
     def readings(self, answer: Given, names: DeclaredNames) -> list[Reading]:

@@ -99,7 +99,6 @@ class Dof(NumberQuestion):
 
     wanted: ClassVar[str] = "How many degrees of freedom does the system have?"
     how: ClassVar[str] = "The number of degrees of freedom: write an integer."
-    examples: ClassVar[tuple[str, ...]] = ("f = 12", "f = 15", "f = 18")
     ask: Literal["dof"] = Field(description="the number of degrees of freedom")
 
     def advice(self, key: Key) -> str:
@@ -121,7 +120,6 @@ class VelocityDof(NumberQuestion):
 
     wanted: ClassVar[str] = "How many independent generalized velocities are there?"
     how: ClassVar[str] = "The number of independent generalized velocities: write an integer."
-    examples: ClassVar[tuple[str, ...]] = ("12", "15", "18")
     ask: Literal["velocity_dof"] = Field(description="the number of independent generalized velocities")
 
     def advice(self, key: Key) -> str:
@@ -152,7 +150,6 @@ class CountQuestion(NumberQuestion):
     foreign: ClassVar[frozenset[str]] = FREEDOM_NOUNS
     wanted: ClassVar[str] = "How many independent holonomic constraint equations are there?"
     how: ClassVar[str] = "The number of constraint equations: write an integer."
-    examples: ClassVar[tuple[str, ...]] = ("k = 12", "k = 15", "k = 18")
     ask: Literal["k"] = Field(description="the number of independent holonomic equations")
 
     def advice(self, key: Key) -> str:

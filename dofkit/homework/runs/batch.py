@@ -17,7 +17,7 @@ from dofkit.base.workers import MEMORY, Job, Json
 from dofkit.homework.answers.sources import Handed
 from dofkit.homework.answers.submission import Submission
 from dofkit.homework.assignment import Prepared
-from dofkit.homework.grading import ANSWER_SECONDS, Echo, Grader, Spot, echo
+from dofkit.homework.grading import ANSWER_SECONDS, Echo, Grader, Identity, echo
 from dofkit.homework.result import Result, json_line
 
 #: What becomes of a submission: its result, or how its answers are read.
@@ -67,7 +67,7 @@ class GradingTask:
 
     orders: Orders
     handed: Handed
-    condemned: Mapping[Spot, str] = field(default_factory=dict)
+    condemned: Mapping[Identity, str] = field(default_factory=dict)
 
 
 def graded_lines(task: GradingTask) -> Iterator[Json]:
@@ -81,16 +81,16 @@ def graded_lines(task: GradingTask) -> Iterator[Json]:
         steps = _steps(grader, submission, task.orders.check_only)
         while True:
             try:
-                spot = next(steps)
+                identity = next(steps)
             except StopIteration as stop:
                 lines.append(json_line(stop.value))
                 break
-            yield {"next": spot}
+            yield {"next": identity}
             allow_processor(task.orders.hard)
     yield {"lines": lines}
 
 
-def _steps(grader: Grader, submission: Submission, check_only: bool) -> Generator[Spot, None, Any]:
+def _steps(grader: Grader, submission: Submission, check_only: bool) -> Generator[Identity, None, Any]:
     if check_only:
         return echo(grader.prepared, submission)
     return (yield from grader.steps(submission))
@@ -112,7 +112,7 @@ class Keeper:
     def __init__(self, orders: Orders, pool: Pool) -> None:
         self.orders = orders
         self.pool = pool
-        self._condemned: dict[Spot, str] = {}
+        self._condemned: dict[Identity, str] = {}
         self._lock = threading.Lock()
 
     def grade(self, handed: Handed) -> list[str]:
@@ -120,7 +120,7 @@ class Keeper:
 
         An answer that breaks two workers, of which the second is a fresh one, is not judged again.
         """
-        suspects: list[Spot | None] = []
+        suspects: list[Identity | None] = []
         while True:
             with self._lock:
                 condemned = dict(self._condemned)
@@ -130,15 +130,15 @@ class Keeper:
                 raise StoppedError(outcome.reason)
             if outcome.finished:
                 return list(outcome.value["lines"])
-            spot = outcome.value["next"] if outcome.value else None
-            if spot not in suspects:
-                suspects.append(spot)
-            elif spot is None or spot in condemned:
+            identity = outcome.value["next"] if outcome.value else None
+            if identity not in suspects:
+                suspects.append(identity)
+            elif identity is None or identity in condemned:
                 error = f"{handed.place}: it could not be graded: {_ENDED[outcome.ended]}"
                 return [json_line(self.orders.refused(handed.name, error))]
             else:
                 with self._lock:
-                    self._condemned[spot] = _ENDED[outcome.ended]
+                    self._condemned[identity] = _ENDED[outcome.ended]
 
 
 def grade_there(orders: Orders, handed: Handed) -> list[str]:

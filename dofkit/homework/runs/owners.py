@@ -25,9 +25,7 @@ class OwnedOutcome(NamedTuple):
 
 def named_by(roster: Roster, handed: Handed) -> Handed:
     """Return a submission under its owner's name, if the roster knows one by the names of its file and folders."""
-    user = handed.users[0] if len(handed.users) == 1 else None
-    more = () if user is None else tuple(name for name in user.called() if roster.find(name))
-    owners = roster.owners((*handed.claims, *more))
+    owners = roster.owners(handed.claims)
     return replace(handed, name=owners[-1].student) if len(owners) == 1 else handed
 
 
@@ -35,7 +33,7 @@ def owned(roster: Roster | None, handed: Handed, outcome: Outcome) -> OwnedOutco
     """Return a result under the name of its owner, with the doubt there is."""
     inside = isinstance(handed.data, Mapping) and "student" in handed.data
     by_default = not inside and outcome.student == handed.name
-    student, confirmed, doubt = attributed(roster, handed.claims, handed.users, outcome.student, by_default)
+    student, confirmed, doubt = attributed(roster, handed.claims, outcome.student, by_default)
     doubt = outcome.doubt if doubt is None else f"{handed.place}: {doubt}"
     outcome = outcome.model_copy(update={"student": student, "doubt": doubt})
     return OwnedOutcome(outcome, str(handed.place), confirmed or handed.listed)
