@@ -572,29 +572,6 @@ def test_too_little_time_needs_a_review_and_makes_nothing_wrong(name: str, secon
         assert found in (status, "needs_review"), answer
 
 
-def test_what_is_doubtful_is_told_on_standard_error(
-    assignment: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    (tmp_path / "roster.csv").write_text("name\nAda\nBob\n")
-    (tmp_path / "Ada.yaml").write_text("student: Bob\np: {f: 1}")
-    given = (
-        "grade",
-        assignment,
-        str(tmp_path / "Ada.yaml"),
-        "--workers",
-        "1",
-        "--roster",
-        str(tmp_path / "roster.csv"),
-    )
-    status, (told,), err = lines_of(capsys, *given)
-    assert (status, told["student"]) == (0, "Ada")
-    assert err == "1 of the submissions have a 'doubt': a person has to decide whose they are\n"
-    (tmp_path / "roster.csv").write_text("grade\n1\n")
-    status, told, err = lines_of(capsys, *given)
-    assert (status, told) == (2, [])
-    assert "does not identify anyone" in err
-
-
 def _breaks(*_: object, **__: object) -> Any:
     raise KeyError("x")
 
