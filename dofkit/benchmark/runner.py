@@ -166,10 +166,8 @@ class Bench:
 
 def _line(task: TrialTask, answer: object, outcome: Outcome, seconds: float, reason: str) -> TrialLine:
     t = task.trial
-    why = "" if outcome == "right" else explained(task.method, t.question, t.traits, outcome, reason)
-    if reason == SKIPPED:
-        why = f"{SKIPPED}: {why}"
-    about = (t.family, t.name, t.question, task.method, t.size, tuple(t.traits), dict(t.swept), t.truth)
+    why = "" if outcome == "right" else explained(task.method, t.question, outcome, reason)
+    about = (t.family, t.name, t.question, task.method, t.size, dict(t.swept), t.truth)
     return TrialLine(*about, answer, outcome, seconds, " ".join(why.split()), task.knob, float(task.value), task.group)
 
 

@@ -111,9 +111,14 @@ def draw(
 
 
 @app.command()
-def animate(files: options.Files, out: options.PicturePath = None, form: options.MovingKind = None) -> None:
+def animate(
+    files: options.Files,
+    out: options.PicturePath = None,
+    form: options.MovingKind = None,
+    loop: options.Loop = False,
+) -> None:
     """Animate the motion: a page with a slider, a GIF or an MP4."""
-    _pictures(files, "motion", out, form, options.MOVING_KINDS)
+    _pictures(files, "loop" if loop else "motion", out, form, options.MOVING_KINDS)
 
 
 @app.command()
@@ -283,7 +288,7 @@ def _pictures(files: list[str], kind: str, out: Path | None, form: str | None, k
 
     paths = [str(out)]
     if out is None or is_folder_path(out):
-        suffix = f"-{kind}" if kind in ("graph", "directions") else ""
+        suffix = f"-{kind}" if kind in ("graph", "directions", "loop") else ""
         paths = [str((out or Path()) / f"{name}{suffix}.{form or kinds[0]}") for name in distinct_names(files)]
     else:
         with failures_of("--out"):

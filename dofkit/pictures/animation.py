@@ -12,11 +12,12 @@ import numpy as np
 
 from dofkit.base.deadline import limited
 from dofkit.base.errors import DofkitError
-from dofkit.expressions.tree import TIME, coordinate, parameter
+from dofkit.expressions.tree import TIME
 from dofkit.motion.configurations import configurations
 from dofkit.pictures.arrangement import MOVES, Arrangement, FreeMotion, displaced
 from dofkit.pictures.files import ExtraMissingError, draw_marks, figure_of, require_matplotlib, saved
 from dofkit.pictures.layout import page_of, standpoint_of
+from dofkit.pictures.loop_clips import loop_clips, loop_notes, traces
 from dofkit.pictures.paper import Page
 from dofkit.pictures.player import framed, page_height, page_html
 from dofkit.pictures.shapes import Clip, Poses, Sketch
@@ -74,33 +75,16 @@ def _finite(stage: StagedScene, seen: _Seen) -> list[Clip]:
     steps = min(SHORT if several else STEPS, max(LEAST, MANY // max(1, len(stage.system.coordinates))))
     try:
         with limited(SECONDS):
-            path = configurations(stage.system, steps=steps, step=STEP, values=_near_values(stage))
+            path = configurations(stage.system, steps=steps, step=STEP, values=stage.arrangement.first_values)
     except DofkitError:
         return []
-    numbers = dict(stage.arrangement.numbers)
-    frames: list[Poses] = [
-        stage.arrangement.poses_at(
-            numbers | {TIME if n == TIME.args[1] else coordinate(n): v for n, v in configuration.items()}, gibbs=False
-        )
-        for configuration in path
-    ]
+    frames: list[Poses] = [*stage.arrangement.frames(path)]
     start = min(range(len(frames)), key=lambda k: seen.far(frames[k], stage.arrangement.poses))
     turn = _turn(seen, frames, start, stage.size)
     frames = turn or _near(seen, frames, start, FAR * stage.size)
     thinned = [frames[k] for k in np.unique(np.linspace(0, len(frames) - 1, FRAMES).astype(int))]
     name = "a finite motion that uses all freedoms" if several else "a finite motion"
     return [Clip(name, tuple(thinned[:-1] if turn else thinned), bool(turn))] if len(thinned) > 1 else []
-
-
-def _near_values(stage: StagedScene) -> dict[str, float]:
-    """Return the values of parameters, and of coordinates without a reference, at which the motion begins."""
-    system, numbers = stage.system, stage.arrangement.numbers
-    values = {p: numbers[parameter(p)] for p in system.parameters}
-    if system.reference is None:
-        turning = {n for r in system.rotations for n in r.names}
-        names = [c.name for c in system.coordinates if c.name not in turning]
-        values |= {n: numbers[coordinate(n)] for n in names if coordinate(n) in numbers}
-    return values
 
 
 def _turn(seen: _Seen, frames: Sequence[Poses], start: int, size: float) -> list[Poses]:
@@ -185,10 +169,11 @@ class Animation:
         if not every:
             yield page_of(self.sketch)
         for clip in self.clips:
-            sketch = replace(self.sketch, answer=f"{self.sketch.answer}; {clip.name}")
-            back = () if clip.closed else clip.frames[-2:0:-1]
-            for frame in (*clip.frames, *back):
-                yield page_of(sketch, frame, standpoint)
+            sketch = replace(self.sketch, answer=f"{self.sketch.answer}; {clip.text or clip.name}")
+            back = () if clip.closed or clip.loop else clip.frames[-2:0:-1]
+            for number, frame in enumerate((*clip.frames, *back)):
+                drawn = (*sketch.shapes, *traces(sketch, clip, number)) if clip.loop else sketch.shapes
+                yield page_of(replace(sketch, shapes=drawn), frame, standpoint)
 
     def save(self, path: str | Path) -> Path:
         """Write it as html, gif or mp4, by the path's ending.
@@ -201,13 +186,16 @@ class Animation:
         return framed(self.html(), page_height(self.sketch, self.clips))
 
 
-def animate(scene: SceneLike, report: Report | None = None) -> Animation:
+def animate(scene: SceneLike, report: Report | None = None, *, loop: bool = False) -> Animation:
     """Return a moving picture of a scene: a finite motion, or each instantaneous freedom on its own.
 
     Parameters
     ----------
     scene, report
         As for `draw`.
+    loop
+        Whether free coordinates go round a closed loop instead, in pairs: non-holonomic constraints let the others end
+        displaced, by about what the bracket of the two directions predicts.
 
     Returns
     -------
@@ -219,16 +207,23 @@ def animate(scene: SceneLike, report: Report | None = None) -> Animation:
     ------
     SceneError, ArgumentError, ExtraMissingError
         As for `draw`.
+    NoMotionError
+        If there is no loop: with one free velocity, or if time occurs.
 
     Examples
     --------
     >>> import dofkit
     >>> len(dofkit.animate("four-bar-linkage").clips)
     1
+    >>> print(dofkit.animate("disc-rolling-on-plane", loop=True).clips[0].text)
+    theta and phi return; displaced are x by -0.12 (bracket: -0.12) and y by 0.0368 (bracket: 0.037).
     """
     loaded, report = with_report(scene, report)
     stage = staged(loaded, report)
     sketch = whole_sketch(stage)[0]
+    if loop:
+        notes = (*loop_notes(report), *sketch.notes)
+        return Animation(replace(sketch, notes=notes), tuple(loop_clips(stage)))
     clips = tuple(clips_of(stage, sketch))
     immobile = (report.velocity_dof == 0 and report.scleronomic) or not can_hold(report)
     notes = sketch.notes if clips else (*sketch.notes, STILL if immobile else NOT_SHOWN)

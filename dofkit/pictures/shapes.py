@@ -72,11 +72,18 @@ Poses = Mapping[str, Displacement]
 
 
 class Clip(NamedTuple):
-    """A motion: the poses of everything, frame by frame; ``closed`` if the first follows the last."""
+    """A motion: the poses of everything, frame by frame; ``closed`` if the first follows the last.
+
+    Clips of the same name differ by their ``size``. ``text`` says what is to be seen; ``loop``: the motion is a loop
+    of some coordinates, at whose end the others may be displaced.
+    """
 
     name: str
     frames: tuple[Poses, ...]
     closed: bool = False
+    size: float = 0.0
+    text: str = ""
+    loop: bool = False
 
 
 @dataclass(frozen=True)
@@ -85,7 +92,8 @@ class Sketch:
 
     ``dimension`` of the world drawn; ``poses`` of what carries its shapes; ``size``: its extent; ``notes`` stand below
     it; ``alternative`` describes it in words. ``axes``: names of the three directions; ``measurable``: whether lengths
-    mean something. ``meanings``: what the legend says of states (None: there is no legend).
+    mean something. ``meanings``: what the legend says of states (None: there is no legend). ``traced``: the vertices
+    whose paths can be shown.
     """
 
     title: str
@@ -99,6 +107,7 @@ class Sketch:
     axes: tuple[str, ...] = ("x", "y", "z")
     measurable: bool = False
     meanings: Mapping[State, str] | None = field(default_factory=dict)
+    traced: tuple[Vertex, ...] = ()
 
     def at(self, vertex: Vertex, poses: Poses | None = None) -> Array:
         """Return where a vertex is."""

@@ -19,9 +19,20 @@ def phrases(text: str) -> frozenset[str]:
     return frozenset(text.split("|"))
 
 
+@lru_cache(maxsize=4096)
+def plain(text: str) -> str:
+    """A text in small letters, without accents, blanks around it and the stop at its end.
+
+    >>> plain(" Non intégrable. ")
+    'non integrable'
+    """
+    bare = _MARKS.sub("", unicodedata.normalize("NFD", text.strip().lower().replace("’", "'")))
+    return " ".join(bare.rstrip(".!").split())
+
+
 #: Whole numbers in words; masculine, feminine and counted forms.
 NUMBERS: dict[str, int] = {
-    word: n
+    plain(word): n
     for n, forms in enumerate((
         "zero null zéro cero nil", "one ein eins eine einen einer eines un une uno una um uma single",
         "two zwei deux dos due dois duas", "three drei trois tres tre três", "four vier quatre cuatro quattro quatro",
@@ -40,7 +51,7 @@ CONSTRAINT_NOUNS = words(
 )
 FREEDOM_NOUNS = words(
     "degree-of-freedom degrees-of-freedom dof dofs fhg ddl gdl gdls freedom freiheitsgrad freiheitsgrade "
-    "freiheitsgraden liberte liberta libertad liberdade"
+    "freiheitsgraden liberte liberta libertad liberdade mobility mobilite mobilita movilidad mobilitat laufgrad"
 )
 #: What is counted.
 UNITS = (
@@ -51,6 +62,7 @@ UNITS = (
         "coordinata independent unabhangig unabhangige independants independantes independante independiente "
         "independientes indipendenti indipendente independentes generalized generalised generalisierte "
         "verallgemeinerte velocity velocities geschwindigkeiten vitesses velocidades finite holonomic holonome total "
+        "angle angles winkel angoli angulos "
         "insgesamt en tout einziger einzige einzigen in im dans nel configuration konfigurationsraum space "
         "espace espacio "
         "spazio espaco"
@@ -97,6 +109,11 @@ _DOUBTFUL_WORDS = 3
 _UNSURE = re.compile(
     r"\b(?:not|nicht|pas|no|non|nao)\s+(?:quite\s+|ganz\s+)?(?:sure?|certain|sicher|segur[oa]|sicur[oa]|cert[oa])\b"
 )
+#: What draws a conclusion.
+CONCLUSION = re.compile(
+    r"(?:[.,;]|\s)\s*(?:so|therefore|hence|thus|donc|luego|quindi|portanto|daher|folglich)\b\s*:?\s*(?=\S)",
+    re.IGNORECASE,
+)
 #: What is answered to a word such as `holonomic:`.
 YES = words("yes true ja wahr oui vrai si sim vero verdadero verdadera verdadeiro")
 NO = words("no false not nein falsch nicht non faux falso falsa nao")
@@ -114,17 +131,6 @@ FILLING = words(
     "redundantes generalized generalised verallgemeinerte one choice possible set wir wahlen choose can dropped "
     "alone sowie beide beiden both les deux ambos entrambi allebei"
 )
-
-
-@lru_cache(maxsize=4096)
-def plain(text: str) -> str:
-    """A text in small letters, without accents, blanks around it and the stop at its end.
-
-    >>> plain(" Non intégrable. ")
-    'non integrable'
-    """
-    bare = _MARKS.sub("", unicodedata.normalize("NFD", text.strip().lower().replace("’", "'")))
-    return " ".join(bare.rstrip(".!").split())
 
 
 def takes_back(remark: str) -> bool:

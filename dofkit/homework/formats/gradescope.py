@@ -2,8 +2,8 @@
 
 All texts are in the format ``text``, which Gradescope shows as it is, so that nothing a student wrote is markup there.
 
-What an answer is worth is shown as the assignment's ``visibility`` says, by default after the due date where attempts
-are unlimited: else students would try until it is right. One test that is not visible hides the total, so that there
+What an answer is worth is shown as the assignment's ``visibility`` says, by default after the due date: else students
+would try until it is right. One test that is not visible hides the total, so that there
 either all are or none is. Gradescope shows ``after_due_date`` when the late due date has passed where there is one,
 and says nothing of assignments that have none at all: the autograder asks for ``after_published`` there, since nobody
 would ever see a point. How an answer was read, or where it could not be, is shown at once in any case.
@@ -28,7 +28,7 @@ from dofkit.homework.sentences import Language, in_language
 
 def visibility_of(prepared: Prepared | None) -> Visibility:
     """Return when students see their points: at once if there is no assignment."""
-    return "visible" if prepared is None else prepared.assignment.points_visibility
+    return "visible" if prepared is None else prepared.assignment.visibility
 
 
 def document(result: Result, visibility: Visibility = "visible", language: Language = "en") -> dict[str, Any]:

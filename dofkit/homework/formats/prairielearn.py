@@ -30,12 +30,12 @@ UNGRADED = (
 def document(result: Result, language: Language = "en") -> dict[str, Any]:
     """Return the ``results.json`` of a submission, in less than a megabyte."""
     fields = _document(result, language)
-    for most in (MOST_CHARACTERS, MOST_CHARACTERS // 10):
-        fields = fields if len(text(fields)) <= MOST_BYTES else _cut(fields, most)
     if len(text(fields)) > MOST_BYTES:
         too_many = in_language(language, "There are too many answers to be listed one by one.")
-        errors = {"format_errors": fields["format_errors"][:50]} if "format_errors" in fields else {}
-        fields = {**fields, **errors, "tests": [], "message": f"{fields['message']}\n{too_many}"}
+        errors = [shortened(error, MOST_CHARACTERS) for error in fields.get("format_errors", [])[:50]]
+        fields |= {"tests": [], "message": f"{fields['message']}\n{too_many}"} | (
+            {"format_errors": errors} if errors else {}
+        )
     return fields
 
 
@@ -73,14 +73,6 @@ def _error(item: Item, language: Language) -> str:
     if item.read_as and item.status != "unreadable":
         return f"{title(item)}: {in_language(language, several, text=line(item.read_as))}"
     return f"{title(item)}{where}: {line(item.feedback) or in_language(language, 'not readable')}"
-
-
-def _cut(fields: dict[str, Any], most: int) -> dict[str, Any]:
-    tests = [{k: shortened(v, most) if isinstance(v, str) else v for k, v in test.items()} for test in fields["tests"]]
-    cut = {**fields, "tests": tests, "message": shortened(fields["message"], most)}
-    if "format_errors" in fields:
-        cut["format_errors"] = [shortened(error, most) for error in fields["format_errors"]]
-    return cut
 
 
 def write(results: Iterator[Result], prepared: Prepared, target: Target, roster: Roster | None = None) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import combinations
 
-from dofkit.checker.label_rules import form_of
+from dofkit.checker.label_rules import exterior_part, form_of
 from dofkit.checker.trees import ZERO, CheckError, Tree, add, derivative, negative, number, symbol, times
 from dofkit.methods.certificates.fields import (
     LARGEST_CRAMER,
@@ -201,18 +201,9 @@ def _wedge(room: Room, name: str) -> Told | None:
     if point is None or form is None:
         return None
     for triple in combinations([v for v in room.scenery.evidence.variables if v in variables_of(form)], 3):
-        i, j, k = triple
-        cycles = ((i, j, k), (j, k, i), (k, i, j))
-        tree = add(*(times(form.get(a, number(0)), curl(form, b, c)) for a, b, c in cycles))
-        if room.scenery.differs(tree, point.floats):
+        if room.scenery.differs(exterior_part(form, *triple), point.floats):
             return {"rule": "wedge", "at": point.name, "triple": list(triple)}
     return None
-
-
-def curl(form: dict[str, Tree], i: str, j: str) -> Tree:
-    """d_i form_j - d_j form_i."""
-    zero = number(0)
-    return add(derivative(form.get(j, zero), i), negative(derivative(form.get(i, zero), j)))
 
 
 def _reached(room: Room, owner: str, alone: bool) -> Told | None:
@@ -281,7 +272,7 @@ def exact(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
     for name in names:
         form = form_or_none(room, name) or {}
         for i, j in combinations([v for v in room.scenery.evidence.variables if v in variables_of(form)], 2):
-            if room.scenery.differs(curl(form, i, j), point.floats):
+            if room.scenery.differs(exterior_part(form, i, j), point.floats):
                 which = {"relation": name} if len(names) > 1 else {}
                 yield {"rule": "not exact", "at": point.name, "pair": [i, j], **which}
                 break
