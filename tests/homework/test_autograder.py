@@ -10,7 +10,6 @@ import subprocess
 import sys
 import threading
 import zipfile
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -180,55 +179,27 @@ def test_prairielearn_takes_a_file_before_what_was_typed(sheet: Path, tmp_path: 
     assert grade_at(replace(SITES["prairielearn"], root=root), sheet, MEMORY).score == 6.0
 
 
-def two(folder: Path) -> None:
-    hand_in(folder, a__json=submission(), b__json=submission())
-
-
-def several(folder: Path) -> None:
-    hand_in(folder, answers__json=f"[{submission()}, {submission()}]")
-
-
-def rows(folder: Path) -> None:
-    hand_in(folder, answers__csv="student,disc.f\nada,4\nbob,4\n")
-
-
-def link(folder: Path) -> None:
-    hand_in(folder.parent, secret__json=submission())
-    folder.mkdir()
-    (folder / "answers.json").symlink_to(folder.parent / "secret.json")
-
-
-def broken(folder: Path) -> None:
-    hand_in(folder, answers__json='{"answers": {')
-
-
-def empty(folder: Path) -> None:
-    folder.mkdir(parents=True)
-
-
-def other(folder: Path) -> None:
-    hand_in(folder, essay__pdf="%PDF", script__py="import os")
+ONE, LINKED = submission(), "link"
 
 
 @pytest.mark.parametrize("site", ["gradescope", swept("prairielearn")])
 @pytest.mark.parametrize(
-    ("make", "why"),
+    ("files", "why"),
     [
-        (two, "there is more than one file: a.json, b.json"),
-        (several, "contains 2 submissions, not one"),
-        (rows, "contains 2 submissions, not one"),
-        (link, "there is no file with answers"),
-        (broken, "line 1"),
-        (empty, "there is no file with answers"),
-        (other, "there is no file with answers"),
+        ({"a.json": ONE, "b.json": ONE}, "there is more than one file: a.json, b.json"),
+        ({"answers.json": f"[{ONE}, {ONE}]"}, "contains 2 submissions, not one"),
+        ({"answers.csv": "student,disc.f\nada,4\nbob,4\n"}, "contains 2 submissions, not one"),
+        ({"answers.json": LINKED}, "there is no file with answers"),
+        ({"answers.json": '{"answers": {'}, "line 1"),
+        ({}, "there is no file with answers"),
+        ({"essay.pdf": "%PDF", "script.py": "import os"}, "there is no file with answers"),
     ],
 )
-def test_what_is_no_submission_is_said(
-    make: Callable[[Path], None], why: str, site: str, sheet: Path, tmp_path: Path
-) -> None:
-    root = tmp_path / "root"
-    root.mkdir()
-    make(root / SITES[site].folder)
+def test_what_is_no_submission_is_said(files: dict[str, str], why: str, site: str, sheet: Path, tmp_path: Path) -> None:
+    root = hand_in(tmp_path / "root" / SITES[site].folder, **{k: v for k, v in files.items() if v != LINKED})
+    if LINKED in files.values():
+        (tmp_path / "secret.json").write_text(ONE)
+        (root / SITES[site].folder / "answers.json").symlink_to(tmp_path / "secret.json")
     result = grade_at(replace(SITES[site], root=root), sheet, MEMORY)
     assert result.error is not None
     assert result.score is None

@@ -141,13 +141,6 @@ def test_a_caret_stands_where_reading_stopped(question: str, answer: Any, lines:
     assert stop.lines() == lines
 
 
-def test_answers_are_told_as_typed_and_bounded() -> None:
-    assert item_of("f", "  f = 1 ").answer == "  f = 1 "
-    assert item_of("f", 1.5).answer == "1.5"
-    assert item_of("rod", "x" * 10_000).answer == "x" * 1997 + "..."
-    assert item_of("f", "-").answer is None
-
-
 @pytest.mark.parametrize(
     ("scene", "constraint", "said"),
     [
@@ -181,16 +174,6 @@ def test_a_row_for_each_different_answer(course: Course) -> None:
     assert rows[2]["why"] == "column 1: 'x_B' is not declared (the declared names are x_A, y_A, l)"
     assert rows[3]["max_points"] == "4"
     assert {(r["points"], r["remark"], r["decided_by"]) for r in rows} == {("", "", "")}
-
-
-@pytest.mark.sweep
-def test_beside_a_file_it_is_called_after_it(course: Course) -> None:
-    course.grade(out=str(course.folder / "one.jsonl"))
-    names = {path.name for path in course.folder.iterdir()}
-    assert {"one.jsonl", "one.review.csv", "one.review.html"} <= names
-    course.hand_in(CLASS[:1])
-    course.grade(out=str(course.folder / "two.jsonl"))
-    assert not (course.folder / "two.review.csv").exists()
 
 
 def test_identities_survive_spreadsheets() -> None:
