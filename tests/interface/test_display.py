@@ -65,9 +65,9 @@ def test_a_report_is_the_same_with_and_without_what_it_is_about() -> None:
 def test_what_a_notebook_offers_of_a_report_are_its_fields() -> None:
     report = dofkit.classify(DISC)
     offered = {name for name in dir(report) if not name.startswith("_")}
-    own = {"beside", "table", "text", "to_dict"}
-    own |= {"model_copy", "model_dump", "model_dump_json", "model_validate", "model_validate_json"}
-    assert offered == {*Report.model_fields, *own}
+    methods = {"with_scene", "table", "text", "to_dict"}
+    methods |= {"model_copy", "model_dump", "model_dump_json", "model_validate", "model_validate_json"}
+    assert offered == {*Report.model_fields, *methods}
     assert {"constraints", "title", "parse_raw"} - set(dir(dofkit.load(DISC))) == {"parse_raw"}
 
 

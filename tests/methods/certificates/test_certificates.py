@@ -104,6 +104,17 @@ def test_a_contradicted_number_is_undecided() -> None:
     assert found.certificate is not None
 
 
+def test_verdicts_say_whether_they_are_checked() -> None:
+    scene = dofkit.load("block-on-table")
+    report = dofkit.classify(scene)
+    assert {verdict.checked for verdict in report.verdicts.values()} == {None}
+    checked = {field: verdict.checked for field, verdict in with_certificate(scene, report).verdicts.items()}
+    # Euler's angles are singular at this pose: for a chart in them there is no evidence.
+    assert [field for field, accepted in checked.items() if not accepted] == ["generalized_coordinates"]
+    wrong = report.model_copy(update={"instantaneous_dof": 5})
+    assert with_certificate(scene, wrong).verdicts["instantaneous_dof"].checked is False
+
+
 @pytest.mark.parametrize(
     ("constraints", "members"),
     [
