@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from dofkit.configuration.local.neighbourhood import damped
+from dofkit.exact.matrices.dense import array_step
 from dofkit.motion.poses import FAULTS, Array, Pose, PoseRelations
 
 #: Relative residual of what is held, rounds of Newton's method, and those with much damping.
@@ -63,7 +63,7 @@ class Follower:
                     break
                 if self.clock is not None and not any_time:
                     j[:, self.clock] = 0.0
-                pose = self.relations.moved(pose, damped(j, f, 1 + (k > EASY)))
+                pose = self.relations.moved(pose, array_step(j, f, 1, float(np.linalg.norm(f)) ** (1 + (k > EASY))))
         except FAULTS:
             return None
         return pose if np.all(np.isfinite(self.relations.between(start, pose))) and self.holds(pose) else None
@@ -143,7 +143,8 @@ class Follower:
             wrong = np.concatenate([f, forms @ made, along @ (made - wanted)])
             if float(np.max(np.abs(wrong))) < HELD / 100:
                 break
-            step = damped(np.vstack([j, forms, along]), wrong, 1 + (k > EASY))
+            shift = float(np.linalg.norm(wrong)) ** (1 + (k > EASY))
+            step = array_step(np.vstack([j, forms, along]), wrong, 1, shift)
             pose = relations.moved(pose, step)
             if float(np.linalg.norm(step)) < 1e-16:
                 break

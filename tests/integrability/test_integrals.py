@@ -351,7 +351,7 @@ def _grow(inner: st.SearchStrategy[Expr]) -> st.SearchStrategy[Expr]:
 SMALL = st.recursive(LEAVES, _grow, max_leaves=5)
 
 
-@settings(max_examples=15)
+@settings(max_examples=8)
 @given(f=SMALL, mu=SMALL)
 def test_the_law_for_any_potential_and_factor(f: Expr, mu: Expr) -> None:
     """Whatever is found of mu df is proportional to it; without a factor it is found."""

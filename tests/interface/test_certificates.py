@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 from shared.command_line import called
+from shared.known_scenes import spread
 
 import dofkit
 from dofkit.checker.problem import document_of, sha256_of
@@ -61,7 +62,9 @@ def test_what_is_uncovered_ends_with_1_where_it_is_strict(
     assert "uncovered  /singular" in out
 
 
-@pytest.mark.parametrize("text", ["", "{", "[]", "{}", '{"certificate": 2}', "null", '{"certificate": 1, "scene": 5}'])
+@pytest.mark.parametrize(
+    "text", spread(["{", "[]", "{}", '{"certificate": 2}', "null", "", '{"certificate": 1, "scene": 5}'])
+)
 def test_what_is_no_certificate_ends_with_2(text: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     place = tmp_path / "bad.json"
     place.write_text(text)
