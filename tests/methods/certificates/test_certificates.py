@@ -54,13 +54,6 @@ def test_the_same_report_has_the_same_certificate() -> None:
     assert certified(SKATE) == certified(SKATE)
 
 
-def test_a_factor_that_never_vanishes_is_dropped() -> None:
-    certificate, _ = certified({"name": "hurried", "coordinates": ["x", "y"], "constraints": ["(1+t^2)*(dx+dy) = 0"]})
-    claims = {claim["path"]: claim for claim in certificate["claims"]}
-    assert claims["/constraints/c1/scleronomic"]["value"] is True
-    assert claims["/constraints/c1/scleronomic"]["steps"] == ["c1 without its factor"]
-
-
 def test_a_skate_reaches_every_pose() -> None:
     certificate, _ = certified(SKATE)
     claims = {claim["path"]: claim for claim in certificate["claims"]}
