@@ -35,7 +35,7 @@ from dofkit.homework.judgement import (
 )
 from dofkit.homework.key.key import Key
 from dofkit.homework.problem import Problem
-from dofkit.homework.questions import QuestionBase
+from dofkit.homework.questions import NumberQuestion, QuestionBase
 from dofkit.homework.result import Item, PossibleReading, Result
 from dofkit.homework.review import Decision, answer_id, read_table
 from dofkit.homework.sentences import Said, in_language, say
@@ -88,29 +88,26 @@ class Grader:
 
         What fails outside one answer is the error of this submission alone; nobody else loses a result by it.
         """
+        if submission.error is not None:
+            return self.refused(submission.student, submission.error)
         try:
-            return (yield from self._steps(submission))
+            if self.prepared.assignment.variants is not None:
+                sheet = sheet_of(self.prepared, submission.student)
+                sheet_grader = Grader(sheet, self.seconds, check_only=self.check_only)
+                grader = self._variants.setdefault(sheet.variant, sheet_grader)
+                grader.condemned = self.condemned
+                return (yield from grader.steps(submission))
+            items: list[Item] = []
+            for problem in self.prepared.assignment.problems:
+                items += yield from self._problem(problem, submission.answers.get(problem.id, {}))
+            items += unasked(self.prepared, submission)
+            return self._total(submission.student, items)
+        except NobodysVariantError as error:
+            return self.refused(submission.student, str(error))
         except MemoryError:
             raise
         except Exception as error:
             return self.refused(submission.student, f"an internal error occurred ({type(error).__name__})")
-
-    def _steps(self, submission: Submission) -> Generator[Identity, None, Result]:
-        if submission.error is not None:
-            return self.refused(submission.student, submission.error)
-        if self.prepared.assignment.variants is not None:
-            try:
-                sheet = sheet_of(self.prepared, submission.student)
-            except NobodysVariantError as error:
-                return self.refused(submission.student, str(error))
-            grader = self._variants.setdefault(sheet.variant, Grader(sheet, self.seconds, check_only=self.check_only))
-            grader.condemned = self.condemned
-            return (yield from grader.steps(submission))
-        items: list[Item] = []
-        for problem in self.prepared.assignment.problems:
-            items += yield from self._problem(problem, submission.answers.get(problem.id, {}))
-        items += unasked(self.prepared, submission)
-        return self._total(submission.student, items)
 
     def refused(self, student: str, error: str) -> Result:
         """The result of a submission that cannot be graded."""
@@ -136,7 +133,7 @@ class Grader:
             decision = self._decision(problem, question, answer)
             if decision is not None:
                 items.append(self._decided(problem, question, decision, answer))
-                if (number := _number(question, answer)) is not None:
+                if (number := _number(question, answer, self.prepared.keys[problem.id])) is not None:
                     earlier.setdefault(question.kind(), number)
                 continue
             identity = _identity(problem, question, answer, earlier) + self.prepared.marks.get(
@@ -177,7 +174,8 @@ class Grader:
             return needs_review("", self.condemned[identity]), None
         remembered = self._judgements.get(identity)
         if remembered is None:
-            remembered = self._judgement(problem, question, answer, earlier), _number(question, answer)
+            number = _number(question, answer, self.prepared.keys[problem.id])
+            remembered = self._judgement(problem, question, answer, earlier), number
             if len(self._judgements) < MOST_REMEMBERED and len(identity) < LONGEST_REMEMBERED:
                 self._judgements[identity] = remembered
         return remembered
@@ -257,9 +255,12 @@ def _identity(problem: Problem, question: QuestionBase, answer: Given, earlier: 
     return repr((problem.id, question.id, answer, *sorted(earlier.items())))
 
 
-def _number(question: QuestionBase, answer: Given) -> Fraction | None:
+def _number(question: QuestionBase, answer: Given, key: Key) -> Fraction | None:
+    """Return the number that an answer gives, for later questions; None where the question asks for none."""
+    if not isinstance(question, NumberQuestion):
+        return None
     try:
-        return question.number(answer)
+        return cast(Fraction, question.readings(answer, key.declared)[0].value)
     except (TextError, ArithmeticError, ValueError):
         return None
 

@@ -14,7 +14,7 @@ from dofkit.interface.output import FAILURES
 
 #: The heading of the options that few people need.
 ADVANCED = "Advanced"
-STILL_KINDS, MOVING_KINDS = ("svg", "png", "pdf", "html"), ("html", "gif", "mp4")
+STILL_KINDS, MOVING_KINDS = ("svg", "png", "pdf", "html"), ("html", "gif", "mp4", "svg", "png", "pdf")
 DRAWN_AS = ("mechanism", "graph", "directions")
 #: The names of the methods, as `dofkit.methods.table` has them, whose import takes long.
 METHODS = ("auto", "count", "graph", "field", "balls", "exact", "numeric", "symbolic")

@@ -2,7 +2,8 @@
 
 The admissible directions are spanned by fields X_k, each of which moves one of the chosen columns at unit speed and no
 other chosen one. Around a small loop of area A of the columns i and j, counterclockwise, the others are displaced by
-A [X_i, X_j] and terms of third order. Forms that integrate have no displacement: their integral keeps its value.
+A [X_i, X_j], here at the centre of the loop, and terms of third order. Forms that integrate have no displacement: their
+integral keeps its value.
 """
 
 from __future__ import annotations
@@ -55,7 +56,9 @@ class LoopSampler:
         if len(basis) != self.follower.freedom:
             raise NoMotionError("a loop needs a regular configuration")
         self.chosen = _independent_columns(basis, len(self.relations.plain))
-        self.pairs = list(combinations([c for c in self.chosen if c < len(self.relations.plain)], 2))
+        pairs = combinations([c for c in self.chosen if c < len(self.relations.plain)], 2)
+        size = {pair: float(np.linalg.norm(self.bracket(pair, self.start))) for pair in pairs}
+        self.pairs = sorted(size, key=lambda pair: -round(size[pair], 6))[:MOST_LOOPS]
         if not self.pairs:
             raise NoMotionError(ONE_FIELD)
         bodies = [f"{r.body} about {letter}" for r in self.relations.rotations for letter in "xyz"]
@@ -67,40 +70,46 @@ class LoopSampler:
         return np.asarray(np.linalg.solve(basis[:, self.chosen].T, np.eye(len(self.chosen))).T @ basis)
 
     def loops(self, size: float) -> list[Loop]:
-        """Return a loop for each pair of chosen coordinates, as far as they can be followed. Raises NoMotionError."""
+        """Return a loop for each pair of chosen coordinates, as far as they can be followed, largest bracket first."""
         try:
             with limited(DEFAULT_SECONDS), precise_for(self.sampler.system.longest):
-                loops = [self._loop(pair, size) for pair in self.pairs[:MOST_LOOPS]]
-        except OutOfTimeError as error:
-            raise NoMotionError(str(error)) from None
-        if not any(loops):
-            raise NoMotionError("no loop of this size could be followed")
+                loops = [self._loop(pair, size) for pair in self.pairs]
+        except OutOfTimeError:
+            return []
         return [loop for loop in loops if loop is not None]
 
     def _loop(self, pair: tuple[int, int], size: float) -> Loop | None:
         angles = 2 * np.pi * np.arange(CORNERS + 1) / CORNERS
-        corners = size * np.column_stack([np.sin(angles), 1 - np.cos(angles)])
+        poses = self._along(pair, size * np.column_stack([np.sin(angles), 1 - np.cos(angles)]))
+        centre = self._along(pair, size * np.column_stack([np.zeros(CORNERS), np.linspace(0, 1, CORNERS)]))
+        if len(poses) <= CORNERS or len(centre) < CORNERS:
+            return None
+        area = CORNERS / 2 * np.sin(2 * np.pi / CORNERS) * size**2
+        configurations = [self.sampler.values(poses[0], {})]
+        for pose in poses[1:]:
+            configurations.append(self.sampler.values(pose, configurations[-1]))
+        names = (self.columns[pair[0]], self.columns[pair[1]])
+        displacement = self._named(self.relations.between(self.start, poses[-1]))
+        return Loop(
+            names, size, tuple(configurations), displacement, self._named(area * self.bracket(pair, centre[-1]))
+        )
+
+    def _along(self, pair: tuple[int, int], corners: Array) -> list[Pose]:
+        """Return the poses along a polygon of two coordinates, as far as it can be followed."""
         along = np.eye(self.relations.columns)[self.chosen]
         first, second = (self.chosen.index(column) for column in pair)
-        pose, poses = self.start, [self.start]
+        poses = [self.start]
         for step in np.diff(corners, axis=0):
             rates = np.zeros(len(self.chosen))
             rates[first], rates[second] = step
             try:
-                stepped = self.follower.stepped(pose, rates @ self.fields(pose), along)
+                pose = self.follower.stepped(poses[-1], rates @ self.fields(poses[-1]), along)
             except FAULTS:
-                return None
-            if stepped is None:
-                return None
-            pose = stepped
+                break
+            if pose is None:
+                break
             poses.append(pose)
-        area = CORNERS / 2 * np.sin(2 * np.pi / CORNERS) * size**2
-        configurations = [self.sampler.values(poses[0], {})]
-        for reached in poses[1:]:
-            configurations.append(self.sampler.values(reached, configurations[-1]))
-        names = (self.columns[pair[0]], self.columns[pair[1]])
-        displacement = self._named(self.relations.between(self.start, pose))
-        return Loop(names, size, tuple(configurations), displacement, self._named(area * self.bracket(first, second)))
+        return poses
 
     def _named(self, step: Array) -> dict[str, float]:
         """Return a step by the names of all columns but the chosen coordinates, in the scene's units."""
@@ -109,20 +118,21 @@ class LoopSampler:
         others = [c for c in range(len(units)) if c >= plain or c not in self.chosen]
         return {self.columns[c]: float(units[c] * step[c]) for c in others}
 
-    def bracket(self, first: int, second: int) -> Array:
-        """Return [X, Y] = DY X - DX Y of two fields at the start, by differences."""
+    def bracket(self, pair: tuple[int, int], pose: Pose) -> Array:
+        """Return [X, Y] = DY X - DX Y of the fields of two columns at a pose, by differences."""
 
         def field(number: int, at: Array) -> Array:
-            """Return a field in the chart of steps from the start."""
-            pose = self.relations.moved(self.start, at)
-            vector = INNER * self.fields(pose)[number]
-            ends = (self.relations.between(self.start, self.relations.moved(pose, s * vector)) for s in (1, -1))
+            """Return a field in the chart of steps from the pose."""
+            moved = self.relations.moved(pose, at)
+            vector = INNER * self.fields(moved)[number]
+            ends = (self.relations.between(pose, self.relations.moved(moved, s * vector)) for s in (1, -1))
             return np.asarray(np.subtract(*ends) / (2 * INNER))
 
         def along(number: int, way: Array) -> Array:
             return (field(number, OUTER * way) - field(number, -OUTER * way)) / (2 * OUTER)
 
-        x, y = (self.fields(self.start)[k] for k in (first, second))
+        first, second = (self.chosen.index(column) for column in pair)
+        x, y = self.fields(pose)[[first, second]]
         return along(second, x) - along(first, y)
 
 

@@ -7,8 +7,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from dofkit.base.errors import DofkitError
 from dofkit.base.wording import many, series, verb
+from dofkit.motion.configurations import NoMotionError
 from dofkit.motion.loops import Loop, LoopSampler
 from dofkit.pictures.shapes import Clip, Shape, Sketch, fixed
 from dofkit.pictures.stage import StagedScene
@@ -20,18 +20,13 @@ SIZES, EVERY, CLOSED = (0.25, 0.5, 0.8), 2, 1e-9
 
 
 def loop_clips(stage: StagedScene) -> list[Clip]:
-    """Return the loops of each pair of free coordinates, in several sizes. Raises DofkitError if there are none."""
+    """Return the loops of each pair of free coordinates, in several sizes. Raises NoMotionError if there are none."""
     sampler = LoopSampler(stage.system, stage.arrangement.first_values)
-    clips: list[Clip] = []
-    fault: DofkitError | None = None
-    for size in SIZES:
-        try:
-            clips += [_clip(stage, loop) for loop in sampler.loops(size)]
-        except DofkitError as error:
-            fault = error
-    if not clips and fault is not None:
-        raise fault
-    return sorted(clips, key=lambda clip: clip.name)
+    clips = [_clip(stage, loop) for size in SIZES for loop in sampler.loops(size)]
+    if not clips:
+        raise NoMotionError("no loop could be followed from this configuration")
+    names = list(dict.fromkeys(clip.name for clip in clips))
+    return sorted(clips, key=lambda clip: names.index(clip.name))
 
 
 def _clip(stage: StagedScene, loop: Loop) -> Clip:
@@ -46,7 +41,8 @@ def _words(loop: Loop) -> str:
     if not moved:
         return f"{round_again}, and so does everything else: the loop closes."
     least = 1e-3 * max(map(abs, moved.values()))
-    listed = [f"{n} by {v:.3g} (bracket: {loop.prediction[n]:.3g})" for n, v in moved.items() if abs(v) > least]
+    predicted = {n: v if abs(v) > CLOSED else 0.0 for n, v in loop.prediction.items()}
+    listed = [f"{n} by {v:.3g} (bracket: {predicted[n]:.3g})" for n, v in moved.items() if abs(v) > least]
     return f"{round_again}; displaced are {series(listed)}."
 
 
@@ -67,7 +63,11 @@ def loop_notes(report: Report) -> Iterator[str]:
 
 
 def traces(sketch: Sketch, clip: Clip, frame: int) -> Iterator[Shape]:
-    """Yield the paths of traced vertices up to a frame; at the end of a loop, the displacement as an arrow."""
+    """Yield the paths of traced vertices up to a frame; of a loop where it began, and at its end the displacement."""
+    bodies = [s for s in sketch.shapes if clip.loop and frame and s.role in ("body", "bar") and s.state == "moving"]
+    for shape in bodies:
+        corners = fixed(*(sketch.at(v, clip.frames[0]) for v in shape.vertices))
+        yield shape._replace(vertices=corners, role="ghost", state="plain")
     for vertex in sketch.traced:
         path = [sketch.at(vertex, poses) for poses in clip.frames[: frame + 1]]
         yield Shape("line", fixed(*path), "trace")

@@ -24,7 +24,7 @@ Kind = Literal["line", "area", "hull", "ball", "coil", "bow", "arrow", "words"]
 #: What a shape is part of.
 Role = Literal[
     "body", "joint", "guide", "bar", "rope", "ground", "hatch", "axis", "locus", "trace", "tie", "force", "point",
-    "name", "field", "bracket", "further", "surface", "mesh", "arrow", "node", "plane",
+    "name", "field", "bracket", "further", "surface", "mesh", "arrow", "node", "plane", "ghost",
 ]  # fmt: skip
 #: What the report says of it.
 State = Literal["plain", "moving", "redundant", "conflicting"]
@@ -183,6 +183,7 @@ _PLAIN: Mapping[Role, Ink] = {
     "locus": Ink(GREEN, 1.8, layer=2),
     "surface": Ink("#8CCDB9", 0.7, layer=1),
     "mesh": Ink("#8CCDB9", 0.7, layer=1),
+    "ghost": Ink("#8A8A8A", 0.9, (3.0, 2.0), layer=1),
     "arrow": Ink(VERMILLION, 1.6, layer=8),
     "plane": Ink("#8A8A8A", 0.8, fill="#F1F1F1", layer=0),
     "node": Ink(INK, 0.8, fill="#333333", layer=7),

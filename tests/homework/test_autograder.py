@@ -8,7 +8,6 @@ import json
 import os
 import subprocess
 import sys
-import threading
 import zipfile
 from dataclasses import replace
 from pathlib import Path
@@ -66,8 +65,8 @@ def hand_in(folder: Path, **files: str) -> Path:
 
 
 def written(root: Path, site: str) -> dict[str, Any]:
-    found: dict[str, Any] = json.loads((root / SITES[site].results).read_text(encoding="ascii"))
-    return found
+    document: dict[str, Any] = json.loads((root / SITES[site].results).read_text(encoding="ascii"))
+    return document
 
 
 def submission(**more: Any) -> str:
@@ -212,23 +211,6 @@ def test_what_is_no_submission_is_said(files: dict[str, str], why: str, site: st
 def test_one_file_of_several_may_be_called_answers(sheet: Path, tmp_path: Path) -> None:
     root = hand_in(tmp_path / "root" / "submission", notes__json="{}", Answers__json=submission(), x__pdf="%PDF")
     assert grade_at(replace(SITES["gradescope"], root=root), sheet, MEMORY).score == 6.0
-
-
-class Up(threading.Timer):
-    """A clock that has run out when it is set."""
-
-    def start(self) -> None:
-        self.function()
-
-
-def test_where_time_is_up_everything_is_open(sheet: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    root = hand_in(tmp_path / "root" / "submission", answers__json=submission())
-    monkeypatch.setattr(threading, "Timer", Up)
-    result = grade_at(replace(SITES["gradescope"], root=root), sheet, MEMORY)
-    assert result.needs_review == 3
-    found = written(root, "gradescope")
-    assert "not final" in found["output"]
-    assert all("score" not in test for test in found["tests"])
 
 
 def test_a_faulty_assignment_is_nobodys_fault(tmp_path: Path) -> None:

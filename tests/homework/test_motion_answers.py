@@ -35,7 +35,7 @@ ALLOWED = {
 }
 
 
-@pytest.mark.parametrize(("scene", "ask", "coordinate", "answer", "expected"), spread(ROWS, 2, several=True))
+@pytest.mark.parametrize(("scene", "ask", "coordinate", "answer", "expected"), spread(ROWS, several=True))
 def test_answers(scene: str, ask: str, coordinate: str, answer: str, expected: str) -> None:
     status, score, codes = graded(scene, ask, coordinate, answer)
     told = " ".join([status, *codes])

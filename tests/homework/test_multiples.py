@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from shared.known_scenes import spread
 
 import dofkit
 
@@ -11,26 +12,30 @@ CIRCLE, LINE, CROSS, HYPERBOLA, WAVE = "x^2 + y^2 = R^2", "3 x + 4 y = 5", "x^2 
 
 @pytest.mark.parametrize(
     ("asked", "answer", "status", "codes"),
-    [
-        (CIRCLE, "exp(x^2 + y^2 - R^2) = 1", "right", []),  # over the reals exp(u) = 1 is u = 0
-        (CIRCLE, "sinh(x^2 + y^2 - R^2) = 0", "right", []),
-        (CIRCLE, "exp(x^2 + y^2) = exp(R^2)", "right", []),
-        (CIRCLE, "(x^2 + y^2 - R^2)^3 + x^2 + y^2 - R^2 = 0", "needs_review", []),  # right: u (u^2 + 1)
-        (CIRCLE, "cosh(x^2 + y^2 - R^2) = 1", "partly", ["IRREGULAR"]),  # begins with u^2/2
-        (LINE, "cosh(3 x + 4 y - 5) = 1", "partly", ["IRREGULAR"]),
-        (LINE, "(3 x + 4 y - 5)^3 = 0", "partly", ["IRREGULAR"]),
-        (HYPERBOLA, "x^3 y^3 = 1", "needs_review", []),  # right: m^3 - 1 = (m - 1) (m^2 + m + 1)
-        (HYPERBOLA, "x^2 y^2 = 1", "wrong", ["WEAKER"]),
-        (HYPERBOLA, "log(x) + log(y) = 0", "partly", ["ONE_BRANCH"]),  # x, y > 0 only
-        ("y = exp(x)", "y^3 = exp(3 x)", "right", []),
-        ("y = exp(x)", "log(y) = x", "right", []),  # y > 0 there
-        (WAVE, "y^2 = 1 - cos(x)^2", "wrong", ["WEAKER"]),  # y = -sin(x) too
-        (CROSS, "-(x^2 - y^2) = 0", "right", []),
-        (CROSS, "x^4 = y^4", "right", []),
-        (CROSS, "abs(x) = abs(y)", "right", []),
-        (CROSS, "(x - y)^2 (x + y) = 0", "partly", ["IRREGULAR"]),
-        (CROSS, "x = y", "partly", ["ONE_BRANCH"]),
-    ],
+    spread(
+        [
+            (CIRCLE, "exp(x^2 + y^2 - R^2) = 1", "right", []),  # over the reals exp(u) = 1 is u = 0
+            (CIRCLE, "sinh(x^2 + y^2 - R^2) = 0", "right", []),
+            (CIRCLE, "exp(x^2 + y^2) = exp(R^2)", "right", []),
+            (CIRCLE, "(x^2 + y^2 - R^2)^3 + x^2 + y^2 - R^2 = 0", "needs_review", []),  # right: u (u^2 + 1)
+            (CIRCLE, "cosh(x^2 + y^2 - R^2) = 1", "partly", ["IRREGULAR"]),  # begins with u^2/2
+            (LINE, "cosh(3 x + 4 y - 5) = 1", "partly", ["IRREGULAR"]),
+            (LINE, "(3 x + 4 y - 5)^3 = 0", "partly", ["IRREGULAR"]),
+            (HYPERBOLA, "x^3 y^3 = 1", "needs_review", []),  # right: m^3 - 1 = (m - 1) (m^2 + m + 1)
+            (HYPERBOLA, "x^2 y^2 = 1", "wrong", ["WEAKER"]),
+            (HYPERBOLA, "log(x) + log(y) = 0", "partly", ["ONE_BRANCH"]),  # x, y > 0 only
+            ("y = exp(x)", "y^3 = exp(3 x)", "right", []),
+            ("y = exp(x)", "log(y) = x", "right", []),  # y > 0 there
+            (WAVE, "y^2 = 1 - cos(x)^2", "wrong", ["WEAKER"]),  # y = -sin(x) too
+            (CROSS, "-(x^2 - y^2) = 0", "right", []),
+            (CROSS, "x^4 = y^4", "right", []),
+            (CROSS, "abs(x) = abs(y)", "right", []),
+            (CROSS, "(x - y)^2 (x + y) = 0", "partly", ["IRREGULAR"]),
+            (CROSS, "x = y", "partly", ["ONE_BRANCH"]),
+        ],
+        2,
+        several=True,
+    ),
 )
 def test_what_is_the_same_over_the_reals(asked: str, answer: str, status: str, codes: list[str]) -> None:
     made = {"coordinates": ["x", "y"], "parameters": {"R": "positive"}, "constraints": [asked]}

@@ -15,12 +15,10 @@ says first that it is not final and how many points are open, and ``extra_data``
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any
 
-from dofkit.homework.answers.roster import Roster
 from dofkit.homework.assignment import Prepared, Visibility
-from dofkit.homework.formats.base import Format, Target, write_documents
+from dofkit.homework.formats.base import Format, per_student
 from dofkit.homework.formats.wording import line, open_points, plain, points, remark, standing, title
 from dofkit.homework.result import Item, Result
 from dofkit.homework.sentences import Language, in_language
@@ -98,11 +96,7 @@ def _test(item: Item, visibility: Visibility, language: Language) -> dict[str, A
     }
 
 
-def write(results: Iterator[Result], prepared: Prepared, target: Target, roster: Roster | None = None) -> None:
-    """Write one ``results.json`` per student."""
-    del roster
-    visibility = visibility_of(prepared)
-    write_documents(results, target, lambda result: document(result, visibility, prepared.assignment.language))
-
-
-GRADESCOPE = Format("gradescope", write)
+GRADESCOPE = Format(
+    "gradescope",
+    per_student(lambda result, prepared: document(result, visibility_of(prepared), prepared.assignment.language)),
+)

@@ -9,12 +9,9 @@ gives them on PrairieLearn's own page.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any
 
-from dofkit.homework.answers.roster import Roster
-from dofkit.homework.assignment import Prepared
-from dofkit.homework.formats.base import Format, Target, text, write_documents
+from dofkit.homework.formats.base import Format, per_student, text
 from dofkit.homework.formats.wording import line, plain, remark, shortened, standing, title
 from dofkit.homework.result import Item, Result
 from dofkit.homework.sentences import Language, in_language
@@ -75,10 +72,7 @@ def _error(item: Item, language: Language) -> str:
     return f"{title(item)}{where}: {line(item.feedback) or in_language(language, 'not readable')}"
 
 
-def write(results: Iterator[Result], prepared: Prepared, target: Target, roster: Roster | None = None) -> None:
-    """Write one ``results.json`` per student."""
-    del roster
-    write_documents(results, target, lambda result: document(result, prepared.assignment.language))
-
-
-PRAIRIELEARN = Format("prairielearn", write)
+PRAIRIELEARN = Format(
+    "prairielearn",
+    per_student(lambda result, prepared: document(result, prepared.assignment.language)),
+)
