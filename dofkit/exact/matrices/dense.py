@@ -1,13 +1,14 @@
 """Small dense matrices of floats, as lists: steps, pivots and singular values, by FLINT's numbers of `BITS` bits.
 
 They say where a search goes and what to prove; nothing else rests on them. A matrix of more than `SMALL` entries is
-numpy's, which is imported then.
+numpy's, which is imported then; where numpy is not installed, as in a browser, all are small.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from importlib.util import find_spec
 from operator import mul
 from typing import NamedTuple
 
@@ -20,7 +21,7 @@ Vector = Sequence[float]
 Matrix = Sequence[Vector]
 
 #: Bits of the numbers in which small matrices are multiplied and solved, and entries of what is small.
-BITS, SMALL = 256, 400
+BITS, SMALL = 256, 400 if find_spec("numpy") else math.inf
 #: A singular value that counts as 0 in a step, and what is always added to squares.
 FLAT, LEAST = 1e-10, 1e-60
 
