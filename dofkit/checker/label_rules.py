@@ -138,9 +138,7 @@ def timeless(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
     """
     catastatic = claim["field"] == "catastatic"
     names = constraint_relations(evidence, claim, EQUATIONS if catastatic else EVERY)
-    ones = [evidence.relation(name) for name in claim.get("steps", names)]
-    evidence.follow([checked.name for checked in ones], names, None, "the constraint")
-    evidence.follow(names, [checked.name for checked in ones], None, "the steps")
+    ones = [evidence.relation(name) for name in names]
     refuse(catastatic and all(checked.kind != "velocity" for checked in ones), "there is no form")
     apart = not catastatic and len(names) == 1 and verified.get(f"holonomic {claim['owner']}") is False
     for checked in ones:

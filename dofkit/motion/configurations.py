@@ -94,12 +94,12 @@ def configurations(
     system = source if isinstance(source, System) else lower(source)
     try:
         with limited(DEFAULT_SECONDS), precise_for(system.longest):
-            return _Sampled(system, dict(values or {}), along).configurations(steps, step, both)
+            return MotionSampler(system, dict(values or {}), along).configurations(steps, step, both)
     except OutOfTimeError as error:
         raise NoMotionError(str(error)) from None
 
 
-class _Sampled:
+class MotionSampler:
     """A system with its relations, a follower, and the first pose."""
 
     def __init__(self, system: System, numbers: Mapping[str, float], along: str | None) -> None:
@@ -155,7 +155,7 @@ class _Sampled:
         backward = self._way(back, steps, step)[0] if both and not closed else []
         if steps and not forward and not backward:
             raise NoMotionError("no motion was followed that leaves the first configuration")
-        middle = self._values(self.start, {})
+        middle = self.values(self.start, {})
         return [*reversed(self._values_along(backward, middle)), middle, *self._values_along(forward, middle)]
 
     def _way(self, start: Reached | None, steps: int, step: float) -> tuple[list[Pose], bool]:
@@ -182,11 +182,12 @@ class _Sampled:
     def _values_along(self, poses: Sequence[Pose], last: dict[str, float]) -> list[dict[str, float]]:
         configurations = []
         for pose in poses:
-            last = self._values(pose, last)
+            last = self.values(pose, last)
             configurations.append(last)
         return configurations
 
-    def _values(self, pose: Pose, last: Mapping[str, float]) -> dict[str, float]:
+    def values(self, pose: Pose, last: Mapping[str, float]) -> dict[str, float]:
+        """The coordinates of a pose (Euler angles near those of ``last``), and the values of parameters."""
         coordinates = self.relations.coordinate_values(pose, last)
         chosen = {str(s.args[1]): v for s, v in self.relations.constants.items() if not str(s.args[1]).startswith("_")}
         timed = {"t": coordinates["t"]} if self.relations.timed else {}

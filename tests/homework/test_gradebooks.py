@@ -167,18 +167,6 @@ def test_names_that_cannot_stand_in_a_table_are_apart(name: str, prepared: Prepa
         assert not [c for c in row if c.lstrip()[:1] in tuple("=+-@|＝")]
 
 
-def test_a_stale_list_is_taken_away(prepared: Prepared, tmp_path: Path) -> None:
-    assert tables("moodle", prepared, tmp_path, result("0"))[1]
-    assert tables("moodle", prepared, tmp_path, result("1"))[1] == []
-
-
-def test_without_a_path_they_are_told_on_standard_error(prepared: Prepared, capsys: Any) -> None:
-    stream = io.StringIO()
-    FORMATS["canvas"].write(iter([result("bob", open_points=8)]), prepared, stream)
-    assert "bob" not in stream.getvalue()
-    assert capsys.readouterr().err == "not in the table: bob: it is not final: 8 points are undecided\n"
-
-
 # rosters
 
 

@@ -238,7 +238,7 @@ def test_names_do_not_overlap_and_stay_on_the_sheet(name: str) -> None:
     for a, b in combinations(boxes(page), 2):
         apart = a[1] <= b[0] or b[1] <= a[0] or a[3] <= b[2] or b[3] <= a[2]
         assert apart, (a[4], b[4])
-    spots = [identity for mark in page.marks for identity in mark.spots]
+    spots = [spot for mark in page.marks for spot in mark.spots]
     assert all(0 <= x <= page.width and 0 <= y <= page.height for x, y in spots)
 
 
@@ -327,7 +327,7 @@ def test_the_whole_catalog_is_drawn(name: str, tmp_path: Path) -> None:
     root = ElementTree.fromstring(picture.svg())
     assert root.findtext(f"{SVG}desc") == picture.alternative
     assert picture.save(tmp_path / "a.png").stat().st_size > 8000
-    spots = [identity for mark in picture.page.marks for identity in mark.spots]
+    spots = [spot for mark in picture.page.marks for spot in mark.spots]
     assert all(0 <= x <= picture.page.width and 0 <= y <= picture.page.height for x, y in spots)
     texts = [box for box in boxes(picture.page) if box[4]]
     overlapping = [

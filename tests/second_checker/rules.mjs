@@ -681,13 +681,7 @@ export class Rules {
       refuse(claim.value !== true, "the rule proves true");
       refuse(field === "catastatic" && !own.some((r) => r.kind === "velocity"), "there are no velocities");
       const equations = own.filter((r) => r.kind !== "inequality");
-      let ones = field === "catastatic" ? equations : own;
-      if (claim.steps !== undefined) {
-        const steps = list(claim.steps).map((id) => this.e.relation(id));
-        const [there, back] = [this.e.closure(ids(ones), null), this.e.closure(ids(steps), null)];
-        refuse(steps.some((r) => !there.has(r.id)) || ones.some((r) => !back.has(r.id)), "the steps are other relations");
-        ones = steps;
-      }
+      const ones = field === "catastatic" ? equations : own;
       const alone = field === "scleronomic" && own.length === 1 && this.verified.get(`/constraints/${escaped(name)}/holonomic`);
       if (alone?.uncovered) uncovered("a label of the constraint");
       const names = field === "catastatic" ? ["tdot"] : alone?.value === false ? ["t"] : ["t", "tdot"];

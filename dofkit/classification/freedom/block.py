@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 from dofkit.base.verdicts import weakest
 from dofkit.classification.freedom.bridged_blocks import bridged_answer
 from dofkit.configuration import distance_geometry
+from dofkit.configuration.at_reference import at_reference
 from dofkit.configuration.components import is_graph, is_irreducible
 from dofkit.configuration.finite_blocks import finite_answer
 from dofkit.configuration.linear_blocks import confirmed, eliminated
@@ -129,7 +130,7 @@ def _is_same(a: Answer, b: Answer) -> bool:
 
 def _answer(block: Block, setting: Setting) -> Answer:
     if not block.forms and not block.nonlinear:
-        large = eliminated(block, setting)
+        large = eliminated(block, setting) if setting.reference is None else None
         finite = finite_answer(block, setting) if large is None else large
         finite.derived = None if finite.dof is None else (len(block.coordinates) - finite.dof,)
         return finite if "closed" in setting.reductions else _tested(block, setting, finite)
@@ -206,7 +207,15 @@ def _points(forms: Codistribution, setting: Setting) -> Variety:
         return undecided
     if not points:
         return replace(find(forms.chart, setting.pose), about="component")
+    if is_irreducible(forms.chart) and _as_large(forms, setting.reference):
+        return find(forms.chart, setting.pose)
     return regular_reference(forms, points, setting.reference) or undecided
+
+
+def _as_large(forms: Codistribution, reference: Mapping[Expr, Expr]) -> bool:
+    """Return whether an irreducible set has its whole dimension near the reference, as at generic points."""
+    here = at_reference(forms.chart, reference)
+    return here is not None and here.local.dimension == forms.n - forms.finite and here.local.verdict != "numeric"
 
 
 def _largest(a: Answer) -> tuple[int, int, int]:
@@ -263,7 +272,10 @@ def alone(
 ) -> Answer:
     """A constraint's own rows with the others forgotten; ``answered`` answers a part at no drawing."""
     blocks, untouched = split(coordinates, rows)
-    answers = [confirmed(b, answered(b), setting, len(rows) == 1) for b in blocks]
+    answers = [
+        confirmed(b, a, setting, len(rows) == 1) if a.verdict == "probable" else a
+        for b, a in zip(blocks, map(answered, blocks), strict=True)
+    ]
     merged = Answer(dof=_total(untouched, [a.dof for a in answers]))
     merged.velocity_dof = _total(untouched, [a.velocity_dof for a in answers])
     for a in answers:

@@ -214,7 +214,8 @@ def _confirmed(only: Outcome, setting: Setting) -> list[Answer]:
     answers = []
     for block, a in zip(only.blocks, only.answers, strict=True):
         alone = all(written[row.constraint] == 1 for row in block.rows)
-        answers.append(unless_late(partial(confirmed, block, a, setting, alone), a))
+        probable = a.verdict == "probable"
+        answers.append(unless_late(partial(confirmed, block, a, setting, alone), a) if probable else a)
     return answers
 
 

@@ -177,7 +177,7 @@ class Companionship:
             return Others()
         companions = tuple(f"'{self.names[o]}'" for o in kept if o != constraint)
         if integral is None:
-            return Others(companions)
+            return Others(companions, identically=False, timed=_advances(constraint, block, a))
         timed = _timed(integral, constraint, block, a)
         return Others(companions, equation(integral, block), integral.identically, timed)
 
@@ -273,6 +273,19 @@ def _timed(f: FirstIntegral, constraint: int, block: Block, a: Answer) -> bool |
     if not uses_time(others):
         return TIME in f.expr.symbols
     return None if others.finite or a.hidden else True
+
+
+def _advances(constraint: int, block: Block, a: Answer) -> bool | None:
+    """Return True where a form has a dt term at a generic point and the other constraints hold no time, else None.
+
+    What it integrates to with them then has t: its differential is mu (a dq + b dt) and multiples of the others', none
+    of which has dt, so that its derivative by t is mu b.
+    """
+    numbers = _forms_of(constraint, block)
+    others = Block(block.coordinates, tuple(r for r in block.rows if r.constraint != constraint))
+    if len(numbers) != 1 or uses_time(others) or a.hidden or not a.matrix:
+        return None
+    return a.matrix[numbers[0]].get(len(block.coordinates), 0) % a.modulus != 0 or None
 
 
 def _forms_of(constraint: int, block: Block) -> list[int]:

@@ -102,11 +102,6 @@ class QuestionBase(WrittenModel):
         """Return the correct answer in words, or nothing if it is unknown."""
         raise NotImplementedError
 
-    def number(self, answer: Given) -> Fraction | None:
-        """The number that an answer gives, for later questions; None where the question asks for none."""
-        del answer
-        return None
-
 
 @cache
 def _kind(cls: type[QuestionBase]) -> str:

@@ -68,9 +68,6 @@ class NumberQuestion(QuestionBase):
         del key, earlier
         yield from ()
 
-    def number(self, answer: Given) -> Fraction | None:
-        return number(answer, self.letters, self.foreign)
-
     def readings(self, answer: Given, names: DeclaredNames) -> list[Reading]:
         del names
         amount = number(answer, self.letters, self.foreign)

@@ -162,7 +162,8 @@ def _of_set(room: Room, standing: Standing) -> Iterator[Told]:
     claim["minor"] = room.minor(standing)
     if not unordered:
         yield {**claim, "order": order}
-    symbols = own_symbols(room)
+    letters = (*room.problem.world.generic, *room.problem.world.signs)
+    symbols = {name: letter for name in evidence.finite if (letter := evidence.own_symbol(name, letters))}
     if not standing.dependent or standing.accounted:
         for tried in (order, given_in_order(finite, room.scenery, partial(_gives, room)), []):
             remaining = [name for name in finite if all(name != chosen for chosen, _ in tried)]
@@ -230,20 +231,6 @@ def _gives(room: Room, name: str, q: str) -> bool:
         return plain or bool(evidence.ring.rational(slope))
     except CheckError:
         return False
-
-
-def own_symbols(room: Room) -> dict[str, str]:
-    """For each relation a generic symbol or parameter that occurs in no other."""
-    relations = room.problem.relations
-    held = {relation.name: relation.tree.symbols for relation in relations}
-    chosen: dict[str, str] = {}
-    for relation in relations:
-        for symbol in (*room.problem.world.generic, *room.problem.world.signs):
-            if symbol in held[relation.name] and not any(
-                symbol in held[other] for other in held if other != relation.name
-            ):
-                chosen.setdefault(relation.name, symbol)
-    return chosen
 
 
 def _split(

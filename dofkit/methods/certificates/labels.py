@@ -20,7 +20,7 @@ from dofkit.methods.certificates.numerics import Estimates, NoEstimateError, ech
 from dofkit.methods.certificates.points import FoundPoint
 from dofkit.methods.certificates.room import Room, Told
 from dofkit.methods.certificates.scenery import FAR, text_of
-from dofkit.methods.certificates.steps import Order, needed_puts, puts, rate_of, with_puts, without_factor
+from dofkit.methods.certificates.steps import Order, needed_puts, puts, rate_of, with_puts
 from dofkit.report import ConstraintEntry
 
 Components = dict[str, Tree]
@@ -281,21 +281,12 @@ def exact(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
 def scleronomic(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
     """Time does not occur, or matters at a point."""
     if getattr(entry, field):
-        yield from timeless(room, entry, field)
+        yield {"rule": "timeless"}
         return
     evidence = room.scenery.evidence
     for name in evidence.owned(entry.name, ("finite", "velocity", "inequality")):
         for place in _turning(room, name, field):
             yield {"rule": "turns", "relation": name, **place}
-
-
-def timeless(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
-    """Time does not occur; what is nonlinear in velocities is homogeneous."""
-    yield {"rule": "timeless"}
-    names = room.scenery.evidence.owned(entry.name)
-    steps = [without_factor(room.scenery, name) for name in names]
-    if steps != list(names):
-        yield {"rule": "timeless", "steps": steps}
 
 
 def _turning(room: Room, name: str, field: str) -> Iterator[Told]:

@@ -15,7 +15,6 @@ from dofkit.checker.trees import (
     ZERO,
     CheckError,
     Tree,
-    add,
     difference,
     linear_in,
     negative,
@@ -93,26 +92,6 @@ def _square(term: Tree) -> tuple[Fraction, Tree, int] | None:
         else:
             return None
     return None if base is None or not base.symbols else (coefficient, base, exponent)
-
-
-def without_factor(scenery: Scenery, name: str) -> str:
-    """The id of a step that drops a factor that is a positive number plus squares; the relation's own without one."""
-    step, tree = f"{scenery.label}{name} without its factor", scenery.evidence.relation(name).tree
-    if scenery.has_step(step):
-        return step
-    terms = [_operands(term, "product") for term in _operands(tree, "sum")]
-    for factor in terms[0]:
-        positive = positive_sum(factor)
-        if positive is None or not all(factor in term for term in terms):
-            continue
-        places = [term.index(factor) for term in terms]
-        quotient = add(*(times(*term[:i], *term[i + 1 :]) for term, i in zip(terms, places, strict=True)))
-        made = {"id": step, "by": "implied", "function": text_of(quotient), "c": {name: text_of(quotient)}, "power": 2}
-        sos = [[c, text_of(times(base, quotient))] for c, base in positive[1]]
-        back: dict[str, object] = {"id": f"{step}, and back", "by": "implied", "of": name, "c": {step: text_of(factor)}}
-        if _stand(scenery, {**made, "h": positive[0], "sos": sos}, back):
-            return step
-    return name
 
 
 def _operands(tree: Tree, head: str) -> list[Tree]:
