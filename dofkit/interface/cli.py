@@ -267,7 +267,6 @@ def chart(
     source: options.ChartSource = None,
     quick: options.Quick = False,
     most: options.Most = None,
-    scheduler: options.Scheduler = None,
     workers: options.Workers = None,
     timeout: options.Timeout = None,
 ) -> None:
@@ -277,7 +276,7 @@ def chart(
 
     selection = Selection(question or (), families or (), methods or (), quick, most)
     with failures_of("chart"):
-        whole = chart(ChartOptions(selection, out, source, scheduler, workers, timeout))
+        whole = chart(ChartOptions(selection, out, source, workers, timeout))
     if not whole:
         raise typer.Exit(INTERRUPTED)
 

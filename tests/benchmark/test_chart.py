@@ -46,7 +46,7 @@ RAN = Ran(
 def ran(methods: Sequence[str], limit: float = 0.3) -> list[TrialLine]:
     """The trials of the family by these methods, in two workers."""
     with Pool(2, modules=("dofkit.benchmark.runner", "shared.chart_methods")) as pool:
-        bench = runner.Bench(pool, pool.run, limit, "shared.chart_methods:answered")
+        bench = runner.Bench(pool, limit, "shared.chart_methods:answered")
         return list(runner.run(tasks.trial_tasks(chart_methods.family(False), methods), bench))
 
 

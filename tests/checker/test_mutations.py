@@ -53,10 +53,10 @@ def test_of_an_edited_scene_only_what_is_still_true_is_verified(path: Path) -> N
         done, scene = change
         try:
             report = dofkit.classify(scene).model_dump(mode="json")
-            found = verify(scene, renewed(certificate, scene))
+            verification = verify(scene, renewed(certificate, scene))
         except (dofkit.SceneError, CheckError):
             continue
-        assert not untrue(asserted(certificate, found), report), done
+        assert not untrue(asserted(certificate, verification), report), done
 
 
 @pytest.mark.parametrize("path", few("edited scenes, unsaid", CATALOG, 40), ids=stem)

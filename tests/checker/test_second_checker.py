@@ -65,10 +65,10 @@ def first(case: Case) -> list[str]:
     document, certificate = case
     paths = [str(claim.get("path")) for claim in certificate["claims"]]
     try:
-        found = verify(document, certificate)
+        verification = verify(document, certificate)
     except CheckError:
         return ["refused"] * len(paths)
-    failed = [one["path"] for one in found.failed]
+    failed = [one["path"] for one in verification.failed]
     twice = {path for path in paths if paths.count(path) > 1}
     return ["unclear" if path in twice else "refused" if path in failed else "accepted" for path in paths]
 

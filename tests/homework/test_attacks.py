@@ -94,9 +94,9 @@ def test_the_same_submission_twice_counts_once(tmp_path: Path) -> None:
 def test_a_name_that_looks_like_anothers_is_a_doubt(
     name: str, roster: bool, doubts: list[bool], tmp_path: Path
 ) -> None:
-    found = graded(tmp_path, {"ada@x.yaml": RIGHT, f"{name}.yaml": WRONG}, roster)
-    assert [one["doubt"] is not None for one in found] == doubts
-    assert [one["score"] for one in found] == [1.0, 0.0]
+    result = graded(tmp_path, {"ada@x.yaml": RIGHT, f"{name}.yaml": WRONG}, roster)
+    assert [one["doubt"] is not None for one in result] == doubts
+    assert [one["score"] for one in result] == [1.0, 0.0]
 
 
 #: Answers of one shape, of which only the first is right: a constant under another name, and two readings.

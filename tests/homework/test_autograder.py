@@ -65,8 +65,8 @@ def hand_in(folder: Path, **files: str) -> Path:
 
 
 def written(root: Path, site: str) -> dict[str, Any]:
-    found: dict[str, Any] = json.loads((root / SITES[site].results).read_text(encoding="ascii"))
-    return found
+    document: dict[str, Any] = json.loads((root / SITES[site].results).read_text(encoding="ascii"))
+    return document
 
 
 def submission(**more: Any) -> str:

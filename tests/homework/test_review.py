@@ -51,8 +51,8 @@ CLASS = [
 
 
 def item_of(question: str, answer: Any, **more: Any) -> Item:
-    found = dofkit.grade({**SHEET, **more}, {"student": "s", "answers": {"p": {question: answer}}})
-    return next(one for one in found.items if one.question == question)
+    result = dofkit.grade({**SHEET, **more}, {"student": "s", "answers": {"p": {question: answer}}})
+    return next(one for one in result.items if one.question == question)
 
 
 class Course:
@@ -119,12 +119,12 @@ def test_documentation(module: str) -> None:
 
 def test_what_cannot_be_read_is_open_unless_the_assignment_says_otherwise() -> None:
     given = {"student": "s", "answers": {"p": {"f": 1, "rod": UNREAD}}}
-    found = dofkit.grade(SHEET, given)
-    assert [(i.status, i.score) for i in found.items] == [("right", 2.0), ("unreadable", None), ("missing", 0.0)]
-    assert (found.score, found.needs_review) == (2.0, 1)
-    found = dofkit.grade({**SHEET, "unreadable": "zero"}, given)
-    assert [(i.status, i.score) for i in found.items] == [("right", 2.0), ("unreadable", 0.0), ("missing", 0.0)]
-    assert (found.score, found.needs_review) == (2.0, 0)
+    result = dofkit.grade(SHEET, given)
+    assert [(i.status, i.score) for i in result.items] == [("right", 2.0), ("unreadable", None), ("missing", 0.0)]
+    assert (result.score, result.needs_review) == (2.0, 1)
+    result = dofkit.grade({**SHEET, "unreadable": "zero"}, given)
+    assert [(i.status, i.score) for i in result.items] == [("right", 2.0), ("unreadable", 0.0), ("missing", 0.0)]
+    assert (result.score, result.needs_review) == (2.0, 0)
 
 
 @pytest.mark.parametrize(
@@ -246,8 +246,8 @@ def test_the_function_takes_a_review_too(course: Course) -> None:
     table = course.fill({UNREAD: "3"}, decided_by="Ng")
     given = {"student": "z", "answers": {"p": {"rod": UNREAD, "f": 1}}}
     for path in (table, str(table)):
-        found = dofkit.grade(SHEET, given, reviewed=path)
-        assert [(item.score, item.decided_by) for item in found.items] == [(2.0, None), (3.0, "Ng"), (0.0, None)]
+        result = dofkit.grade(SHEET, given, reviewed=path)
+        assert [(item.score, item.decided_by) for item in result.items] == [(2.0, None), (3.0, "Ng"), (0.0, None)]
     assert dofkit.grade(SHEET, given).needs_review == 1
     table.write_text("id,marks\n")
     with pytest.raises(ReviewError, match="there is no column 'points'"):

@@ -39,8 +39,10 @@ def words(html: str) -> str:
 @pytest.mark.parametrize(("command", "asked"), [("classify", dofkit.classify), ("lagrange", dofkit.lagrange)])
 def test_print_writes_what_the_command_line_does(command: str, asked: Callable[[str], object]) -> None:
     name = "mass-on-spring"
-    told = subprocess.run([sys.executable, "-m", "dofkit", command, name], capture_output=True, text=True, check=True)
-    assert f"{asked(name)}\n\n" == told.stdout
+    process = subprocess.run(
+        [sys.executable, "-m", "dofkit", command, name], capture_output=True, text=True, check=True
+    )
+    assert f"{asked(name)}\n\n" == process.stdout
 
 
 def test_the_text_has_a_width_and_says_how_where_it_is_asked() -> None:

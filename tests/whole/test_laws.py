@@ -32,7 +32,7 @@ NUMBERS = (
 )  # fmt: skip
 LABELS = ("form", "holonomic", "holonomic_alone", "scleronomic", "catastatic", "bilateral", "equations")
 #: What tells the scene's story and not its mathematics.
-STORY = ("title", "source", "notes", "expect", "energies")
+STORY = ("title", "source", "notes", "picture", "expect", "energies")
 
 
 every_scene = pytest.mark.parametrize("path", EVERY, ids=stem)
@@ -378,8 +378,8 @@ def test_two_copies_have_twice_the_freedom(path: Path) -> None:
     for key in NUMBERS:
         assert getattr(other, key) == doubled(getattr(report, key)), key
     assert nullities(other) == sorted(2 * nullities(report))
-    found = growth(report)
-    assert growth(other) == (None if found is None else [2 * n for n in found])
+    dimensions = growth(report)
+    assert growth(other) == (None if dimensions is None else [2 * n for n in dimensions])
     assert all_labels(other) == all_labels(report) | {f"{name}_too": said for name, said in all_labels(report).items()}
     if report.consistent:
         assert other.redundant == [*report.redundant, *(f"{name}_too" for name in report.redundant)]

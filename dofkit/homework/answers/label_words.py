@@ -10,7 +10,7 @@ from typing import NamedTuple
 from dofkit.base.errors import TextError
 from dofkit.base.wording import closest
 from dofkit.homework.answers.notation import Script, script_of
-from dofkit.homework.answers.prose import DOUBTS, NO, YES, plain, words
+from dofkit.homework.answers.prose import DOUBTS, NO, YES, plain, word_list, words
 from dofkit.homework.answers.words import Word, one_text, split_words
 from dofkit.homework.judgement import DoubtError, Given
 
@@ -63,14 +63,9 @@ _FEWEST = 3
 #: What misspelt labels are compared with.
 _GUESSED = [w for w in _WORDS if w[:3] in ("hol", "scl", "skl", "rhe", "bil", "uni")]
 _LONGEST = 24
-_NEGATIONS = words(
-    "not non no non- not- isn't isnt nicht kein keine never neither nor weder noch pas ni nao ne' nem cannot can't none"
-)
+_NEGATIONS = word_list("label_words: negations")
 #: Words over which a negation reaches.
-_FILLING = words(
-    "a an the is it be also really either both ist es eine ein auch est un une aussi es una e' son "
-    "constraint zwangsbedingung liaison ligadura vincolo explicitly called named considered said to as"
-)  # fmt: skip
+_FILLING = word_list("label_words: filling")  # fmt: skip
 #: Words of other meanings that look like labels.
 _OTHERS = frozenset({"integrable", "nonintegrable", "noncommutative", "nonlinear", "nonzero", "integrabel"})
 #: How alike a misspelt word and the label that is meant are.

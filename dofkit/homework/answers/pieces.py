@@ -11,7 +11,7 @@ from dofkit.expressions.text import Names, parse_relations, spelled
 from dofkit.expressions.text.characters import GREEK
 from dofkit.expressions.text.tokens import read_word
 from dofkit.homework.answers.notation import ARROW, Script, script_of, with_differentials
-from dofkit.homework.answers.prose import CONCLUSION, plain, takes_back, words
+from dofkit.homework.answers.prose import CONCLUSION, plain, takes_back, word_list
 from dofkit.homework.answers.words import one_text
 from dofkit.homework.judgement import DoubtError, Given
 
@@ -55,10 +55,7 @@ _CURVES = re.compile(
     re.IGNORECASE,
 )
 _TITLED = re.compile(r"\A\s*[^=<>:+*/^]{1,60}:(?!=)\s*(?=\S)")
-_REMARKED = words(
-    "constant constante const konstante konst costante cte arbitrary beliebig arbitraire real reell reel reale any "
-    "some positive angle radius length hence therefore so thus daher also donc luego quindi qed given fixed fest fester"
-)
+_REMARKED = word_list("pieces: remarked")
 _ABOUT_CONSTANT = re.compile(
     r"\s*(?:with|mit|where|wobei|avec|con|où|donde|dove)?\s*[^\W\d_][\w]{0,8}\s*"
     r"(?:(?:∈|\bin\b|is|ist|est|es|è|:)\s*(?:R|ℝ|IR|reals?|an?\b|eine?\b|une?\b|una?\b)?[^=<>]{0,40}"

@@ -21,36 +21,18 @@ from pathlib import Path
 from typing import NamedTuple
 
 from dofkit.base.errors import DofkitError
+from dofkit.homework.answers.prose import word_list
 from dofkit.homework.answers.spreadsheet import decoded, spreadsheet
 from dofkit.homework.answers.submission import MOST_BYTES, clean, reason
 
 #: What headers call each field, in small letters.
 _HEADERS: Mapping[str, frozenset[str]] = {
-    "name": frozenset(
-        {"student", "name", "full name", "fullname", "student name", "display name", "vollständiger name",
-         "nom complet", "nombre completo"}
-    ),
-    "first": frozenset({"first name", "firstname", "given name", "vorname", "prénom", "nombre"}),
-    "last": frozenset(
-        {"last name", "lastname", "surname", "family name", "nachname", "nom", "nom de famille", "apellido",
-         "apellidos", "apellido(s)"}
-    ),
-    "email": frozenset(
-        {"email", "e-mail", "mail", "email address", "e-mail address", "e-mail-adresse", "useremail",
-         "adresse de courriel", "courriel", "dirección de correo", "correo", "correo electrónico"}
-    ),
-    "number": frozenset(
-        {"id number", "idnumber", "useridnumber", "student id", "sid", "sis user id", "student number",
-         "matriculation number", "matrikelnummer", "matrikel", "id-nummer", "numéro d'identification", "número de id"}
-    ),
-    "username": frozenset(
-        {"username", "user name", "login", "login id", "sis login id", "uid", "anmeldename", "nutzername",
-         "nom d'utilisateur", "nombre de usuario"}
-    ),
+    **{
+        name: word_list(f"roster: {name}")
+        for name in ("name", "first", "last", "email", "number", "username", "moodle", "section")
+    },
     "canvas": frozenset({"canvas id"}),
-    "moodle": frozenset({"userid", "moodle id"}),
-    "section": frozenset({"section", "sections", "group", "gruppe"}),
-}  # fmt: skip
+}
 #: Of what one person has, and nobody else.
 _UNIQUE = ("email", "number", "username", "canvas", "moodle", "other")
 #: Folders and files as Moodle calls them when all submissions are downloaded, and as Canvas does.

@@ -37,11 +37,11 @@ def certified(scene: Any, **changes: Any) -> tuple[dict[str, Any], dict[str, str
 @pytest.mark.parametrize("path", few("certificates", CATALOG, 8, (FOUR_BAR, "rolling-ball", "bolt")))
 def test_what_is_certified_is_verified(path: Any) -> None:
     certificate, failed = made(document_of_scene(scene_of(path)), report_of(path))
-    found = verify(path.read_text(encoding="utf-8"), json.dumps(certificate))
-    assert (failed, found.failed, found.claims) == ([], [], found.verified)
+    verification = verify(path.read_text(encoding="utf-8"), json.dumps(certificate))
+    assert (failed, verification.failed, verification.claims) == ([], [], verification.verified)
     told = sum(one.verdict == "proved" for one in report_of(path).verdicts.values())
     told += sum(one.verdict == "proved" for e in report_of(path).constraints for one in e.verdicts.values())
-    assert found.claims + sum("/about" not in one for one in found.uncovered) >= told
+    assert verification.claims + sum("/about" not in one for one in verification.uncovered) >= told
 
 
 def test_a_linkage_is_covered_whole() -> None:
