@@ -8,20 +8,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from importlib.util import find_spec
 from operator import mul
 from typing import NamedTuple
 
 from flint import acb_mat, arb_mat, ctx
 
 from dofkit.base.errors import NoValueError
-from dofkit.base.libraries import np
+from dofkit.base.libraries import HAS_NUMPY, np
 
 Vector = Sequence[float]
 Matrix = Sequence[Vector]
 
 #: Bits of the numbers in which small matrices are multiplied and solved, and entries of what is small.
-BITS, SMALL = 256, 400 if find_spec("numpy") else math.inf
+BITS, SMALL = 256, 400 if HAS_NUMPY else math.inf
 #: A singular value that counts as 0 in a step, and what is always added to squares.
 FLAT, LEAST = 1e-10, 1e-60
 
