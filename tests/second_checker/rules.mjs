@@ -211,7 +211,9 @@ export class Rules {
   strictAt(relation, point) {
     const ball = this.e.at(relation.tree, point);
     if (ball.positive) return;
-    refuse(relation.strict || ball.hi < 0n || !this.e.zeroAt(relation.tree, point), `${relation.id} does not hold`);
+    const open = relation.tree.functions.size || relation.tree.hasAny(new Set(this.s.signs.keys()));
+    const equal = !ball.nonzero && (point.rows.includes(relation.id) || this.e.zeroAt(relation.tree, point));
+    refuse(relation.strict || open || !equal, `${relation.id} does not hold`);
   }
 
   /** number + sum of squares + sum c i + sum (squares) inequality = 0, a contradiction. */
@@ -422,7 +424,7 @@ export class Rules {
   }
 
   get surplus() {
-    return this.e.relations.length - (this.e.n - this.before("/velocity_dof").value);
+    return Math.max(0, this.e.relations.length - (this.e.n - this.before("/velocity_dof").value));
   }
 
   redundantEquations(claim) {
