@@ -79,7 +79,7 @@ def certified(given: Path | tuple[str, Mapping[str, Any]]) -> Told | str:
         making = Certifying(document, report)
         certificate = json.loads(json.dumps(making.written()))
         later = time.process_time()
-        found = verify(document, certificate)
+        verification = verify(document, certificate)
         last = time.process_time()
     except dofkit.SceneError as error:
         return f"refused {given}: {str(error)[:80]}"
@@ -90,7 +90,7 @@ def certified(given: Path | tuple[str, Mapping[str, Any]]) -> Told | str:
     reasons = dict(making.trial.reasons) if making.trial else {}
     seconds = middle - start, later - middle, last - later
     told = report.model_dump(mode="json")
-    return Told(scene.name, document, told, certificate, reasons, found.failed, making.contradictions, seconds)
+    return Told(scene.name, document, told, certificate, reasons, verification.failed, making.contradictions, seconds)
 
 
 def others(quick: bool) -> list[tuple[str, Mapping[str, Any]]]:
@@ -258,10 +258,10 @@ def one_edited(told: Told, done: str, scene: dict[str, Any]) -> Outcome | None:
     try:
         report = dofkit.classify(scene, budget=20).model_dump(mode="json")
         certificate = renewed(told.certificate, scene)
-        found = verify(scene, certificate)
+        verification = verify(scene, certificate)
     except (dofkit.SceneError, CheckError):
         return None
-    failed = {one["path"] for one in found.failed}
+    failed = {one["path"] for one in verification.failed}
     claims = {c["path"]: (c["value"], c.get("about")) for c in certificate["claims"] if c["path"] not in failed}
     return Outcome(done.split(maxsplit=1)[0], f"{told.name}: {done}", bool(claims), untrue(claims, report))
 

@@ -150,10 +150,12 @@ def answers(package: Path, scenes: list[str], sound: Mapping[str, Answers] | Non
             known.write_text(json.dumps({scene: told.values for scene, told in sound.items()}), encoding="utf-8")
         environment = {**os.environ, "PYTHONPATH": str(package), "PYTHONDONTWRITEBYTECODE": "1"}
         command = [sys.executable, str(script), "" if sound is None else str(known), *scenes]
-        found = subprocess.run(command, capture_output=True, text=True, env=environment, check=False, timeout=4 * 3600)
-    if found.returncode:
-        raise SystemExit(f"the package in {package} does not run: {found.stderr[-1000:]}")
-    lines = [json.loads(line) for line in found.stdout.splitlines() if line.startswith("[")]
+        process = subprocess.run(
+            command, capture_output=True, text=True, env=environment, check=False, timeout=4 * 3600
+        )
+    if process.returncode:
+        raise SystemExit(f"the package in {package} does not run: {process.stderr[-1000:]}")
+    lines = [json.loads(line) for line in process.stdout.splitlines() if line.startswith("[")]
     return {line[0]: Answers(*line[1:]) for line in lines}
 
 

@@ -38,7 +38,7 @@ MUMBLED, GIVEN = " hopefully thats it", "0,5"
 
 
 def _problem(name: str, title: str, scene: Any, *questions: Mapping[str, Any], **more: Any) -> dict[str, Any]:
-    return {"id": name, "title": title, "text": f"{title}.\n\n[[constraints]]", "scene": scene, **more,
+    return {"id": name, "title": title, "text": f"{title}.", "scene": scene, **more,
             "questions": [{"id": f"q{i + 1}", **question} for i, question in enumerate(questions)]}  # fmt: skip
 
 

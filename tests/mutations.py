@@ -152,7 +152,8 @@ def _edits(tree: ast.Module, lines: Sequence[str]) -> Iterator[Edit]:
         elif isinstance(node, ast.BinOp) and type(node.op) in JOINED:
             yield from _between(node.left, node.right, *JOINED[type(node.op)], lines)
         elif isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.Not | ast.USub):
-            if node.lineno == node.operand.lineno:
+            sign = lines[node.lineno - 1].encode()[node.col_offset : node.operand.col_offset]
+            if node.lineno == node.operand.lineno and b"(" not in sign:
                 yield node.lineno, node.col_offset, node.operand.col_offset, ""
         elif isinstance(node, ast.Constant):
             yield from _constant(node)

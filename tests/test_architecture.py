@@ -30,7 +30,7 @@ TOP = {
 LONGEST_FUNCTION, MOST_PARAMETERS, LONGEST_CLASS, LONGEST_FILE, MOST_METHODS = 40, 6, 200, 400, 20
 #: Heavy, optional, or what nothing but this needs: imported where they are used.
 LATE_IMPORTS = frozenset(
-    {"sympy", "rich", "matplotlib", "distributed", "jinja2", "flint", "mujoco", "typst", "latex2mathml",
+    {"sympy", "rich", "matplotlib", "PIL", "distributed", "jinja2", "flint", "mujoco", "typst", "latex2mathml",
      "dofkit.methods.supervised", "dofkit.methods.certificates.lowering"}
 )  # fmt: skip
 #: Where one bad file or answer must not stop the others, whatever it does.

@@ -23,6 +23,8 @@ GRACE_SECONDS, GRACE_PART = 1.0, 0.25
 MAX_WORK, WORK_A_SECOND = 30_000_000_000, 3e9
 #: New objects before garbage is searched for, and rounds before older objects are.
 GC_THRESHOLD = (200_000, 20, 20)
+#: Between two looks at the clock so many functions are called or return: more often it takes longer than they do.
+CALLS = 64
 OUT_OF_TIME = "the time allowed for the scene was used up"
 
 #: Seconds of processor time of this thread; of the clock on a platform that does not count them (WebAssembly).
@@ -110,9 +112,16 @@ def check() -> None:
 
 @contextmanager
 def checked_calls() -> Iterator[None]:
-    """Let every call of a Python function within ask `check`: for a library whose loops do not."""
-    before = sys.getprofile()
-    sys.setprofile(lambda _frame, event, _argument: check() if event == "call" else None)
+    """Let the calls and returns within ask `check`, one in `CALLS`: for a library whose loops do not."""
+    before, asked = sys.getprofile(), 0
+
+    def count(*_event: object) -> None:
+        nonlocal asked
+        asked += 1
+        if asked % CALLS == 0:
+            check()
+
+    sys.setprofile(count)
     try:
         yield
     finally:

@@ -15,7 +15,7 @@ from functools import cached_property
 from typing import Any
 
 from dofkit.base.errors import Fault
-from dofkit.base.yaml_events import DEEPEST, SURROGATE, Path, Places, compose, plain
+from dofkit.base.yaml_events import DEEPEST, Path, Places, compose
 
 __all__ = ["DEEPEST", "MOST_BYTES", "Document", "Path", "on_one_line", "read_document", "yaml_text"]
 
@@ -23,7 +23,6 @@ __all__ = ["DEEPEST", "MOST_BYTES", "Document", "Path", "on_one_line", "read_doc
 MOST_BYTES = 64_000_000
 _FORBIDDEN = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
 _BREAK = re.compile(r"\r\n|\r|\n")
-_JSON_START = re.compile(r"[ \t\r\n]*[{\[]")
 #: What stands for one character of a double-quoted text.
 _CHARACTER = re.compile(r"\\u[0-9a-fA-F]{4}|\\x[0-9a-fA-F]{2}|\\U[0-9a-fA-F]{8}|\\.|[^\\\n]")
 #: A text that YAML 1.2 reads as itself without quotes, in brackets too.
@@ -86,11 +85,6 @@ def read_document(data: bytes | str, name: str) -> Document:
         fault = 0, Fault("the file is empty", hint="write a mapping, such as 'coordinates: [x, y]'")
     if fault is not None:
         return _document(name, text, None, [fault], dict)
-    if _JSON_START.match(text) and not SURROGATE.search(text):
-        try:
-            return _document(name, text, _json_value(text), [], lambda: compose(text).places)
-        except (ValueError, RecursionError):
-            pass  # The YAML parser finds out what is wrong.
     composed = compose(text)
     return _document(name, text, composed.value, composed.faults, lambda: composed.places)
 
@@ -116,30 +110,6 @@ def _decoded(data: bytes | str) -> tuple[str, tuple[int, Fault] | None]:
         other = " (it looks like UTF-16)" if data[:2] in (b"\xff\xfe", b"\xfe\xff") else ""
         text = before + error.object[error.start : error.start + 10_000].decode("utf-8", "replace")
         return text, (len(before), Fault(f"the file is not in UTF-8{other}", hint="save it as UTF-8"))
-
-
-def _json_value(text: str) -> Any:
-    """Return the value of a JSON text. Raises ValueError where the YAML parser has to find what is wrong."""
-    hooks: Any = {"parse_int": plain, "parse_float": plain, "parse_constant": _refused}
-    value = json.loads(text, object_pairs_hook=_mapping, **hooks)
-    level, depth = [value], 0
-    while level := [part for part in level if isinstance(part, dict | list)]:
-        depth += 1
-        level = [below for part in level for below in (part.values() if isinstance(part, dict) else part)]
-    if depth > DEEPEST:
-        _refused("nested too deep")
-    return value
-
-
-def _mapping(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    value = dict(pairs)
-    if len(value) < len(pairs) or "<<" in value:
-        _refused("a key twice, or one that merges")
-    return value
-
-
-def _refused(why: str) -> None:
-    raise ValueError(why)
 
 
 def _offset_of_column(source: str, column: int) -> int:

@@ -40,7 +40,6 @@ class ChartOptions:
     selection: Selection
     out: Path
     source: Path | None = None
-    scheduler: str | None = None
     workers: int | None = None
     limit: float | None = None
 
@@ -129,7 +128,7 @@ def _gather(
     options: ChartOptions, work: Sequence[tasks.TrialTask], swept: Sequence[tasks.TrialTask], data: Data
 ) -> None:
     """Fill the data."""
-    with runner.bench_of(options.workers, options.scheduler, options.seconds) as bench, _bar() as bar:
+    with runner.bench_of(options.workers, options.seconds) as bench, _bar() as bar:
         for name, members, lines in (("trials", work, data.lines), ("sweeps", swept, data.sweeps)):
             progress = bar.add_task(name, total=len(members))
             for line in runner.run(members, bench):

@@ -35,7 +35,6 @@ class TrialLine:
     question: str
     method: str
     size: int
-    traits: tuple[str, ...]
     swept: Mapping[str, Any]
     truth: Any
     answer: Any
@@ -187,7 +186,7 @@ class Data:
 
 TRIALS, SWEEPS, SUMMARY = "trials.csv", "sweeps.csv", "chart.json"
 #: Columns that hold JSON, and those that hold numbers; the others are plain text.
-_JSON = ("traits", "swept", "truth", "answer")
+_JSON = ("swept", "truth", "answer")
 _NUMBERS: dict[str, Callable[[str], Any]] = {"size": int, "seconds": float, "value": float}
 _COLUMNS = [column.name for column in fields(TrialLine)]
 
@@ -235,5 +234,4 @@ def _read_lines(path: Path) -> Iterable[TrialLine]:
             cells: dict[str, Any] = {name: row[name] for name in _COLUMNS}
             cells |= {name: json.loads(row[name]) for name in _JSON}
             cells |= {name: number(row[name]) for name, number in _NUMBERS.items()}
-            cells["traits"] = tuple(cells["traits"])
             yield TrialLine(**cells)

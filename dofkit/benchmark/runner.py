@@ -15,7 +15,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from dofkit.base.process_limits import LateError, interrupting
-from dofkit.base.runs import Cluster, Crew, Pool, StoppedError, shared
+from dofkit.base.runs import Pool, StoppedError
 from dofkit.base.workers import MEMORY, Job, Json, function_named
 from dofkit.base.workers import JobOutcome as Ended
 from dofkit.benchmark.record import Outcome, TrialLine
@@ -137,10 +137,9 @@ SKIPPED = "timed out at a smaller size"
 
 @dataclass(frozen=True)
 class Bench:
-    """Who answers, and how: ``crew`` calls ``ask`` with a job and gets how it ended."""
+    """Who answers, within how many seconds, and what knows the methods, as ``module:function``."""
 
-    crew: Crew
-    ask: Callable[[Job], Ended]
+    pool: Pool
     limit: float
     answering: str
 
@@ -148,7 +147,7 @@ class Bench:
         """Begin with a trial."""
         t, again = task.trial, 0 if task.knob else AGAIN
         asked = TrialQuestion(t.scene, t.question, task.method, task.knobs, t.answer, self.limit, again, self.answering)
-        return self.crew.submit(self.ask, Job(timed_reply, asked, PATIENCE * self.limit + SPARE))
+        return self.pool.submit(self.pool.run, Job(timed_reply, asked, PATIENCE * self.limit + SPARE))
 
     def line(self, task: TrialTask, ended: Ended) -> TrialLine:
         """Return the line of a trial that ended."""
@@ -166,10 +165,8 @@ class Bench:
 
 def _line(task: TrialTask, answer: object, outcome: Outcome, seconds: float, reason: str) -> TrialLine:
     t = task.trial
-    why = "" if outcome == "right" else explained(task.method, t.question, t.traits, outcome, reason)
-    if reason == SKIPPED:
-        why = f"{SKIPPED}: {why}"
-    about = (t.family, t.name, t.question, task.method, t.size, tuple(t.traits), dict(t.swept), t.truth)
+    why = "" if outcome == "right" else explained(task.method, t.question, outcome, reason)
+    about = (t.family, t.name, t.question, task.method, t.size, dict(t.swept), t.truth)
     return TrialLine(*about, answer, outcome, seconds, " ".join(why.split()), task.knob, float(task.value), task.group)
 
 
@@ -185,7 +182,7 @@ def run(tasks: Iterable[TrialTask], bench: Bench) -> Iterator[TrialLine]:
     while ladders or running:
         for ladder, rungs in [*ladders.items()]:
             climbing = {task.trial.size for task in running.values() if task.ladder == ladder}
-            while rungs and len(running) < AHEAD * bench.crew.width and climbing <= {rungs[0].trial.size}:
+            while rungs and len(running) < AHEAD * bench.pool.width and climbing <= {rungs[0].trial.size}:
                 task = rungs.pop(0)
                 if task.trial.size > broken.get(ladder, task.trial.size):
                     yield _line(task, None, "timed out", bench.limit, SKIPPED)
@@ -194,7 +191,7 @@ def run(tasks: Iterable[TrialTask], bench: Bench) -> Iterator[TrialLine]:
                     running[bench.submit(task)] = task
             if not rungs:
                 del ladders[ladder]
-            if len(running) >= AHEAD * bench.crew.width:
+            if len(running) >= AHEAD * bench.pool.width:
                 break
         for future in wait(running, return_when=FIRST_COMPLETED).done:
             task = running.pop(future)
@@ -205,20 +202,11 @@ def run(tasks: Iterable[TrialTask], bench: Bench) -> Iterator[TrialLine]:
 
 
 @contextmanager
-def bench_of(workers: int | None, scheduler: str | None, limit: float) -> Iterator[Bench]:
-    """Workers on this machine, one for each core where their number is not given, or the machines of a Dask scheduler.
+def bench_of(workers: int | None, limit: float) -> Iterator[Bench]:
+    """Workers on this machine, one for each core where their number is not given.
 
-    Those of this machine are copies of this process where it may be forked. Raises StoppedError.
+    They are copies of this process where it may be forked. Raises StoppedError.
     """
-    if scheduler is not None:
-        with Cluster(scheduler) as cluster:
-            yield Bench(cluster, run_there, limit, ANSWERING)
-        return
     with Pool(workers, MEMORY, MODULES) as pool:
         pool.fork()
-        yield Bench(pool, pool.run, limit, ANSWERING)
-
-
-def run_there(job: Job) -> Ended:
-    """Return how a job ended, on a machine of the cluster."""
-    return shared(MODULES[0]).run(job)
+        yield Bench(pool, limit, ANSWERING)

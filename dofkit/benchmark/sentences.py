@@ -6,10 +6,10 @@ Each sentence is worked out from the data of the run, and so may stand beside th
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator
 from fractions import Fraction
 from importlib import resources
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import yaml
 
@@ -211,34 +211,18 @@ def _spaced(number: int) -> str:
 
 # Why a method fails
 
-_TABLES: Mapping[str, Mapping[str, Any]] = yaml.safe_load(
-    (resources.files(__package__) / "failures.yaml").read_text(encoding="utf-8")
-)
-#: Every trait of a trial, in words.
-TRAITS: Mapping[str, str] = _TABLES["traits"]
-#: The sentence for a method and a trait.
-WHY: Mapping[tuple[str, str], str] = {
-    (method, trait): row["why"]
-    for method, rows in _TABLES["sentences"].items()
-    for row in rows
-    for trait in row["traits"].split()
-}
 
+def explained(method: str, question: str, outcome: str, reason: str = "") -> str:
+    """Return why a method fails on a trial, in sentences: its own reason, or what it never answers; and its cost.
 
-def explained(method: str, question: str, traits: Sequence[str], outcome: str, reason: str = "") -> str:
-    """Return why a method fails on a trial, as a sentence; never empty.
-
-    ``traits``: of the trial, the one that matters most first; ``outcome``: ``wrong``, ``undecided``, ``cannot`` or
-    ``timed out``; ``reason``: what the method said itself.
+    ``outcome``: ``wrong``, ``undecided``, ``cannot`` or ``timed out``, where the cost is told.
     """
     row = next((row for name, row in METHODS.items() if name == method), None)
-    cannot = _sentence(row.cannot) if row is not None else f"{method} does not answer this."
-    if outcome == "cannot" or (outcome == "undecided" and reason):
-        return _sentence(reason) if reason else cannot
-    if outcome == "timed out":
-        costs = [use.costs for asked, use in row.uses.items() if asked == question] if row is not None else []
-        return " ".join([_TABLES["slow"].get(method, cannot), *(f"Its cost: {cost}." for cost in costs)])
-    return next((WHY[method, trait] for trait in traits if (method, trait) in WHY), cannot)
+    cannot = f"{method} does not answer this" if row is None else row.cannot
+    uses = row.uses.items() if row is not None and outcome == "timed out" else ()
+    return " ".join(
+        [_sentence(reason or cannot), *(f"Its cost: {use.costs}." for asked, use in uses if asked == question)]
+    )
 
 
 def _sentence(text: str) -> str:

@@ -107,7 +107,7 @@ class TrialTask:
         """What is the same in trials of which only the size differs."""
         t = self.trial
         swept = repr(sorted(t.swept.items(), key=str))
-        return (t.family, t.question, repr(t.traits), swept, self.method, self.knob, repr(self.value), self.group)
+        return (t.family, t.question, swept, self.method, self.knob, repr(self.value), self.group)
 
 
 def trial_tasks(trials: Iterable[Trial], methods: Sequence[str]) -> Iterator[TrialTask]:

@@ -96,10 +96,12 @@ def _forms(evidence: CheckedEvidence, claim: Told, single: bool = False) -> dict
     return forms
 
 
-def _part(form: Form, i: str, j: str, k: str = "") -> Tree:
+def exterior_part(form: Form, i: str, j: str, k: str = "") -> Tree:
     """A component of the derivative of a form; of the form times its derivative, where three are named."""
     if k:
-        return add(*(times(form.get(a, ZERO), _part(form, b, c)) for a, b, c in ((i, j, k), (j, k, i), (k, i, j))))
+        return add(
+            *(times(form.get(a, ZERO), exterior_part(form, b, c)) for a, b, c in ((i, j, k), (j, k, i), (k, i, j)))
+        )
     return difference(derivative(form.get(j, ZERO), i), derivative(form.get(i, ZERO), j))
 
 
@@ -110,11 +112,11 @@ def _is_closed(evidence: CheckedEvidence, claim: Told, forms: Collection[Form], 
         for form in forms:
             held = frozenset(form).union(*(part.symbols for part in form.values()))
             for names in combinations([name for name in evidence.variables if name in held], size):
-                evidence.identity(_part(form, *names), ZERO, f"the part for {', '.join(names)}")
+                evidence.identity(exterior_part(form, *names), ZERO, f"the part for {', '.join(names)}")
         return True
     (form,) = forms
     refuse(len(named) != size or not set(named) <= set(evidence.variables), "a form has parts for coordinates and t")
-    refuse(not not_zero(evidence.point(claim["at"]).value(_part(form, *named))), "it may be 0 at the point")
+    refuse(not not_zero(evidence.point(claim["at"]).value(exterior_part(form, *named))), "it may be 0 at the point")
     return False
 
 
@@ -136,9 +138,7 @@ def timeless(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
     """
     catastatic = claim["field"] == "catastatic"
     names = constraint_relations(evidence, claim, EQUATIONS if catastatic else EVERY)
-    ones = [evidence.relation(name) for name in claim.get("steps", names)]
-    evidence.follow([checked.name for checked in ones], names, None, "the constraint")
-    evidence.follow(names, [checked.name for checked in ones], None, "the steps")
+    ones = [evidence.relation(name) for name in names]
     refuse(catastatic and all(checked.kind != "velocity" for checked in ones), "there is no form")
     apart = not catastatic and len(names) == 1 and verified.get(f"holonomic {claim['owner']}") is False
     for checked in ones:

@@ -110,7 +110,7 @@ def sha256_of(document: object) -> str:
 
 
 class CheckedRelation(NamedTuple):
-    """One scalar relation: ``left`` = 0, or of an inequality ``left`` > 0 (``strict``) or >= 0.
+    """One scalar relation: ``tree`` = 0, or of an inequality ``tree`` > 0 (``strict``) or >= 0.
 
     ``kind``: ``finite``, ``velocity`` or ``inequality``; ``leaf``: an integral, which keeps its value at the point.
     """

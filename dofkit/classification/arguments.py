@@ -90,7 +90,7 @@ _OWN: dict[ArgumentKey, Argument] = {
         "no configuration satisfies the equations",
         "",
         "a rational combination of linear equations is a nonzero number",
-        "dofkit.relations.blocks.presolve",
+        "dofkit.relations.linear_relations.presolve",
     ),
     "no real solution": Argument(
         "no real configuration satisfies the equations",

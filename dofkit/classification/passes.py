@@ -293,7 +293,9 @@ def _feasibility(study: Study, values: Values) -> Values:
 
 
 def _counts(study: Study, values: Values) -> Values:
-    """Return the counts that stand beside the report's own, and a warning of a near-dependence."""
+    """Return the counts that stand beside the report's own, and a warning of a near-dependence; none without joints."""
+    if not any(c.members for c in study.system.connections):
+        return {}
     counts, near = counts_beside(study, values["instantaneous_dof"])
     mobility, released = counts["mobility"], without_drives(study.system)
     if isinstance(mobility, Mobility) and released is not None and values["consistent"] is True:
@@ -304,7 +306,12 @@ def _counts(study: Study, values: Values) -> Values:
 
 
 def _special(study: Study, values: Values) -> Values:
-    """Return the special cases, and a warning where only one of several branches has the report's freedom."""
+    """Return the special cases, and a warning where only one of several branches has the report's freedom.
+
+    Nothing is special about geometric equations at a reference configuration: their answer is about that one.
+    """
+    if study.system.reference is not None and not any(block.forms for block in study.outcome.blocks):
+        return {}
     again = partial(_generic, study.setting.reductions)
     search = partial(special_cases, study.system, study.reduced, study.setting, study.outcome, Report(**values), again)
     late: Values = {"warnings": [*values["warnings"], NO_SPECIAL_CASES]}

@@ -21,7 +21,7 @@ from dofkit.expressions.text import to_text
 from dofkit.mobility.counts import CountedFacts, count
 from dofkit.mobility.joint_tree import tree_coordinates
 from dofkit.relations.answer import Redundancies, undecided_dependence
-from dofkit.relations.blocks import about_constants, uses_time
+from dofkit.relations.blocks import uses_time
 from dofkit.relations.normal.pieces import Finite, Reduced
 from dofkit.relations.setting import ALL, Reductions, Setting
 from dofkit.report import BRANCH_WARNING, ConstraintEntry, Count, ForceEntry, IntegrablePart, Redundancy
@@ -101,7 +101,7 @@ class Study:
 
     def entries_beside(self, dependent: Sequence[Redundancies]) -> list[ConstraintEntry]:
         """The constraints' entries, where this is known of what depends on what."""
-        return entries_of(self.reduced, self.setting, self.outcome, dependent, self.company)
+        return entries_of(self.reduced, self.setting, self.outcome, dependent, lambda: self.company)
 
     def by_name(self, labels: Sequence[bool | None]) -> Mapping[str, bool | None]:
         """A label for each constraint, by its name."""
@@ -145,8 +145,7 @@ def lecture_count(study: Study) -> Count:
     """f = N d - k beside the truth."""
     reduced, outcome = study.reduced, study.outcome
     written = sum(all(isinstance(p, Finite) for p in normal.pieces) for r in reduced for normal in r.normals)
-    constants = [c for r in reduced for c in r.constants]
-    hidden = sum(not about_constants(g, constants) for a in outcome.answers for g in a.hidden)
+    hidden = sum(len(a.hidden) for a in outcome.answers)
     return count(study.system, CountedFacts(written, outcome.dof, outcome.consistent, hidden, 0, study.entries))
 
 
@@ -181,6 +180,8 @@ def joint_coordinates(study: Study) -> list[str] | None:
 
 def largest_integrable_part(study: Study) -> IntegrablePart | None:
     """What the forms say in finite relations; None where that is not known."""
+    if not any(block.forms for block in study.outcome.blocks):
+        return None
     return unless_late(partial(integrable_part, study.outcome, study.entries, study.company), None)
 
 

@@ -7,11 +7,10 @@ import random
 from collections.abc import Sequence
 from typing import Any
 
-from dofkit.base.libraries import np
 from dofkit.classification.turned_coordinates import ANYWHERE
 from dofkit.configuration.at_reference import ball_point
-from dofkit.configuration.local import neighbourhood
 from dofkit.configuration.variety import pose_point
+from dofkit.exact.matrices.dense import complement, cross, damped, dot, largest, pivoted, plus, rank, unit_rows
 from dofkit.exact.points.balls import FloatPoint, jacobian
 from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.program import values
@@ -51,12 +50,12 @@ def nearby(
         if search.descend(symbols, seed) is None:
             continue
         tangent = _tangent(chart, symbols, turning, setting, dof)
-        if tangent.shape[0] == dof:
+        if len(tangent) == dof:
             chosen = None if drawn is None else _regular_columns(chart, tangent, drawn, turning)
             chosen = _columns(chart, tangent) if chosen is None else chosen
             return chosen if len(chosen) == dof else None
         regular = len(chart.nodes) == len(block.coordinates) - dof
-        secants = None if regular or tangent.shape[0] < dof else _secants(chart, search, symbols, dof)
+        secants = None if regular or len(tangent) < dof else _secants(chart, search, symbols, dof)
         if secants is not None:
             chosen = _columns(chart, _in_angles(chart, symbols, secants, turning), SPREAD)
             return chosen if len(chosen) == dof else None
@@ -68,7 +67,7 @@ def _drawn_tangent(chart: Chart, start: dict[Expr, float], setting: Setting, dof
     if not start:
         return None
     tangent = _tangent(chart, start, (), setting, dof)
-    return tangent if tangent.shape[0] == dof else None
+    return tangent if len(tangent) == dof else None
 
 
 def _regular_columns(chart: Chart, near: Any, drawn: Any, turning: Sequence[Rotation]) -> list[str] | None:
@@ -91,7 +90,7 @@ def _regular_columns(chart: Chart, near: Any, drawn: Any, turning: Sequence[Rota
 
 
 def _rank(tangent: Any, columns: Sequence[int], least: float = ROUGH) -> int:
-    return int(np.linalg.matrix_rank(tangent[:, columns], tol=least)) if columns else 0
+    return rank([[row[c] for c in columns] for row in tangent], least)
 
 
 def _secants(chart: Chart, search: RealSearch, symbols: dict[Expr, float], dof: int) -> Any:
@@ -110,11 +109,8 @@ def _secants(chart: Chart, search: RealSearch, symbols: dict[Expr, float], dof: 
             moved[s] += SECANT * change[s]
         if any(_settles(search, moved, seed, power) for power in DAMPED):
             result.append([(moved[s] - symbols[s]) / SECANT for s in names])
-    if not result:
-        return None
-    _, singular, right = np.linalg.svd(np.array(result))
-    spread = int(np.sum(singular > SPREAD))
-    return right[:dof] if spread == dof else None
+    basis = pivoted(result, SPREAD).basis
+    return basis if len(basis) == dof else None
 
 
 def _settles(search: RealSearch, symbols: dict[Expr, float], seed: int, power: int) -> bool:
@@ -122,15 +118,16 @@ def _settles(search: RealSearch, symbols: dict[Expr, float], seed: int, power: i
     errors: list[float] = []
     for _ in range(SETTLING):
         f, j = search.float_system(symbols, seed)
-        scale = np.abs(j).max(axis=1, initial=0) + 1e-300
-        f, j = f / scale, j / scale[:, None]
-        errors.append(float(np.max(np.abs(f))))
+        scale = [largest(row) + 1e-300 for row in j]
+        f = [v / size for v, size in zip(f, scale, strict=True)]
+        j = [[v / size for v in row] for row, size in zip(j, scale, strict=True)]
+        errors.append(largest(f))
         if errors[-1] < 1e-15:
             return True
         if len(errors) > STALLED and min(errors[-STALLED:]) > min(errors[:-STALLED]) / 2:
             break
-        for u, s in zip(search.unknowns, neighbourhood.damped(j, f, power), strict=True):
-            symbols[u] += float(s)
+        for u, s in zip(search.unknowns, damped(j, f, power), strict=True):
+            symbols[u] += s
     return errors[-1] < 1e-13
 
 
@@ -152,16 +149,15 @@ def _tangent(chart: Chart, symbols: dict[Expr, float], turning: Sequence[Rotatio
     at = values(chart.ring, point)
     columns = [c for s, c in zip(chart.symbols, chart.columns, strict=True) if s != ex.TIME]
     rows = jacobian(chart.ring, at, point, chart.nodes, columns, 0.0)
-    j = np.array(rows, dtype=float).reshape(len(chart.nodes), len(columns))
-    norms = np.linalg.norm(j, axis=1, keepdims=True)
-    j = j / np.where(norms > ZERO, norms, 1.0)
+    j = unit_rows([list(map(float, row)) for row in rows], ZERO)
     for group in _groups(chart, setting):
-        j[:, group] /= np.max(np.abs(j[:, group]), initial=0) or 1.0
-    _, singular, right = np.linalg.svd(j)
-    rank = int(np.sum(singular > ZERO))
-    if len(j) == len(columns) - dof < len(columns) and singular[-1] > FAINT:
-        rank = len(j)
-    return _in_angles(chart, symbols, right[rank:], turning)
+        size = max((largest([row[c] for c in group]) for row in j), default=0.0) or 1.0
+        for row in j:
+            for c in group:
+                row[c] /= size
+    regular = len(j) == len(columns) - dof and len(pivoted(j, FAINT).order) == len(j)
+    basis = pivoted(j, FAINT if regular else ZERO).basis
+    return _in_angles(chart, symbols, complement(basis, len(columns)), turning)
 
 
 def _groups(chart: Chart, setting: Setting) -> list[list[int]]:
@@ -190,17 +186,21 @@ def _euler_rates(basis: Any, places: Sequence[int], at: Any, chart: Chart, rotat
     """
     if len(places) != 3:
         return basis
-    g = np.array([_value(at, chart, n) for n in rotation.names])
-    cross = np.array([[0, -g[2], g[1]], [g[2], 0, -g[0]], [-g[1], g[0], 0]])
-    turned = np.eye(3) + 2 * (cross + cross @ cross) / (1 + g @ g)
+    g = [_value(at, chart, n) for n in rotation.names]
+    factor = 2 / (1 + dot(g, g))
     phi, theta = (approximate(e) or 0.0 for e in rotation.initial[:2])
-    axis = turned @ [math.sin(theta) * math.sin(phi), -math.sin(theta) * math.cos(phi), math.cos(theta)]
-    axes = np.array([[0, 0, 1.0], np.cross([0, 0, 1.0], axis), axis]).T
-    if abs(np.linalg.det(axes)) < ZERO:
-        axes = np.array([[0, 1.0, 0], [1.0, 0, 0], [0, 0, 1.0]])
-    rates = np.linalg.solve(axes, 2 * (np.eye(3) + cross) / (1 + g @ g))
-    changed = basis.copy()
-    changed[:, list(places)] = basis[:, list(places)] @ rates.T
+    drawn = [math.sin(theta) * math.sin(phi), -math.sin(theta) * math.cos(phi), math.cos(theta)]
+    across = cross(g, drawn)
+    axis = plus(drawn, factor, plus(across, 1.0, cross(g, across)))
+    a, b, c = [0.0, 0.0, 1.0], cross([0.0, 0.0, 1.0], axis), axis
+    if abs(dot(a, cross(b, c))) < ZERO:
+        a, b, c = [0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]
+    volume, changed = dot(a, cross(b, c)), [list(row) for row in basis]
+    for row in changed:
+        rate = [row[place] for place in places]
+        omega = [factor * v for v in plus(rate, 1.0, cross(g, rate))]
+        for place, normal in zip(places, (cross(b, c), cross(c, a), cross(a, b)), strict=True):
+            row[place] = dot(normal, omega) / volume
     return changed
 
 
@@ -215,8 +215,8 @@ def _columns(chart: Chart, tangent: Any, least: float = ROUGH) -> list[str]:
     """
     names = [str(s.args[1]) for s in chart.symbols if s != ex.TIME]
     chosen: list[int] = []
-    rank = int(np.linalg.matrix_rank(tangent, tol=least))
+    most = rank(tangent, least)
     for c in range(len(names)):
-        if len(chosen) < rank and _rank(tangent, [*chosen, c], least) > len(chosen):
+        if len(chosen) < most and _rank(tangent, [*chosen, c], least) > len(chosen):
             chosen.append(c)
     return [names[c] for c in chosen]

@@ -5,6 +5,7 @@ A rank over GF(p) is held against a certified real point, without which a set ov
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
@@ -12,7 +13,6 @@ from flint import arb, arb_mat, ctx
 
 from dofkit.base.deadline import check
 from dofkit.base.errors import NoValueError
-from dofkit.base.libraries import np
 from dofkit.base.verdicts import ArgumentKey, Verdict, weakest
 from dofkit.base.wording import gap_in_words
 from dofkit.configuration.local import criteria
@@ -21,6 +21,7 @@ from dofkit.configuration.local.manifold import LocalDimension, Manifold
 from dofkit.configuration.rigid_motions import rigid_motions_real
 from dofkit.configuration.variety import Variety, field_jacobian, generators_of, has_same_signs, time_is_free
 from dofkit.exact.matrices.certified import independent_part
+from dofkit.exact.matrices.dense import length
 from dofkit.exact.matrices.sparse import Pivots, rank_of_rows
 from dofkit.exact.points.balls import BallPoint, jacobian
 from dofkit.exact.points.field import FieldPoint
@@ -212,9 +213,8 @@ def _dimension_near(chart: Chart, real: RealPoint) -> LocalDimension | None:
     columns = [c for c in chart.columns if c >= 0]
     place = [i for i, c in enumerate(chart.columns) if c >= 0]
     exact = jacobian(chart.ring, at, point, chart.nodes, columns, arb(0))
-    j = np.array([[float(v.mid()) for v in row] for row in exact])
-    j[np.linalg.norm(j, axis=1) < TINY] = 0.0
-    _, gap, rows, pivots = independent_part(j)
+    j = [[float(v.mid()) for v in row] for row in exact]
+    _, gap, rows, pivots = independent_part([row if length(row) >= TINY else [0.0] * len(row) for row in j])
     if gap < 1e6:
         return None
     dependent = tuple(place[c] for c in pivots)
@@ -265,10 +265,10 @@ def _system(chart: Chart, symbols: Mapping[Any, arb], moved: Sequence[Expr]) -> 
 
 def _is_singular(j: Sequence[Sequence[arb]]) -> bool:
     """Return whether rows are dependent: in floating point, and then to high precision."""
-    matrix = np.array([[float(v) for v in row] for row in j])
-    if not np.isfinite(matrix).all():
+    matrix = [[float(v) for v in row] for row in j]
+    if not all(math.isfinite(v) for row in matrix for v in row):
         return False
-    rank, _, rows, pivots = independent_part(np.where(abs(matrix) < TINY, 0.0, matrix))
+    rank, _, rows, pivots = independent_part([[0.0 if abs(v) < TINY else v for v in row] for row in matrix])
     others = [list(row) for r, row in enumerate(j) if r not in rows]
     if rank == 0 or not others:
         sums = others

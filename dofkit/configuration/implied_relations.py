@@ -18,10 +18,10 @@ from __future__ import annotations
 import random
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from operator import mul
 
 from dofkit.base.deadline import check
 from dofkit.base.errors import NoValueError
-from dofkit.base.libraries import np
 from dofkit.configuration.at_reference import ball_point
 from dofkit.configuration.fewer_coordinates import smaller
 from dofkit.configuration.local.criteria import vanish_near
@@ -30,6 +30,7 @@ from dofkit.configuration.local.manifold import Manifold
 from dofkit.configuration.measured.dimension import measured_freedom
 from dofkit.configuration.rigid_motions import rigid_motions
 from dofkit.configuration.variety import chart_of_rows, field_jacobian, on_variety, pose_point
+from dofkit.exact.matrices.dense import length
 from dofkit.exact.matrices.sparse import FactoredMatrix, Pivots, SparseRow, sparse_frame, transposed
 from dofkit.exact.points.balls import FloatPoint, jacobian
 from dofkit.exact.points.field import FieldPoint
@@ -128,11 +129,11 @@ class ImpliedRelations:
         chart, point = self.chart, FloatPoint(symbols, 0)
         at = values(chart.ring, point)
         columns = [c for c in chart.columns if c >= 0]
-        scales = np.array([k for c, k in zip(chart.columns, chart.scales, strict=True) if c >= 0])
+        scales = [k for c, k in zip(chart.columns, chart.scales, strict=True) if c >= 0]
         nodes = [chart.nodes[i] for i in rows]
-        slopes = np.array(jacobian(chart.ring, at, point, nodes, columns, 0.0), dtype=float) * scales
-        sizes = np.linalg.norm(slopes, axis=1) + TINY
-        return float(np.max(np.abs([at[n] for n in nodes]) / sizes))
+        slopes = jacobian(chart.ring, at, point, nodes, columns, 0.0)
+        sizes = [length(list(map(mul, row, scales))) + TINY for row in slopes]
+        return max(abs(float(at[n])) / size for n, size in zip(nodes, sizes, strict=True))
 
 
 def _on_manifold(chart: Chart, pose: Mapping[Expr, Expr], rank: int, afar: bool) -> bool | None:

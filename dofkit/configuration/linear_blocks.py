@@ -134,7 +134,7 @@ def eliminated(block: Block, setting: Setting) -> Answer | None:
 
     Smaller ones are answered at points like all others, and `confirmed`.
     """
-    small = len(block.coordinates) <= BALL_COLUMNS or block.forms or setting.reference is not None
+    small = len(block.coordinates) <= BALL_COLUMNS or block.forms
     if small or setting.engines != BOTH or setting.tolerance is not None or "eliminations" not in setting.reductions:
         return None
     reduced = elimination(block, setting.positive)
@@ -184,8 +184,7 @@ def confirmed(block: Block, a: Answer, setting: Setting, alone: bool) -> Answer:
 
     ``alone``: every constraint of the block wrote one row, in this block or any other.
     """
-    decided = a.verdict == "probable" and a.consistent is not None and setting.engines == BOTH
-    if not decided or setting.tolerance is not None:
+    if a.consistent is None or setting.engines != BOTH or setting.tolerance is not None:
         return a
     reduced = elimination(block, setting.positive)
     if reduced is None:

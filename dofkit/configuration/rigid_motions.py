@@ -8,8 +8,8 @@ from typing import Any, NamedTuple
 
 from flint import arb
 
-from dofkit.base.libraries import np
-from dofkit.configuration.variety import free_point, free_real_point, on_variety, pose_point
+from dofkit.configuration.variety import free_real_point, on_variety, pose_point
+from dofkit.exact.matrices.dense import rank
 from dofkit.exact.matrices.sparse import rank_of
 from dofkit.exact.points.balls import BallPoint, FloatPoint
 from dofkit.exact.points.field import FieldPoint
@@ -59,7 +59,7 @@ def rigid_fields(chart: Chart, point: FieldPoint) -> list[list[Any]]:
     A displacement counts only if every relation is unchanged by it at a random point of the ambient space.
     """
     fields = displacement_fields(chart)
-    away = free_point(chart, 11) if fields else None
+    away = pose_point(chart, {}, 11) if fields else None
     if away is None:
         return []
     slopes = _slopes(chart, away)
@@ -69,20 +69,19 @@ def rigid_fields(chart: Chart, point: FieldPoint) -> list[list[Any]]:
 
 def rigid_motions_real(chart: Chart, point: BallPoint | FloatPoint) -> int:
     """Return the dimension of the displacement fields that keep all relations at a real point."""
-    fields = displacements_real(chart, point)
-    return int(np.linalg.matrix_rank(fields, tol=1e-9)) if fields.size else 0
+    return rank(displacements_real(chart, point), 1e-9)
 
 
-def displacements_real(chart: Chart, point: BallPoint | FloatPoint) -> Any:
+def displacements_real(chart: Chart, point: BallPoint | FloatPoint) -> list[list[float]]:
     """Return the displacement fields that keep all relations, at a real point, as rows over the columns."""
     fields = displacement_fields(chart)
-    draw = free_point if "field" in chart.engines else free_real_point
-    away = draw(chart, 11) if fields else None
+    by_field = "field" in chart.engines
+    away = None if not fields else pose_point(chart, {}, 11) if by_field else free_real_point(chart, 11)
     if away is None:
-        return np.zeros((0, 0))
+        return []
     slopes = _slopes(chart, away)
     rows = [_at(chart, point, field) for field in fields if _keeps(chart, away, field, slopes)]
-    return np.array([[float(v.mid()) if isinstance(v, arb) else float(v) for v in row] for row in rows])
+    return [[float(v.mid()) if isinstance(v, arb) else float(v) for v in row] for row in rows]
 
 
 def _at(chart: Chart, point: FieldPoint | BallPoint | FloatPoint, field: Displacement) -> list[Any]:

@@ -21,9 +21,9 @@ from dofkit.configuration.generic_dimension import ALLOWING, near_real_point, re
 from dofkit.configuration.variety import (
     Variety,
     field_jacobian,
-    free_point,
     free_real_point,
     on_variety,
+    pose_point,
     pose_samples,
     samples_for,
     time_is_free,
@@ -91,7 +91,7 @@ def _variety(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> Variety:
     if not chart.nodes:
         points = []
         if "field" in chart.engines:
-            points = [p for p in (free_point(chart, seed + k) for k in range(samples_for(chart))) if p is not None]
+            points = [p for p in (pose_point(chart, {}, seed + k) for k in range(samples_for(chart))) if p is not None]
         free = free_real_point(chart, seed) if "balls" in chart.engines else None
         real = None if free is None else RealPoint(free, PivotedPart(0, math.inf, [], []), True, True, [])
         return Variety(True, chart.coordinates, "proved", points, real, argument="nothing constrains")

@@ -89,18 +89,6 @@ def _text(value: Any) -> str:
 TRIES = 60
 
 
-def free_point(chart: Chart, seed: int) -> FieldPoint | None:
-    """A random point of the ambient space at which the program runs."""
-    for attempt in range(TRIES):
-        point = field_point([chart.ring], 1000 * seed + attempt)
-        try:
-            values(chart.ring, point)
-        except NoValueError:
-            continue
-        return point
-    return None
-
-
 def free_real_point(chart: Chart, seed: int) -> BallPoint | None:
     """Return a random real point of the ambient space at which the program runs."""
     with ctx.workprec(max(ctx.prec, precision())):
@@ -149,21 +137,22 @@ def on_variety(chart: Chart, point: FieldPoint) -> bool:
 
 
 def pose_point(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> FieldPoint | None:
-    """Return the point where the symbols have the given exact values and the others are random."""
+    """Return a point where the symbols have the given exact values, the others random ones, and the program runs."""
     occurring = {s: v for s, v in pose.items() if chart.ring.var_index(s) is not None}
     fixed = _values_of_generators(chart.ring, occurring)
     if fixed is None:
         return None
-    salt = sha256(repr(sorted((repr(s), repr(v)) for s, v in occurring.items())).encode()).hexdigest()
+    written = repr(sorted((repr(s), repr(v)) for s, v in occurring.items())).encode()
+    salt = sha256(written).hexdigest() if occurring else ""
     for attempt in range(TRIES):
         try:
             point = field_point([chart.ring], 1000 * seed + attempt, salt=salt)
             for index, node in fixed:
                 point.set(chart.ring.vars[index], value_of(chart.ring, point, node))
             values(chart.ring, point)
-        except PoleError:
-            return None
-        except NoValueError:
+        except NoValueError as error:
+            if fixed and isinstance(error, PoleError):
+                return None
             continue
         return point
     return None

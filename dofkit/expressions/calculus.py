@@ -167,27 +167,13 @@ def cleared(e: Expr) -> Expr:
     return ex.add(*(ex.mul(whole, term) for term in (e.args if e.op == "add" else (e,))))
 
 
-NOT_LINEAR = "a second derivative does not stand linearly"
-SOLVE_FOR_IT = "write the constraint solved for the second derivative, or put it into the equations of motion"
-
-
-def accelerations_of(e: Expr) -> list[Expr]:
-    """Return the second derivatives in an expression, by name."""
-    return sorted((s for s in e.symbols if s.args[0] == "acceleration"), key=lambda s: str(s.args[1]))
-
-
-def linear_in_accelerations(e: Expr, sense: str) -> None:
-    """Raise TextError for a relation that holds second derivatives otherwise than as a sum of them with factors."""
-    moving = accelerations_of(e)
-    if not moving:
-        return
-    if sense != "=":
+def refuse_accelerations(e: Expr) -> None:
+    """Raise TextError for an expression in which second derivatives occur."""
+    if any(s.args[0] == "acceleration" for s in e.symbols):
         raise TextError(
-            "an inequality in second derivatives limits no position and no velocity",
-            hint="leave it out, or put it into the equations of motion",
+            "a relation with a second derivative is not a constraint on positions or velocities",
+            hint="integrate it by hand and write the result, or leave it to the equations of motion",
         )
-    if any(accelerations_of(diff(e, s)) for s in moving):
-        raise TextError(NOT_LINEAR, hint=SOLVE_FOR_IT)
 
 
 # -- derivatives that a text may ask for -----------------------------------------------------------

@@ -9,7 +9,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Annotated, Any, Literal, NamedTuple
 
-from pydantic import BeforeValidator, Field, ValidationError
+from pydantic import Field, ValidationError
 
 from dofkit.base.documents import Document, read_document
 from dofkit.base.errors import ArgumentError, DofkitError, Fault, SceneError
@@ -31,7 +31,7 @@ from dofkit.homework.questions import QuestionBase
 from dofkit.homework.review import Decisions
 from dofkit.homework.sentences import Language
 from dofkit.scene.catalog import find
-from dofkit.scene.fields import WrittenModel, exact, fault_error, faults_of
+from dofkit.scene.fields import WrittenModel, faults_of
 from dofkit.scene.hints import with_hint, without_echoes
 from dofkit.scene.reading import load
 from dofkit.scene.scene import Scene
@@ -55,15 +55,6 @@ class AssignmentError(DofkitError):
         return (AssignmentError, (self.faults, self.source))
 
 
-def _attempts(value: object) -> object:
-    """A number of attempts, 1 or more; without it they are unlimited."""
-    attempts = exact(value)
-    if attempts.denominator != 1 or attempts < 1:
-        hint = "omit it if attempts are unlimited"
-        raise fault_error(f"attempts are a whole number, 1 or more, not {value}", hint)
-    return int(attempts)
-
-
 class Assignment(WrittenModel):
     """What a lecturer hands out."""
 
@@ -80,23 +71,15 @@ class Assignment(WrittenModel):
         description="answers that cannot be read: `review` (by a person) or `zero` (no points; submit again)",
     )
     language: Language = Field("en", description="the language of the feedback: `en`, `de`, `fr` or `es`")
-    attempts: Annotated[int, BeforeValidator(_attempts)] | None = Field(
-        None, description="how many times a student may submit; unlimited by default"
-    )
-    visibility: Visibility | None = Field(
-        None,
+    visibility: Visibility = Field(
+        "after_due_date",
         description="when students see points on Gradescope: `visible` (at once), `after_due_date`, `after_published`, "
-        "`hidden`; by default `after_due_date` where attempts are unlimited",
+        "`hidden`",
     )
     problems: Annotated[tuple[Problem, ...], Field(min_length=1)] = Field(description="the problems")
     variants: Variants | None = Field(
         None, description="written by `dofkit assignment vary`: the variant of each student"
     )
-
-    @property
-    def points_visibility(self) -> Visibility:
-        """Return when students see their points."""
-        return self.visibility or ("after_due_date" if self.attempts is None else "visible")
 
 
 class Combination(NamedTuple):
@@ -176,7 +159,7 @@ def load_assignment(source: str | os.PathLike[str] | Mapping[str, Any], base: Pa
     try:
         file = find(path)
     except SceneError as error:
-        raise AssignmentError(tuple(_as_file(f) for f in error.faults), path) from None
+        raise AssignmentError(error.faults, path) from None
     document = read_document(file.data, file.name)
     if document.faults or not isinstance(document.value, dict):
         hint = "begin with 'title:' and 'problems:'"
@@ -184,13 +167,6 @@ def load_assignment(source: str | os.PathLike[str] | Mapping[str, Any], base: Pa
         faults = tuple(replace(f, hint=hint) if "file is empty" in f.message else f for f in faults)
         raise AssignmentError(faults, path)
     return _prepared(document.value, Path(path).parent, document)
-
-
-def _as_file(fault: Fault) -> Fault:
-    message = fault.message.replace("not a scene", "not an assignment").replace(
-        ", and no scene of that name in the catalog", ""
-    )
-    return replace(fault, message=message)
 
 
 def _prepared(value: Mapping[str, Any], base: Path, document: Document | None) -> Prepared:
@@ -292,7 +268,7 @@ def _scene_faults(i: int, problem: Problem, key: Key) -> Iterator[Fault]:
         yield Fault(f"the key is not proved ({', '.join(unproved)})", ("problems", i, "vary"), hint=hint)
     for fault in faults_of_own(key):
         yield replace(fault, where=("problems", i, "also", *fault.where))
-    for fault in faults_of_places(problem.text or "", key.scene):
+    for fault in faults_of_places(problem.text or "", problem.vary):
         yield replace(fault, where=("problems", i, "text"))
     for fault in faults_of_names(problem, key):
         yield replace(fault, where=("problems", i, *fault.where))

@@ -4,8 +4,8 @@ A result is always written, first of all one in which every answer is open: it s
 What a student wrote says nothing of who the student is: that is the platform's to say, where it does. Where a
 submission names another ``student`` than its user a person has to look at it, and the result says so.
 
-What a person decided comes back: a ``review.csv`` beside the assignment's file, or the one that ``--reviewed`` names,
-is applied to all who give those answers. So it is put there, and the submissions are graded again.
+What a person decided comes back: a ``review.csv`` beside the assignment's file is applied to all who give those
+answers. So it is put there, and the submissions are graded again.
 """
 
 from __future__ import annotations
@@ -14,14 +14,13 @@ import argparse
 import json
 import os
 import sys
-import threading
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from dofkit.base.errors import DofkitError
-from dofkit.base.runs import Pool, StoppedError
+from dofkit.base.runs import Pool
 from dofkit.homework.answers.roster import Participant, doubt_of_platform
 from dofkit.homework.answers.sources import DOCUMENTS, LINES, TABLES, Handed, hand_ins
 from dofkit.homework.answers.submission import FilePlace, clean
@@ -39,7 +38,6 @@ from dofkit.homework.variants import NobodysVariantError, sheet_of
 MOST_BYTES = 8_000_000
 #: Of several files that could be the submission, the one called so.
 _NAMES = ("answers", "submission")
-TOO_LONG = "the time limit was reached."
 BROKEN = "the assignment of this autograder cannot be read. This is not your fault: please tell your instructors"
 
 
@@ -126,15 +124,15 @@ def undecided(prepared: Prepared, student: str, reason: str) -> Result:
     return Result(student=student, score=0.0, max_score=most, items=items, needs_review=len(items))
 
 
-def grade_at(site: Site, assignment: Path, memory: int, reviewed: Path | None = None) -> Result:
+def grade_at(site: Site, assignment: Path, memory: int) -> Result:
     """Grade what was handed in and write the result. Raises AssignmentError, and OSError where nothing can be written.
 
-    ``memory``: the bytes that the process may take in which answers are judged. ``reviewed``: a table that a person
-    filled in, by default the ``review.csv`` beside the assignment; ReviewError where it cannot be used.
+    ``memory``: the bytes that the process may take in which answers are judged. Raises ReviewError where the
+    ``review.csv`` beside the assignment cannot be used.
     """
     users = site.users(site.root)
     student = ", ".join(user.student for user in users) or "student"
-    prepared = _prepared(site, assignment, student, reviewed)
+    prepared = _prepared(site, assignment, student)
     _write(site, undecided(prepared, student, "grading was interrupted."), prepared)
     try:
         prepared = sheet_of(prepared, [name for user in users for name in (user.student, *user.called())])
@@ -143,7 +141,7 @@ def grade_at(site: Site, assignment: Path, memory: int, reviewed: Path | None = 
         handed = Result(
             student=student, score=None, max_score=Orders.of(prepared).max_score, items=[], error=str(error)
         )
-    result = handed if isinstance(handed, Result) else _result(handed, prepared, site.seconds, memory, student)
+    result = handed if isinstance(handed, Result) else _result(handed, prepared, site.seconds, memory)
     named = isinstance(handed, Handed) and result.student not in ("", student, *handed.claims)
     doubt = doubt_of_platform(users, result.student) if named else None
     result = result.model_copy(update={"student": student, "doubt": doubt})
@@ -151,12 +149,11 @@ def grade_at(site: Site, assignment: Path, memory: int, reviewed: Path | None = 
     return result
 
 
-def _prepared(site: Site, assignment: Path, student: str, reviewed: Path | None) -> Prepared:
+def _prepared(site: Site, assignment: Path, student: str) -> Prepared:
     review_table = assignment.with_name(TABLE)
     try:
         prepared = load_assignment(assignment)
-        table = reviewed or (review_table if review_table.is_file() else None)
-        return RunReview.read(prepared, table, None).applied(prepared)
+        return RunReview.read(prepared, review_table if review_table.is_file() else None, None).applied(prepared)
     except (DofkitError, OSError):
         _write(site, Result(student=student, score=None, max_score=0.0, items=[], error=BROKEN), None)
         raise
@@ -166,18 +163,18 @@ def _only_hand_in(site: Site, prepared: Prepared) -> Handed | Result:
     """The one thing that was handed in, or the result that says why there is none."""
     folder = site.root / site.folder
     most = sum(float(question.points) for _, question in prepared.questions())
-    files = sorted(path for path in folder.rglob("*") if _is_hand_in(path, folder))
-    fit = [path for path in files if path.suffix.lower() in (*DOCUMENTS, *LINES, *TABLES)]
-    named = [path for path in fit if path.stem.lower() in _NAMES]
-    chosen = named if len(named) == 1 else fit
+    handed_in: dict[Path, list[Handed]] = {}
+    for handed in hand_ins([str(folder)], prepared.columns()):
+        path = Path(handed.place.file)
+        if path.suffix.lower() in (*DOCUMENTS, *LINES, *TABLES) and not path.is_symlink():
+            place = replace(handed.place, file=str(path.relative_to(folder)))
+            handed_in.setdefault(path, []).append(replace(handed, place=place))
+    named = [path for path in handed_in if path.stem.lower() in _NAMES]
+    chosen = named if len(named) == 1 else list(handed_in)
     if not chosen and (typed := site.form(site.root, prepared)) is not None:
         return typed
     if len(chosen) == 1:
-        asked = prepared.columns()
-        relative = str(chosen[0].relative_to(folder))
-        submissions = [
-            replace(handed, place=replace(handed.place, file=relative)) for handed in hand_ins([str(chosen[0])], asked)
-        ]
+        submissions = handed_in[chosen[0]]
         if len(submissions) == 1:
             return submissions[0]
         why = f"{chosen[0].name} contains {len(submissions)} submissions, not one"
@@ -189,15 +186,7 @@ def _only_hand_in(site: Site, prepared: Prepared) -> Handed | Result:
     return Result(student="", score=None, max_score=most, items=[], error=clean(why))
 
 
-def _is_hand_in(path: Path, folder: Path) -> bool:
-    """Return whether it is a submitted file, in whatever folder; links and hidden files are none."""
-    names = path.relative_to(folder).parts
-    around = [folder.joinpath(*names[:n]) for n in range(1, len(names) + 1)]
-    hidden = any(part.startswith(".") or part == "__MACOSX" for part in names)
-    return not hidden and path.is_file() and not any(place.is_symlink() for place in around)
-
-
-def _result(handed: Handed, prepared: Prepared, seconds: float, memory: int, student: str) -> Result:
+def _result(handed: Handed, prepared: Prepared, seconds: float, memory: int) -> Result:
     """The result of what was handed in; each answer has its share of the time."""
     count = sum(1 for _ in prepared.questions())
     orders = Orders.of(prepared)
@@ -205,14 +194,7 @@ def _result(handed: Handed, prepared: Prepared, seconds: float, memory: int, stu
     orders = replace(orders, seconds=min(orders.seconds, share), hard=min(orders.hard, 2 * share))
     with Pool(1, memory, MODULES) as pool:
         pool.fork()
-        watch = threading.Timer(seconds, pool.close)
-        watch.start()
-        try:
-            lines = Keeper(orders, pool).grade(handed)
-        except StoppedError:
-            return undecided(prepared, student, TOO_LONG)
-        finally:
-            watch.cancel()
+        lines = Keeper(orders, pool).grade(handed)
     if len(lines) != 1:
         why = f"{handed.place}: it contains {len(lines)} submissions, not one"
         return Result(student="", score=None, max_score=orders.max_score, items=[], error=why)
@@ -248,13 +230,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("assignment", type=Path)
     parser.add_argument("--root", type=Path, help="the platform's folder, such as /autograder")
     parser.add_argument("--seconds", type=float, help="for the whole submission")
-    parser.add_argument("--reviewed", type=Path, metavar="CSV", help="points of a person, else review.csv beside it")
     parser.add_argument("--memory", type=int, default=2048, metavar="MB", help="address space for judging answers")
     options = parser.parse_args(arguments)
     site = SITES[options.site]
     site = replace(site, root=options.root or site.root, seconds=options.seconds or site.seconds)
     try:
-        result = grade_at(site, options.assignment, options.memory << 20, options.reviewed)
+        result = grade_at(site, options.assignment, options.memory << 20)
     except (DofkitError, OSError) as error:
         print(f"no result: {error}", file=sys.stderr)
         return 2

@@ -8,7 +8,7 @@ from dataclasses import replace
 from fractions import Fraction
 from itertools import islice
 from pathlib import Path
-from typing import Any, Literal, cast
+from typing import Any, cast
 
 from flint import ctx
 
@@ -19,7 +19,7 @@ from dofkit.exact.points.balls import PRECISION
 from dofkit.homework.answers.prose import says_nothing
 from dofkit.homework.answers.sources import read_submission
 from dofkit.homework.answers.submission import Submission
-from dofkit.homework.answers.words import in_whole, shown_text
+from dofkit.homework.answers.words import shown_text
 from dofkit.homework.assignment import Prepared, load_assignment
 from dofkit.homework.judgement import (
     FULL,
@@ -35,12 +35,11 @@ from dofkit.homework.judgement import (
 )
 from dofkit.homework.key.key import Key
 from dofkit.homework.problem import Problem
-from dofkit.homework.questions import QuestionBase
+from dofkit.homework.questions import NumberQuestion, QuestionBase
 from dofkit.homework.result import Item, PossibleReading, Result
 from dofkit.homework.review import Decision, answer_id, read_table
 from dofkit.homework.sentences import Said, in_language, say
 from dofkit.homework.variants import NobodysVariantError, sheet_of
-from dofkit.report import ReportModel
 
 #: Seconds of processor time for one answer; what is not decided then needs a review.
 ANSWER_SECONDS = 5.0
@@ -50,23 +49,29 @@ MOST_REMEMBERED, LONGEST_REMEMBERED = 10_000, 4000
 MOST_UNASKED, LONGEST_NAME = 100, 200
 
 #: An answer to judge, as a text: its problem, its question, what it says, and the numbers that it may follow from.
-Spot = str
+Identity = str
 
 
 class Grader:
     """Grades submissions of one assignment; the same answer is judged once.
 
     ``condemned``: why answers are not to be judged, such as those that broke a worker; they need a review.
+    ``check_only``: answers are read and not judged, so that there are no points.
     """
 
     def __init__(
-        self, prepared: Prepared, seconds: float = ANSWER_SECONDS, condemned: Mapping[Spot, str] | None = None
+        self,
+        prepared: Prepared,
+        seconds: float = ANSWER_SECONDS,
+        condemned: Mapping[Identity, str] | None = None,
+        check_only: bool = False,
     ) -> None:
+        self.check_only = check_only
         self.prepared = prepared
         self.seconds = seconds
         self.condemned = {} if condemned is None else condemned
         self.max_score = sum((q.points for _, q in prepared.questions()), Fraction(0))
-        self._judgements: dict[Spot, tuple[Judgement, Fraction | None]] = {}
+        self._judgements: dict[Identity, tuple[Judgement, Fraction | None]] = {}
         self._variants: dict[str, Grader] = {}
 
     def grade(self, submission: Submission) -> Result:
@@ -78,34 +83,31 @@ class Grader:
             except StopIteration as stop:
                 return cast(Result, stop.value)
 
-    def steps(self, submission: Submission) -> Generator[Spot, None, Result]:
+    def steps(self, submission: Submission) -> Generator[Identity, None, Result]:
         """The same, telling of every answer that takes work that it comes next.
 
         What fails outside one answer is the error of this submission alone; nobody else loses a result by it.
         """
+        if submission.error is not None:
+            return self.refused(submission.student, submission.error)
         try:
-            return (yield from self._steps(submission))
+            if self.prepared.assignment.variants is not None:
+                sheet = sheet_of(self.prepared, submission.student)
+                sheet_grader = Grader(sheet, self.seconds, check_only=self.check_only)
+                grader = self._variants.setdefault(sheet.variant, sheet_grader)
+                grader.condemned = self.condemned
+                return (yield from grader.steps(submission))
+            items: list[Item] = []
+            for problem in self.prepared.assignment.problems:
+                items += yield from self._problem(problem, submission.answers.get(problem.id, {}))
+            items += unasked(self.prepared, submission)
+            return self._total(submission.student, items)
+        except NobodysVariantError as error:
+            return self.refused(submission.student, str(error))
         except MemoryError:
             raise
         except Exception as error:
             return self.refused(submission.student, f"an internal error occurred ({type(error).__name__})")
-
-    def _steps(self, submission: Submission) -> Generator[Spot, None, Result]:
-        if submission.error is not None:
-            return self.refused(submission.student, submission.error)
-        if self.prepared.assignment.variants is not None:
-            try:
-                sheet = sheet_of(self.prepared, submission.student)
-            except NobodysVariantError as error:
-                return self.refused(submission.student, str(error))
-            grader = self._variants.setdefault(sheet.variant, Grader(sheet, self.seconds))
-            grader.condemned = self.condemned
-            return (yield from grader.steps(submission))
-        items: list[Item] = []
-        for problem in self.prepared.assignment.problems:
-            items += yield from self._problem(problem, submission.answers.get(problem.id, {}))
-        items += unasked(self.prepared, submission)
-        return self._total(submission.student, items)
 
     def refused(self, student: str, error: str) -> Result:
         """The result of a submission that cannot be graded."""
@@ -113,12 +115,14 @@ class Grader:
 
     def _total(self, student: str, items: list[Item]) -> Result:
         score = sum((Fraction(item.score) for item in items if item.score is not None), Fraction(0))
+        if self.check_only:
+            return Result(student=student, score=None, max_score=float(self.max_score), items=items)
         review = sum(item.score is None for item in items)
         return Result(
             student=student, score=float(score), max_score=float(self.max_score), items=items, needs_review=review
         )
 
-    def _problem(self, problem: Problem, answers: Mapping[str, Given]) -> Generator[Spot, None, list[Item]]:
+    def _problem(self, problem: Problem, answers: Mapping[str, Given]) -> Generator[Identity, None, list[Item]]:
         earlier: dict[str, Fraction] = {}
         items: list[Item] = []
         for question in problem.questions:
@@ -129,13 +133,15 @@ class Grader:
             decision = self._decision(problem, question, answer)
             if decision is not None:
                 items.append(self._decided(problem, question, decision, answer))
-                if (number := _number(question, answer)) is not None:
+                if (number := _number(question, answer, self.prepared.keys[problem.id])) is not None:
                     earlier.setdefault(question.kind(), number)
                 continue
-            spot = _spot(problem, question, answer, earlier) + self.prepared.marks.get((problem.id, question.id), "")
-            if spot not in self._judgements and spot not in self.condemned:
-                yield spot
-            judgement, number = self.judge(spot, problem, question, answer, earlier)
+            identity = _identity(problem, question, answer, earlier) + self.prepared.marks.get(
+                (problem.id, question.id), ""
+            )
+            if identity not in self._judgements and identity not in self.condemned:
+                yield identity
+            judgement, number = self.judge(identity, problem, question, answer, earlier)
             items.append(self._item(problem, question, judgement, answer))
             if number is not None:
                 earlier.setdefault(question.kind(), number)
@@ -143,7 +149,7 @@ class Grader:
 
     def _decision(self, problem: Problem, question: QuestionBase, answer: Given) -> Decision | None:
         """Return what a person decided about this answer, whoever gave it."""
-        if not self.prepared.decisions:
+        if self.check_only or not self.prepared.decisions:
             return None
         variant = self.prepared.marks.get((problem.id, question.id), "")
         return self.prepared.decisions.get(answer_id(problem.id, question.id, shown_text(answer), variant))
@@ -151,21 +157,27 @@ class Grader:
     def _decided(self, problem: Problem, question: QuestionBase, decision: Decision, answer: Given) -> Item:
         """An answer with the points that a person gave it."""
         share = decision.points / question.points if question.points else FULL
-        judgement = partly(share, "", decision.remark or "A person has reviewed this answer.")
+        judgement = partly(share, "", why=decision.remark or "A person has reviewed this answer.")
         item = self._item(problem, question, judgement, answer)
         return item.model_copy(update={"score": float(decision.points), "decided_by": decision.by})
 
     def judge(
-        self, spot: Spot, problem: Problem, question: QuestionBase, answer: Given, earlier: Mapping[str, Fraction]
+        self,
+        identity: Identity,
+        problem: Problem,
+        question: QuestionBase,
+        answer: Given,
+        earlier: Mapping[str, Fraction],
     ) -> tuple[Judgement, Fraction | None]:
         """Return what an answer is worth, and its number; after the same earlier answers always the same."""
-        if spot in self.condemned:
-            return needs_review("", self.condemned[spot]), None
-        remembered = self._judgements.get(spot)
+        if identity in self.condemned:
+            return needs_review("", self.condemned[identity]), None
+        remembered = self._judgements.get(identity)
         if remembered is None:
-            remembered = self._judgement(problem, question, answer, earlier), _number(question, answer)
-            if len(self._judgements) < MOST_REMEMBERED and len(spot) < LONGEST_REMEMBERED:
-                self._judgements[spot] = remembered
+            number = _number(question, answer, self.prepared.keys[problem.id])
+            remembered = self._judgement(problem, question, answer, earlier), number
+            if len(self._judgements) < MOST_REMEMBERED and len(identity) < LONGEST_REMEMBERED:
+                self._judgements[identity] = remembered
         return remembered
 
     def _judgement(
@@ -192,20 +204,22 @@ class Grader:
         except DoubtError as error:
             return replace(needs_review("", error.message), certain=False)
         except TextError as error:
-            return self._unread(error, question, answer, key)
+            return self._unread(error, answer)
         understood, certain = shown_text_of(readings), all(way.certain for way in readings)
+        if self.check_only:
+            return Judgement("read", None, understood, certain=certain)
         try:
             judgement = verdict(readings, lambda reading: question.judged(reading, key, earlier))
         except DoubtError as error:
             judgement = needs_review(understood, error.message)
         except TextError as error:  # no scene can hold what it says
-            return self._unread(error, question, answer, key)
+            return self._unread(error, answer)
         several = len({way.text for way in readings}) > 1
         return replace(judgement, read_as=understood, certain=certain and not several)
 
-    def _unread(self, error: TextError, question: QuestionBase, answer: Given, key: Key) -> Judgement:
-        """Return that an answer could not be read, and where."""
-        judgement = unreadable(in_whole(answer, error, lambda part: question.read(part, key.declared)))
+    def _unread(self, error: TextError, answer: Given) -> Judgement:
+        """Return that an answer could not be read, and where; of a list no place is known."""
+        judgement = unreadable(error if isinstance(answer, str) else TextError(error.message, 1, error.hint))
         return judgement if self.prepared.assignment.unreadable == "review" else replace(judgement, share=NOTHING)
 
     def _item(
@@ -237,13 +251,16 @@ def _points(share: Fraction | None, question: QuestionBase) -> float | None:
 _MISSING = Judgement("missing", NOTHING, said=(Said("No answer was given."),))
 
 
-def _spot(problem: Problem, question: QuestionBase, answer: Given, earlier: Mapping[str, Fraction]) -> Spot:
+def _identity(problem: Problem, question: QuestionBase, answer: Given, earlier: Mapping[str, Fraction]) -> Identity:
     return repr((problem.id, question.id, answer, *sorted(earlier.items())))
 
 
-def _number(question: QuestionBase, answer: Given) -> Fraction | None:
+def _number(question: QuestionBase, answer: Given, key: Key) -> Fraction | None:
+    """Return the number that an answer gives, for later questions; None where the question asks for none."""
+    if not isinstance(question, NumberQuestion):
+        return None
     try:
-        return question.number(answer)
+        return cast(Fraction, question.readings(answer, key.declared)[0].value)
     except (TextError, ArithmeticError, ValueError):
         return None
 
@@ -315,61 +332,3 @@ def grade(assignment: Any, submission: Any, reviewed: str | os.PathLike[str] | N
         prepared = replace(prepared, decisions={**prepared.decisions, **decided})
     handed = submission if isinstance(submission, Submission) else read_submission(submission, prepared.columns())
     return Grader(prepared).grade(handed)
-
-
-class EchoedAnswer(ReportModel):
-    """One answer as it was understood; ``column`` is where one that is not understood could not be read further."""
-
-    problem: str
-    question: str
-    status: Literal["read", "unreadable", "missing"]
-    read_as: str
-    feedback: str = ""
-    column: int | None = None
-
-
-class Echo(ReportModel):
-    """One student's answers as they were understood. ``error`` and ``doubt``: as those of a result."""
-
-    student: str
-    items: list[EchoedAnswer]
-    error: str | None = None
-    doubt: str | None = None
-
-
-def echo(prepared: Prepared, submission: Submission) -> Echo:
-    """Read every answer, in the assignment's order; then those that were not asked for."""
-    if submission.error is not None:
-        return Echo(student=submission.student, items=[], error=submission.error)
-    try:
-        prepared = sheet_of(prepared, submission.student)
-    except NobodysVariantError as error:
-        return Echo(student=submission.student, items=[], error=str(error))
-    items = [
-        _echoed(
-            problem.id, question, prepared.keys[problem.id], submission.answers.get(problem.id, {}).get(question.id)
-        )
-        for problem, question in prepared.questions()
-    ]
-    for item in unasked(prepared, submission):
-        fields = {"status": "unreadable", "read_as": "", "feedback": item.feedback}
-        items.append(EchoedAnswer.model_validate({"problem": item.problem, "question": item.question, **fields}))
-    return Echo(student=submission.student, items=items)
-
-
-def _echoed(problem: str, question: QuestionBase, key: Key, answer: Given | None) -> EchoedAnswer:
-    if answer is None or says_nothing(answer):
-        return EchoedAnswer(problem=problem, question=question.id, status="missing", read_as="")
-    try:
-        with by_processor(ANSWER_SECONDS):
-            understood = question.read(answer, key.declared)
-    except MemoryError:
-        raise
-    except Exception as error:
-        failure = error if isinstance(error, TextError) else TextError(f"it could not be read ({type(error).__name__})")
-        hint = f" ({failure.hint})" if failure.hint else ""
-        return EchoedAnswer(
-            problem=problem, question=question.id, status="unreadable", read_as="",
-            feedback=f"{failure.message}{hint}", column=failure.column or 1,
-        )  # fmt: skip
-    return EchoedAnswer(problem=problem, question=question.id, status="read", read_as=understood)

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 from dofkit.base.errors import TextError
 from dofkit.homework.result import Status
-from dofkit.homework.sentences import Language, Said, say
+from dofkit.homework.sentences import Language, Said, meanings, say
 
 #: What stands in a submission as an answer.
 Given = str | int | float | Fraction | Sequence["Given"]
@@ -79,16 +79,16 @@ def right(read_as: str, *feedback: Sentence) -> Judgement:
     return Judgement("right", FULL, read_as, (), _said(*feedback))
 
 
-def wrong(read_as: str, feedback: Sentence = "", *codes: str) -> Judgement:
-    """No points."""
-    return Judgement("wrong", NOTHING, read_as, codes, _said(feedback))
+def wrong(read_as: str, *codes: str, why: Sentence = "") -> Judgement:
+    """Return that there are no points; ``why``: by default what the first code means."""
+    return partly(NOTHING, read_as, *codes, why=why)
 
 
-def partly(share: Fraction, read_as: str, feedback: Sentence = "", *codes: str) -> Judgement:
-    """A part of the points; all of them is right, none is wrong."""
-    if share >= FULL:
-        return Judgement("right", FULL, read_as, codes, _said(feedback))
-    return Judgement("partly" if share > 0 else "wrong", max(share, NOTHING), read_as, codes, _said(feedback))
+def partly(share: Fraction, read_as: str, *codes: str, why: Sentence = "") -> Judgement:
+    """Return that there is a part of the points; all of them is right, none is wrong."""
+    feedback = _said(why or (meanings()[codes[0]] if codes else ""))
+    status: Status = "right" if share >= FULL else "partly" if share > 0 else "wrong"
+    return Judgement(status, min(max(share, NOTHING), FULL), read_as, codes, feedback)
 
 
 def needs_review(read_as: str, reason: Sentence) -> Judgement:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from itertools import product
 from typing import Annotated, Any
@@ -20,8 +20,6 @@ from dofkit.homework.questions.base import Points
 from dofkit.homework.sentences import Language, described
 from dofkit.scene.constraints import ConstraintBase
 from dofkit.scene.fields import Listed, TaggedUnion, Text, WrittenModel, as_written, fault_error, suggestion
-from dofkit.scene.names import coordinate_table
-from dofkit.scene.parts import BodyPoint, show_point, show_vector
 from dofkit.scene.scene import Scene
 
 #: Which value of each varying name a variant has, by its index.
@@ -121,7 +119,7 @@ class Problem(WrittenModel):
     title: str | None = Field(None, description="its title")
     text: Text | None = Field(
         None,
-        description="the problem statement: Markdown, formulas in $; [[rod]], [[rod.length]] insert parts of the scene",
+        description="the problem statement: Markdown, formulas in $; [[n]] inserts a value that varies",
     )
     figure: str | None = Field(
         None, description="a picture's file beside the assignment, `scene` (drawn) or `none`; by default drawn"
@@ -204,72 +202,9 @@ def faults_of_names(problem: Problem, key: Key) -> Iterator[Fault]:
             taken.add(other)
 
 
-_SCENE_PLACE = re.compile(r"\[\[\s*([^\W\d][\w -]*?)(?:\.(\w+))?\s*\]\]")
-#: Stands for all constraints, a line each.
-ALL = "constraints"
-
-
 def named(scene: Scene) -> dict[str, ConstraintBase]:
     """The constraints of a scene by their names, given or by position."""
     return {c.name or f"c{n}": c for n, c in enumerate(scene.constraints, 1)}
-
-
-def places(text: str) -> list[tuple[str, str | None]]:
-    """Return the places of a text that the scene fills: a name, and a field of it."""
-    return [(match[1], match[2]) for match in _SCENE_PLACE.finditer(text)]
-
-
-def filled(text: str, scene: Scene, hidden: Collection[str] = (), language: Language = "en") -> str:
-    """The text with what the scene says in its places; a place that stands for nothing stays.
-
-    ``hidden``: constraints whose equations are not told.
-    """
-
-    def place(match: re.Match[str]) -> str:
-        replacement = _replacement(match[1], match[2], scene, hidden, language) or match[0]
-        return (
-            f"\n\n{replacement}\n\n" if (match[1], match[2]) == (ALL, None) else replacement
-        )  # a list begins on its own line
-
-    return _SCENE_PLACE.sub(place, text)
-
-
-def _replacement(
-    name: str, field: str | None, scene: Scene, hidden: Collection[str] = (), language: Language = "en"
-) -> str | None:
-    constraints = named(scene)
-    secret = {each for each in hidden if each in constraints and constraints[each].facts.written}
-    if name == ALL and field is None:
-        listed = [
-            (each, "" if each in secret else f": {constraint_text(constraint, language)}")
-            for each, constraint in constraints.items()
-        ]
-        return "\n".join(f"- `{each}`{suffix}" for each, suffix in listed)
-    if name in secret:
-        return f"`{name}`"
-    if name in constraints and field is None:
-        return constraint_text(constraints[name], language)
-    if field is not None:
-        value = getattr(constraints.get(name), field, None)
-        return None if value is None else _value(value)
-    table = coordinate_table(scene)
-    symbols = {
-        *scene.parameters,
-        *scene.functions,
-        *table.particles,
-        *table.bodies,
-        *(c.name for c in table.coordinates),
-    }
-    return f"${name}$" if name in symbols else None
-
-
-def _value(value: Any) -> str:
-    if isinstance(value, tuple):
-        numbers = all(not isinstance(part, (tuple, BodyPoint)) for part in value)
-        return f"${show_vector(value)}$" if numbers else ", ".join(_value(part) for part in value)
-    if isinstance(value, BodyPoint):
-        return show_point(value)
-    return f"${as_written(value)}$" if not isinstance(value, str) or typeset(value) else f"`{value}`"
 
 
 def constraint_text(constraint: ConstraintBase, language: Language = "en") -> str:
@@ -289,11 +224,7 @@ def marked(text: str) -> str:
     return re.sub(r"([\\`*_{}\[\]<>#|$~])", r"\\\1", " ".join(text.split()))
 
 
-def faults_of_places(text: str, scene: Scene) -> Iterator[Fault]:
-    """Places that stand for nothing in the scene."""
-    names = [ALL, *named(scene), *scene.parameters, *scene.functions]
-    names += [*coordinate_table(scene).particles, *coordinate_table(scene).bodies]
-    for name, field in places(text):
-        if _replacement(name, field, scene) is None:
-            what = name if field is None else f"{name}.{field}"
-            yield Fault(f"[[{what}]] is not a name in the scene", (), hint=suggestion(name, names, "names"))
+def faults_of_places(text: str, vary: Mapping[str, Any] | None) -> Iterator[Fault]:
+    """Yield the places of a text that no value fills."""
+    for match in _PLACE.finditer(text):
+        yield Fault(f"[[{match[1]}]] is not a name in `vary`", (), hint=suggestion(match[1], list(vary or ()), "names"))

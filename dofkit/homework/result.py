@@ -9,7 +9,8 @@ from pydantic import BaseModel, Field
 from dofkit.base.display import Displayed
 from dofkit.report import ReportModel
 
-Status = Literal["right", "partly", "wrong", "unreadable", "missing", "needs_review"]
+#: ``read``: of an answer that was only read.
+Status = Literal["right", "partly", "wrong", "unreadable", "missing", "needs_review", "read"]
 
 
 def json_line(model: BaseModel) -> str:

@@ -13,7 +13,6 @@ from pydantic import TypeAdapter
 
 from dofkit.homework.assignment import Prepared
 from dofkit.homework.key.key import Key
-from dofkit.homework.key.own_coordinates import polar_angles
 from dofkit.homework.questions import AnyQuestion
 from dofkit.scene.reading import load
 
@@ -22,13 +21,8 @@ _OF_SCENE = ("dof", "velocity_dof", "k", "coordinates", "redundant")
 _OF_CONSTRAINT = ("label", "equation", "integral")
 _OF_MOTION = ("lagrangian", "motion")
 _OF_COORDINATE = ("momentum", "force")
-#: The kinds of questions, those most worth asking first.
-_KINDS = (
-    "dof", "motion", "velocity_dof", "lagrangian", "redundant", "integral", "label", "equation", "coordinates", "k",
-    "momentum", "force",
-)  # fmt: skip
-#: So many questions are asked of a scene; a constraint of fewer equations is one to write down.
-MOST, FEW = 5, 3
+#: A constraint of fewer equations is one to write down.
+FEW = 3
 _NOT_PLAIN = re.compile(r"[^\w-]+")
 _QUESTION: TypeAdapter[Any] = TypeAdapter(AnyQuestion)
 
@@ -42,9 +36,7 @@ def starting(sources: Sequence[str], every: bool = False) -> str:
         name = _unused(scene.name or Path(source).stem, [p["id"] for p in problems])
         key = Key(scene)
         asked = list(questions(key)) if every else list(best_questions(key))
-        angles = polar_angles(key)
-        also = {"also": angles} if angles else {}
-        problems.append({"id": name, **title, "scene": source, **also, "questions": asked})
+        problems.append({"id": name, **title, "scene": source, "questions": asked})
     assignment = {"title": "Assignment", "convention": "configuration", "problems": problems}
     return yaml.safe_dump(assignment, sort_keys=False, allow_unicode=True, width=110)
 
@@ -63,21 +55,12 @@ def template(prepared: Prepared, form: str) -> str:
 
 
 def best_questions(key: Key) -> Iterator[dict[str, Any]]:
-    """Yield the questions most worth asking of a scene: one of each kind, first those whose answers are not plain."""
-    every = list(questions(key))
-    places = [
-        every.index(max(asked, key=lambda question: _labels_that_fail(question, key))) for asked in _by_kind(every)
-    ]
-    places += [n for n in range(len(every)) if n not in places]
-    first = [n for n in places if not _is_plain(every[n], key)]
-    chosen = [*first, *(n for n in places if n not in first)][:MOST]
-    yield from (every[n] for n in sorted(chosen))
-
-
-def _by_kind(every: Sequence[dict[str, Any]]) -> Iterator[list[dict[str, Any]]]:
-    for kind in _KINDS:
-        if asked := [question for question in every if question["ask"] == kind]:
-            yield asked
+    """Yield one question of each kind whose answer is not plain from the scene, about what is least ideal."""
+    chosen: dict[str, dict[str, Any]] = {}
+    for question in sorted(questions(key), key=lambda question: -_labels_that_fail(question, key)):
+        if not _is_plain(question, key):
+            chosen.setdefault(question["ask"], question)
+    yield from (question for question in questions(key) if question in chosen.values())
 
 
 def _labels_that_fail(asked: Mapping[str, Any], key: Key) -> int:

@@ -2,8 +2,8 @@
 
 A problem says ``vary: {n: [2, 3, 5], support: [{text: "at rest", x: "0"}, {text: "driven", x: "a sin(omega t)"}]}``.
 Every combination is a variant: ``[[n]]``, ``[[support.text]]`` and ``[[support.x]]`` stand for its values in the scene,
-the text and the title. All are proved when the assignment is read. A keyed hash of the student's name picks one, and
-the picks are written into the assignment, so nobody's variant changes when the roster does.
+the text and the title. All are proved when the assignment is read. A keyed hash of the student's name picks one, so
+with the same seed nobody's variant changes when the roster does.
 """
 
 from __future__ import annotations
@@ -72,31 +72,19 @@ def _solutions(question: QuestionBase, keys: Iterable[Key]) -> set[str]:
     return {say(s).translated() if isinstance(s := question.solution(key), str) else s.translated() for key in keys}
 
 
-def drawn(prepared: Prepared, roster: Roster, seed: str, before: Sequence[StudentVariant] = ()) -> Variants:
-    """Return who has which variant: those who have one keep it, a keyed hash picks for the others.
-
-    Raises VaryError for a roster of nobody, and if somebody in it has the names of two students.
-    """
+def drawn(prepared: Prepared, roster: Roster, seed: str) -> Variants:
+    """Return who has which variant, picked by a keyed hash of the name. Raises VaryError for a roster of nobody."""
     if not roster.members:
         raise VaryError("there is nobody in the roster: a row for each student is needed")
-    existing = Variants(students=tuple(before))
-    kept = {variant.student: variant for variant in before}
+    students = []
     for member in roster.members:
-        names = list(dict.fromkeys([member.student, *member.called()]))
-        owners = {variant.student for name in names if (variant := existing.find(name)) is not None}
-        if len(owners) > 1:
-            raise VaryError(
-                f"'{member.student}' has the names of {' and '.join(sorted(owners))}: give everyone in the roster an "
-                "address or a number"
-            )
-        student = owners.pop() if owners else member.student
-        picks = kept[student].picks if student in kept else {
-            problem: _hashed([c.pick for c in combinations], seed, student, problem)
+        picks = {
+            problem: _hashed([c.pick for c in combinations], seed, member.student, problem)
             for problem, combinations in prepared.combinations.items()
-        }  # fmt: skip
-        others = tuple(name for name in names if plain_name(name) != plain_name(student))
-        kept[student] = StudentVariant(student=student, known_as=others, picks=picks)
-    return Variants(students=tuple(kept.values()))
+        }
+        others = (name for name in member.called() if plain_name(name) != plain_name(member.student))
+        students.append(StudentVariant(student=member.student, known_as=tuple(dict.fromkeys(others)), picks=picks))
+    return Variants(students=tuple(students))
 
 
 def _hashed(picks: Sequence[Pick], seed: str, student: str, problem: str) -> Pick:

@@ -18,5 +18,5 @@ Mechanisms, in the order in which they are tried
     5. `nonlinear_velocities`: what is not linear in the velocities restricts them where the fibres are curved at a
        certified state; the others may make it linear.
     6. `integrals` has the potential and the integrating factor of one form, `first_integrals` those of several forms
-       together; every result is proved by differentiation. `accelerations` integrates second derivatives once.
+       together; every result is proved by differentiation.
 """

@@ -17,7 +17,7 @@ from math import isqrt
 
 from dofkit.base.deadline import check
 from dofkit.base.errors import NoValueError
-from dofkit.configuration.variety import free_point
+from dofkit.configuration.variety import pose_point
 from dofkit.exact.matrices.sparse import rank_of
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import field_frame, kernel, pairing
@@ -201,7 +201,7 @@ class IntegralSearch:
         return [g.get(c, unit * 0) for c in self.forms.chart.columns]
 
     def _point(self, seed: int) -> FieldPoint | None:
-        return free_point(self.forms.chart, seed) if self.solver is None else self.solver.draw(seed)
+        return pose_point(self.forms.chart, {}, seed) if self.solver is None else self.solver.draw(seed)
 
     def _combination(self, monomials: Sequence[Monomial], weights: Sequence[Residue], p: int) -> Expr | None:
         """Return the combination with the small fractions that the weights are modulo p, or None if one is none."""

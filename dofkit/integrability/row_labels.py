@@ -39,7 +39,7 @@ from dofkit.integrability.pfaffian_system import Codistribution, is_nonzero, lin
 from dofkit.integrability.traits import CurlAtPoint, proof
 from dofkit.relations.answer import Answer, HolonomyLabel
 from dofkit.relations.blocks import Block
-from dofkit.relations.normal.pieces import Finite, Pfaffian, Still, with_constants
+from dofkit.relations.normal.pieces import Finite, Pfaffian
 from dofkit.relations.setting import Setting
 
 #: Lie algebras are certified with balls up to this many columns.
@@ -193,15 +193,9 @@ def _rank_verdict(forms_at_points: SampledForms, proof_of: Certificate | None, s
         return "probable"
     if sampled.span.dimension == n or n - rank <= 1:
         return "proved"
-    constants = {
-        c: ex.parameter(c)
-        for r in forms_at_points.block.forms
-        if isinstance(r.piece, Still)
-        for c in r.piece.coefficients
-    }
-    forms = [p for r in forms_at_points.block.forms if isinstance(p := with_constants(r.piece, constants), Pfaffian)]
+    forms = [r.piece for r in forms_at_points.block.forms if isinstance(r.piece, Pfaffian)]
     wanted = n - sampled.span.dimension - (len(sampled.matrix) - len(forms))
-    flat = forms if constants or wanted > len(forms) else _flat(forms_at_points, forms)
+    flat = forms if wanted > len(forms) else _flat(forms_at_points, forms)
     if wanted > len(flat):
         return "probable"
     return "proved" if sum(proof(f, setting.positive) is not None for f in flat) == wanted else "probable"

@@ -34,7 +34,7 @@ from dofkit.scene.reading import SceneFile
 from dofkit.scene.scene import Scene, without
 
 #: The public functions that draw, by the kind of the picture.
-_PICTURES = {"mechanism": "draw", "graph": "graph", "directions": "phase", "motion": "animate"}
+_PICTURES = {"mechanism": "draw", "graph": "graph", "directions": "phase", "motion": "animate", "loop": "animate"}
 
 
 def report_lines(request: Request) -> Iterator[Json]:
@@ -171,7 +171,8 @@ def _picture(scene: Scene, request: Request) -> Iterator[Json]:
     kind, path = request.picture
     try:
         Path(path).parent.mkdir(parents=True, exist_ok=True)
-        getattr(dofkit, _PICTURES[kind])(scene).save(path)
+        loop = {"loop": True} if kind == "loop" else {}
+        getattr(dofkit, _PICTURES[kind])(scene, **loop).save(path)
     except OSError as error:
         raise DofkitError(f"the picture cannot be written to '{path}': {error.strerror or error}") from None
     yield streams(f"{path}\n")

@@ -23,7 +23,7 @@ def new(
     scenes: Annotated[list[str], typer.Argument(metavar="SCENE...", help="Scenes: paths or catalog names.")],
     every: Annotated[bool, options.flag("--all", "Include every question that fits the scenes.")] = False,
 ) -> None:
-    """Print a first assignment with five questions per scene."""
+    """Print a first assignment with a question of each kind that fits the scenes."""
     with failures_of(None):
         from dofkit.homework.starting import starting
 
@@ -114,20 +114,19 @@ def vary(
     form: Annotated[
         str, typer.Option("--format", metavar="NAME", help="The format of the handouts: html or md.")
     ] = "html",
-    anew: Annotated[bool, options.flag("--anew", "Replace the variants that the folder holds already.")] = False,
 ) -> None:
     """Write a variant for every student.
 
     A problem lists what varies (`vary: {n: [2, 3, 5]}`); every combination is proved, and a keyed hash picks one for
     each student. The folder gets a handout per student, one assignment that grades all of them (`dofkit grade
-    FOLDER/assignment.yaml ...`), and a table of the variants. Students who have one there keep it when the roster
-    changes.
+    FOLDER/assignment.yaml ...`), and a table of the variants. With the same seed everyone keeps their variant when the
+    roster changes.
     """
     from dofkit.homework.answers.roster import load_roster
     from dofkit.homework.handout.class_sheets import class_sheets, write_class
 
     with failures_of(assignment):
-        made = class_sheets(assignment, load_roster(roster), seed, out, anew)
+        made = class_sheets(assignment, load_roster(roster), seed, out)
         write_class(made, form, drawing(), out)
     for remark in made.remarks():
         typer.echo(f"{assignment}: {remark}", err=True)

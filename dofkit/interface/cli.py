@@ -111,9 +111,14 @@ def draw(
 
 
 @app.command()
-def animate(files: options.Files, out: options.PicturePath = None, form: options.MovingKind = None) -> None:
+def animate(
+    files: options.Files,
+    out: options.PicturePath = None,
+    form: options.MovingKind = None,
+    loop: options.Loop = False,
+) -> None:
     """Animate the motion: a page with a slider, a GIF or an MP4."""
-    _pictures(files, "motion", out, form, options.MOVING_KINDS)
+    _pictures(files, "loop" if loop else "motion", out, form, options.MOVING_KINDS)
 
 
 @app.command()
@@ -262,7 +267,6 @@ def chart(
     source: options.ChartSource = None,
     quick: options.Quick = False,
     most: options.Most = None,
-    scheduler: options.Scheduler = None,
     workers: options.Workers = None,
     timeout: options.Timeout = None,
 ) -> None:
@@ -272,7 +276,7 @@ def chart(
 
     selection = Selection(question or (), families or (), methods or (), quick, most)
     with failures_of("chart"):
-        whole = chart(ChartOptions(selection, out, source, scheduler, workers, timeout))
+        whole = chart(ChartOptions(selection, out, source, workers, timeout))
     if not whole:
         raise typer.Exit(INTERRUPTED)
 
@@ -283,7 +287,7 @@ def _pictures(files: list[str], kind: str, out: Path | None, form: str | None, k
 
     paths = [str(out)]
     if out is None or is_folder_path(out):
-        suffix = f"-{kind}" if kind in ("graph", "directions") else ""
+        suffix = f"-{kind}" if kind in ("graph", "directions", "loop") else ""
         paths = [str((out or Path()) / f"{name}{suffix}.{form or kinds[0]}") for name in distinct_names(files)]
     else:
         with failures_of("--out"):

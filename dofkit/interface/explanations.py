@@ -14,7 +14,7 @@ from pydantic import BaseModel
 from dofkit.base.errors import Fault, SceneError
 from dofkit.base.wording import closest, nearest, series
 from dofkit.classification.arguments import TABLE
-from dofkit.homework.key.misconceptions import CODES
+from dofkit.homework.sentences import meanings
 from dofkit.interface.show.assurance import VERDICT_MEANS
 from dofkit.report import ConstraintEntry, Report
 from dofkit.scene.constraints import TYPES, ConstraintBase
@@ -105,7 +105,7 @@ def _plain(word: str) -> str:
 def all_explanations() -> tuple[Explanation, ...]:
     """Return every word that is explained."""
     return (
-        *(Explanation(code, "feedback code", meaning) for code, meaning in CODES.items()),
+        *(Explanation(code, "feedback code", meaning) for code, meaning in meanings().items()),
         *_fields("field of a report", Report),
         *_fields("field of a constraint", ConstraintEntry),
         *(Explanation(name, "verdict", _sentence(meaning)) for name, meaning in VERDICT_MEANS.items()),

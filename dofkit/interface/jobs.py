@@ -37,8 +37,8 @@ class Request:
 
     ``data``: its bytes, if they have been read already. ``without``: constraints that are dropped; ``limits``: joint
     limits of models become inequalities; ``linearize``: small motions too. ``certificate``: the path or folder that its
-    certificate is written to. ``pictures``: of each file the kind of a picture (mechanism, graph, directions or motion)
-    and its path; ``picture``: that of this file.
+    certificate is written to. ``pictures``: of each file the kind of a picture (mechanism, graph, directions, motion
+    or loop) and its path; ``picture``: that of this file.
     """
 
     file: str

@@ -14,7 +14,7 @@ from dofkit.interface.output import FAILURES
 
 #: The heading of the options that few people need.
 ADVANCED = "Advanced"
-STILL_KINDS, MOVING_KINDS = ("svg", "png", "pdf", "html"), ("html", "gif", "mp4")
+STILL_KINDS, MOVING_KINDS = ("svg", "png", "pdf", "html"), ("html", "gif", "mp4", "svg", "png", "pdf")
 DRAWN_AS = ("mechanism", "graph", "directions")
 #: The names of the methods, as `dofkit.methods.table` has them, whose import takes long.
 METHODS = ("auto", "count", "graph", "field", "balls", "exact", "numeric", "symbolic")
@@ -178,6 +178,8 @@ _PICTURE = "The file, whose ending decides the format; or a folder for several s
 PicturePath = Annotated[Path | None, Option("--out", metavar="PATH", help=_PICTURE)]
 StillKind = Annotated[str | None, _format(STILL_KINDS)]
 MovingKind = Annotated[str | None, _format(MOVING_KINDS)]
+_LOOP = "Move free coordinates round a closed loop, and show whether the others return."
+Loop = Annotated[bool, flag("--loop", _LOOP)]
 _DRAWN_AS = "mechanism; graph: constraints and what they constrain; directions: those of a growth vector."
 DrawnAs = Annotated[str, Option("--as", metavar="KIND", callback=_one_of(DRAWN_AS), help=_DRAWN_AS)]
 _LINEARIZE = "Add the matrices M, C and K of small motions about an equilibrium."

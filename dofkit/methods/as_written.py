@@ -10,7 +10,7 @@ from dofkit.base.errors import TextError
 from dofkit.exact.ring.program import Point, Scalar, gradient, values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import accelerations_of, cleared, in_velocities
+from dofkit.expressions.calculus import cleared, in_velocities
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.normal_form import linear_form, velocities_of
 from dofkit.relations.normal.pieces import Pfaffian
@@ -76,8 +76,6 @@ def as_written(scene: Scene | System) -> Written:
 
 def _read(e: Expr) -> Expr | Pfaffian | str:
     """A finite relation, a form, or why it is neither."""
-    if accelerations_of(e):
-        return "acceleration"
     try:
         moving, divided = in_velocities(e)
     except TextError:

@@ -224,7 +224,7 @@ def without_time(constraint: Constraint) -> bool:
 
 def _without_time(e: Expr) -> bool:
     kinds = {s.args[0] for s in e.symbols}
-    if kinds & {"time", "dt", "acceleration"}:
+    if kinds & {"time", "dt"}:
         return False
     moving = [s for s in e.symbols if s.args[0] in ("velocity", "differential")]
     try:

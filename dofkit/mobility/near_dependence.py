@@ -9,9 +9,8 @@ from __future__ import annotations
 
 from itertools import pairwise
 from math import ceil, floor, log10
-from typing import Any
 
-from dofkit.base.libraries import np
+from dofkit.exact.matrices.dense import cross, length, plus, singular_values, unit_rows
 from dofkit.mobility.placement import TURNS, Member, Placement, rows_of
 
 #: More columns than this are not looked at.
@@ -33,12 +32,9 @@ def nearly_dependent(placement: Placement, dimension: int, columns: int, rank: i
         if conditions is None:
             return None
         rows += conditions
-    j = np.zeros((len(rows), columns))
-    for i, row in enumerate(rows):
-        for c, v in row.items():
-            j[i, c] = v
-    by_size = _gap(_rows_of_length_1(j), rank)
-    if by_size is None or _gap(_rows_of_length_1(_about_middles(j, placement, dimension)), rank) is None:
+    j = [[float(row.get(c, 0.0)) for c in range(columns)] for row in rows]
+    by_size = _gap(j, rank)
+    if by_size is None or _gap(_about_middles(j, placement, dimension), rank) is None:
         return None
     small, large = by_size
     return (
@@ -48,46 +44,42 @@ def nearly_dependent(placement: Placement, dimension: int, columns: int, rank: i
     )
 
 
-def _about_middles(j: Any, placement: Placement, dimension: int) -> Any:
+def _about_middles(j: list[list[float]], placement: Placement, dimension: int) -> list[list[float]]:
     """Return the rows by velocities v' of the middles and w' = reach w: v = v' - w x (middle - start)."""
-    j = j.copy()
+    j = [list(row) for row in j]
     for member, points in _points(placement).values():
         first, start = member.column, member.start
         if first is None or start is None:
             continue
-        middle = np.mean(points, axis=0)
-        reach = max(float(np.max(np.linalg.norm(points - middle, axis=1))), 1e-9) if len(points) > 1 else 1.0
-        arm = middle - np.array(start, dtype=float)
-        v, turn = j[:, first : first + dimension], slice(first + dimension, first + dimension + TURNS[dimension])
-        if dimension == 2:
-            j[:, turn.start] = (j[:, turn.start] + arm[1] * v[:, 0] - arm[0] * v[:, 1]) / reach
-        elif dimension == 3:
-            j[:, turn] = (j[:, turn] - np.cross(arm, v)) / reach
+        middle = [sum(places) / len(points) for places in zip(*points, strict=True)]
+        reach = max(*(length(plus(at, -1.0, middle)) for at in points), 1e-9) if len(points) > 1 else 1.0
+        arm = plus(middle, -1.0, list(map(float, start)))
+        turn = slice(first + dimension, first + dimension + TURNS[dimension])
+        for row in j:
+            v, w = row[first : turn.start], row[turn]
+            if dimension == 2:
+                row[turn] = [(w[0] + arm[1] * v[0] - arm[0] * v[1]) / reach]
+            elif dimension == 3:
+                row[turn] = [a / reach for a in plus(w, -1.0, cross(arm, v))]
     return j
 
 
-def _points(placement: Placement) -> dict[int, tuple[Member, Any]]:
+def _points(placement: Placement) -> dict[int, tuple[Member, list[list[float]]]]:
     """Return the places at which each member is held, by its first column."""
-    held: dict[int, tuple[Member, list[Any]]] = {}
+    held: dict[int, tuple[Member, list[list[float]]]] = {}
     for connection in placement.located:
         joined = ((member, at) for at in connection.places for member in connection.members)
         for member, at in (*connection.points, *joined):
             if member.column is not None:
-                held.setdefault(member.column, (member, []))[1].append(at)
-    return {column: (member, np.array(points, dtype=float)) for column, (member, points) in held.items()}
+                held.setdefault(member.column, (member, []))[1].append(list(map(float, at)))
+    return held
 
 
-def _rows_of_length_1(j: Any) -> Any:
-    norms = np.linalg.norm(j, axis=1, keepdims=True)
-    return j / np.where(norms > 0, norms, 1.0)
-
-
-def _gap(j: Any, rank: int) -> tuple[float, float] | None:
+def _gap(j: list[list[float]], rank: int) -> tuple[float, float] | None:
     """The largest of the singular values that are nearly 0, and the next above; None where there are none such."""
-    singular = np.linalg.svd(j, compute_uv=False)[:rank]
-    for above, below in pairwise(singular):
+    for above, below in pairwise(singular_values(unit_rows(j))[:rank]):
         if below < NEAR and above > GAP * below:
-            return float(below), float(above)
+            return below, above
     return None
 
 

@@ -15,5 +15,6 @@ does a motion pass through? The results are a `MotionReport` and a list of confi
 Samples
     `configurations` follows a motion by arclength: `continuation` has the predictor along the tangent space and
     Newton's method back to the configuration space, `poses` the relations in floating point with quaternions for
-    rotations. It is for pictures and samples; no verdict rests on it.
+    rotations. `loops` moves free coordinates round a closed loop. Both are for pictures and samples; no verdict rests
+    on them.
 """

@@ -23,7 +23,7 @@ from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian, Reduced
 from dofkit.relations.setting import Setting
 from dofkit.scene.lowering import lower
 from dofkit.scene.reading import SceneLike, scene_or_system
-from dofkit.system import Coordinate, System
+from dofkit.system import System
 
 #: Random configurations from which one is looked for where there is no reference.
 STARTS = 24
@@ -94,25 +94,23 @@ def configurations(
     system = source if isinstance(source, System) else lower(source)
     try:
         with limited(DEFAULT_SECONDS), precise_for(system.longest):
-            return _Sampled(system, dict(values or {}), along).configurations(steps, step, both)
+            return MotionSampler(system, dict(values or {}), along).configurations(steps, step, both)
     except OutOfTimeError as error:
         raise NoMotionError(str(error)) from None
 
 
-class _Sampled:
+class MotionSampler:
     """A system with its relations, a follower, and the first pose."""
 
     def __init__(self, system: System, numbers: Mapping[str, float], along: str | None) -> None:
         reduced, setting = prepared(system)
         outcome = solve(system, reduced, setting)
-        names = {c.name: c for c in system.coordinates}
-        touched = [*(n for b in outcome.blocks for n in b.coordinates), *outcome.untouched]
-        coordinates = [*system.coordinates, *(Coordinate(n) for n in dict.fromkeys(touched) if n not in names)]
+        names = [c.name for c in system.coordinates]
         if along is not None and along not in names:
             raise NoMotionError(no_such(along, names, "coordinate"))
-        self.system, self.setting, self.along, self.names = system, setting, along, list(names)
+        self.system, self.setting, self.along, self.names = system, setting, along, names
         self.numbers = _known_symbols(system, numbers)
-        self.relations = _relations(system, outcome, setting, coordinates, _limits(reduced, outcome))
+        self.relations = _relations(system, outcome, setting, _limits(reduced, outcome))
         self.relations.constants |= {s: v for s, v in self.numbers.items() if s.args[0] == "parameter"}
         self.follower = Follower(self.relations, _freedom(outcome, self.relations.timed))
         self.start = self._first()
@@ -157,7 +155,7 @@ class _Sampled:
         backward = self._way(back, steps, step)[0] if both and not closed else []
         if steps and not forward and not backward:
             raise NoMotionError("no motion was followed that leaves the first configuration")
-        middle = self._values(self.start, {})
+        middle = self.values(self.start, {})
         return [*reversed(self._values_along(backward, middle)), middle, *self._values_along(forward, middle)]
 
     def _way(self, start: Reached | None, steps: int, step: float) -> tuple[list[Pose], bool]:
@@ -184,11 +182,12 @@ class _Sampled:
     def _values_along(self, poses: Sequence[Pose], last: dict[str, float]) -> list[dict[str, float]]:
         configurations = []
         for pose in poses:
-            last = self._values(pose, last)
+            last = self.values(pose, last)
             configurations.append(last)
         return configurations
 
-    def _values(self, pose: Pose, last: Mapping[str, float]) -> dict[str, float]:
+    def values(self, pose: Pose, last: Mapping[str, float]) -> dict[str, float]:
+        """The coordinates of a pose (Euler angles near those of ``last``), and the values of parameters."""
         coordinates = self.relations.coordinate_values(pose, last)
         chosen = {str(s.args[1]): v for s, v in self.relations.constants.items() if not str(s.args[1]).startswith("_")}
         timed = {"t": coordinates["t"]} if self.relations.timed else {}
@@ -214,9 +213,7 @@ def _limits(reduced: Sequence[Reduced], outcome: Outcome) -> list[Expr]:
     return [e for e in limits if all(s.args[0] in ("coordinate", "time", "parameter") for s in e.symbols)]
 
 
-def _relations(
-    system: System, outcome: Outcome, setting: Setting, coordinates: Sequence[Coordinate], limits: Sequence[Expr]
-) -> PoseRelations:
+def _relations(system: System, outcome: Outcome, setting: Setting, limits: Sequence[Expr]) -> PoseRelations:
     """What is to be held; raises where that is not possible."""
     if system.functions:
         raise NoMotionError(f"'{next(iter(system.functions))}' is a function without a formula")
@@ -230,7 +227,7 @@ def _relations(
         raise NoMotionError("motions under relations that are nonlinear in the velocities are not followed")
     finite = [*(p.expr for p in pieces if isinstance(p, Finite)), *(g for a in outcome.answers for g in a.hidden)]
     forms = [p for p in pieces if isinstance(p, Pfaffian)]
-    return PoseRelations(system, coordinates, finite, forms, setting.positive, limits)
+    return PoseRelations(system, finite, forms, setting.positive, limits)
 
 
 def _freedom(outcome: Outcome, timed: bool) -> int:

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from dofkit.configuration.local.neighbourhood import damped
+from dofkit.exact.matrices.dense import array_step
 from dofkit.motion.poses import FAULTS, Array, Pose, PoseRelations
 
 #: Relative residual of what is held, rounds of Newton's method, and those with much damping.
@@ -63,7 +63,7 @@ class Follower:
                     break
                 if self.clock is not None and not any_time:
                     j[:, self.clock] = 0.0
-                pose = self.relations.moved(pose, damped(j, f, 1 + (k > EASY)))
+                pose = self.relations.moved(pose, array_step(j, f, 1, float(np.linalg.norm(f)) ** (1 + (k > EASY))))
         except FAULTS:
             return None
         return pose if np.all(np.isfinite(self.relations.between(start, pose))) and self.holds(pose) else None
@@ -113,7 +113,12 @@ class Follower:
         """The pose so far ahead; None where the step is too long to be sure of, or nothing is ahead."""
         try:
             wanted = length * current.direction
-            pose = self._corrected(current.pose, wanted)
+            along = np.zeros((1, self.relations.columns))
+            if self.clock is None:
+                along[0] = wanted / np.linalg.norm(wanted)
+            else:
+                along[0, self.clock] = 1.0
+            pose = self.stepped(current.pose, wanted, along)
             if pose is None:
                 return None
             made = self.relations.between(current.pose, pose)
@@ -127,22 +132,19 @@ class Follower:
         cosine = direction @ current.direction / (np.linalg.norm(direction) * np.linalg.norm(current.direction))
         return Reached(pose, direction) if cosine > STRAIGHT else None
 
-    def _corrected(self, start: Pose, wanted: Array) -> Pose | None:
+    def stepped(self, start: Pose, wanted: Array, along: Array) -> Pose | None:
+        """The pose after a step that satisfies everything and is as wanted in the directions ``along``, as rows."""
         relations = self.relations
-        along = np.zeros(relations.columns)
-        if self.clock is None:
-            along = wanted / np.linalg.norm(wanted)
-        else:
-            along[self.clock] = 1.0
         pose = relations.moved(start, wanted)
         for k in range(ROUNDS):
             made = relations.between(start, pose)
             f, j = relations.at(pose)
             forms = relations.forms_at(relations.moved(start, made / 2))
-            wrong = np.concatenate([f, forms @ made, [along @ (made - wanted)]])
+            wrong = np.concatenate([f, forms @ made, along @ (made - wanted)])
             if float(np.max(np.abs(wrong))) < HELD / 100:
                 break
-            step = damped(np.vstack([j, forms, along]), wrong, 1 + (k > EASY))
+            shift = float(np.linalg.norm(wrong)) ** (1 + (k > EASY))
+            step = array_step(np.vstack([j, forms, along]), wrong, 1, shift)
             pose = relations.moved(pose, step)
             if float(np.linalg.norm(step)) < 1e-16:
                 break

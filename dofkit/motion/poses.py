@@ -22,7 +22,7 @@ from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.pieces import Pfaffian
-from dofkit.system import Coordinate, System
+from dofkit.system import System
 
 Array = np.ndarray[Any, Any]
 #: Below this w the relations are evaluated as balls, and this is the least that is told from 0.
@@ -48,13 +48,12 @@ class PoseRelations:
     def __init__(
         self,
         system: System,
-        coordinates: Sequence[Coordinate],
         finite: Sequence[Expr],
         forms: Sequence[Pfaffian],
         positive: frozenset[Expr],
         limits: Sequence[Expr] = (),
     ) -> None:
-        """``coordinates``: those that are followed; ``limits``: expressions that are to stay at 0 or above."""
+        """``limits``: expressions that are to stay at 0 or above."""
         coefficients = [e for f in forms for _, e in f.items()]
         self.ring = Ring([*finite, *coefficients], positive)
         self.limiting = Ring(limits, positive)
@@ -66,11 +65,10 @@ class PoseRelations:
         )
         self.rotations = [r for r in system.rotations if r.chart == "gibbs"]
         turning = {name for r in self.rotations for name in r.names}
-        self.names = [c.name for c in coordinates if c.name not in turning]
-        self.scales = np.array(
-            [system.size if c.role in ("x", "y", "z") else 1.0 for c in coordinates if c.name in self.names]
-        )
-        self.angles = np.array([c.role in ANGLES for c in coordinates if c.name in self.names], dtype=bool)
+        coordinates = [c for c in system.coordinates if c.name not in turning]
+        self.names = [c.name for c in coordinates]
+        self.scales = np.array([system.size if c.role in ("x", "y", "z") else 1.0 for c in coordinates])
+        self.angles = np.array([c.role in ANGLES for c in coordinates], dtype=bool)
         self.plain = [ex.coordinate(n) for n in self.names]
         if self.timed:
             self.plain.append(ex.TIME)

@@ -11,8 +11,8 @@ From a scene to a file, in this order
     2. Shapes: a `Sketch` is made of `shapes` that bodies and particles carry. There are four kinds: a `mechanism`
        (with `joints`, the `loci` of equations and the `placed_shapes` of the scene's own picture), the set of up to
        three `coordinates`, the `directions` that brackets add, and the `constraint_graph`.
-    3. Motion: frames are the same shapes with other poses (`animation`): a sampled finite motion, or each infinitesimal
-       one on its own.
+    3. Motion: frames are the same shapes with other poses (`animation`): a sampled finite motion, a closed loop
+       (`loop_clips`), or each infinitesimal motion on its own.
     4. Paper: `paper` projects shapes and has their outlines, `layout` chooses the scale and where names stand, and
        adds title, legend, axes and notes; the marks are written as SVG or drawn by matplotlib.
 """

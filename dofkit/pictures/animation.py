@@ -12,11 +12,21 @@ import numpy as np
 
 from dofkit.base.deadline import limited
 from dofkit.base.errors import DofkitError
-from dofkit.expressions.tree import TIME, coordinate, parameter
+from dofkit.expressions.tree import TIME
 from dofkit.motion.configurations import configurations
 from dofkit.pictures.arrangement import MOVES, Arrangement, FreeMotion, displaced
-from dofkit.pictures.files import ExtraMissingError, draw_marks, figure_of, require_matplotlib, saved
-from dofkit.pictures.layout import page_of, standpoint_of
+from dofkit.pictures.files import (
+    ExtraMissingError,
+    draw_marks,
+    figure_of,
+    png_of,
+    require_matplotlib,
+    saved,
+    svg_of,
+    write_pdf,
+)
+from dofkit.pictures.layout import Standpoint, page_of, standpoint_of
+from dofkit.pictures.loop_clips import loop_clips, loop_notes, traces
 from dofkit.pictures.paper import Page
 from dofkit.pictures.player import framed, page_height, page_html
 from dofkit.pictures.shapes import Clip, Poses, Sketch
@@ -74,33 +84,16 @@ def _finite(stage: StagedScene, seen: _Seen) -> list[Clip]:
     steps = min(SHORT if several else STEPS, max(LEAST, MANY // max(1, len(stage.system.coordinates))))
     try:
         with limited(SECONDS):
-            path = configurations(stage.system, steps=steps, step=STEP, values=_near_values(stage))
+            path = configurations(stage.system, steps=steps, step=STEP, values=stage.arrangement.first_values)
     except DofkitError:
         return []
-    numbers = dict(stage.arrangement.numbers)
-    frames: list[Poses] = [
-        stage.arrangement.poses_at(
-            numbers | {TIME if n == TIME.args[1] else coordinate(n): v for n, v in configuration.items()}, gibbs=False
-        )
-        for configuration in path
-    ]
+    frames: list[Poses] = [*stage.arrangement.frames(path)]
     start = min(range(len(frames)), key=lambda k: seen.far(frames[k], stage.arrangement.poses))
     turn = _turn(seen, frames, start, stage.size)
     frames = turn or _near(seen, frames, start, FAR * stage.size)
     thinned = [frames[k] for k in np.unique(np.linspace(0, len(frames) - 1, FRAMES).astype(int))]
     name = "a finite motion that uses all freedoms" if several else "a finite motion"
     return [Clip(name, tuple(thinned[:-1] if turn else thinned), bool(turn))] if len(thinned) > 1 else []
-
-
-def _near_values(stage: StagedScene) -> dict[str, float]:
-    """Return the values of parameters, and of coordinates without a reference, at which the motion begins."""
-    system, numbers = stage.system, stage.arrangement.numbers
-    values = {p: numbers[parameter(p)] for p in system.parameters}
-    if system.reference is None:
-        turning = {n for r in system.rotations for n in r.names}
-        names = [c.name for c in system.coordinates if c.name not in turning]
-        values |= {n: numbers[coordinate(n)] for n in names if coordinate(n) in numbers}
-    return values
 
 
 def _turn(seen: _Seen, frames: Sequence[Poses], start: int, size: float) -> list[Poses]:
@@ -150,8 +143,8 @@ def _reach(arrangement: Arrangement, motion: FreeMotion, size: float) -> float:
     return min((b for b in bounds if math.isfinite(b)), default=0.0)
 
 
-#: Frames per second, and dots per inch of films.
-RATE, DOTS = 20, 100
+#: Frames per second and dots per inch of films, and the colours of a gif.
+RATE, DOTS, COLOURS = 20, 80, 40
 NO_FFMPEG = "an mp4 needs the program ffmpeg, which is not on the path: install it, or save a gif or html"
 STILL, NOT_SHOWN = "Nothing moves.", "No motion was found that could be shown."
 
@@ -180,18 +173,34 @@ class Animation:
 
     def pages(self) -> Iterator[Page]:
         """Yield every frame on paper, one motion after another; a motion that is not closed goes there and back."""
-        every = [frame for clip in self.clips for frame in clip.frames]
-        standpoint = standpoint_of(self.sketch, every)
-        if not every:
+        standpoint = self._standpoint
+        if not self.clips:
             yield page_of(self.sketch)
         for clip in self.clips:
-            sketch = replace(self.sketch, answer=f"{self.sketch.answer}; {clip.name}")
-            back = () if clip.closed else clip.frames[-2:0:-1]
-            for frame in (*clip.frames, *back):
-                yield page_of(sketch, frame, standpoint)
+            last = len(clip.frames) - 1
+            back = () if clip.closed or clip.loop else range(last - 1, 0, -1)
+            for number in (*range(last + 1), *back):
+                yield self._page(clip, number, standpoint, traced=clip.loop)
+
+    @property
+    def last_page(self) -> Page:
+        """The end of the first motion, in its largest size, on paper, with the paths that lead there."""
+        if not self.clips:
+            return page_of(self.sketch)
+        clip = [clip for clip in self.clips if clip.name == self.clips[0].name][-1]
+        return self._page(clip, len(clip.frames) - 1, self._standpoint, traced=True)
+
+    @property
+    def _standpoint(self) -> Standpoint:
+        return standpoint_of(self.sketch, [frame for clip in self.clips for frame in clip.frames])
+
+    def _page(self, clip: Clip, number: int, standpoint: Standpoint, *, traced: bool) -> Page:
+        drawn = (*self.sketch.shapes, *(traces(self.sketch, clip, number) if traced else ()))
+        sketch = replace(self.sketch, answer=f"{self.sketch.answer}; {clip.text or clip.name}", shapes=drawn)
+        return page_of(sketch, clip.frames[number], standpoint)
 
     def save(self, path: str | Path) -> Path:
-        """Write it as html, gif or mp4, by the path's ending.
+        """Write it as html, gif or mp4, or its end as svg, png or pdf, by the path's ending.
 
         Raises ArgumentError for any other ending, ExtraMissingError if matplotlib or ffmpeg is missing, OSError.
         """
@@ -201,34 +210,44 @@ class Animation:
         return framed(self.html(), page_height(self.sketch, self.clips))
 
 
-def animate(scene: SceneLike, report: Report | None = None) -> Animation:
+def animate(scene: SceneLike, report: Report | None = None, *, loop: bool = False) -> Animation:
     """Return a moving picture of a scene: a finite motion, or each instantaneous freedom on its own.
 
     Parameters
     ----------
     scene, report
         As for `draw`.
+    loop
+        Whether free coordinates go round a closed loop instead, in pairs: non-holonomic constraints let the others end
+        displaced, by about what the bracket of the two directions predicts.
 
     Returns
     -------
     Animation
-        Shown by a notebook with a slider; ``save(path)`` writes html, gif or mp4. A scene that cannot move gives a
-        still picture that says so.
+        Shown by a notebook with a slider; ``save(path)`` writes html, gif or mp4, and svg, png or pdf of its end. A
+        scene that cannot move gives a still picture that says so.
 
     Raises
     ------
     SceneError, ArgumentError, ExtraMissingError
         As for `draw`.
+    NoMotionError
+        If there is no loop: with one free velocity, or if time occurs.
 
     Examples
     --------
     >>> import dofkit
     >>> len(dofkit.animate("four-bar-linkage").clips)
     1
+    >>> print(dofkit.animate("disc-rolling-on-plane", loop=True).clips[0].text)
+    theta and phi return; displaced are x by -0.191 (bracket: -0.192) and y by -0.0387 (bracket: -0.039).
     """
     loaded, report = with_report(scene, report)
     stage = staged(loaded, report)
     sketch = whole_sketch(stage)[0]
+    if loop:
+        notes = (*loop_notes(report), *sketch.notes)
+        return Animation(replace(sketch, notes=notes), tuple(loop_clips(stage)))
     clips = tuple(clips_of(stage, sketch))
     immobile = (report.velocity_dof == 0 and report.scleronomic) or not can_hold(report)
     notes = sketch.notes if clips else (*sketch.notes, STILL if immobile else NOT_SHOWN)
@@ -250,8 +269,14 @@ def _write_film(animation: Animation, path: Path, writer: Any) -> None:
 def _write_gif(animation: Animation, path: Path) -> None:
     require_matplotlib("a gif")
     from matplotlib.animation import PillowWriter
+    from PIL import Image, ImageSequence
 
     _write_film(animation, path, PillowWriter(fps=RATE))
+    with Image.open(path) as film:
+        pictures = [frame.convert("RGB") for frame in ImageSequence.Iterator(film)]
+    palette = pictures[-1].quantize(COLOURS)
+    frames = [picture.quantize(palette=palette, dither=Image.Dither.NONE) for picture in pictures]
+    frames[0].save(path, save_all=True, append_images=frames[1:], duration=1000 // RATE, loop=0, optimize=True)
 
 
 def _write_mp4(animation: Animation, path: Path) -> None:
@@ -269,4 +294,7 @@ _WRITERS: Mapping[str, Callable[[Animation, Path], object]] = {
     "html": lambda animation, path: path.write_text(animation.html(), encoding="utf-8"),
     "gif": _write_gif,
     "mp4": _write_mp4,
+    "svg": lambda animation, path: path.write_text(svg_of(animation.last_page), encoding="utf-8"),
+    "png": lambda animation, path: path.write_bytes(png_of(animation.last_page)),
+    "pdf": lambda animation, path: write_pdf(animation.last_page, path),
 }

@@ -6,7 +6,7 @@ The positions are those of the reference configuration, or some that satisfy the
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import combinations, pairwise
@@ -58,6 +58,22 @@ class Arrangement:
         if moving and gibbs:
             numbers = {**numbers, **_euler_values(self.system, poses, numbers)}
         return poses | {name: placement.pose(numbers) for name, placement in moving.items()}
+
+    def frames(self, path: Iterable[Mapping[str, float]]) -> list[dict[str, Displacement]]:
+        """Return where every carrier is at some configurations, which have the Euler angles of bodies in space."""
+        numbers = dict(self.numbers)
+        moved = ({TIME if n == TIME.args[1] else coordinate(n): v for n, v in q.items()} for q in path)
+        return [self.poses_at(numbers | symbols, gibbs=False) for symbols in moved]
+
+    @property
+    def first_values(self) -> dict[str, float]:
+        """The values of parameters, and of coordinates without a reference, at which a motion begins."""
+        values = {p: self.numbers[parameter(p)] for p in self.system.parameters}
+        if self.system.reference is None:
+            turning = {n for r in self.system.rotations for n in r.names}
+            names = [c.name for c in self.system.coordinates if c.name not in turning]
+            values |= {n: self.numbers[coordinate(n)] for n in names if coordinate(n) in self.numbers}
+        return values
 
     def number(self, e: Expr) -> float:
         """Return the value of an expression."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -19,7 +19,7 @@ from dofkit.system import GROUND, System
 #: How far a hull reaches beyond its points, how long a stub is and the sides of a free body; in symbols.
 PAD, THIN, STUB, FREE = 0.85, 0.45, 6.0, (3.0, 1.8, 1.2)
 #: More particles, and more named constraints, than this have no names; so many equations stand below.
-MOST_PARTICLES, MOST_NAMES, MOST_TEXTS = 60, 24, 4
+MOST_PARTICLES, MOST_NAMES, MOST_TEXTS, MOST_TRACED = 60, 24, 4, 8
 _WEIGHT: tuple[State, ...] = ("plain", "moving", "redundant", "conflicting")
 FREE_PLACES = "Schematic: the scene gives no positions of its joints."
 
@@ -49,6 +49,19 @@ def sketch_of(stage: StagedScene) -> Sketch:
         notes=tuple(notes_of(stage)),
         meanings=stage.meanings,
         measurable=stage.measurable,
+        traced=tuple(_traced(stage, shapes)),
+    )
+
+
+def _traced(stage: StagedScene, shapes: Sequence[Shape]) -> Iterator[Vertex]:
+    """Yield the vertices whose paths can be shown: particles, dots and balls; else the origins of bodies, or discs."""
+    dots = [s.vertices[0] for s in shapes if s.kind == "ball" and s.vertices[0].at == (0.0, 0.0, 0.0)]
+    dots = [v for v in dots if v.carrier != GROUND]
+    frames = [v for s in shapes if s.role == "body" for v in s.vertices if v.carrier not in stage.system.bodies]
+    origins = [Vertex(v.carrier, (0.0, 0.0, 0.0)) for v in frames if v.carrier != GROUND]
+    corners = [v for s in shapes if s.kind == "hull" for v in s.vertices]
+    yield from dict.fromkeys(
+        (dots or origins or corners or [stage.origin(b) for b in stage.system.bodies])[:MOST_TRACED]
     )
 
 

@@ -103,6 +103,30 @@
     return found;
   }
 
+  /* A line with a head at its end. */
+  function arrow(a, b, head) {
+    const x = b[0] - a[0], y = b[1] - a[1], back = Math.min(head / (Math.hypot(x, y) || 1), 0.5);
+    const foot = [b[0] - back * x, b[1] - back * y], side = [0.45 * back * y, -0.45 * back * x];
+    trace([a, b, [foot[0] + side[0], foot[1] + side[1]], b, [foot[0] - side[0], foot[1] - side[1]]], false);
+  }
+
+  /* Paths of vertices: of a loop as far as it has gone, with the displacement at its end as an arrow. */
+  function drawPaths(view) {
+    const clip = data.clips[state.clip];
+    if (!clip || !(paths.checked || clip.loop)) { return; }
+    const until = clip.loop ? state.frame + 1 : clip.frames.length;
+    for (const vertex of data.traced) {
+      const path = clip.frames.slice(0, until).map(function (here) { return seen(vertex, here, view); });
+      trace(path, false);
+      paint(["#CC79A7", 1.3, [], null], false);
+      const end = path[path.length - 1];
+      if (clip.loop && until === clip.frames.length && Math.hypot(end[0] - path[0][0], end[1] - path[0][1]) > 1) {
+        arrow(path[0], end, 8);
+        paint(["#D55E00", 2, [], null], false);
+      }
+    }
+  }
+
   function trace(points, closed) {
     pen.beginPath();
     points.forEach(function (p, k) { if (k) { pen.lineTo(p[0], p[1]); } else { pen.moveTo(p[0], p[1]); } });
@@ -134,6 +158,9 @@
       paint(look, true);
     } else if (shape.k === "coil") {
       trace(coil(points[0], points[1], shape.s * data.scale), false);
+      paint(look, false);
+    } else if (shape.k === "arrow") {
+      arrow(points[0], points[1], shape.s * data.scale);
       paint(look, false);
     } else if (shape.k === "bow") {
       trace(bow(points[0], points[1], shape.s), false);
@@ -198,6 +225,7 @@
     });
     parts.sort(function (a, b) { return a.layer - b.layer || a.near - b.near || a.order - b.order; });
     for (const part of parts) { if (part.shape.k !== "words") { drawShape(part.shape, part.points); } }
+    drawPaths(view);
     if (data.axes.length) { drawAxes(view); }
     if (data.ruler) { pen.font = "7px system-ui, sans-serif"; drawRuler(); }
     for (const part of parts) {
@@ -209,21 +237,38 @@
   }
 
   const play = document.getElementById("play"), slider = document.getElementById("slider");
-  const chooser = document.getElementById("clip");
-  let way = 1, last = 0;
+  const chooser = document.getElementById("clip"), size = document.getElementById("size");
+  const paths = document.getElementById("paths"), speed = document.getElementById("speed");
+  const names = Array.from(new Set(data.clips.map(function (clip) { return clip.name; })));
+  let way = 1, last = 0, rest = 0;
 
-  function choose(number) {
-    state.clip = number;
+  /* The clips of a name, which differ by their size. */
+  function sizes(name) { return data.clips.filter(function (clip) { return clip.name === name; }); }
+
+  function choose(clip) {
+    state.clip = data.clips.indexOf(clip);
     state.frame = 0;
     way = 1;
-    slider.max = String(data.clips[number].frames.length - 1);
+    slider.max = String(clip.frames.length - 1);
     slider.value = "0";
+    document.getElementById("seen").textContent = clip.text || "";
     draw();
+  }
+
+  function chooseName() {
+    const group = sizes(chooser.value);
+    size.max = String(group.length - 1);
+    size.value = size.max;
+    document.getElementById("sizing").hidden = group.length < 2;
+    choose(group[group.length - 1]);
   }
 
   function advance() {
     const clip = data.clips[state.clip], count = clip.frames.length;
-    if (clip.closed) {
+    if (clip.loop && state.frame === count - 1) {
+      rest = (rest + 1) % 30;
+      if (!rest) { state.frame = 0; }
+    } else if (clip.closed || clip.loop) {
       state.frame = (state.frame + 1) % count;
     } else if (count > 1) {
       if (state.frame + way < 0 || state.frame + way >= count) { way = -way; }
@@ -235,7 +280,7 @@
 
   function tick(time) {
     if (!state.playing) { return; }
-    if (time - last > 40) { last = time; advance(); }
+    if (time - last > 40 / Number(speed.value)) { last = time; advance(); }
     window.requestAnimationFrame(tick);
   }
 
@@ -247,12 +292,15 @@
 
   if (data.clips.length) {
     document.querySelector(".controls").hidden = false;
-    data.clips.forEach(function (clip, k) { chooser.add(new Option(clip.name, String(k))); });
-    chooser.hidden = data.clips.length < 2;
+    names.forEach(function (name) { chooser.add(new Option(name)); });
+    chooser.hidden = names.length < 2;
+    document.getElementById("pathing").hidden = !data.traced.length || Boolean(data.clips[0].loop);
+    paths.addEventListener("change", draw);
+    size.addEventListener("input", function () { choose(sizes(chooser.value)[Number(size.value)]); });
     play.addEventListener("click", function () { setPlaying(!state.playing); });
     slider.addEventListener("input", function () { setPlaying(false); state.frame = Number(slider.value); draw(); });
-    chooser.addEventListener("change", function () { choose(Number(chooser.value)); });
-    choose(0);
+    chooser.addEventListener("change", chooseName);
+    chooseName();
   }
 
   if (solid) {

@@ -64,6 +64,7 @@ def page_height(sketch: Sketch, clips: Sequence[Clip]) -> float:
         *(1 + len(note) // 95 for note in _notes(sketch)),
     ]
     lines.append(bool(keys_of(sketch.shapes, sketch.meanings)) + 2 * bool(clips))
+    lines.append(max((1 + len(clip.text) // 85 for clip in clips if clip.text), default=0))
     return panel + LINE * sum(lines) + 4 * EDGE
 
 
@@ -93,11 +94,13 @@ def player_data(sketch: Sketch, clips: Sequence[Clip]) -> dict[str, Any]:
         "dark": dict(ON_DARK),
         "looks": [[k.line, k.width, list(k.dash), k.fill, k.dense, k.hatch, k.layer] for k in looks],
         "names": name_size(sketch),
+        "traced": [[carriers.index(v.carrier), *_rounded(v.at)] for v in sketch.traced if v.carrier in carriers],
         "still": _pose_rows(sketch, carriers, sketch.poses),
         "clips": [
             {
                 "name": clip.name,
                 "closed": clip.closed,
+                **({"size": clip.size, "text": clip.text, "loop": True} if clip.loop else {}),
                 "frames": [_pose_rows(sketch, carriers, frame) for frame in clip.frames],
             }
             for clip in clips

@@ -24,7 +24,7 @@ Kind = Literal["line", "area", "hull", "ball", "coil", "bow", "arrow", "words"]
 #: What a shape is part of.
 Role = Literal[
     "body", "joint", "guide", "bar", "rope", "ground", "hatch", "axis", "locus", "trace", "tie", "force", "point",
-    "name", "field", "bracket", "further", "surface", "mesh", "arrow", "node", "plane",
+    "name", "field", "bracket", "further", "surface", "mesh", "arrow", "node", "plane", "ghost",
 ]  # fmt: skip
 #: What the report says of it.
 State = Literal["plain", "moving", "redundant", "conflicting"]
@@ -72,11 +72,18 @@ Poses = Mapping[str, Displacement]
 
 
 class Clip(NamedTuple):
-    """A motion: the poses of everything, frame by frame; ``closed`` if the first follows the last."""
+    """A motion: the poses of everything, frame by frame; ``closed`` if the first follows the last.
+
+    Clips of the same name differ by their ``size``. ``text`` says what is to be seen; ``loop``: the motion is a loop
+    of some coordinates, at whose end the others may be displaced.
+    """
 
     name: str
     frames: tuple[Poses, ...]
     closed: bool = False
+    size: float = 0.0
+    text: str = ""
+    loop: bool = False
 
 
 @dataclass(frozen=True)
@@ -85,7 +92,8 @@ class Sketch:
 
     ``dimension`` of the world drawn; ``poses`` of what carries its shapes; ``size``: its extent; ``notes`` stand below
     it; ``alternative`` describes it in words. ``axes``: names of the three directions; ``measurable``: whether lengths
-    mean something. ``meanings``: what the legend says of states (None: there is no legend).
+    mean something. ``meanings``: what the legend says of states (None: there is no legend). ``traced``: the vertices
+    whose paths can be shown.
     """
 
     title: str
@@ -99,6 +107,7 @@ class Sketch:
     axes: tuple[str, ...] = ("x", "y", "z")
     measurable: bool = False
     meanings: Mapping[State, str] | None = field(default_factory=dict)
+    traced: tuple[Vertex, ...] = ()
 
     def at(self, vertex: Vertex, poses: Poses | None = None) -> Array:
         """Return where a vertex is."""
@@ -174,6 +183,7 @@ _PLAIN: Mapping[Role, Ink] = {
     "locus": Ink(GREEN, 1.8, layer=2),
     "surface": Ink("#8CCDB9", 0.7, layer=1),
     "mesh": Ink("#8CCDB9", 0.7, layer=1),
+    "ghost": Ink("#8A8A8A", 0.9, (3.0, 2.0), layer=1),
     "arrow": Ink(VERMILLION, 1.6, layer=8),
     "plane": Ink("#8A8A8A", 0.8, fill="#F1F1F1", layer=0),
     "node": Ink(INK, 0.8, fill="#333333", layer=7),

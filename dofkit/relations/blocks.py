@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Hashable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -144,23 +144,6 @@ def is_measured(block: Block, setting: Setting) -> bool:
     placed = {c.name for c in setting.roles if c.owner and ex.coordinate(c.name) in setting.pose and
               (setting.reference is not None or c.owner not in bodies)}  # fmt: skip
     return not placed.isdisjoint(block.coordinates)
-
-
-def with_rows(rows: Sequence[Row], constants: Mapping[str, Row]) -> list[Row]:
-    """The rows and, for every constant of integration C that they mention, dC = 0."""
-    mentioned = frozenset().union(*(coordinates_of(r.piece) for r in rows)) if constants else frozenset[str]()
-    return [*rows, *(row for c, row in constants.items() if c in mentioned)]
-
-
-def names_in(rows: Sequence[Row], constants: Mapping[str, Row]) -> list[str]:
-    """The constants of integration whose dC = 0 is among the rows."""
-    kept = {id(row.piece) for row in rows} if constants else set()
-    return [c for c, row in constants.items() if id(row.piece) in kept]
-
-
-def about_constants(g: Expr, constants: Sequence[str]) -> bool:
-    """Return whether a relation is one between constants of integration only."""
-    return all(s.args[0] == "parameter" or s.args[1] in constants for s in g.symbols)
 
 
 def given_by(relations: Iterable[Expr], wanted: Sequence[Expr] | None = None) -> dict[Expr, Expr]:

@@ -10,6 +10,7 @@ from flint import fmpq, fmpq_mat
 
 from dofkit.exact.points.frames import pivots
 from dofkit.expressions import tree as ex
+from dofkit.expressions.terms import number_and_rest
 from dofkit.expressions.tree import Expr
 
 #: Entries of a matrix that is looked at; past that the relations are taken as they are.
@@ -22,11 +23,7 @@ def linear(e: Expr) -> Terms | None:
     """``e`` as a sum of numbers times symbols (`ONE` for the constant); None where it is not one."""
     terms: Terms = {}
     for term in e.args if e.op == "add" else (e,):
-        factor, remainder = Fraction(1), term
-        if term.op == "num":
-            factor, remainder = term.args[0], ex.ONE
-        elif term.op == "mul" and len(term.args) == 2 and term.args[0].op == "num":
-            factor, remainder = term.args[0].args[0], term.args[1]
+        factor, remainder = (term.args[0], ex.ONE) if term.op == "num" else number_and_rest(term)
         if remainder.op != "sym" and remainder != ex.ONE:
             return None
         terms[remainder] = terms.get(remainder, Fraction(0)) + factor

@@ -6,7 +6,7 @@ from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from fractions import Fraction
 
 from dofkit.base.errors import Fault, TextError
-from dofkit.expressions.calculus import in_velocities, linear_in_accelerations
+from dofkit.expressions.calculus import in_velocities, refuse_accelerations
 from dofkit.expressions.renaming import Template
 from dofkit.expressions.text import Names, parse_expression, parse_relations
 from dofkit.expressions.text.names import pattern_of
@@ -90,7 +90,7 @@ class ParsedTexts:
     def equations(self, text: str) -> list[Relation]:
         """Return the relations of a text that may mention anything.
 
-        Raises TextError for what cannot be read, and for second derivatives and differentials without a meaning.
+        Raises TextError for what cannot be read, for second derivatives, and for differentials without a meaning.
         """
         pattern = pattern_of(text, self.names.lookup)
         earlier = None if pattern is None else self._patterns.get(pattern.key)
@@ -99,7 +99,7 @@ class ParsedTexts:
             return [template.of(names) for template in earlier[1]]
         relations = _equations(text, self.names)
         for relation in relations:
-            linear_in_accelerations(relation.expr, relation.sense)
+            refuse_accelerations(relation.expr)
             in_velocities(relation.expr)
         if pattern is not None:
             self._patterns[pattern.key] = pattern.names, [_RelationTemplate(relation) for relation in relations]

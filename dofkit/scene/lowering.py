@@ -145,7 +145,8 @@ def _check_other_sections(scene: Scene, world: World, vocabulary: Vocabulary) ->
     texts = Texts(vocabulary.texts, (), world.faults)
     _check_masses(scene, texts)
     _check_energies(scene, texts, [q.name for q in vocabulary.table.coordinates])
-    picture_of(scene, vocabulary, world.faults)
+    if scene.picture:
+        picture_of(scene, vocabulary, world.faults)
     world.faults += _expect_faults(scene)
 
 

@@ -226,14 +226,14 @@ class _ShapeReader(Texts):
             shape.name,
             tuple(places),
             None if shape.axis is None else self._place(shape.axis, "axis"),
-            self._one("heading"),
-            self._one("turn"),
-            self._one("radius"),
+            self._scalar("heading"),
+            self._scalar("turn"),
+            self._scalar("radius"),
             tuple(self.expression(part, "size") for part in size if not isinstance(part, tuple)),
             tuple((parameter(name), low, high) for name, (low, high) in self.ends.items()),
         )
 
-    def _one(self, key: str) -> Expr | None:
+    def _scalar(self, key: str) -> Expr | None:
         value = getattr(self.shape, key)
         return None if value is None else self.expression(value, key)
 

@@ -11,7 +11,8 @@ from collections.abc import Mapping
 from functools import cache
 from typing import Any, NamedTuple
 
-from dofkit.expressions.text.characters import GREEK_LETTERS, SUBSCRIPTS, without_latex
+from dofkit.expressions.text.characters import GREEK_LETTERS, SUBSCRIPTS
+from dofkit.expressions.text.tokens import without_latex
 from dofkit.scene.constraints import TYPES
 from dofkit.scene.constraints.base import Equation
 

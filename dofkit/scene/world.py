@@ -209,6 +209,12 @@ class World(Texts):
         self.mentioned.points.append(DrawnPoint(GROUND, at))
         return self.ground.point(at, show_point(point))
 
+    def is_apart(self, point: Placed, frame: Frame, *where: str | int) -> bool:
+        """Return whether a point is none of the body itself; else record a fault."""
+        if point.frame == frame.name:
+            self.fault(f"the point is a point of {frame.name} itself", *where, hint="name a point of something else")
+        return point.frame != frame.name
+
     def apart(self, first: Placed, second: Placed, squared: Expr, at_most: bool = False) -> None:
         """Note that two points have a squared distance, or at most that; one that moves or is generic is not noted."""
         if any(s.args[0] != "parameter" or s.args[1].startswith("_") for s in squared.symbols):

@@ -16,7 +16,7 @@ from pydantic import BaseModel
 from dofkit.base.wording import series
 from dofkit.classification.arguments import TABLE
 from dofkit.expressions.text.printing import to_text
-from dofkit.homework.key.misconceptions import CODES
+from dofkit.homework.sentences import meanings
 from dofkit.interface.cli import app
 from dofkit.interface.explanations import all_explanations
 from dofkit.interface.show.assurance import VERDICT_MEANS
@@ -226,7 +226,7 @@ def _tables() -> Iterator[str]:
     yield _arguments()
     yield "## Feedback codes"
     yield "Every mistake in homework that dofkit recognizes has a code, so that it can be counted over a class."
-    yield table(("code", "meaning"), [(code(name), prose(meaning)) for name, meaning in CODES.items()])
+    yield table(("code", "meaning"), [(code(name), prose(meaning)) for name, meaning in meanings().items()])
 
 
 def _fields(model: type[BaseModel]) -> str:

@@ -46,7 +46,7 @@ RAN = Ran(
 def ran(methods: Sequence[str], limit: float = 0.3) -> list[TrialLine]:
     """The trials of the family by these methods, in two workers."""
     with Pool(2, modules=("dofkit.benchmark.runner", "shared.chart_methods")) as pool:
-        bench = runner.Bench(pool, pool.run, limit, "shared.chart_methods:answered")
+        bench = runner.Bench(pool, limit, "shared.chart_methods:answered")
         return list(runner.run(tasks.trial_tasks(chart_methods.family(False), methods), bench))
 
 
@@ -66,11 +66,11 @@ def test_every_trial_has_its_line_whatever_the_method_does() -> None:
     assert found["hangs"] == {(1, "right"), (2, "right"), (4, "timed out"), (8, "timed out")}
     why = {(line.method, line.size): line.why for line in lines}
     assert why["right", 1] == ""
-    assert why["wrong", 1] == "wrong does not answer this."
+    assert why["wrong", 1] == "Wrong does not answer this."
     assert why["raises", 8] == "It failed: KeyError: 'x'."
     assert "SIGSEGV" in why["crashes", 2]
-    assert why["hangs", 4] == "hangs does not answer this."
-    assert why["hangs", 8].startswith("timed out at a smaller size: ")
+    assert why["hangs", 4] == "Not done after 0.3 s."
+    assert why["hangs", 8].startswith("Timed out at a smaller size.")
     assert all(line.seconds == 0.3 for line in lines if line.outcome == "timed out")
     assert all(line.seconds < 0.1 for line in lines if line.outcome in ("right", "wrong", "cannot"))
 
@@ -215,7 +215,7 @@ def line(trial: str, method: str, outcome: Outcome, seconds: float, size: int = 
     """A line about a family of boxes."""
     told = {"right": 2, "wrong": 3}.get(outcome)
     why = "" if outcome == "right" else 'because, he said, "no"; θ'
-    return TrialLine("boxes", trial, "dof", method, size, ("large",), {"gap": "1/9"}, 2, told, outcome, seconds, why)
+    return TrialLine("boxes", trial, "dof", method, size, {"gap": "1/9"}, 2, told, outcome, seconds, why)
 
 
 LINES = [
@@ -284,8 +284,8 @@ def test_what_is_written_is_read_back(tmp_path: Path) -> None:
     assert back == DATA
     assert summary(back) == chart
     header, first = (tmp_path / "trials.csv").read_text(encoding="utf-8").splitlines()[:2]
-    assert header.startswith("family,trial,question,method,size,traits,swept,truth,answer,outcome,seconds,why")
-    assert first.startswith('boxes,b1,dof,auto,1,"[""large""]"')
+    assert header.startswith("family,trial,question,method,size,swept,truth,answer,outcome,seconds,why")
+    assert first.startswith('boxes,b1,dof,auto,1,"{""gap""')
     schema = json.loads(CliRunner().invoke(app, ["schema", "chart"]).output)
     assert set(schema["properties"]) == set(json.loads((tmp_path / "chart.json").read_text(encoding="utf-8")))
     (tmp_path / "chart.json").write_text(json.dumps({"ran": 1}))

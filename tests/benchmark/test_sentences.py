@@ -33,17 +33,17 @@ SWEEPS = [
 
 
 def test_sentences_by_hand() -> None:
-    told = sentences(summary(replace(DATA, sweeps=SWEEPS)))
-    assert told["trials"].endswith("of the answers of `auto` none is wrong and 0 % are undecided.")
-    assert told["count"] == "`count` is wrong on 25 % and undecided on 50 %."
-    assert told["tolerance"] == (
+    texts = sentences(summary(replace(DATA, sweeps=SWEEPS)))
+    assert texts["trials"].endswith("of the answers of `auto` none is wrong and 0 % are undecided.")
+    assert texts["count"] == "`count` is wrong on 25 % and undecided on 50 %."
+    assert texts["tolerance"] == (
         "With the tolerance equal to the rounding dofkit finds what was rounded in 75 % of the trials and is wrong in "
         "0 %; singular values with that tolerance find it in 25 %, and with the best one for all scenes in 50 %."
     )
-    assert told["bits"] == (
+    assert texts["bits"] == (
         "`balls` on its own is never wrong from 32 bits for a gap of 10^-3 and from 64 bits for a gap of 10^-6 on."
     )
-    assert "cost" not in told
+    assert "cost" not in texts
 
 
 def test_every_family_has_its_heading_and_says_what_it_is() -> None:

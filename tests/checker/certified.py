@@ -19,7 +19,7 @@ def certificate(document: Mapping[str, Any], claims: list[Parts], **parts: Any) 
 
 def faults(document: Mapping[str, Any], claims: list[Parts], **parts: Any) -> dict[str, str]:
     """The claims that fail, and why."""
-    found = verify(document, certificate(document, claims, **parts))
-    assert found.claims == len(claims)
-    assert found.verified == len(claims) - len(found.failed)
-    return {one["path"]: one["why"] for one in found.failed}
+    verification = verify(document, certificate(document, claims, **parts))
+    assert verification.claims == len(claims)
+    assert verification.verified == len(claims) - len(verification.failed)
+    return {one["path"]: one["why"] for one in verification.failed}

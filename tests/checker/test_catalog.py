@@ -31,11 +31,11 @@ def _shown(path: Path) -> tuple[int, set[str]]:
     """How many proved claims verify, and what is uncovered; none fails, and nothing contradicts the report."""
     document, report = document_of_scene(scene_of(path)), report_of(path)
     certificate, contradicted = made(document, report)
-    found = verify(document, json.loads(json.dumps(certificate)))
+    verification = verify(document, json.loads(json.dumps(certificate)))
     assert not contradicted
-    assert not found.failed
+    assert not verification.failed
     probable = {f"/{field}" for field, told in report.verdicts.items() if told.verdict != "proved"}
-    return sum(claim["path"] not in probable for claim in certificate["claims"]), set(found.uncovered)
+    return sum(claim["path"] not in probable for claim in certificate["claims"]), set(verification.uncovered)
 
 
 def test_a_number_that_is_probable_is_shown_by_a_family() -> None:
@@ -87,6 +87,6 @@ def test_hyphens_of_particles_and_bodies() -> None:
     report = dofkit.classify(scene, certificate=True)
     assert report.certificate is not None
     assert report.dof == 2
-    found = dofkit.verify(scene, report.certificate)
-    assert found.verified > 0
-    assert not found.failed
+    verification = dofkit.verify(scene, report.certificate)
+    assert verification.verified > 0
+    assert not verification.failed

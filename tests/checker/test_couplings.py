@@ -69,6 +69,6 @@ def test_a_type_that_is_not_known_is_told() -> None:
     document = {"coordinates": ["x"], "constraints": [{"name": "odd", "type": "revolut"}, "x = 0"]}
     assert read_problem(document).world.unread == ["odd"]
     claims = [{"path": f"/constraints/{name}/holonomic", "value": True, "rule": "finite"} for name in ("odd", "c2")]
-    found = verify(document, certificate(document, claims, uncovered=["/dof"]))
-    assert (found.claims, found.verified, found.failed) == (2, 0, [])
-    assert found.uncovered == ["/dof", *(one["path"] for one in claims)]
+    verification = verify(document, certificate(document, claims, uncovered=["/dof"]))
+    assert (verification.claims, verification.verified, verification.failed) == (2, 0, [])
+    assert verification.uncovered == ["/dof", *(one["path"] for one in claims)]

@@ -14,7 +14,7 @@ from shared.tampering import accepted, asserted, edited, renewed, tampered, untr
 
 import dofkit
 from dofkit.checker import CheckError, verify
-from dofkit.methods.certificates.certificate import certificate_of
+from dofkit.methods.certificates.certificate import made
 from dofkit.methods.certificates.lowering import document_of_scene
 
 #: How many mutations and edits a scene has.
@@ -25,7 +25,7 @@ MUTATIONS, EDITS = 30, 3
 def certified(path: Path) -> tuple[dict[str, Any], dict[str, Any], dict[str, Any]]:
     """A scene's document, its report and its certificate, all as JSON."""
     document, report = document_of_scene(scene_of(path)), report_of(path)
-    certificate = certificate_of(document, report)
+    certificate = made(document, report)[0]
     return document, report.model_dump(mode="json"), json.loads(json.dumps(certificate))
 
 
@@ -53,10 +53,10 @@ def test_of_an_edited_scene_only_what_is_still_true_is_verified(path: Path) -> N
         done, scene = change
         try:
             report = dofkit.classify(scene).model_dump(mode="json")
-            found = verify(scene, renewed(certificate, scene))
+            verification = verify(scene, renewed(certificate, scene))
         except (dofkit.SceneError, CheckError):
             continue
-        assert not untrue(asserted(certificate, found), report), done
+        assert not untrue(asserted(certificate, verification), report), done
 
 
 @pytest.mark.parametrize("path", few("edited scenes, unsaid", CATALOG, 40), ids=stem)

@@ -22,7 +22,7 @@ from shared.known_scenes import CATALOG, SCENES, report_of, scene_of, stem, swep
 from shared.tampering import edited, renewed, tampered
 
 from dofkit.checker import CheckError, verify
-from dofkit.methods.certificates.certificate import certificate_of
+from dofkit.methods.certificates.certificate import made
 from dofkit.methods.certificates.lowering import document_of_scene
 
 NODE = shutil.which("node")
@@ -45,7 +45,7 @@ Case = tuple[dict[str, Any], dict[str, Any]]
 def certified(path: Path) -> Case:
     """Return a scene's document and its certificate, as JSON."""
     document = document_of_scene(scene_of(path))
-    return document, json.loads(json.dumps(certificate_of(document, report_of(path))))
+    return document, json.loads(json.dumps(made(document, report_of(path))[0]))
 
 
 def changed(document: dict[str, Any], certificate: dict[str, Any], rng: random.Random) -> Iterator[Case]:
@@ -65,10 +65,10 @@ def first(case: Case) -> list[str]:
     document, certificate = case
     paths = [str(claim.get("path")) for claim in certificate["claims"]]
     try:
-        found = verify(document, certificate)
+        verification = verify(document, certificate)
     except CheckError:
         return ["refused"] * len(paths)
-    failed = [one["path"] for one in found.failed]
+    failed = [one["path"] for one in verification.failed]
     twice = {path for path in paths if paths.count(path) > 1}
     return ["unclear" if path in twice else "refused" if path in failed else "accepted" for path in paths]
 

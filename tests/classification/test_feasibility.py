@@ -112,7 +112,7 @@ HARD = [
 ]
 
 
-@pytest.mark.parametrize(("texts", "truth", "why"), spread(HARD, 2, several=True), ids=[row[0] for row in HARD])
+@pytest.mark.parametrize(("texts", "truth", "why"), spread(HARD, several=True), ids=[row[0] for row in HARD])
 def test_what_is_hard_is_right_or_open(texts: str, truth: bool, why: str) -> None:
     report = classified(texts)
     assert report.feasible in (truth, None), why

@@ -247,7 +247,7 @@ def test_what_is_too_flat_is_left_open(scene: Scene, dof: int, instantaneous: in
 def test_surfaces_that_nearly_touch_are_not_taken_to_touch(gap: str) -> None:
     """A plane at the height 1 - gap meets the unit sphere in a circle (dof 1), and misses it above the height 1."""
     sphere = "x^2 + y^2 + z^2 = 1"
-    told = dofkit.classify({"coordinates": ["x", "y", "z"], "constraints": [sphere, f"z = 1 - {gap}"]})
-    assert told.dof in (1, None)
+    report = dofkit.classify({"coordinates": ["x", "y", "z"], "constraints": [sphere, f"z = 1 - {gap}"]})
+    assert report.dof in (1, None)
     missed = dofkit.classify({"coordinates": ["x", "y", "z"], "constraints": [sphere, f"z = 1 + {gap}"]})
     assert missed.consistent is not True

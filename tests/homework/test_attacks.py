@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 import sympy as sp
+from shared.known_scenes import spread
 
 import dofkit
 from dofkit.homework import hand_in
@@ -58,12 +59,15 @@ def test_a_guests_folder_cannot_submit_for_somebody_in_the_roster(tmp_path: Path
 
 @pytest.mark.parametrize(
     "files",
-    [
-        {"a.yaml": "student: ada@x\n" + RIGHT, "b.yaml": "student: ada@x\n" + WRONG},
-        {"ADA@X.json": '{"answers": {"p": {"f": 1}}}', "ada@x.json": '{"answers": {"p": {"f": 2}}}'},
-        {"form.csv": "Email,p.f\nada@x,1\nada@x,2\n"},
-        {"form.csv": "Timestamp,Email Address,p.f How many?\n2026-01-01 10:00,ada@x,1\n2026-01-02 10:00,Ada@x,2\n"},
-    ],
+    spread(
+        [
+            {"a.yaml": "student: ada@x\n" + RIGHT, "b.yaml": "student: ada@x\n" + WRONG},
+            {"ADA@X.json": '{"answers": {"p": {"f": 1}}}', "ada@x.json": '{"answers": {"p": {"f": 2}}}'},
+            {"form.csv": "Email,p.f\nada@x,1\nada@x,2\n"},
+            {"form.csv": "Timestamp,Email Address,p.f How many?\n2026-01-01 10:00,ada@x,1\n2026-01-02 10:00,Ada@x,2\n"},
+        ],
+        2,
+    ),
 )
 def test_a_second_submission_is_an_error_and_leaves_the_first_in_doubt(files: dict[str, str], tmp_path: Path) -> None:
     assert told(graded(tmp_path, files)) == [("ada@x", 1.0, True, False), ("ada@x", None, False, True)]
@@ -76,19 +80,23 @@ def test_the_same_submission_twice_counts_once(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     ("name", "roster", "doubts"),
-    [
-        ("\u0430da@x", True, [False, True]),  # a Cyrillic letter
-        ("ada@x\u200b", True, [False, True]),
-        ("\u0430da@x", False, [True, True]),
-        ("eda@x", True, [False, False]),
-    ],
+    spread(
+        [
+            ("\u0430da@x", True, [False, True]),  # a Cyrillic letter
+            ("ada@x\u200b", True, [False, True]),
+            ("\u0430da@x", False, [True, True]),
+            ("eda@x", True, [False, False]),
+        ],
+        2,
+        several=True,
+    ),
 )
 def test_a_name_that_looks_like_anothers_is_a_doubt(
     name: str, roster: bool, doubts: list[bool], tmp_path: Path
 ) -> None:
-    found = graded(tmp_path, {"ada@x.yaml": RIGHT, f"{name}.yaml": WRONG}, roster)
-    assert [one["doubt"] is not None for one in found] == doubts
-    assert [one["score"] for one in found] == [1.0, 0.0]
+    result = graded(tmp_path, {"ada@x.yaml": RIGHT, f"{name}.yaml": WRONG}, roster)
+    assert [one["doubt"] is not None for one in result] == doubts
+    assert [one["score"] for one in result] == [1.0, 0.0]
 
 
 #: Answers of one shape, of which only the first is right: a constant under another name, and two readings.

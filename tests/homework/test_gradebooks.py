@@ -167,18 +167,6 @@ def test_names_that_cannot_stand_in_a_table_are_apart(name: str, prepared: Prepa
         assert not [c for c in row if c.lstrip()[:1] in tuple("=+-@|＝")]
 
 
-def test_a_stale_list_is_taken_away(prepared: Prepared, tmp_path: Path) -> None:
-    assert tables("moodle", prepared, tmp_path, result("0"))[1]
-    assert tables("moodle", prepared, tmp_path, result("1"))[1] == []
-
-
-def test_without_a_path_they_are_told_on_standard_error(prepared: Prepared, capsys: Any) -> None:
-    stream = io.StringIO()
-    FORMATS["canvas"].write(iter([result("bob", open_points=8)]), prepared, stream)
-    assert "bob" not in stream.getvalue()
-    assert capsys.readouterr().err == "not in the table: bob: it is not final: 8 points are undecided\n"
-
-
 # rosters
 
 
@@ -240,16 +228,16 @@ def test_what_two_go_by_names_nobody(tmp_path: Path) -> None:
     ],
 )
 def test_whose_it_is(claims: tuple[str, ...], student: str, expected: str, doubted: bool, tmp_path: Path) -> None:
-    found = attributed(roster(CANVAS, tmp_path), claims, (), student, by_default=False)
+    found = attributed(roster(CANVAS, tmp_path), claims, student, by_default=False)
     assert (found.student, found.doubt is not None) == (expected, doubted)
 
 
 def test_what_names_nobody_is_its_owners(tmp_path: Path) -> None:
     known = roster(CANVAS, tmp_path)
     moodle = ("Ada Lovelace_3_assignsubmission_file_",)
-    assert attributed(known, ("ada",), (), "ada:3", by_default=True) == ("S1", True, None)
-    assert attributed(known, ("ada",), (), "ada:3", by_default=False).doubt is not None
-    assert attributed(known, moodle, (), "Ada Lovelace_3", by_default=True) == ("S1", True, None)
+    assert attributed(known, ("ada",), "ada:3", by_default=True) == ("S1", True, None)
+    assert attributed(known, ("ada",), "ada:3", by_default=False).doubt is not None
+    assert attributed(known, moodle, "Ada Lovelace_3", by_default=True) == ("S1", True, None)
 
 
 def test_whose_it_is_at_a_platform() -> None:

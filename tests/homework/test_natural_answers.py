@@ -23,6 +23,8 @@ FILES = sorted(path.stem for path in FOLDER.glob("*.yaml"))
 HEAVY = {
     "attacks": pytest.mark.sweep,
     "attacks_again": pytest.mark.sweep,
+    "course": pytest.mark.sweep,
+    "catalog_class": pytest.mark.sweep,
     "equations": pytest.mark.sweep,
     "fifth_class": pytest.mark.sweep,
     "fourth_class": pytest.mark.sweep,

@@ -9,10 +9,6 @@ import pytest
 
 from dofkit.homework.assignment import AssignmentError, load_assignment
 from dofkit.homework.grading import grade
-from dofkit.homework.key.key import Key
-from dofkit.homework.key.own_coordinates import polar_angles
-from dofkit.homework.starting import starting
-from dofkit.scene.reading import load
 
 SCENE: dict[str, Any] = {
     "parameters": {"m": "positive", "l": "positive", "g": "positive"},
@@ -145,36 +141,6 @@ def test_an_equation_in_an_offered_coordinate_is_never_wrong_unseen() -> None:
     assert item(asked, "x_A = l sin θ, y_A = -l cos θ").status == "right"
     assert item(asked, "x_A = l sin θ").status == "needs_review"
     assert item(asked, "θ = 3").status == "needs_review"
-
-
-def of_particles(names: list[str], *links: Any, dimension: int = 2, **more: Any) -> Key:
-    made = [{"type": "link", "between": [a, b], "length": length} for a, b, length in links]
-    parameters = {"l": "positive", "k": "positive"}
-    scene = {"dimension": dimension, "particles": names, "parameters": parameters, "constraints": made, **more}
-    return Key(load(scene))
-
-
-@pytest.mark.parametrize(
-    ("key", "angles"),
-    [
-        (of_particles(["A"], ([0, 0], "A", "l")), {"theta": "atan2(x_A, -y_A)"}),
-        (of_particles(["A"], ([1, 2], "A", 2)), {"theta": "atan2(x_A - 1, -y_A + 2)"}),
-        (of_particles(["B", "A"], ([0, 0], "A", "l"), ("A", "B", "k")),
-         {"theta_A": "atan2(x_A, -y_A)", "theta_B": "atan2(x_B - x_A, -y_B + y_A)"}),
-        (of_particles(["A"], ([0, 0], "A", "l"), coordinates=["theta"]), {"theta_A": "atan2(x_A, -y_A)"}),
-        (of_particles(["A"], ([0, 0, 0], "A", "l"), dimension=3),
-         {"theta": "atan2(sqrt(x_A^2 + y_A^2), -z_A)", "phi": "atan2(y_A, x_A)"}),
-        # on a line, and free
-        (of_particles(["A"], dimension=2), {}),
-        (of_particles(["A"], dimension=3), {}),
-    ],
-)  # fmt: skip
-def test_angles_are_proposed_for_points_on_circles_and_spheres(key: Key, angles: dict[str, str]) -> None:
-    assert polar_angles(key) == angles
-
-
-def test_a_first_assignment_offers_the_angle_of_a_pendulum() -> None:
-    assert "also:\n    theta: atan2(x_P, -y_P)" in starting(["simple-pendulum-link"])
 
 
 def test_a_correct_answer_is_told_in_the_offered_coordinates() -> None:

@@ -38,7 +38,6 @@ def asked(name: str) -> list[str]:
 def test_what_is_most_worth_asking(name: str, worth: set[str]) -> None:
     found = asked(name)
     assert worth <= set(found)
-    assert len(found) == 5
 
 
 def test_an_equation_that_the_scene_tells_is_not_asked_for() -> None:
@@ -47,10 +46,9 @@ def test_an_equation_that_the_scene_tells_is_not_asked_for() -> None:
 
 @pytest.mark.sweep
 @pytest.mark.parametrize("name", catalog_names())
-def test_five_questions_of_every_scene(name: str) -> None:
+def test_a_question_of_each_kind_of_every_scene(name: str) -> None:
     found = asked(name)
-    assert 1 <= len(found) <= 5
-    assert len(set(found)) == len(found)
+    assert len({one.split()[0] for one in found}) == len(found)
     assert "dof" in found
 
 

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from shared.known_scenes import SCENES, report_of, scene_of, stem
+from shared.known_scenes import EVERY, report_of, scene_of, stem
 
 import dofkit
 from dofkit.classification.labels import companions
@@ -148,7 +148,7 @@ def integrals_of(path: Path) -> list[str]:
     return [part for e in report_of(path).constraints if e.integral for part in e.integral.split("; ")]
 
 
-@pytest.mark.parametrize("path", SCENES, ids=stem)
+@pytest.mark.parametrize("path", EVERY, ids=stem)
 def test_the_differential_of_an_integral_lies_in_the_span_of_the_forms(path: Path) -> None:
     known = forms_of(path)
     if known is None:

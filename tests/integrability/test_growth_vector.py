@@ -80,9 +80,9 @@ def agree(names: Sequence[str], slopes: Sequence[Sequence[str]], free: Sequence[
     point = [rng.randrange(2, 99) for _ in q]
     expected = growth_by_brackets(fields, q, point)
     scene = scene_of(names, slopes, free)
-    found = dofkit.classify(scene)
-    assert found.growth_vector == expected
-    assert found.dof == expected[-1]
+    report = dofkit.classify(scene)
+    assert report.growth_vector == expected
+    assert report.dof == expected[-1]
     derived = dofkit.derived_flag(scene)
     assert derived is None or [len(q) - r for r in derived] == derived_by_brackets(fields, q, point)
     return expected

@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 from shared.command_line import called
+from shared.known_scenes import spread
 
 import dofkit
 from dofkit.checker.problem import document_of, sha256_of
@@ -33,9 +34,9 @@ def test_a_certificate_is_verified_with_its_scene_and_alone(
         assert out.startswith("pendulum: ")
         assert "claims verified" in out
     status, out, _ = called(capsys, "verify", "--json", str(made["place"]))
-    told = json.loads(out)
-    assert (status, told["failed"], told["uncovered"]) == (0, [], [])
-    assert told["claims"] == told["verified"] == len(made["certificate"]["claims"])
+    document = json.loads(out)
+    assert (status, document["failed"], document["uncovered"]) == (0, [], [])
+    assert document["claims"] == document["verified"] == len(made["certificate"]["claims"])
 
 
 def test_a_false_claim_ends_with_1(made: dict[str, Any], capsys: pytest.CaptureFixture[str]) -> None:
@@ -61,7 +62,9 @@ def test_what_is_uncovered_ends_with_1_where_it_is_strict(
     assert "uncovered  /singular" in out
 
 
-@pytest.mark.parametrize("text", ["", "{", "[]", "{}", '{"certificate": 2}', "null", '{"certificate": 1, "scene": 5}'])
+@pytest.mark.parametrize(
+    "text", spread(["{", "[]", "{}", '{"certificate": 2}', "null", "", '{"certificate": 1, "scene": 5}'])
+)
 def test_what_is_no_certificate_ends_with_2(text: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     place = tmp_path / "bad.json"
     place.write_text(text)
@@ -108,8 +111,8 @@ def test_the_door_takes_a_scene_in_every_way(tmp_path: Path) -> None:
     written = scene.model_dump(mode="json", exclude_unset=True)
     for given in ("four-bar-linkage", scene, written, None):
         for certificate in (report.certificate, place, str(place), place.read_text(), place.read_bytes()):
-            found = dofkit.verify(given, certificate)
-            assert (found.failed, found.verified) == ([], found.claims)
+            verification = dofkit.verify(given, certificate)
+            assert (verification.failed, verification.verified) == ([], verification.claims)
     odd: Any = 5
     with pytest.raises(dofkit.DofkitError, match="is a mapping, a path or JSON"):
         dofkit.verify(scene, odd)

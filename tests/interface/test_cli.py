@@ -91,12 +91,12 @@ def test_long_lines_are_cut_around_the_mark(tmp_path: Path, capsys: pytest.Captu
 
 @pytest.mark.sweep
 def test_standard_input_is_a_file() -> None:
-    told = run("classify", "--json", "-", stdin=GOOD.encode())
-    assert (told.returncode, lines(told.stdout.decode())[0]["scene"]) == (0, "stdin")
-    told = run("classify", "--json", "-", stdin=b"\xff")
-    assert (told.returncode, lines(told.stdout.decode())[0]["scene"]) == (2, "stdin")
-    told = run("classify", "-", stdin=BAD.encode())
-    assert told.stderr.decode().startswith("stdin:4:3: error")
+    outcome = run("classify", "--json", "-", stdin=GOOD.encode())
+    assert (outcome.returncode, lines(outcome.stdout.decode())[0]["scene"]) == (0, "stdin")
+    outcome = run("classify", "--json", "-", stdin=b"\xff")
+    assert (outcome.returncode, lines(outcome.stdout.decode())[0]["scene"]) == (2, "stdin")
+    outcome = run("classify", "-", stdin=BAD.encode())
+    assert outcome.stderr.decode().startswith("stdin:4:3: error")
 
 
 FAILING = """
@@ -169,15 +169,17 @@ def test_version_and_help(capsys: pytest.CaptureFixture[str]) -> None:
     "arguments", [["-c", "import dofkit"], ["-m", "dofkit", "--help"], ["-m", "dofkit", "--version"]]
 )
 def test_little_is_imported_before_it_is_needed(arguments: Sequence[str]) -> None:
-    told = subprocess.run([sys.executable, "-X", "importtime", *arguments], capture_output=True, text=True, check=True)
-    imported = {line.rpartition("|")[2].strip().partition(".")[0] for line in told.stderr.splitlines()}
+    process = subprocess.run(
+        [sys.executable, "-X", "importtime", *arguments], capture_output=True, text=True, check=True
+    )
+    imported = {line.rpartition("|")[2].strip().partition(".")[0] for line in process.stderr.splitlines()}
     assert not imported & {"sympy", "numpy", "pydantic", "scipy", "networkx", "flint", "lark"}
 
 
 def test_a_misspelt_command_has_a_near_one() -> None:
     for words, meant in (("clasify", "classify"), ("export gradscope", "gradescope")):
-        told = run(*words.split())
-        assert (told.returncode, f"Did you mean '{meant}'" in told.stderr.decode()) == (2, True)
+        outcome = run(*words.split())
+        assert (outcome.returncode, f"Did you mean '{meant}'" in outcome.stderr.decode()) == (2, True)
 
 
 def test_the_public_names_are_there() -> None:
@@ -193,16 +195,16 @@ def test_a_terminal_without_utf8_is_no_failure(tmp_path: Path) -> None:
     (tmp_path / "ok.yaml").write_text("title: θ → ∞\ncoordinates: [θ]\nconstraints: [θ = 1]\n", encoding="utf-8")
     ascii_only = {"PYTHONIOENCODING": "ascii", "PYTHONUTF8": "0", "LC_ALL": "C"}
     for extra in ([], ["--json"]):
-        told = run("classify", *extra, str(tmp_path / "été.yaml"), str(tmp_path / "ok.yaml"), env=ascii_only)
-        assert told.returncode == 2
-        assert b"Traceback" not in told.stderr + told.stdout
-        assert b"is not declared" in told.stdout + told.stderr
+        outcome = run("classify", *extra, str(tmp_path / "été.yaml"), str(tmp_path / "ok.yaml"), env=ascii_only)
+        assert outcome.returncode == 2
+        assert b"Traceback" not in outcome.stderr + outcome.stdout
+        assert b"is not declared" in outcome.stdout + outcome.stderr
 
 
 def test_a_closed_pipe_is_no_failure(files: Path) -> None:
     command = f"{sys.executable} -m dofkit classify --json {' '.join([str(files / 'good.yaml')] * 50)} | head -c 10"
-    told = subprocess.run(["bash", "-c", command], capture_output=True, text=True, check=False)
-    assert told.stderr == ""
+    process = subprocess.run(["bash", "-c", command], capture_output=True, text=True, check=False)
+    assert process.stderr == ""
 
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows cannot interrupt one process alone")

@@ -39,8 +39,10 @@ def words(html: str) -> str:
 @pytest.mark.parametrize(("command", "asked"), [("classify", dofkit.classify), ("lagrange", dofkit.lagrange)])
 def test_print_writes_what_the_command_line_does(command: str, asked: Callable[[str], object]) -> None:
     name = "mass-on-spring"
-    told = subprocess.run([sys.executable, "-m", "dofkit", command, name], capture_output=True, text=True, check=True)
-    assert f"{asked(name)}\n\n" == told.stdout
+    process = subprocess.run(
+        [sys.executable, "-m", "dofkit", command, name], capture_output=True, text=True, check=True
+    )
+    assert f"{asked(name)}\n\n" == process.stdout
 
 
 def test_the_text_has_a_width_and_says_how_where_it_is_asked() -> None:
@@ -65,9 +67,9 @@ def test_a_report_is_the_same_with_and_without_what_it_is_about() -> None:
 def test_what_a_notebook_offers_of_a_report_are_its_fields() -> None:
     report = dofkit.classify(DISC)
     offered = {name for name in dir(report) if not name.startswith("_")}
-    own = {"beside", "table", "text", "to_dict"}
-    own |= {"model_copy", "model_dump", "model_dump_json", "model_validate", "model_validate_json"}
-    assert offered == {*Report.model_fields, *own}
+    methods = {"with_scene", "table", "text", "to_dict"}
+    methods |= {"model_copy", "model_dump", "model_dump_json", "model_validate", "model_validate_json"}
+    assert offered == {*Report.model_fields, *methods}
     assert {"constraints", "title", "parse_raw"} - set(dir(dofkit.load(DISC))) == {"parse_raw"}
 
 

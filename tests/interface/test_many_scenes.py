@@ -227,8 +227,8 @@ def test_words_are_explained(word: str, kind: str, said: str, capsys: pytest.Cap
     assert (status, err) == (0, "")
     assert f": {kind}\n" in out
     assert said in " ".join(out.split())
-    told = json.loads(called(capsys, "explain", word, "--json")[1].splitlines()[0])
-    assert told["kind"] == kind
+    document = json.loads(called(capsys, "explain", word, "--json")[1].splitlines()[0])
+    assert document["kind"] == kind
 
 
 def test_an_unknown_word_has_near_ones(capsys: pytest.CaptureFixture[str]) -> None:
@@ -279,10 +279,10 @@ def test_shells_complete_names(capfd: pytest.CaptureFixture[str]) -> None:
     def completed(words: str) -> list[str]:
         asked = {"_DOFKIT_COMPLETE": "complete_bash", "COMP_WORDS": words, "COMP_CWORD": str(words.count(" "))}
         code = "import sys; sys.argv = ['dofkit']; from dofkit.interface.entry import main; main()"
-        told = subprocess.run(
+        process = subprocess.run(
             [sys.executable, "-c", code], env={**os.environ, **asked}, capture_output=True, text=True, check=False
         )
-        return told.stdout.split()
+        return process.stdout.split()
 
     assert "disc-rolling-on-plane" in completed("dofkit classify disc-r")
     assert completed("dofkit explain velocity_d") == ["velocity_dof"]
@@ -329,15 +329,15 @@ def test_forced_colours_are_in_reports_lines_and_faults(monkeypatch: pytest.Monk
     monkeypatch.setenv("FORCE_COLOR", "1")
     for more in ([], ["--brief"]):
         command = [sys.executable, "-m", "dofkit", "classify", *more, FOUR[1], str(tmp_path / "bad.yaml")]
-        told = subprocess.run(command, capture_output=True, text=True, check=False)
-        assert "\x1b[32mproved" in told.stdout
-        assert "\x1b[1;31merror\x1b[0m: `y` is not declared" in told.stderr
-        assert "\x1b[1;31m^\x1b[0m" in told.stderr
-    told = subprocess.run([*command[:4], "--json", FOUR[1]], capture_output=True, text=True, check=False)
-    assert "\x1b" not in told.stdout
+        process = subprocess.run(command, capture_output=True, text=True, check=False)
+        assert "\x1b[32mproved" in process.stdout
+        assert "\x1b[1;31merror\x1b[0m: `y` is not declared" in process.stderr
+        assert "\x1b[1;31m^\x1b[0m" in process.stderr
+    process = subprocess.run([*command[:4], "--json", FOUR[1]], capture_output=True, text=True, check=False)
+    assert "\x1b" not in process.stdout
     monkeypatch.setenv("FORCE_COLOR", "0")
-    told = subprocess.run(command, capture_output=True, text=True, check=False)
-    assert "\x1b" not in told.stdout + told.stderr
+    process = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert "\x1b" not in process.stdout + process.stderr
 
 
 # Watching

@@ -9,6 +9,7 @@ import pytest
 
 import dofkit
 from dofkit.base.verdicts import ArgumentKey, Verdict
+from dofkit.interface.show.assurance import checked_claims
 from dofkit.interface.show.decimals import as_the_scene
 from dofkit.interface.show.report import MOST_ROWS, labels, sheet_of_report
 from dofkit.interface.show.terminal import Screen, as_text
@@ -189,3 +190,11 @@ def test_decimals_come_back_as_decimals_where_the_scene_has_decimals() -> None:
     decimal, fraction = (one.constraints[0].integral or "" for one in told)
     assert ("0.5" in decimal, "/2" in decimal, "/2" in fraction) == (True, False, True)
     assert decimal in str(dofkit.classify(scene))
+
+
+def test_a_report_says_how_many_claims_are_checked() -> None:
+    assert checked_claims(dofkit.classify("bolt")) == []
+    first, second = checked_claims(dofkit.classify("block-on-table", certificate=True))
+    confirmed, _, proved = str(first.label).split()
+    assert int(proved) - int(confirmed) == 1
+    assert (second.label, second.text) == ("without evidence", "generalized coordinates")

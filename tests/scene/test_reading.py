@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 import yaml
+from shared.known_scenes import EVERY, stem
 
 import dofkit
 from dofkit.base.documents import read_document
@@ -22,7 +23,6 @@ from dofkit.scene.reading import MOST_FAULTS, SceneFile, load, loads
 from dofkit.scene.scene import Scene
 
 HERE = Path(__file__).parents[1]
-GOOD = sorted([*HERE.parent.glob("catalog/*/*.yaml"), *HERE.glob("scenes/[!b]*/*.yaml")])
 
 
 def faults(data: bytes | str) -> tuple[Fault, ...]:
@@ -72,7 +72,7 @@ def test_json_reads_as_json(text: str) -> None:
     assert isinstance(loads(text), Scene)
 
 
-@pytest.mark.parametrize("path", GOOD, ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", EVERY, ids=stem)
 def test_a_scene_reads_alike_in_yaml_and_json(path: Path) -> None:
     """Also by PyYAML's own parser, which is asked where libyaml's finds an error."""
     text = path.read_text(encoding="utf-8")

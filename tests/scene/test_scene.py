@@ -137,8 +137,8 @@ def test_a_scene_survives_json() -> None:
             "tolerance": 1e-6,
         }
     )
-    told = json.loads(json.dumps(scene.model_dump(mode="json")))
-    assert Scene.model_validate(told) == scene
+    document = json.loads(json.dumps(scene.model_dump(mode="json")))
+    assert Scene.model_validate(document) == scene
 
 
 # The drawing

@@ -89,9 +89,9 @@ def test_a_scene_in_other_words_is_the_scene(name: str, tmp_path: Path) -> None:
     path = tmp_path / "s.json"
     path.write_text(before, encoding="utf-8")
     for given in (written, path, standard):
-        told = dofkit.verify(given, one.certificate or {})
-        assert told.claims > 0
-        assert told.verified == told.claims
+        verification = dofkit.verify(given, one.certificate or {})
+        assert verification.claims > 0
+        assert verification.verified == verification.claims
 
 
 @pytest.mark.parametrize("name", [n for n in PAIRS if n != "subscripts"])
@@ -107,9 +107,9 @@ def test_degrees_and_subscripts_are_checked_again_in_standard_texts() -> None:
     report = dofkit.classify(scene, certificate=True)
     assert report.dof == 0
     assert report.constraints[1].text == "y₁ = 2 sin 30°"
-    told = dofkit.verify(scene, report.certificate or {})
-    assert told.claims > 0
-    assert told.verified == told.claims
+    verification = dofkit.verify(scene, report.certificate or {})
+    assert verification.claims > 0
+    assert verification.verified == verification.claims
 
 
 def test_a_parameter_may_be_called_deg() -> None:

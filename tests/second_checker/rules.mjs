@@ -20,6 +20,8 @@ const list = (value) => {
   refuse(!Array.isArray(value), "a list is needed");
   return value;
 };
+/** A component of the exterior derivative of a form. */
+const curl = (form, x, y) => sub(derivative(form.get(y), x), derivative(form.get(x), y));
 const ids = (relations) => relations.map((r) => r.id);
 
 /** One reading of the certificate (angles or Cayley parameters), and what was verified before. */
@@ -664,8 +666,7 @@ export class Rules {
     refuse(!alone, "the rule is of the constraint alone");
     const form = this.oneForm(equations);
     const names = [...this.s.coordinates, "t"].filter((q) => !tr.isNumber(form.get(q), 0) || [...form.values()].some((c) => c.has(q)));
-    const curl = (x, y) => sub(derivative(form.get(y), x), derivative(form.get(x), y));
-    const three = (x, y, z) => add(mul(form.get(x), curl(y, z)), mul(form.get(y), curl(z, x)), mul(form.get(z), curl(x, y)));
+    const three = (x, y, z) => add(...[[x, y, z], [y, z, x], [z, x, y]].map(([a, b, c]) => mul(form.get(a), curl(form, b, c))));
     if (!claim.value) {
       const triple = list(claim.triple);
       refuse(triple.length !== 3 || triple.some((q) => !form.has(q)), "three names are needed");
@@ -680,13 +681,7 @@ export class Rules {
       refuse(claim.value !== true, "the rule proves true");
       refuse(field === "catastatic" && !own.some((r) => r.kind === "velocity"), "there are no velocities");
       const equations = own.filter((r) => r.kind !== "inequality");
-      let ones = field === "catastatic" ? equations : own;
-      if (claim.steps !== undefined) {
-        const steps = list(claim.steps).map((id) => this.e.relation(id));
-        const [there, back] = [this.e.closure(ids(ones), null), this.e.closure(ids(steps), null)];
-        refuse(steps.some((r) => !there.has(r.id)) || ones.some((r) => !back.has(r.id)), "the steps are other relations");
-        ones = steps;
-      }
+      const ones = field === "catastatic" ? equations : own;
       const alone = field === "scleronomic" && own.length === 1 && this.verified.get(`/constraints/${escaped(name)}/holonomic`);
       if (alone?.uncovered) uncovered("a label of the constraint");
       const names = field === "catastatic" ? ["tdot"] : alone?.value === false ? ["t"] : ["t", "tdot"];
@@ -730,7 +725,6 @@ export class Rules {
     const forms = equations.filter((r) => r.kind === "velocity");
     refuse(!forms.length, "there is no form");
     const all = forms.map((r) => this.e.form(r) ?? refuse(true, "it is not linear in velocities"));
-    const curl = (form, x, y) => sub(derivative(form.get(y), x), derivative(form.get(x), y));
     if (claim.rule === "exact") {
       refuse(claim.value !== true, "the rule proves true");
       const names = [...this.s.coordinates, "t"];

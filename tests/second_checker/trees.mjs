@@ -115,26 +115,27 @@ function rebuilt(tree, args) {
   return tree.head === "call" ? call(tree.value, ...args) : apply(tree.value.name, tree.value.orders, args);
 }
 
+/** What is made of a tree from what is made of its arguments, of each node once; `done` remembers it. */
+function folded(tree, make, done) {
+  if (!done.has(tree)) done.set(tree, make(tree, tree.args.map((a) => folded(a, make, done))));
+  return done.get(tree);
+}
+
 /** The tree with trees in the place of symbols; `functions`: name to [arguments, tree]. */
-export function substitute(tree, values, functions = new Map(), done = new Map()) {
-  const hit = done.get(tree);
-  if (hit) return hit;
-  let found = tree;
-  if (tree.head === "symbol") found = values.get(tree.value) ?? tree;
-  else if (tree.args.length) {
-    const args = tree.args.map((a) => substitute(a, values, functions, done));
-    if (tree.head === "apply" && functions.has(tree.value.name)) {
-      const [names, body] = functions.get(tree.value.name);
-      refuse(names.length !== args.length, "a function has another number of arguments");
-      let text = body;
-      tree.value.orders.forEach((order, i) => {
-        for (let k = 0; k < order; k += 1) text = derivative(text, names[i]);
-      });
-      found = substitute(text, new Map(names.map((n, i) => [n, args[i]])));
-    } else found = args.some((a, i) => a !== tree.args[i]) ? rebuilt(tree, args) : tree;
-  }
-  done.set(tree, found);
-  return found;
+export function substitute(tree, values, functions = new Map()) {
+  return folded(tree, (node, args) => {
+    if (node.head === "symbol") return values.get(node.value) ?? node;
+    if (node.head !== "apply" || !functions.has(node.value.name)) {
+      return args.some((a, i) => a !== node.args[i]) ? rebuilt(node, args) : node;
+    }
+    const [names, body] = functions.get(node.value.name);
+    refuse(names.length !== args.length, "a function has another number of arguments");
+    let text = body;
+    node.value.orders.forEach((order, i) => {
+      for (let k = 0; k < order; k += 1) text = derivative(text, names[i]);
+    });
+    return substitute(text, new Map(names.map((n, i) => [n, args[i]])));
+  }, new Map());
 }
 
 const two = () => number(2);
@@ -224,46 +225,34 @@ const VALUES = {
 
 /** The interval of a tree, where every part of it, as written, has a value and is smooth around. */
 export function evaluate(tree, values, done = new Map()) {
-  const hit = done.get(tree);
-  if (hit) return hit;
-  const below = () => tree.args.map((a) => evaluate(a, values, done));
-  let found;
-  switch (tree.head) {
+  return folded(tree, (node, below) => valueOf(node, values, below), done);
+}
+
+function valueOf(node, values, below) {
+  const [base, exponent] = below;
+  const e = node.head === "power" ? node.args[1] : null;
+  switch (node.head) {
     case "number":
-      found = Interval.of(tree.value);
-      break;
+      return Interval.of(node.value);
     case "pi":
-      found = num.PI;
-      break;
+      return num.PI;
     case "symbol":
-      found = values.get(tree.value);
-      refuse(!found, `there is no value of ${tree.value}`);
-      break;
+      refuse(!values.has(node.value), `there is no value of ${node.value}`);
+      return values.get(node.value);
     case "sum":
-      found = below().reduce((a, b) => a.add(b));
-      break;
+      return below.reduce((a, b) => a.add(b));
     case "product":
-      found = below().reduce((a, b) => a.mul(b));
-      break;
-    case "power": {
-      const base = evaluate(tree.args[0], values, done);
-      const e = tree.args[1];
-      if (e.head === "number" && e.value.whole) found = base.pow(Number(e.value.n));
-      else if (e.head === "number" && e.value.d === 2n) found = base.sqrt().pow(Number(e.value.n));
-      else {
-        refuse(!base.positive, "a power is not smooth at the point");
-        found = num.exp(evaluate(e, values, done).mul(num.log(base)));
-      }
-      break;
-    }
+      return below.reduce((a, b) => a.mul(b));
+    case "power":
+      if (e.head === "number" && e.value.whole) return base.pow(Number(e.value.n));
+      if (e.head === "number" && e.value.d === 2n) return base.sqrt().pow(Number(e.value.n));
+      refuse(!base.positive, "a power is not smooth at the point");
+      return num.exp(exponent.mul(num.log(base)));
     case "call":
-      found = VALUES[tree.value](...below());
-      break;
+      return VALUES[node.value](...below);
     default:
-      refuse(true, `nothing is chosen for the function ${tree.value.name}`);
+      return refuse(true, `nothing is chosen for the function ${node.value.name}`);
   }
-  done.set(tree, found);
-  return found;
 }
 
 /** The slopes and the rest of a tree that is linear in some symbols, by its derivatives; null where it is not. */

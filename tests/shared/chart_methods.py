@@ -39,4 +39,4 @@ def family(quick: bool) -> Iterator[Trial]:
     for size in (1, 2) if quick else (4, 1, 2, 8):
         for k in range(2):
             scene = {"coordinates": ["x"], "constraints": [], "size": size, "k": k}
-            yield Trial("boxes", f"box-{size}-{k}", "dof", scene, 2, "by construction", ("large",), size)
+            yield Trial("boxes", f"box-{size}-{k}", "dof", scene, 2, "by construction", size)

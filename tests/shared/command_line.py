@@ -19,8 +19,8 @@ def called(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, st
         cli.app(list(arguments))
     except SystemExit as stop:
         status = stop.code if isinstance(stop.code, int) else 0
-    told = capsys.readouterr()
-    return status, told.out, told.err
+    output = capsys.readouterr()
+    return status, output.out, output.err
 
 
 #: What a shell starts in the background ignores interrupts, and so does all that it starts.

@@ -104,8 +104,8 @@ class SpeedRun(NamedTuple):
     @classmethod
     def read(cls, path: Path) -> SpeedRun:
         """Read it again."""
-        found = json.loads(path.read_text(encoding="utf-8"))
-        return cls(Ran(**found["ran"]), tuple(_row(row) for row in found["rows"]))
+        document = json.loads(path.read_text(encoding="utf-8"))
+        return cls(Ran(**document["ran"]), tuple(_row(row) for row in document["rows"]))
 
 
 def _told(row: SpeedRow) -> dict[str, object]:

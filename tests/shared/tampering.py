@@ -186,10 +186,10 @@ def asserted(certificate: Mapping[str, Any], found: Verification) -> dict[str, t
 def accepted(scene: Mapping[str, Any], certificate: Mapping[str, Any]) -> dict[str, tuple[Any, Any]] | None:
     """What a certificate has the checker believe where none of its claims fails; None where one does."""
     try:
-        found = verify(scene, certificate)
+        verification = verify(scene, certificate)
     except CheckError:
         return None
-    return None if found.failed else asserted(certificate, found)
+    return None if verification.failed else asserted(certificate, verification)
 
 
 def untrue(claims: Mapping[str, tuple[Any, Any]], report: Mapping[str, Any], *, choices: bool = True) -> list[str]:

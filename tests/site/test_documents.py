@@ -46,9 +46,9 @@ def test_every_block_is_of_a_kind_that_is_tested() -> None:
     "program", [block for _, block in PROGRAMS], ids=[name_of(document) for document, _ in PROGRAMS]
 )
 def test_python_runs(program: Block, tmp_path: Path) -> None:
-    told = run(written_to(tmp_path), "-c", program.text)
-    assert told.returncode == 0, told.stderr
-    assert holds(told.stdout, program.printed), told.stdout
+    outcome = run(written_to(tmp_path), "-c", program.text)
+    assert outcome.returncode == 0, outcome.stderr
+    assert holds(outcome.stdout, program.printed), outcome.stdout
 
 
 @pytest.mark.sweep

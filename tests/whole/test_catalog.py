@@ -93,9 +93,9 @@ def printed() -> tuple[object, str, dict[str, str]]:
 def test_a_bad_file_is_one_line_of_json(name: str) -> None:
     status, err, lines = printed()
     line = lines[name]
-    found = json.loads(line)
-    assert (status, err, found["scene"]) == (2, "", Path(name).stem)
-    error = found["error"]
+    document = json.loads(line)
+    assert (status, err, document["scene"]) == (2, "", Path(name).stem)
+    error = document["error"]
     assert "Traceback" not in line
     assert error["message"]
     wanted = EXPECTED[name]

@@ -206,7 +206,7 @@ def backwards(scene: Scene) -> Callable[[str], str]:
 RENAMED, COPIED = dealt("names", VARIED, 2)
 
 
-@on("renamed", RENAMED)
+@on("other names", RENAMED)
 def test_names_mean_nothing(path: Path) -> None:
     scene, report = scene_of(path), report_of(path)
     other = classified(Renaming(scene, backwards(scene)).document(document_of(path)))
@@ -317,7 +317,7 @@ FIRST, LAST = dealt("again", VARIED, 2)
     [
         pytest.param(*case.values, place, marks=case.marks)
         for place, paths in ((0, FIRST), (-1, LAST))
-        for case in few("written again", paths, 24)
+        for case in few("once more", paths, 24)
     ],
     ids=lambda value: getattr(value, "stem", ""),
 )
@@ -378,8 +378,8 @@ def test_two_copies_have_twice_the_freedom(path: Path) -> None:
     for key in NUMBERS:
         assert getattr(other, key) == doubled(getattr(report, key)), key
     assert nullities(other) == sorted(2 * nullities(report))
-    found = growth(report)
-    assert growth(other) == (None if found is None else [2 * n for n in found])
+    dimensions = growth(report)
+    assert growth(other) == (None if dimensions is None else [2 * n for n in dimensions])
     assert all_labels(other) == all_labels(report) | {f"{name}_too": said for name, said in all_labels(report).items()}
     if report.consistent:
         assert other.redundant == [*report.redundant, *(f"{name}_too" for name in report.redundant)]

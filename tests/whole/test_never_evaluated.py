@@ -22,6 +22,10 @@ ALLOWED = {
     ("models/mujoco_model.py", "spec.compile"): "MuJoCo's compiler of a model, which runs no text",
     ("models/formats.py", "import_module"): "the reader of a format, by the table of formats",
     ("methods/table.py", "import_module"): "a method's own module, by the name of its row in the table",
+    (
+        "site/browser/__init__.py",
+        "import_module",
+    ): "a module of the page's own, which its script names",
     ("base/workers.py", "import_module"): "the module of a job's function, which the parent process names",
 }
 

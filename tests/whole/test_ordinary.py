@@ -215,7 +215,7 @@ def test_the_governor_without_a_drawing() -> None:
 
 
 @pytest.mark.parametrize(
-    ("order", "length", "pivot"), [([4, 2, 0, 3, 1], "a", (1, 2, 3)), ([3, 2, 1, 0, 4], "3/2", (0, 0, 0))]
+    ("order", "length", "pivot"), [swept([4, 2, 0, 3, 1], "a", (1, 2, 3)), ([3, 2, 1, 0, 4], "3/2", (0, 0, 0))]
 )
 def test_the_governor_elsewhere_of_any_size_and_in_any_order(
     order: list[int], length: str, pivot: Sequence[int]

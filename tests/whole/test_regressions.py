@@ -273,8 +273,17 @@ def test_the_time_for_a_scene_is_bounded() -> None:
 
 def test_a_mixture_of_differentials_and_finite_terms_is_refused_with_its_line() -> None:
     with pytest.raises(dofkit.SceneError) as caught:
-        dofkit.loads("coordinates: [x]\nconstraints:\n- dx + 1 = 0\n- xddot^2 = 1\n")
+        dofkit.loads("coordinates: [x]\nconstraints:\n- dx + 1 = 0\n- sin(dx) = 0\n")
     assert [fault.line for fault in caught.value.faults] == [3, 4]
+
+
+@pytest.mark.parametrize("text", ["xddot = 0", "x xddot + xdot^2 = 0", "xddot^2 = 1", "xddot >= 0", "d^2x/dt^2 = x"])
+def test_a_second_derivative_in_a_constraint_is_refused_with_its_line(text: str) -> None:
+    with pytest.raises(dofkit.SceneError) as caught:
+        dofkit.loads(f"coordinates: [x]\nconstraints:\n- {text}\n")
+    (fault,) = caught.value.faults
+    assert fault.line == 3
+    assert "second derivative" in fault.message
 
 
 def test_hidden_relations_are_found_at_real_points_too() -> None:

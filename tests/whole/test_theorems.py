@@ -45,9 +45,9 @@ def uses() -> dict[str, list[str]]:
 @cache
 def rows() -> dict[str, tuple[str, str, str, str]]:
     """Author, year, statement and where used, of every key."""
-    found = ROW.findall(TABLE.read_text(encoding="utf-8"))
-    assert len({key for key, *_ in found}) == len(found), "a key stands twice"
-    return {key: (author, year, statement, where) for key, author, year, statement, where in found}
+    matches = ROW.findall(TABLE.read_text(encoding="utf-8"))
+    assert len({key for key, *_ in matches}) == len(matches), "a key stands twice"
+    return {key: (author, year, statement, where) for key, author, year, statement, where in matches}
 
 
 def test_every_line_of_the_table_is_read() -> None:

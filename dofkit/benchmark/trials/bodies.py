@@ -21,19 +21,18 @@ def _loop(hinges: Sequence[tuple[Place, Place]], bodies: int) -> dict[str, Any]:
 def doors(quick: bool) -> Iterator[KnownScene]:
     """A door on n hinges: on one line it turns, and all but the first say nothing new; off the line it is held."""
     for n in (2, 3) if quick else (2, 3, 4, 8, 16):
-        # name, the places and axes of the hinges, dof, how many of the first are needed, trait
-        rows: list[tuple[str, list[tuple[Place, Place]], int, int, str]] = [
-            ("on one line", [([0, 0, k], [0, 0, 1]) for k in range(n)], 1, 1, "overconstrained"),
-            ("on a slanting line", [([k, 2 * k, -k], [1, 2, -1]) for k in range(n)], 1, 1, "overconstrained"),
-            ("beside each other", [([k, 0, k], [0, 0, 1]) for k in range(n)], 0, 2, "joints"),
-            ("each a little aside", [([f"{k}e-9", 0, k], [0, 0, 1]) for k in range(n)], 0, 2, "near-singular"),
-            ("each a little tilted", [([0, 0, k], [f"{k}e-9", 0, 1]) for k in range(n)], 0, 2, "near-singular"),
+        # name, the places and axes of the hinges, dof, how many of the first are needed
+        rows: list[tuple[str, list[tuple[Place, Place]], int, int]] = [
+            ("on one line", [([0, 0, k], [0, 0, 1]) for k in range(n)], 1, 1),
+            ("on a slanting line", [([k, 2 * k, -k], [1, 2, -1]) for k in range(n)], 1, 1),
+            ("beside each other", [([k, 0, k], [0, 0, 1]) for k in range(n)], 0, 2),
+            ("each a little aside", [([f"{k}e-9", 0, k], [0, 0, 1]) for k in range(n)], 0, 2),
+            ("each a little tilted", [([0, 0, k], [f"{k}e-9", 0, 1]) for k in range(n)], 0, 2),
         ]
-        for name, hinges, dof, needed, trait in rows:
+        for name, hinges, dof, needed in rows:
             redundant = [f"hinge{k}" for k in range(needed, n)]
-            traits = (trait, "redundant") if redundant else (trait,)
             because = "hinges on one line are one hinge; two that are not hold the door"
-            about = f"{n} hinges {name}", _loop(hinges, 1), because, traits, n
+            about = f"{n} hinges {name}", _loop(hinges, 1), because, n
             yield known_scene(*about, dof=dof, redundancy=redundant)
 
 
@@ -44,14 +43,14 @@ def cranks(quick: bool) -> Iterator[KnownScene]:
         platform = [[k, 2 + k % 2] for k in range(n)]
         feet: list[list[Any]] = [[x, y - 2] for x, y in platform]
         names = [f"bar{k}" for k in range(n)]
-        # name, the number of a foot and its place elsewhere, dof, what is redundant, trait
-        rows: list[tuple[str, int, list[Any], int, list[str], str]] = [
-            ("of one length", 0, feet[0], 1, names[2:], "special-position"),
-            ("the last foot aside", n - 1, [n + 1, 0], 0, names[2 : n - 1], "plain"),
-            ("the third foot aside", 2, [5, feet[2][1]], 0, names[3:], "plain"),
-            ("the third foot aside by 1e-9", 2, ["2+1e-9", feet[2][1]], 0, names[3:], "near-singular"),
+        # name, the number of a foot and its place elsewhere, dof, what is redundant
+        rows: list[tuple[str, int, list[Any], int, list[str]]] = [
+            ("of one length", 0, feet[0], 1, names[2:]),
+            ("the last foot aside", n - 1, [n + 1, 0], 0, names[2 : n - 1]),
+            ("the third foot aside", 2, [5, feet[2][1]], 0, names[3:]),
+            ("the third foot aside by 1e-9", 2, ["2+1e-9", feet[2][1]], 0, names[3:]),
         ]
-        for name, moved, place, dof, redundant, trait in rows:
+        for name, moved, place, dof, redundant in rows:
             bars = [
                 {
                     "name": bar,
@@ -61,7 +60,7 @@ def cranks(quick: bool) -> Iterator[KnownScene]:
                 for k, (bar, top) in enumerate(zip(names, platform, strict=True))
             ]
             made = {"dimension": 2, "bodies": ["platform"], "constraints": bars}
-            yield known_scene(f"{n} bars, {name}", made, because, (trait,), n, dof=dof, redundancy=redundant)
+            yield known_scene(f"{n} bars, {name}", made, because, n, dof=dof, redundancy=redundant)
 
 
 def loops(quick: bool) -> Iterator[KnownScene]:
@@ -69,14 +68,14 @@ def loops(quick: bool) -> Iterator[KnownScene]:
     because = "parallel screws have rank 3; a tilted one is outside of them, and so does not turn"
     for n in (4, 5) if quick else (4, 5, 6, 8):
         hinges: list[tuple[Place, Place]] = [([k, k * (n - 1 - k), 0], [0, 0, 1]) for k in range(n)]
-        rows: list[tuple[str, Place, int, str]] = [
-            ("parallel", [0, 0, 1], n - 3, "overconstrained"),
-            ("the last tilted", [1, 0, 1], n - 4, "overconstrained"),
-            ("the last tilted by 1e-9", ["1e-9", 0, 1], n - 4, "near-singular"),
+        rows: list[tuple[str, Place, int]] = [
+            ("parallel", [0, 0, 1], n - 3),
+            ("the last tilted", [1, 0, 1], n - 4),
+            ("the last tilted by 1e-9", ["1e-9", 0, 1], n - 4),
         ]
-        for name, axis, dof, trait in rows:
+        for name, axis, dof in rows:
             made = _loop([*hinges[:-1], (hinges[-1][0], axis)], n - 1)
-            yield known_scene(f"{n} hinges, {name}", made, because, (trait,), n, dof=dof)
+            yield known_scene(f"{n} hinges, {name}", made, because, n, dof=dof)
 
 
 def named_loops(quick: bool) -> Iterator[KnownScene]:
@@ -84,7 +83,7 @@ def named_loops(quick: bool) -> Iterator[KnownScene]:
     for row in tables("poses.yaml")["loops"][:: 2 if quick else 1]:
         n = len(row["hinges"])
         made = _loop(row["hinges"], n - 1)
-        yield known_scene(row["name"], made, row["because"], (row["trait"],), n, dof=row["dof"])
+        yield known_scene(row["name"], made, row["because"], n, dof=row["dof"])
 
 
 def trees(quick: bool) -> Iterator[KnownScene]:
@@ -98,8 +97,7 @@ def trees(quick: bool) -> Iterator[KnownScene]:
             again = {**rng.choice(joints), "name": "again"}
             for name, constraints, redundant in (("", joints, []), (", one joint twice", [*joints, again], ["again"])):
                 about = f"{n} bodies in dimension {d}, {seed}{name}", {**made.scene, "constraints": constraints}
-                traits = ("redundant",) if redundant else ("joints",)
-                yield known_scene(*about, because, traits, n, dof=made.dof, redundancy=redundant)
+                yield known_scene(*about, because, n, dof=made.dof, redundancy=redundant)
 
 
 def random_loops(quick: bool) -> Iterator[KnownScene]:
@@ -110,7 +108,7 @@ def random_loops(quick: bool) -> Iterator[KnownScene]:
             made = loop(random.Random(f"loop {d} {n} {seed}"), d, n)
             if made.dof is not None:
                 name = f"{n} bodies in dimension {d}, {seed}"
-                yield known_scene(name, made.scene, because, ("joints",), n, dof=made.dof)
+                yield known_scene(name, made.scene, because, n, dof=made.dof)
 
 
 def rolling(quick: bool) -> Iterator[KnownScene]:
@@ -120,14 +118,13 @@ def rolling(quick: bool) -> Iterator[KnownScene]:
         bodies = [f"b{k}" for k in range(n)]
         rolls = [{"type": "roll", "body": body, "radius": f"{k + 1}"} for k, body in enumerate(bodies)]
         held = [{"type": "equation", "text": f"y_b{k} = {k}"} for k in range(n)]
-        traits = ("rolling", "many-blocks") if n > 1 else ("rolling",)
         for name, d, constraints, dof, labels in (
             ("balls on a plane", 3, rolls, 5 * n, every(numbered(n), False)),
             ("discs on a line", 2, rolls, n, every(numbered(n), True)),
             ("balls along lines", 3, [*rolls, *held], 4 * n, None),
         ):
             made = {"dimension": d, "bodies": bodies, "constraints": constraints}
-            yield known_scene(f"{n} {name}", made, because, traits, n, dof=dof, integrability=labels)
+            yield known_scene(f"{n} {name}", made, because, n, dof=dof, integrability=labels)
 
 
 # Long chains
@@ -150,7 +147,7 @@ def pendulums(quick: bool) -> Iterator[KnownScene]:
         ):
             dof = d * len(members) - n
             made = {"dimension": d, "particles": members, "constraints": constraints}
-            about = f"{n} links in dimension {d}, {name}", made, because, ("redundant",) if over else ("long-chain",), n
+            about = f"{n} links in dimension {d}, {name}", made, because, n
             if dof >= 0:
                 yield known_scene(*about, dof=dof, redundancy=over)
 
@@ -174,10 +171,7 @@ def chained_bodies(quick: bool) -> Iterator[KnownScene]:
             ("every third welded first", [*welds, *hinges], n - len(welds), [f"h{k}" for k in range(0, n, 3)]),
         ):
             made = {"dimension": d, "bodies": names[1:], "constraints": joints}
-            traits = ("redundant",) if over else ("long-chain", "joints")
-            yield known_scene(
-                f"{n} bodies in dimension {d}, {name}", made, because, traits, n, dof=dof, redundancy=over
-            )
+            yield known_scene(f"{n} bodies in dimension {d}, {name}", made, because, n, dof=dof, redundancy=over)
 
 
 FAMILIES = {

@@ -24,8 +24,7 @@ class Trial:
     """One question about one scene. Its truth is never asked of dofkit.
 
     ``scene`` is a mapping as `dofkit.load` takes it; ``truth`` see `Truth`; ``because`` says in one line why it holds.
-    ``traits`` name what makes it hard (keys of `dofkit.benchmark.sentences`), the one that matters most first; ``size``
-    counts what grows with the family; ``swept`` holds what is varied (``digits``, ``gap``, ``scale``, ...).
+    ``size`` counts what grows with the family; ``swept`` holds what is varied (``digits``, ``gap``, ``scale``, ...).
     ``answer``: for equivalence, ``{"constraint": name, "text": what was handed in}``.
     """
 
@@ -35,7 +34,6 @@ class Trial:
     scene: Mapping[str, Any]
     truth: Truth
     because: str
-    traits: tuple[str, ...] = ()
     size: int = 1
     swept: Mapping[str, Any] = field(default_factory=dict)
     answer: Mapping[str, str] | None = None
@@ -51,7 +49,7 @@ class KnownScene:
     p0, p1, ..., of t and of coordinates before them, onto an open part of the configuration space that the truth
     speaks of: as many parameters as ``dof``. By it the truth can be confirmed.
     ``group``: scenes that belong together; ``equivalence``: a constraint, a text, and whether they are the same. For
-    ``because``, ``traits``, ``size`` and ``swept`` see `Trial`.
+    ``because``, ``size`` and ``swept`` see `Trial`.
     """
 
     scene: Mapping[str, Any]
@@ -61,7 +59,6 @@ class KnownScene:
     name: str = ""
     group: str = ""
     because: str = ""
-    traits: Sequence[str] = ()
     size: int = 1
     swept: Mapping[str, Any] = field(default_factory=dict)
     equivalence: tuple[str, str, bool] | None = None
@@ -95,7 +92,7 @@ class KnownScene:
     def _trial(
         self, family: str, name: str, question: Question, truth: Truth, answer: Mapping[str, str] | None = None
     ) -> Trial:
-        about = (self.because, tuple(self.traits), self.size, self._variation())
+        about = (self.because, self.size, self._variation())
         return Trial(family, name, question, self.scene, truth, *about, answer)
 
     def _variation(self) -> dict[str, Any]:
@@ -122,7 +119,6 @@ def known_scene(
     name: str,
     scene: Mapping[str, Any],
     because: str,
-    traits: Sequence[str],
     size: int = 1,
     **answers: Unpack[Answers],
 ) -> KnownScene:
@@ -132,7 +128,7 @@ def known_scene(
     truth |= {f"{constraint}.holonomic": value for constraint, value in (answers.get("integrability") or {}).items()}
     truth |= {} if redundant is None else {"redundant": list(redundant)}
     swept, equivalence = answers.get("swept", {}), answers.get("equivalence")
-    return KnownScene(scene, truth, {}, None, name, "", because, traits, size, swept, equivalence)
+    return KnownScene(scene, truth, {}, None, name, "", because, size, swept, equivalence)
 
 
 #: The truth about constraints that contradict each other.
@@ -188,7 +184,7 @@ def tables(file: str) -> Mapping[str, Sequence[Row]]:
 
 def tabled(row: Row) -> KnownScene:
     """Return the scene of a table's row, in coordinates alone; its size is the number of its equations."""
-    about = row["name"], scene_of(row["coordinates"], *row["rows"]), row["because"], (row["trait"],), len(row["rows"])
+    about = row["name"], scene_of(row["coordinates"], *row["rows"]), row["because"], len(row["rows"])
     holonomic = labels(row.get("holonomic"))
     return known_scene(*about, dof=row["dof"], integrability=holonomic, redundancy=row.get("redundant"))
 

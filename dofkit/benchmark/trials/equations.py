@@ -14,18 +14,17 @@ TABLES = tables("equations.yaml")
 def hidden_relations(quick: bool) -> Iterator[KnownScene]:
     """Relations whose functions depend on each other; with a row that does not, and one that contradicts them."""
     for number, row in enumerate(TABLES["hidden"][:: 6 if quick else 1]):
-        n, k, trait = len(row["coordinates"].split()), len(row["rows"]), row["trait"]
-        members: list[tuple[str, str | None, int, list[str], str]] = [
-            ("one that follows", row["implied"], n - k, [f"c{k + 1}"], trait),
-            ("one more", row["new"], n - k - 1, [], "plain"),
-            ("one that contradicts", row.get("never"), -1, [], "tiny-gap"),
+        n, k = len(row["coordinates"].split()), len(row["rows"])
+        members: list[tuple[str, str | None, int, list[str]]] = [
+            ("one that follows", row["implied"], n - k, [f"c{k + 1}"]),
+            ("one more", row["new"], n - k - 1, []),
+            ("one that contradicts", row.get("never"), -1, []),
         ]
-        for how, last, dof, over, main in members:
+        for how, last, dof, over in members:
             if last is None or (dof < 0 and number % 2):
                 continue
-            traits = (main, trait) if main != trait else (trait,)
             made = scene_of(row["coordinates"], *row["rows"], last)
-            about = f"{row['name']}, {how}", made, f"{row['implied']} by the rows before", traits, k + 1
+            about = f"{row['name']}, {how}", made, f"{row['implied']} by the rows before", k + 1
             yield known_scene(*about, dof=dof, redundancy=over)
 
 
@@ -38,14 +37,14 @@ def rotations(quick: bool) -> Iterator[KnownScene]:
         rows = [f"{' + '.join(f'r{i}{k}*r{j}{k}' for k in range(n))} = {int(i == j)}" for i, j in pairs]
         trace = " + ".join(f"r{i}{i}" for i in range(n)) + f" = {n} + 1e-9"
         over = numbered(len(rows), len(columns) + 1)
-        for how, more, dof, redundant, trait in (
-            ("by columns", [], n * (n - 1) // 2, [], "plain"),
-            ("by columns and by rows", rows, n * (n - 1) // 2, over, "hidden-relation"),
-            ("that leave the first axis", ["r00 = 1"], (n - 1) * (n - 2) // 2, [], "real"),
-            ("of trace beyond n", [trace], -1, [], "real"),
+        for how, more, dof, redundant in (
+            ("by columns", [], n * (n - 1) // 2, []),
+            ("by columns and by rows", rows, n * (n - 1) // 2, over),
+            ("that leave the first axis", ["r00 = 1"], (n - 1) * (n - 2) // 2, []),
+            ("of trace beyond n", [trace], -1, []),
         ):
             made = scene_of(names, *columns, *more)
-            about = f"{n} by {n} {how}", made, "a left inverse is a right one; entries are at most 1", (trait,), n
+            about = f"{n} by {n} {how}", made, "a left inverse is a right one; entries are at most 1", n
             yield known_scene(*about, dof=dof, redundancy=redundant)
 
 
@@ -68,12 +67,12 @@ def linear_rows(quick: bool) -> Iterator[KnownScene]:
         value = sum((f * b for f, b in zip(factors, right, strict=True)), Fraction(0))
         texts = [f"{_row(row)} = {b}" for row, b in zip(rows, right, strict=True)]
         step = f"1e-{digits}"
-        for how, text, dof, over, traits in (
-            ("off by", f"{_row(last)} = {value} + {step}", -1, None, ("tiny-gap", "contradiction")),
-            ("tilted by", f"{_row(last)} + {step}*x{n - 1} = {value}", n - k - 1, [], ("tiny-gap",)),
-            ("scaled by", f"{step}*({_row(last)} - ({value})) = 0", n - k, [f"c{k + 1}"], ("scale", "redundant")),
+        for how, text, dof, over in (
+            ("off by", f"{_row(last)} = {value} + {step}", -1, None),
+            ("tilted by", f"{_row(last)} + {step}*x{n - 1} = {value}", n - k - 1, []),
+            ("scaled by", f"{step}*({_row(last)} - ({value})) = 0", n - k, [f"c{k + 1}"]),
         ):
-            about = f"{n} coordinates, {how} 1e-{digits}", scene_of(names, *texts, text), because, traits, n
+            about = f"{n} coordinates, {how} 1e-{digits}", scene_of(names, *texts, text), because, n
             yield known_scene(*about, swept={"gap": 10.0**-digits}, dof=dof, redundancy=over)
 
 
@@ -91,8 +90,7 @@ def touching(quick: bool) -> Iterator[KnownScene]:
                 dof, over = row["dof"][k], row["redundant"][k] if digits in (0, 12) else None
                 name = f"{row['name']}, {how}" + (f" by 1e-{digits}" if k != 1 else "")
                 made = scene_of(row["coordinates"], *(text.replace("{e}", e) for text in row["rows"]))
-                traits = ("tiny-gap", *(["contradiction"] if dof < 0 else ["real"] if k == 1 else []))
-                about = name, made, because, traits, len(row["rows"])
+                about = name, made, because, len(row["rows"])
                 yield known_scene(*about, swept={"gap": float(e)}, dof=dof, redundancy=over)
 
 
@@ -105,11 +103,11 @@ def scales(quick: bool) -> Iterator[KnownScene]:
     for power in (-9, 9) if quick else (-30, -9, -6, 3, 6, 9, 30):
         r, a = f"1e{power}", f"1e{abs(power)}"
         for row in TABLES["scales"]:
-            if row["trait"] == "offset" and "holonomic" not in row and power not in FAR:
+            if row.get("offset") and "holonomic" not in row and power not in FAR:
                 continue
             made = scene_of(row["coordinates"], *(text.format(r=r, a=a) for text in row["rows"]))
             label = {"c1": row["holonomic"]} if "holonomic" in row else None
-            about = f"{row['name']}, {r}", made, row["because"], (row["trait"],)
+            about = f"{row['name']}, {r}", made, row["because"]
             over = row.get("redundant")
             yield known_scene(
                 *about, swept={"scale": 10.0**power}, dof=row["dof"], integrability=label, redundancy=over
@@ -120,7 +118,7 @@ def branches(quick: bool) -> Iterator[KnownScene]:
     """Products: the set is the union of the branches, the freedom that of the largest."""
     for row in TABLES["branches"][: 4 if quick else None]:
         made = scene_of(row["coordinates"], *row["rows"])
-        about = row["name"], made, row["because"], (row["trait"],), len(made["coordinates"])
+        about = row["name"], made, row["because"], len(made["coordinates"])
         yield known_scene(*about, dof=row["dof"], integrability=labels(row.get("holonomic")))
 
 
@@ -137,22 +135,21 @@ def high_powers(quick: bool) -> Iterator[KnownScene]:
     for k in (2, 3) if quick else POWERS:
         even = k % 2 == 0
         curve = "x^2 + y^2 - 1"
-        # (name, coordinates, rows, dof, redundant: None where it is not asked, the trait)
-        rows: list[tuple[str, list[str], list[str], int, list[str] | None, str]] = [
-            ("a circle to the power", ["x", "y"], [f"({curve})^{k} = 0"], 1, [], "squared"),
-            ("a plane and its power", ["x", "y", "z"], ["x + y = z", f"(x + y - z)^{k} = 0"], 2, ["c2"], "squared"),
-            ("a power of x - y and x = 2 y", ["x", "y"], [f"(x - y)^{k} = 0", "x = 2 y"], 0, [], "squared"),
-            ("x^k + y^k = 1", ["x", "y"], [f"x^{k} + y^{k} = 1"], 1, [], "high-power"),
-            ("x^k + y^k = 0", ["x", "y"], [f"x^{k} + y^{k} = 0"], 0 if even else 1, [], "high-power"),
-            ("x^k = -1", ["x", "y"], [f"x^{k} = -1"], -1 if even else 1, None if even else [], "high-power"),
-            ("x^k = y^k", ["x", "y"], [f"x^{k} = y^{k}"], 1, [], "high-power"),
-            ("x = y and x^k = y^k", ["x", "y"], ["x = y", f"x^{k} = y^{k}"], 1, ["c2"], "high-power"),
+        # (name, coordinates, rows, dof, redundant: None where it is not asked)
+        rows: list[tuple[str, list[str], list[str], int, list[str] | None]] = [
+            ("a circle to the power", ["x", "y"], [f"({curve})^{k} = 0"], 1, []),
+            ("a plane and its power", ["x", "y", "z"], ["x + y = z", f"(x + y - z)^{k} = 0"], 2, ["c2"]),
+            ("a power of x - y and x = 2 y", ["x", "y"], [f"(x - y)^{k} = 0", "x = 2 y"], 0, []),
+            ("x^k + y^k = 1", ["x", "y"], [f"x^{k} + y^{k} = 1"], 1, []),
+            ("x^k + y^k = 0", ["x", "y"], [f"x^{k} + y^{k} = 0"], 0 if even else 1, []),
+            ("x^k = -1", ["x", "y"], [f"x^{k} = -1"], -1 if even else 1, None if even else []),
+            ("x^k = y^k", ["x", "y"], [f"x^{k} = y^{k}"], 1, []),
+            ("x = y and x^k = y^k", ["x", "y"], ["x = y", f"x^{k} = y^{k}"], 1, ["c2"]),
         ]
-        for name, coordinates, texts, dof, over, trait in rows:
+        for name, coordinates, texts, dof, over in rows:
             if k > LARGEST and "(" in "".join(texts):
                 continue
-            traits = (trait, "real") if "x^k +" in name or dof < 0 else (trait,)
-            about = f"{name}, k = {k}", scene_of(coordinates, *texts), because, traits, k
+            about = f"{name}, k = {k}", scene_of(coordinates, *texts), because, k
             yield known_scene(*about, swept={"power": k}, dof=dof, redundancy=over)
 
 
@@ -173,8 +170,7 @@ def power_forms(quick: bool) -> Iterator[KnownScene]:
         for name, text, integrates, because in rows:
             if k > LARGEST and text.startswith("("):
                 continue
-            traits = ("squared", "nonlinear") if "the power of" in name else ("high-power",)
-            about = f"{name}, k = {k}", scene_of("x y z", text), because, traits, k
+            about = f"{name}, k = {k}", scene_of("x y z", text), because, k
             label, dof = {"c1": integrates}, 2 if integrates else 3
             yield known_scene(*about, swept={"power": k}, dof=dof, integrability=label)
 
@@ -183,17 +179,17 @@ def sums_of_squares(quick: bool) -> Iterator[KnownScene]:
     """One equation that says n things: a sum of n squares; with a sign, or a constant, it does not."""
     for n in (2, 3) if quick else (2, 3, 4, 6, 8, 12):
         total, mixed = _sum(n, "(x{k} - {k})^2"), _sum(n, "(x{k} + 2 x{next})^2")
-        rows: list[tuple[str, str, int, str, tuple[str, ...]]] = [
-            ("a point", f"{total} = 0", 0, "every square is 0", ("sum-of-squares",)),
-            ("a sphere", f"{total} = 1", n - 1, "a sphere", ("plain",)),
-            ("nothing", f"{total} + 1 = 0", -1, "squares are not negative", ("contradiction", "real")),
-            ("a cone", f"{total} = (x0 + 1)^2", n - 1, "a quadric with a regular point", ("plain",)),
-            ("sums of two", f"{mixed} = 0", 0, "the matrix 1 + 2 shift is regular: x = 0", ("sum-of-squares",)),
-            ("fourth powers", f"{_sum(n, 'x{k}^4')} = 0", 0, "all 0", ("sum-of-squares",)),
+        rows: list[tuple[str, str, int, str]] = [
+            ("a point", f"{total} = 0", 0, "every square is 0"),
+            ("a sphere", f"{total} = 1", n - 1, "a sphere"),
+            ("nothing", f"{total} + 1 = 0", -1, "squares are not negative"),
+            ("a cone", f"{total} = (x0 + 1)^2", n - 1, "a quadric with a regular point"),
+            ("sums of two", f"{mixed} = 0", 0, "the matrix 1 + 2 shift is regular: x = 0"),
+            ("fourth powers", f"{_sum(n, 'x{k}^4')} = 0", 0, "all 0"),
         ]
         names = [f"x{k}" for k in range(n)]
-        for name, text, dof, because, traits in rows:
-            yield known_scene(f"{name} of {n}", scene_of(names, text), because, traits, size=n, dof=dof)
+        for name, text, dof, because in rows:
+            yield known_scene(f"{name} of {n}", scene_of(names, text), because, size=n, dof=dof)
         yield from _squared_forms(n, names)
 
 
@@ -206,7 +202,7 @@ def _squared_forms(n: int, names: list[str]) -> Iterator[KnownScene]:
         (f"{n - 1} forms in one, and one that does not integrate", ["y", "z"], second,
          "each square is 0: dx_k = z dy; differences integrate, the form does not", 3),
     ):  # fmt: skip
-        about = name, scene_of([*names, *coordinates], text), because, ("sum-of-squares", "nonlinear"), n
+        about = name, scene_of([*names, *coordinates], text), because, n
         yield known_scene(*about, dof=dof, integrability={"c1": dof == 1})
 
 
@@ -224,14 +220,14 @@ def chained_equations(quick: bool) -> Iterator[KnownScene]:
         names = [f"x{k}" for k in range(n)]
         sums = [f"x{k + 1} = 2 x{k} + 1" for k in range(n - 1)]
         factor = 2 ** (n - 1)
-        rows: Sequence[tuple[str, str, int, list[str], tuple[str, ...]]] = (
-            ("tied rightly", f"x{n - 1} = {factor} x0 + {factor - 1}", 1, [f"c{n}"], ("redundant", "long-chain")),
-            ("tied to another place", f"x{n - 1} = {factor} x0 + {factor}", -1, [], ("contradiction", "long-chain")),
-            ("tied by another slope", f"x{n - 1} = {factor + 1} x0", 0, [], ("plain", "long-chain")),
+        rows: Sequence[tuple[str, str, int, list[str]]] = (
+            ("tied rightly", f"x{n - 1} = {factor} x0 + {factor - 1}", 1, [f"c{n}"]),
+            ("tied to another place", f"x{n - 1} = {factor} x0 + {factor}", -1, []),
+            ("tied by another slope", f"x{n - 1} = {factor + 1} x0", 0, []),
         )
-        for name, last, dof, over, traits in rows:
+        for name, last, dof, over in rows:
             because = f"x_n-1 = {factor} x_0 + {factor - 1} by the chain"
-            about = f"{n} coordinates, {name}", scene_of(names, *sums, last), because, traits, n
+            about = f"{n} coordinates, {name}", scene_of(names, *sums, last), because, n
             yield known_scene(*about, dof=dof, redundancy=over)
 
 

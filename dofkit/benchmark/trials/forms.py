@@ -55,8 +55,7 @@ def mixed_forms(quick: bool) -> Iterator[KnownScene]:
         ):
             rows = [text(form) for form in combined(matrix, forms)]
             labels = every(numbered(n), integrates) if all(row[0] for row in matrix) or integrates else None
-            traits = ("together" if integrates else "non-holonomic", "large")
-            about = f"{n} forms in {2 * n + 1} coordinates, {name}, {seed}", scene_of(names, *rows), because, traits, n
+            about = f"{n} forms in {2 * n + 1} coordinates, {name}, {seed}", scene_of(names, *rows), because, n
             yield known_scene(*about, dof=dof, integrability=labels)
 
 
@@ -113,19 +112,19 @@ def hidden_by_time(quick: bool) -> Iterator[KnownScene]:
         names = [f"x{k}" for k in range(n)]
         rates = [f"x{k}dot = x{k + 1}" for k in range(n - 1)]
         last = f"x{n - 1}"
-        # name, rows before, rows after, dof, because, traits
-        rows: list[tuple[str, list[str], list[str], int, str, tuple[str, ...]]] = [
-            ("nothing held", [], [], n, "Goursat's normal form in (t, x)", ("non-holonomic",)),
-            ("the last held", [], [f"{last} = 2"], 0, "polynomials in t", ("together",)),
-            ("the first held", ["x0 = 0"], [], 0, "each rate is 0", ("time-hidden",)),
-            ("the first a sine", ["x0 = sin(t)"], [], 0, "each is a derivative of it", ("time-hidden",)),
-            ("both ends held as they are", ["x0 = 0"], [f"{last} = 0"], 0, "each rate is 0", ("time-hidden",)),
-            ("both ends held", ["x0 = 0"], [f"{last} = 1e-12"], -1, "the last is 0", ("time-hidden", "tiny-gap")),
+        # name, rows before, rows after, dof, because
+        rows: list[tuple[str, list[str], list[str], int, str]] = [
+            ("nothing held", [], [], n, "Goursat's normal form in (t, x)"),
+            ("the last held", [], [f"{last} = 2"], 0, "polynomials in t"),
+            ("the first held", ["x0 = 0"], [], 0, "each rate is 0"),
+            ("the first a sine", ["x0 = sin(t)"], [], 0, "each is a derivative of it"),
+            ("both ends held as they are", ["x0 = 0"], [f"{last} = 0"], 0, "each rate is 0"),
+            ("both ends held", ["x0 = 0"], [f"{last} = 1e-12"], -1, "the last is 0"),
         ]
-        for name, before, after, dof, because, traits in rows:
+        for name, before, after, dof, because in rows:
             constraints = [*before, *rates, *after]
             labels = None if dof < 0 else every(numbered(len(constraints)), dof == 0)
-            about = f"{n} coordinates, {name}", scene_of(names, *constraints), because, traits, n
+            about = f"{n} coordinates, {name}", scene_of(names, *constraints), because, n
             yield known_scene(*about, dof=dof, integrability=labels)
 
 
@@ -138,13 +137,12 @@ def many_blocks(quick: bool) -> Iterator[KnownScene]:
     for part in blocks:
         for n in (1, 2) if quick else (1, 4, 8, 16, 64):
             if n <= part["most"]:
-                traits = (*part["traits"], "many-blocks")
-                yield _blocks(f"{n} times {part['name']}", [part] * n, part["because"], traits)
+                yield _blocks(f"{n} times {part['name']}", [part] * n, part["because"])
     for n in (1,) if quick else (1, 2, 4):
-        yield _blocks(f"{n} of each", [*blocks] * n, "freedoms of separate parts add up", ("many-blocks",))
+        yield _blocks(f"{n} of each", [*blocks] * n, "freedoms of separate parts add up")
 
 
-def _blocks(name: str, blocks: Sequence[Row], because: str, traits: tuple[str, ...]) -> KnownScene:
+def _blocks(name: str, blocks: Sequence[Row], because: str) -> KnownScene:
     names = [f"{q}{k}" for k, part in enumerate(blocks) for q in part["coordinates"].split()]
     rows = [
         {"name": f"part{k}_{i}", "type": "equation", "text": row.replace("{k}", str(k))}
@@ -153,7 +151,7 @@ def _blocks(name: str, blocks: Sequence[Row], because: str, traits: tuple[str, .
     ]
     labels = {f"part{k}_{i}": value for k, part in enumerate(blocks) for i, value in enumerate(part["holonomic"])}
     over = [f"part{k}_{i}" for k, part in enumerate(blocks) for i in part["redundant"]]
-    about = name, scene_of(names, *rows, parameters={"R": "positive"}), because, traits, len(blocks)
+    about = name, scene_of(names, *rows, parameters={"R": "positive"}), because, len(blocks)
     return known_scene(*about, dof=sum(part["dof"] for part in blocks), integrability=labels, redundancy=over)
 
 
@@ -171,21 +169,19 @@ def chained_forms(quick: bool) -> Iterator[KnownScene]:
         half = n // 2
         broken = [*forms[: half - 1], f"dq{half} - q0^2 dq0 = 0", *forms[half:]] if half else forms
         closing = "as many forms as coordinates but one leave one direction: all integrate together"
-        # name, the forms, dof, which integrate (None: not asked), because, trait
-        members: list[tuple[str, list[str], int, dict[str, bool] | None, str, str]] = [
+        # name, the forms, dof, which integrate (None: not asked), because
+        members: list[tuple[str, list[str], int, dict[str, bool] | None, str]] = [
             (f"{n - 1} forms, open", forms, n + 1, every(numbered(n - 1), False),
-             "Goursat's normal form: each derived system loses one form, down to none", "non-holonomic"),
-            (f"{n} forms, closed", [*forms, f"dq{n} - q0 dq0 = 0"], 1, every(numbered(n), True), closing, "together"),
+             "Goursat's normal form: each derived system loses one form, down to none"),
+            (f"{n} forms, closed", [*forms, f"dq{n} - q0 dq0 = 0"], 1, every(numbered(n), True), closing),
             (f"{n} forms, closed by a Riccati equation", [*forms, f"dq{n} - (q0 + q{n}^2) dq0 = 0"], 1,
-             every(numbered(n), True), closing, "together"),
+             every(numbered(n), True), closing),
             (f"{n - 1} forms, one of them closed", broken, n + 1 - half,
              {f"c{k}": k <= half for k in range(1, n)} if half < n - 1 or n > 2 else None,
-             "what comes before a form in q0 alone integrates with it; what comes after is a chain of its own",
-             "together"),
+             "what comes before a form in q0 alone integrates with it; what comes after is a chain of its own"),
         ]  # fmt: skip
-        for name, rows, dof, labels, because, trait in members:
-            traits = (trait, "long-chain")
-            yield known_scene(name, scene_of(names, *rows), because, traits, n, dof=dof, integrability=labels)
+        for name, rows, dof, labels, because in members:
+            yield known_scene(name, scene_of(names, *rows), because, n, dof=dof, integrability=labels)
 
 
 def trailers(quick: bool) -> Iterator[KnownScene]:
@@ -194,12 +190,12 @@ def trailers(quick: bool) -> Iterator[KnownScene]:
     straight = "its heading stays, so the axle runs straight and one direction is left: all integrate"
     for n in (0, 1) if quick else (0, 1, 2, 4, 8, 16, 24):
         made = car(n)
-        about = f"a car with {n} trailers", made, controllable, ("non-holonomic", "long-chain"), n + 2
+        about = f"a car with {n} trailers", made, controllable, n + 2
         labels = every(numbered(n + 2), False)
         yield known_scene(*about, swept={"member": "steers"}, dof=n + 4, integrability=labels)
         if n <= 3:
             held = {**made, "constraints": ["phi = 0", *made["constraints"]]}
-            about = f"a car with {n} trailers that does not steer", held, straight, ("together", "long-chain"), n + 2
+            about = f"a car with {n} trailers that does not steer", held, straight, n + 2
             labels = every(numbered(n + 3), True)
             yield known_scene(*about, swept={"member": "does not steer"}, dof=1, integrability=labels)
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import random
 from collections.abc import Hashable, Iterable, Iterator, Sequence
-from dataclasses import replace
 from itertools import combinations
 from typing import TypeVar
 
@@ -30,8 +29,7 @@ def _linked_scene(
         ],
     }
     redundant = None if over is None else [f"l{k}" for k, link in enumerate(links) if link in set(over)]
-    traits = ("redundant",) if over is None or over else ("plain",)
-    return known_scene(name, scene, because, traits, size, dof=dof, redundancy=redundant)
+    return known_scene(name, scene, because, size, dof=dof, redundancy=redundant)
 
 
 def cliques(quick: bool) -> Iterator[KnownScene]:
@@ -86,8 +84,7 @@ def bananas(quick: bool) -> Iterator[KnownScene]:
         ]  # fmt: skip
         for how, joints, links, dof, over, because in members:
             if how != "in a ring" or n > 2:
-                scene = _linked_scene(f"{n} bananas {how}", (joints, 3, links), because, n, dof, over)
-                yield replace(scene, traits=("banana",)) if over else scene
+                yield _linked_scene(f"{n} bananas {how}", (joints, 3, links), because, n, dof, over)
 
 
 def _spindle(a: int, b: int, first: int) -> list[Link]:
@@ -166,7 +163,7 @@ def bars(quick: bool) -> Iterator[KnownScene]:
             drawn = graph(random.Random(f"bars {d} {n} {seed}"), d, n, twice=True)
             over = [f"bar{i}" for i in dependent(drawn)]
             about = f"{n} joints in dimension {d}, {seed}", drawn.scene(), because
-            yield known_scene(*about, ("redundant",) if over else ("plain",), n, dof=drawn.by_rank(), redundancy=over)
+            yield known_scene(*about, n, dof=drawn.by_rank(), redundancy=over)
 
 
 def braced_grids(quick: bool) -> Iterator[KnownScene]:
@@ -196,7 +193,7 @@ def braced_grids(quick: bool) -> Iterator[KnownScene]:
             links += [{"name": label, "type": "link", "between": [a, b]} for label, a, b in braces]
             particles = [{"name": f"p{i}_{j}", "at": [i, j]} for i in range(m + 1) for j in range(m + 1)]
             made = {"dimension": 2, "particles": particles, "constraints": links}
-            about = f"{m} by {m} squares, {name} braces", made, because, ("special-position" if over else "plain",), m
+            about = f"{m} by {m} squares, {name} braces", made, because, m
             yield known_scene(*about, dof=3 + components - 1, redundancy=over)
 
 

@@ -178,32 +178,30 @@ def _stepped(row: Mapping[str, Any], step: str, rows: Sequence[str], truth: dict
 STRIDE = 5
 #: The steps that are taken.
 TAKEN = ("1e-12", "1e-30")
-#: Words by which a group of tiny steps between configuration-level equations is recognized.
-FINITE = ("planes", "circle", "lines", "height", "angle")
 
 
 def identities(quick: bool) -> Iterator[KnownScene]:
     """Zero by an identity, or missed by a constant that floating point does not see, or by a sign."""
     names = set()
-    for trap, text, zero, trait, number in _traps(9 if quick else 1):
+    for trap, text, zero, number in _traps(9 if quick else 1):
         scene = _in_context(trap, text, zero, number)
         if scene is not None and scene.name not in names:
             names.add(scene.name)
             because = "zero by an identity" if zero else "an identity missed by a constant, or by a sign"
-            yield replace(scene, because=because, traits=(trait,))
+            yield replace(scene, because=because)
 
 
-def _traps(stride: int) -> Iterator[tuple[Trap, str, bool, str, int]]:
-    """Yield each trap, an expression, whether it is zero, the trait, and in which context it stands."""
+def _traps(stride: int) -> Iterator[tuple[Trap, str, bool, int]]:
+    """Yield each trap, an expression, whether it is zero, and in which context it stands."""
     for number, trap in enumerate(TRAPS[::stride]):
-        yield trap, trap.zero, True, "hidden-identity", number
+        yield trap, trap.zero, True, number
         if number % 3:
-            yield trap, trap.tiny[number % 2], False, "near-identity", number
+            yield trap, trap.tiny[number % 2], False, number
         if number % 3 == 1 and trap.sign:
-            yield trap, trap.sign, False, "plain", number + STRIDE
+            yield trap, trap.sign, False, number + STRIDE
     for number, trap in enumerate(NOT_ZERO[::stride]):
         for turn in range(3):
-            yield trap, trap.zero, False, "near-identity", number + STRIDE * turn
+            yield trap, trap.zero, False, number + STRIDE * turn
 
 
 def _in_context(trap: Trap, text: str, zero: bool, number: int) -> KnownScene | None:
@@ -217,9 +215,7 @@ def steps(quick: bool) -> Iterator[KnownScene]:
     for number, scene in enumerate(tiny_steps()):
         if number % 23 if quick else not scene.name.endswith(TAKEN):
             continue
-        contradictory = scene.truth.get("consistent") is False
-        trait = "tiny-gap" if contradictory or any(word in scene.group for word in FINITE) else "near-integrable"
-        yield replace(scene, because="a step is exact, however small", traits=(trait,))
+        yield replace(scene, because="a step is exact, however small")
 
 
 def bases(quick: bool) -> Iterator[KnownScene]:
@@ -231,14 +227,14 @@ def bases(quick: bool) -> Iterator[KnownScene]:
             scene = _in_context(trap, text, is_zero, 2 * number + turn)
             if scene is not None:
                 because = "one function, written to two bases" if is_zero else "off by a constant"
-                yield replace(scene, because=because, traits=("mixed-bases" if is_zero else "near-identity",))
+                yield replace(scene, because=because)
     for power in (2,) if quick else (2, 3, 5, 8, 12):
         for name, second, dof, because in (
             (f"a factor 2^({power} x)", "dy", 2, "dz + dy"),
             (f"a contact form by 2^({power} x)", "y dx", 3, "dz + y dx"),
         ):
             made = scene_of("x y z", f"({2**power})^x dz + 2^({power} x) {second} = 0")
-            about = name, made, f"over the factor: {because}", ("mixed-bases",)
+            about = name, made, f"over the factor: {because}"
             yield known_scene(*about, dof=dof, integrability={"c1": dof == 2})
 
 

@@ -33,7 +33,6 @@ def catalog(quick: bool) -> Iterator[KnownScene]:
             name,
             {key: value for key, value in scene.items() if key != "expect"},
             "derived by hand: see the scene's notes",
-            (_trait(scene),),
             size=len(scene.get("constraints", ())),
             dof=-1 if expect.get("consistent") is False else expect.get("dof"),
             integrability=_labels(scene),
@@ -49,20 +48,6 @@ def _labels(scene: Mapping[str, Any]) -> dict[str, bool] | None:
     entries = expect.get("constraints", {})
     holonomic = {name: entries.get(name, {}).get("holonomic") for name in names}
     return None if None in holonomic.values() else holonomic
-
-
-def _trait(scene: Mapping[str, Any]) -> str:
-    """Return what the scene is mostly about."""
-    expect = scene["expect"]
-    types = {c.get("type", "equation") for c in scene.get("constraints", ()) if isinstance(c, Mapping)}
-    if expect.get("holonomic") is False:
-        forms = [entry.get("form") for entry in expect.get("constraints", {}).values()]
-        return "inequality" if "inequality" in forms else "non-holonomic"
-    if expect.get("redundant_equations"):
-        return "redundant"
-    if expect.get("scleronomic") is False:
-        return "rheonomic"
-    return "joints" if scene.get("bodies") and types - {"equation"} else "plain"
 
 
 # Answers
@@ -92,13 +77,13 @@ def answers(quick: bool) -> Iterator[KnownScene]:
         yield from (_rewritten(row, way) for way in FOR_FORMS)
     for row in (*TABLES["finite"], *TABLES["moving"]):
         for answer in row["answers"][:: 5 if quick else 1]:
-            about = f"{row['name']}: {answer['text']}", _scene(row), answer["because"], (answer["trait"],)
+            about = f"{row['name']}: {answer['text']}", _scene(row), answer["because"]
             yield known_scene(*about, equivalence=("asked", answer["text"], answer["same"]))
 
 
 def _rewritten(row: Row, way: Row) -> KnownScene:
     answer = ("asked", way["text"].format(u=row["u"], q=row["q"]), way["same"])
-    about = f"{row['name']}, {way['name']}", _scene(row), way["because"], (way["trait"],)
+    about = f"{row['name']}, {way['name']}", _scene(row), way["because"]
     return known_scene(*about, equivalence=answer)
 
 
@@ -107,7 +92,7 @@ def inequalities(quick: bool) -> Iterator[KnownScene]:
     for row in TABLES["sides"][:: 4 if quick else 1]:
         disc = scene_of("x y", _asked("x^2 + y^2 <= R^2"), parameters={"R": "positive"})
         answer = ("asked", row["text"], row["same"])
-        yield known_scene(row["text"], disc, "a disc", (row["trait"], "inequality"), equivalence=answer)
+        yield known_scene(row["text"], disc, "a disc", equivalence=answer)
 
 
 FAMILIES = {

@@ -198,52 +198,36 @@ SWEEPS: Mapping[str, Callable[[], Iterator[KnownScene]]] = {
 
 # Families: the degree of freedom alone, which is known at every step
 
-#: What a singular pose is like, by mechanism; those of frameworks that are left out have an infinitesimal motion.
-CROSSING, SPECIAL = ("four-bar at its change point", "flat parallelogram"), ("third crank longer", "third crank aside")
 #: The steps that are taken.
 TAKEN = (0, 1e-1, 1e-3, 1e-6, 1e-12)
 DERIVED = "derived by hand at the singular pose and beside it, for every step"
 RANKED = "the exact rank of what is written: independent bars stay so, and nothing is singular there"
 
 
-def _freedom(case: KnownScene, traits: Sequence[str], because: str = DERIVED) -> KnownScene:
-    return known_scene(case.name, case.scene, because, traits, swept=case.swept, dof=case.dof)
-
-
-def _trait(case: KnownScene) -> str:
-    """Return what is special about the pose."""
-    if case.swept["step"]:
-        return "near-singular"
-    kinds = {**dict.fromkeys(CROSSING, "crossing"), **dict.fromkeys(SPECIAL, "special-position")}
-    kinds |= dict.fromkeys((pose.name for pose in JOINTED), "overconstrained")
-    return kinds.get(case.group, "shaky")
-
-
-def _moved_trait(case: KnownScene) -> str:
-    """Return what is special about where the mechanism lies, and how large it is."""
-    return "offset" if case.swept["offset"] else "scale" if case.swept["scale"] != 1 else "special-position"
+def _freedom(case: KnownScene, because: str = DERIVED) -> KnownScene:
+    return known_scene(case.name, case.scene, because, swept=case.swept, dof=case.dof)
 
 
 def near_singular(quick: bool) -> Iterator[KnownScene]:
     """At singular poses, and 10^-1 ... 10^-12 from them."""
     cases = islice(steps(), 0, None, 17) if quick else (c for c in steps() if c.swept["step"] in TAKEN)
-    return (_freedom(case, (_trait(case),)) for case in cases)
+    return (_freedom(case) for case in cases)
 
 
 def scaled(quick: bool) -> Iterator[KnownScene]:
     """A million times larger and smaller, and far away."""
     cases = islice(sizes(), 0, None, 31 if quick else 3)
-    return (_freedom(case, (_moved_trait(case), _trait(case))) for case in cases)
+    return (_freedom(case) for case in cases)
 
 
 def rounded_poses(quick: bool) -> Iterator[KnownScene]:
     """Rounded drawings: exact as they are written."""
-    return (_freedom(case, ("rounded",), RANKED) for case in islice(roundings(), 0, None, 11 if quick else 1))
+    return (_freedom(case, RANKED) for case in islice(roundings(), 0, None, 11 if quick else 1))
 
 
 def measured_poses(quick: bool) -> Iterator[KnownScene]:
     """Rounded drawings with a tolerance: true is what was rounded."""
-    return (_freedom(case, ("measured",)) for case in islice(measured(), 0, None, 11 if quick else 1))
+    return (_freedom(case) for case in islice(measured(), 0, None, 11 if quick else 1))
 
 
 FAMILIES = {

@@ -9,10 +9,10 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import combinations
 
 from dofkit.base.deadline import check
 from dofkit.classification.dependence.implication import Everywhere, NearDrawing, SufficientSets
+from dofkit.classification.dependence.minimal_sets import largest_redundant_set, minimal_set
 from dofkit.exact.matrices.sparse import SparseRow, Supports, components, echelon, rank_of_rows, transposed, vanishing
 from dofkit.relations.answer import Redundancies
 
@@ -193,12 +193,7 @@ def _droppable(matrices: Sequence[OwnedRows], members: list[int], bases: Sequenc
     within = _Dispensable(matrices, members)
     if len(members) > SEARCHED:
         return _exchanged(within, members, rows_of)
-    dropped = within.greedy(reversed(members), [])
-    for size in range(len(members) - 1, len(dropped), -1):
-        for choice in combinations(reversed(members), size):
-            if within.can_go(choice):
-                return list(choice)
-    return dropped
+    return largest_redundant_set(reversed(members), within.can_go).members
 
 
 def _exchanged(within: _Dispensable, members: Sequence[int], rows_of: Mapping[int, int]) -> list[int]:
@@ -268,8 +263,8 @@ def _circuit(
         kept = [o for o in order if o in supports]
     else:
         kept = [o for o in order if o != owner]
-    for other in reversed(list(kept)):
-        fewer = set(kept) - {other}
-        if _spans(matrices, fewer, fewer | {owner}) and all(b.implies(fewer, owner) for b in bases):
-            kept.remove(other)
-    return sorted(kept)
+
+    def implies(fewer: Collection[int]) -> bool:
+        return _spans(matrices, {*fewer}, {*fewer, owner}) and all(b.implies({*fewer}, owner) for b in bases)
+
+    return sorted(minimal_set(kept, implies))

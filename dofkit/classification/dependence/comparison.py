@@ -74,7 +74,7 @@ def _written(r: Reduced) -> list[list[tuple[str, Expr]]]:
 
 def _terms(normal: Normal) -> list[tuple[str, Expr]]:
     """g of g = 0 under no name, or a form's coefficients by coordinate; none of what has branches or conditions."""
-    if len(normal.branches) != 1 or len(normal.branches[0]) != 1 or normal.constants:
+    if len(normal.branches) != 1 or len(normal.branches[0]) != 1:
         return []
     (piece,) = normal.branches[0]
     if isinstance(piece, Finite):

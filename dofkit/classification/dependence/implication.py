@@ -19,6 +19,7 @@ from itertools import product as cartesian
 from typing import NamedTuple
 
 from dofkit.base.deadline import OutOfTimeError, check
+from dofkit.classification.dependence.minimal_sets import minimal_set
 from dofkit.classification.freedom.branches import in_time
 from dofkit.classification.freedom.preparation import all_of, branches_at_reference, conditional
 from dofkit.configuration.implied_relations import ImpliedRelations
@@ -380,21 +381,16 @@ class SufficientSets:
     def _fewest(self, row: int, rows: Sequence[int], needed: Sequence[int]) -> list[int]:
         """Rows of which the row follows, less those of constraints without which it does too, the last written first.
 
-        Those ``needed`` stay. Constraints are left out by halves of the list, quarters, and so on down to single ones.
+        Those ``needed`` stay.
         """
-        kept, staying = list(rows), {self.owners[i] for i in (row, *needed)}
+        staying = {self.owners[i] for i in (row, *needed)}
         spare = sorted({self.owners[i] for i in rows} - staying)
-        size = max(1, len(spare) // 2)
-        while spare:
-            remaining = list[int]()
-            for end in range(len(spare), 0, -size):
-                some = spare[max(0, end - size) : end]
-                fewer = [i for i in kept if self.owners[i] not in some]
-                if self._ask(fewer) and self.implication.seems(row, fewer):
-                    kept = fewer
-                else:
-                    remaining = [*some, *remaining]
-            if size == 1:
-                break
-            spare, size = remaining, max(1, size // 2)
-        return kept
+
+        def rows_of(owners: Sequence[int]) -> list[int]:
+            return [i for i in rows if self.owners[i] in staying or self.owners[i] in owners]
+
+        def suffice(owners: Sequence[int]) -> bool:
+            fewer = rows_of(owners)
+            return self._ask(fewer) and self.implication.seems(row, fewer)
+
+        return rows_of(minimal_set(spare, suffice, len(spare) // 2 or 1))

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from functools import partial
-from itertools import combinations
 from typing import NamedTuple
 
-from dofkit.base.deadline import unless_late
+from dofkit.base.deadline import limited, unless_late
 from dofkit.base.verdicts import About
 from dofkit.classification.dependence.implication import follows
+from dofkit.classification.dependence.minimal_sets import largest_redundant_set, minimal_set
 from dofkit.classification.freedom.branches import Outcome, solve
 from dofkit.classification.freedom.preparation import all_of
 from dofkit.expressions import tree as ex
@@ -38,23 +37,14 @@ def _by_implication(reduced: Sequence[Reduced], setting: Setting, numbers: Seque
 
     The last in the order goes first; where more can go together in its place, they do.
     """
-    until = time.process_time() + LEAVING_SECONDS
-    kept, unknown = list(numbers), list[int]()
-    for i in reversed(numbers):
-        answer = (
-            None
-            if time.process_time() > until
-            else constraint_follows(reduced, i, [j for j in kept if j != i], setting)
-        )
-        if answer:
-            kept.remove(i)
-        elif answer is None:
-            unknown.append(i)
-    dropped = _more(reduced, setting, numbers, [i for i in numbers if i not in kept], until)
+    rows = [b for i in numbers for n in reduced[i].normals for b in n.branches]
+    exchange = len(rows) == len(numbers) and all(len(b) == 1 for b in rows)
+    with limited(LEAVING_SECONDS):
+        implied = _Implied(reduced, setting, numbers)
+        dropped, undecided = largest_redundant_set(reversed(numbers), implied.in_time, exchange)
     kept = [i for i in numbers if i not in dropped]
     circuits = {i: _needed(reduced, reduced[i].normals, kept, setting) for i in dropped}
     groups = [(reduced[i].equations, sorted({i, *circuits[i]})) for i in dropped]
-    undecided = [i for i in unknown if i in kept]
     independent, more = _equation_by_equation(reduced, setting, numbers, kept)
     decided = {i: n for i, n in independent.items() if i not in undecided}
     about: About = "everywhere" if setting.reference is None else "reference"
@@ -83,24 +73,27 @@ def _equation_by_equation(
     return independent, groups
 
 
-def _more(
-    reduced: Sequence[Reduced], setting: Setting, numbers: Sequence[int], dropped: list[int], until: float
-) -> list[int]:
-    """More constraints that can go together than ``dropped``, where there are: x = 0 and y = 0 beside x^2 + y^2 = 0.
+@dataclass
+class _Implied:
+    """Constraints that can be left out because the others imply them; the sets that were found to be redundant."""
 
-    Where every constraint is one row there are none (the exchange of bases).
-    """
-    rows = [b for i in numbers for n in reduced[i].normals for b in n.branches]
-    if not dropped or (len(rows) == len(numbers) and all(len(b) == 1 for b in rows)):
-        return dropped
-    single = [i for i in numbers if constraint_follows(reduced, i, [j for j in numbers if j != i], setting)]
-    for choice in combinations(reversed(single), len(dropped) + 1):
-        if time.process_time() > until:
-            break
-        kept = [j for j in numbers if j not in choice]
-        if all(constraint_follows(reduced, i, kept, setting) for i in choice):
-            return _more(reduced, setting, numbers, sorted(choice), until)
-    return dropped
+    reduced: Sequence[Reduced]
+    setting: Setting
+    numbers: Sequence[int]
+    _redundant: set[frozenset[int]] = field(default_factory=set)
+
+    def in_time(self, choice: Sequence[int]) -> bool | None:
+        """Return whether the other constraints imply some; None where that is undecided or there is no time to tell.
+
+        What is implied by the others and a constraint that they imply is implied by the others.
+        """
+        kept = [j for j in self.numbers if j not in choice]
+        asked = choice[-1:] if frozenset(choice[:-1]) in self._redundant else choice
+        follow = (constraint_follows(self.reduced, i, kept, self.setting) for i in asked)
+        answer = unless_late(lambda: all_of(follow), None)
+        if answer:
+            self._redundant.add(frozenset(choice))
+        return answer
 
 
 def _equations_implied(reduced: Sequence[Reduced], i: int, before: Sequence[int], setting: Setting) -> list[Normal]:
@@ -125,12 +118,12 @@ def _needed(
     reduced: Sequence[Reduced], normals: Sequence[Normal], others: Sequence[int], setting: Setting
 ) -> list[int]:
     """A minimal set of the others that some equations follow from."""
-    kept = list(others)
-    for j in reversed(others):
-        fewer = [n for k in kept if k != j for n in reduced[k].normals]
-        if all(follows(n, fewer, setting) for n in normals):
-            kept.remove(j)
-    return kept
+
+    def imply(kept: Sequence[int]) -> bool:
+        premises = [n for k in kept for n in reduced[k].normals]
+        return all(follows(n, premises, setting) for n in normals)
+
+    return minimal_set(others, imply)
 
 
 #: Seconds spent on leaving constraints out.
@@ -161,7 +154,10 @@ def conflict(system: System, reduced: Sequence[Reduced], setting: Setting, outco
     sets = ConstraintSets(system, reduced, plain)
     if not sets.inconsistent(kept):
         kept = [i for i, r in enumerate(reduced) if r.normals]
-    kept = _filtered(sets, kept)
+    with limited(CONFLICT_SECONDS):
+        kept = minimal_set(
+            kept, lambda some: some and unless_late(partial(sets.inconsistent, some), False), len(kept) // 2 or 1
+        )
     return Conflict(kept, all(sets.consistent(kept[:k] + kept[k + 1 :]) for k in range(len(kept))))
 
 
@@ -173,22 +169,6 @@ def _linear(some: Sequence[Reduced]) -> list[Expr] | None:
     single = all(len(normal.branches) == 1 for r in some for normal in r.normals)
     timed = any(ex.TIME in e.symbols for e in relations)
     return relations if single and len(relations) == len(pieces) and len(relations) > 1 and not timed else None
-
-
-def _filtered(sets: ConstraintSets, kept: list[int]) -> list[int]:
-    """Leave out parts of half the size, of a quarter, and so on down to single constraints."""
-    until = time.process_time() + CONFLICT_SECONDS
-    size = max(1, len(kept) // 2)
-    while True:
-        for end in range(len(kept), 0, -size):
-            if time.process_time() > until:
-                return kept
-            fewer = kept[: max(0, end - size)] + kept[end:]
-            if fewer and sets.inconsistent(fewer):
-                kept = fewer
-        if size == 1:
-            return kept
-        size = max(1, size // 2)
 
 
 class ConstraintSets:
@@ -204,6 +184,10 @@ class ConstraintSets:
         if key not in self._answers:
             self._answers[key] = self._looked(numbers)
         return self._answers[key][0] is False
+
+    def inconsistent_in_time(self, numbers: Sequence[int]) -> bool:
+        """Return whether some constraints are inconsistent; False also where there is no time to tell."""
+        return bool(numbers) and unless_late(partial(self.inconsistent, numbers), False)
 
     def consistent(self, numbers: Sequence[int]) -> bool:
         """Return whether it was proved, when they were examined, that they are satisfied somewhere."""

@@ -252,13 +252,13 @@ def _agreed(dependent: Sequence[Redundancies]) -> list[Redundancies]:
 def _measured_by_rank(
     reduced: Sequence[Reduced], setting: Setting, numbers: Sequence[int], blocks: Sequence[tuple[Block, Answer]]
 ) -> bool:
-    """Return whether the rank measures dependence: one branch, and nothing nonlinear or hidden (constants apart)."""
+    """Return whether the rank measures dependence: one branch, and nothing nonlinear or hidden ."""
     normals = [n for i in numbers for n in reduced[i].normals]
     if any(len(branches_at_reference(n, setting).branches) > 1 for n in normals):
         return False
     bent = any(isinstance(p, Nonlinear) for n in normals for p in n.pieces)
     hidden = any(a.hidden for _, a in blocks) and len(numbers) <= MAX_CHOICES
-    return not (bent or hidden) or any(reduced[i].constants for i in numbers)
+    return not (bent or hidden)
 
 
 def _of_block(

@@ -19,14 +19,15 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
-from itertools import combinations, groupby
+from functools import cached_property, partial
+from itertools import groupby
 from typing import NamedTuple
 
-from dofkit.base.deadline import OutOfTimeError, check, limited
+from dofkit.base.deadline import OutOfTimeError, check, limited, unless_late
 from dofkit.base.verdicts import Verdict, weakest
 from dofkit.classification.dependence.implication import Everywhere, NearDrawing, SufficientSets, is_drawn
 from dofkit.classification.dependence.implied_constraints import LEAVING_SECONDS
+from dofkit.classification.dependence.minimal_sets import largest_redundant_set, minimal_set
 from dofkit.classification.freedom.block import answer
 from dofkit.classification.freedom.preparation import all_of
 from dofkit.exact.matrices.sparse import components, echelon
@@ -44,60 +45,33 @@ def by_removal(block: Block, setting: Setting, a: Answer, nullity: int, numbered
     order = list(dict.fromkeys(owners))
     removal = Removal(block, setting, a)
     with limited(LEAVING_SECONDS):
-        redundancies = _largest_redundant_set(removal, order)
-        circuits = _circuits(removal, order, redundancies.redundant)
-    nullity = max(nullity, sum(o in redundancies.redundant for o in owners))
-    groups = [(nullity, sorted(order))] if redundancies.redundant else []
-    answer = replace(redundancies, groups=groups, circuits=circuits, verdict=removal.verdict)
+        largest = largest_redundant_set(reversed(order), removal.in_time)
+        circuits = _circuits(removal, order, largest.members)
+    nullity = max(nullity, sum(o in largest.members for o in owners))
+    groups = [(nullity, sorted(order))] if largest.members else []
+    undecided = tuple(largest.undecided)
+    answer = Redundancies({}, largest.members, groups, circuits, undecided, verdict=removal.verdict)
     count = counted(block, setting, a, numbered) if is_drawn(block, a, setting) else None
     if count is not None:
         verdict = weakest(answer.verdict, "numeric" if count.seen else "proved")
         counts = replace(answer, independent=count.independent, equations=count.equations, seen=count.seen)
         return replace(counts, groups=groups or count.groups, verdict=verdict)
     independent = {o: 0 for o, circuit in circuits.items() if circuit and max(circuit) < o}
-    open_ = {*redundancies.redundant, *redundancies.undecided}
+    open_ = {*largest.members, *largest.undecided}
     independent |= {o: 1 for o in order if owners.count(o) == 1 and o not in open_}
-    uncounted = tuple(o for o in order if o not in independent and o not in redundancies.undecided)
+    uncounted = tuple(o for o in order if o not in independent and o not in undecided)
     return replace(answer, independent=independent, uncounted=uncounted)
-
-
-def _largest_redundant_set(removal: Removal, order: Sequence[int]) -> Redundancies:
-    """As many constraints as can go together, the last in the order first, and those of which it is not known.
-
-    What can go together can go one by one. Of constraints that can go one by one as many are tried as could be more.
-    """
-    gone, single, open_ = list[int](), list[int](), list[int]()
-    try:
-        for owner in reversed(order):
-            alone = removal.is_redundant([owner])
-            together = removal.is_redundant([*gone, owner]) if alone else alone
-            single += [owner] if alone else []
-            gone += [owner] if together else []
-            open_ += [owner] if together is None else []
-        while len(gone) < len(single):
-            more = combinations(single, len(gone) + 1)
-            better = next((choice for choice in more if removal.is_redundant(choice) is not False), None)
-            if better is None or removal.is_redundant(better) is None:
-                open_ += better or ()
-                break
-            gone = list(better)
-    except OutOfTimeError:
-        open_ += [o for o in order if o not in gone]
-    return Redundancies({}, sorted(gone), undecided=tuple(sorted(set(open_) - set(gone))))
 
 
 def _circuits(removal: Removal, order: Sequence[int], redundant: Sequence[int]) -> dict[int, list[int]]:
     """For each constraint that can go a minimal set of those kept from which it follows; none where that is open."""
     result = {}
+    others = [o for o in order if o not in redundant]
     for owner in redundant:
-        kept = [o for o in order if o not in redundant]
         try:
-            for other in reversed(kept):
-                if removal.is_redundant([owner], [o for o in kept if o != other]):
-                    kept = [o for o in kept if o != other]
+            result[owner] = sorted(minimal_set(others, partial(removal.is_redundant, [owner])))
         except OutOfTimeError:
             break
-        result[owner] = sorted(kept)
     return result
 
 
@@ -130,6 +104,10 @@ class Removal:
             same = None if before is None or after is None else before == after
             self._answers[removed, kept] = self._is_same_set(removed, kept) if same else same
         return self._answers[removed, kept]
+
+    def in_time(self, owners: Sequence[int]) -> bool | None:
+        """Return whether constraints are redundant; None where that is undecided or there is no time to tell."""
+        return unless_late(partial(self.is_redundant, owners), None)
 
     def _dof(self, kept: frozenset[int]) -> int | None:
         """Return the freedom that some constraints leave."""

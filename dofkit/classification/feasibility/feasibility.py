@@ -15,6 +15,7 @@ from flint import arb
 
 from dofkit.base.deadline import limited, unless_late
 from dofkit.base.verdicts import ArgumentKey, Claim, Verdict, weakest
+from dofkit.classification.dependence.minimal_sets import minimal_set
 from dofkit.classification.feasibility.state_problem import (
     Part,
     StateProblem,
@@ -89,18 +90,17 @@ def _minimal(judge: _Judge, feasibility: Feasibility) -> Feasibility:
     What is left out leaves a set that is proved not to be met; what is kept is needed, where a point shows that the
     others can be met without it: then fewer of them can be as well.
     """
-    kept, needed = list(feasibility.infeasible), set[int]()
+    members, satisfiable = list(feasibility.infeasible), list[set[int]]()
+
+    def infeasible(some: list[int]) -> bool:
+        answer = unless_late(partial(judge.judged, some), Feasibility(None)).feasible
+        if answer:
+            satisfiable.append({*some})
+        return answer is False
+
     with limited(LEAVING_SECONDS):
-        size = max(1, len(kept) // 2) if len(kept) > FEW else 1
-        while size:
-            for end in range(len(kept), 0, -size):
-                left_out = kept[max(0, end - size) : end]
-                fewer = [i for i in kept if i not in left_out]
-                answer = unless_late(partial(judge.judged, fewer), Feasibility(None)).feasible
-                kept = fewer if answer is False else kept
-                needed |= set(left_out) if answer and size == 1 else set()
-            size //= 2
-    open_ = [i for i in kept if i not in needed]
+        kept = minimal_set(members, infeasible, len(members) // 2 if len(members) > FEW else 1)
+    open_ = [i for i in kept if not any(some.issuperset({*kept} - {i}) for some in satisfiable)]
     names = [f"'{judge.reduced[i].constraint.name}'" for i in open_]
     text = ", ".join(names[:MOST_NAMES]) + (f" and {len(names) - MOST_NAMES} more" if names[MOST_NAMES:] else "")
     reasons = (NOT_MINIMAL.format(names=text),) if open_ else ()

@@ -23,16 +23,16 @@ from dofkit.exact.linear_inequalities import LinearCondition, solution
 from dofkit.exact.matrices.sparse import components
 from dofkit.exact.zero import zero_and_verdict
 from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import accelerations_of, substitute
+from dofkit.expressions.calculus import substitute
 from dofkit.expressions.enclosures import has_call
 from dofkit.expressions.terms import linear_terms
 from dofkit.expressions.tree import Expr
-from dofkit.relations.blocks import Row, coordinates_of, with_rows
+from dofkit.relations.blocks import Row, coordinates_of
 from dofkit.relations.linear_relations import presolve
 from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.no_solution import no_solution
 from dofkit.relations.normal.normal_form import velocities_of
-from dofkit.relations.normal.pieces import Finite, Inequality, Nonlinear, Pfaffian, Reduced, Still
+from dofkit.relations.normal.pieces import Finite, Inequality, Nonlinear, Pfaffian, Reduced
 from dofkit.relations.velocity_reductions import form_rate, rate
 
 #: Inequalities of which products are taken; equations times symbols; symbols whose differences are squared.
@@ -298,17 +298,16 @@ class Part:
     def readable(self) -> bool:
         """Return whether the inequalities are about configurations and velocities only."""
         kinds = {s.args[0] for q in self.inequalities for s in q.expr.symbols}
-        return kinds.isdisjoint({"differential", "dt"}) and not any(accelerations_of(q.expr) for q in self.inequalities)
+        return kinds.isdisjoint({"differential", "dt"})
 
     def choices(self) -> Iterator[Choice] | None:
         """Every choice of branches; None where they are too many."""
         normals = [(i, n) for i, r in zip(self.numbers, self.reduced, strict=True) for n in r.normals]
         if prod(len(n.branches) for _, n in normals) > MAX_CHOICES:
             return None
-        constants = {c: Row(i, Still(c)) for i, r in zip(self.numbers, self.reduced, strict=True) for c in r.constants}
         conditions = tuple(DomainCondition(q.expr, ">" if q.strict else ">=") for q in self.inequalities)
         return (
-            _choice([(i, branch) for (i, _), branch in zip(normals, chosen, strict=True)], conditions, constants)
+            _choice([(i, branch) for (i, _), branch in zip(normals, chosen, strict=True)], conditions)
             for chosen in cartesian(*(n.branches for _, n in normals))
         )
 
@@ -326,11 +325,10 @@ def _finite(e: Expr) -> bool:
 def _choice(
     branches: Sequence[tuple[int, Sequence[object]]],
     inequalities: tuple[DomainCondition, ...],
-    constants: dict[str, Row],
 ) -> Choice:
     rows = [Row(i, p) for i, branch in branches for p in branch if isinstance(p, Finite | Pfaffian | Nonlinear)]
     conditions = [p for _, branch in branches for p in branch if isinstance(p, DomainCondition)]
-    return Choice(tuple(with_rows(rows, constants)), tuple(dict.fromkeys((*conditions, *inequalities))))
+    return Choice(tuple(rows), tuple(dict.fromkeys((*conditions, *inequalities))))
 
 
 def parts_of(reduced: Sequence[Reduced], numbers: Sequence[int], shared: bool) -> list[Part]:

@@ -129,7 +129,7 @@ def _is_same(a: Answer, b: Answer) -> bool:
 
 def _answer(block: Block, setting: Setting) -> Answer:
     if not block.forms and not block.nonlinear:
-        large = eliminated(block, setting)
+        large = eliminated(block, setting) if setting.reference is None else None
         finite = finite_answer(block, setting) if large is None else large
         finite.derived = None if finite.dof is None else (len(block.coordinates) - finite.dof,)
         return finite if "closed" in setting.reductions else _tested(block, setting, finite)
@@ -271,7 +271,10 @@ def alone(
 ) -> Answer:
     """A constraint's own rows with the others forgotten; ``answered`` answers a part at no drawing."""
     blocks, untouched = split(coordinates, rows)
-    answers = [confirmed(b, answered(b), setting, len(rows) == 1) for b in blocks]
+    answers = [
+        confirmed(b, a, setting, len(rows) == 1) if a.verdict == "probable" else a
+        for b, a in zip(blocks, map(answered, blocks), strict=True)
+    ]
     merged = Answer(dof=_total(untouched, [a.dof for a in answers]))
     merged.velocity_dof = _total(untouched, [a.velocity_dof for a in answers])
     for a in answers:

@@ -10,7 +10,7 @@ from itertools import product as cartesian
 
 from dofkit.base.deadline import OUT_OF_TIME, OutOfTimeError, check, unless_late
 from dofkit.classification.freedom.block import answer
-from dofkit.classification.freedom.common_point import at_one_point, restricted_to_domain
+from dofkit.classification.freedom.common_point import CommonPoint, at_one_point, restricted_to_domain
 from dofkit.classification.freedom.isomorphic_blocks import AnsweredBlock, Likenesses
 from dofkit.classification.freedom.preparation import (
     branches_at_reference,
@@ -22,10 +22,10 @@ from dofkit.configuration.linear_blocks import confirmed
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.nonlinear_velocities import NOT_EQUIVALENT, with_reductions_checked
 from dofkit.relations.answer import Answer, AnsweredPart
-from dofkit.relations.blocks import Block, Row, blocks_of, names_in, with_rows
+from dofkit.relations.blocks import Block, Row, blocks_of
 from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.no_solution import holds_somewhere
-from dofkit.relations.normal.pieces import JointEquation, Nonlinear, Reduced, Still
+from dofkit.relations.normal.pieces import JointEquation, Nonlinear, Reduced
 from dofkit.relations.setting import Setting
 from dofkit.relations.velocity_reductions import MAX_WAYS, RewrittenRow, Way, ways_of, with_boundaries
 from dofkit.system import System
@@ -142,7 +142,7 @@ def solve(system: System, reduced: Sequence[Reduced], setting: Setting) -> Outco
     outcomes, why = list[Outcome](), None
     answered = AnsweredBlocks(system)
     domain = [(i, c) for i, r in enumerate(reduced) for c in r.domain if c.expr.op != "num"]
-    constants = {c: Row(i, Still(c)) for i, r in enumerate(reduced) for c in r.constants}
+    names = [c.name for c in system.coordinates]
     for number, choice in enumerate(cartesian(*options)):
         if number == MAX_CHOICES:
             why = _LEFT_OUT
@@ -153,16 +153,14 @@ def solve(system: System, reduced: Sequence[Reduced], setting: Setting) -> Outco
                 impossible.append(i)
             elif i not in copied:
                 rows += [Row(i, p) for p in normal.branches[branch]]
-        rows = with_rows(rows, constants)
         plain = not any(isinstance(row.piece, Nonlinear | DomainCondition) for row in rows)
         ways = [Way(rows)] if plain else ways_of(with_boundaries(rows), positive)
         why = _LEFT_OUT if len(ways) >= MAX_WAYS else why
         for way in reductions_at_reference(ways, setting):
-            names = [*(c.name for c in system.coordinates), *names_in(way.rows, constants)]
             outcome = _answered(names, way.rows, impossible, domain, setting, answered)
             outcome.reduced, outcome.divided = way.reduced, way.divided
             outcomes.append(outcome)
-    best = _largest(outcomes, why, setting) if outcomes else Outcome([], [], [], [c.name for c in system.coordinates])
+    best = _largest(outcomes, why, setting) if outcomes else Outcome([], [], [], names)
     if len(outcomes) == 1:
         best.answers = _confirmed(best, setting)
     best.copies = copied if outcomes else {}
@@ -216,7 +214,8 @@ def _confirmed(only: Outcome, setting: Setting) -> list[Answer]:
     answers = []
     for block, a in zip(only.blocks, only.answers, strict=True):
         alone = all(written[row.constraint] == 1 for row in block.rows)
-        answers.append(unless_late(partial(confirmed, block, a, setting, alone), a))
+        probable = a.verdict == "probable"
+        answers.append(unless_late(partial(confirmed, block, a, setting, alone), a) if probable else a)
     return answers
 
 
@@ -229,7 +228,9 @@ def _answered(
     answered: AnsweredBlocks,
 ) -> Outcome:
     blocks, untouched = blocks_of(names, rows, setting.reductions)
-    result = at_one_point(blocks, answered.answers(blocks, setting), domain, setting, partial(in_time, setting=setting))
+    result = CommonPoint(list(blocks), answered.answers(blocks, setting))
+    if domain or len(blocks) > 1:
+        result = at_one_point(*result[:2], domain, setting, partial(in_time, setting=setting))
     never = [*impossible, *result.nowhere]
     return Outcome(
         rows, result.blocks, result.answers, untouched, never, unsettled=[*result.unsettled], witness=result.witness
@@ -269,8 +270,9 @@ class AnsweredBlocks:
         if twin is not None:
             return twin.answer_of_twin(block, names)
         result = in_time(block, setting)
-        result.kind = len(self._alike)
-        self._alike[key] = AnsweredBlock(block, names, result)
+        if result.answered_parts is None:
+            result.kind = len(self._alike)
+            self._alike[key] = AnsweredBlock(block, names, result)
         return result
 
 
@@ -283,7 +285,8 @@ def in_time(block: Block, setting: Setting) -> Answer:
     """The block's answer; undecided where the time is used up."""
     try:
         check()
-        return restricted_to_domain(block, answer(block, setting), setting)
+        result = answer(block, setting)
+        return restricted_to_domain(block, result, setting) if block.conditions else result
     except OutOfTimeError as error:
         return Answer(None, verdict="undecided", reasons=[str(error)], late=True)
     except ArithmeticError:

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from dofkit.expressions.renaming import Renaming
 from dofkit.expressions.tree import Expr
-from dofkit.relations.answer import Answer, AnsweredPart, Size
+from dofkit.relations.answer import Answer, Size
 from dofkit.relations.blocks import Block
 from dofkit.relations.normal.pieces import piece_shape
 from dofkit.relations.setting import Setting
@@ -96,19 +96,4 @@ class AnsweredBlock(NamedTuple):
         if a.conflict:
             owners = {r.constraint: s.constraint for r, s in zip(self.block.rows, twin.rows, strict=True)}
             a.conflict = tuple(sorted(owners[i] for i in a.conflict))
-        if a.answered_parts is not None:
-            a.answered_parts = tuple([self._part_of(part, twin, names, renaming) for part in a.answered_parts])
         return a
-
-    def _part_of(self, part: AnsweredPart, twin: Block, names: tuple[str, ...], renaming: Renaming) -> AnsweredPart:
-        """A part of the block as that of its twin."""
-        rows = dict(zip(map(id, self.block.rows), twin.rows, strict=True))
-        conditions = dict(zip(map(id, self.block.conditions), twin.conditions, strict=True))
-        part_block = Block(
-            tuple([renaming.names[c] for c in part.block.coordinates]),
-            tuple([rows[id(r)] for r in part.block.rows]),
-            tuple([conditions[id(c)] for c in part.block.conditions]),
-        )
-        return AnsweredPart(
-            part_block, AnsweredBlock(part.block, self.names, part.answer).answer_of_twin(part_block, names)
-        )

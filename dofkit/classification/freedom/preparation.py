@@ -7,8 +7,7 @@ from __future__ import annotations
 
 import random
 from collections import Counter
-from collections.abc import Hashable, Iterable, Iterator, Sequence
-from itertools import chain, count
+from collections.abc import Hashable, Iterable, Sequence
 
 from dofkit.base.deadline import check
 from dofkit.base.errors import Fault, NoValueError, SceneError, TextError
@@ -20,7 +19,6 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.renaming import Unwritten, kinds_in, shape_of
 from dofkit.expressions.tree import Expr
-from dofkit.integrability import accelerations
 from dofkit.mobility.joint_tree import Bridges, bridges
 from dofkit.mobility.placement import RowsAtReference
 from dofkit.relations.blocks import Block, Row, coordinates_of, make_chart
@@ -44,7 +42,7 @@ from dofkit.relations.velocity_reductions import Way
 from dofkit.system import System
 
 #: The kinds of symbols that no finite relation holds.
-RATES = frozenset({"velocity", "acceleration", "differential", "dt"})
+RATES = frozenset({"velocity", "differential", "dt"})
 
 
 def prepared(system: System, reductions: Reductions = ALL) -> tuple[list[Reduced], Setting]:
@@ -92,7 +90,7 @@ def reduce_all(system: System, positive: frozenset[Expr], apart: frozenset[int] 
     Those of joints ``apart`` are not written out where they are not yet.
     """
     result, faults = [], []
-    read = _Normals(system, positive)
+    read = _Normals(positive)
     for i, constraint in enumerate(system.constraints):
         if i in apart and isinstance(constraint.relations, Unwritten):
             result.append(Reduced(constraint, unwritten(constraint.relations), (), constraint.relations))
@@ -118,18 +116,14 @@ def reduce_all(system: System, positive: frozenset[Expr], apart: frozenset[int] 
 class _Normals:
     """What relations say; of those that are the same up to names, in the same order, one is looked at."""
 
-    def __init__(self, system: System, positive: frozenset[Expr]) -> None:
+    def __init__(self, positive: frozenset[Expr]) -> None:
         self._positive = positive
-        self._fresh = _fresh(system)
         self._templates: dict[Hashable, NormalTemplate] = {}
 
     def normal(self, e: Expr, written: bool) -> Normal:
         """What ``e = 0`` says. Raises TextError where it can be no relation."""
-        kinds = kinds_in(e)
-        if not written and kinds.isdisjoint(RATES):
+        if not written and kinds_in(e).isdisjoint(RATES):
             return Normal(((),) if e.is_zero else ((Finite(e),),))
-        if "acceleration" in kinds:
-            return accelerations.without_accelerations(e, self._positive, self._fresh)
         if not written:
             return without_instants(normalise(e, self._positive, written), self._positive)
         shape = shape_of(e)
@@ -139,12 +133,6 @@ class _Normals:
         result = without_instants(normalise(e, self._positive, written), self._positive)
         self._templates[key] = NormalTemplate(result, shape.names)
         return result
-
-
-def _fresh(system: System) -> Iterator[str]:
-    """Names for constants of integration: C, C1, C2, ... without those of the scene."""
-    taken = {c.name for c in system.coordinates} | {*system.parameters, *system.generic, *system.functions}
-    return (name for name in chain(("C",), (f"C{i}" for i in count(1))) if name not in taken)
 
 
 def without_instants(normal: Normal, positive: frozenset[Expr]) -> Normal:
@@ -187,7 +175,8 @@ def has_kink_at_reference(normal: Normal, setting: Setting) -> bool:
     if setting.reference is None:
         return False
     configuration = {**setting.reference, ex.TIME: ex.ZERO}
-    pieces = (p for p in normal.pieces if isinstance(p, Finite) and not isinstance(p, JointEquation))
+    written = (p for p in normal.pieces if isinstance(p, Finite) and not isinstance(p, JointEquation))
+    pieces = (p for p in written if "abs" in p.expr.functions or "pow" in p.expr.functions)
     try:
         arguments = [substitute(u, configuration) for p in pieces for u in arguments_of(p.expr)]
         return any(is_zero(u, setting.positive) for u in arguments)

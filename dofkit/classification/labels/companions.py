@@ -22,8 +22,8 @@ from dofkit.integrability import first_integrals
 from dofkit.integrability.first_integrals import FirstIntegral
 from dofkit.integrability.pfaffian_system import Codistribution, codistribution
 from dofkit.relations.answer import Answer
-from dofkit.relations.blocks import Block, Row, about_constants, coordinates_of, split, uses_time, with_rows
-from dofkit.relations.normal.pieces import Nonlinear, Pfaffian, Reduced, Still
+from dofkit.relations.blocks import Block, Row, coordinates_of, split, uses_time
+from dofkit.relations.normal.pieces import Nonlinear, Pfaffian, Reduced
 from dofkit.relations.setting import Setting
 from dofkit.report import ConstraintEntry, IntegrablePart
 
@@ -78,8 +78,7 @@ def by_itself(i: int, r: Reduced, labelled: Sequence[LabelledRow], answered: Ans
     """The answer of a constraint's own rows; None where they are finite. ``labelled``: its rows in the system."""
     written = [Row(i, p) for normal in r.normals for p in normal.pieces]
     if any(isinstance(row.piece, Nonlinear) for row in written):
-        still = [t.row for t in labelled if isinstance(t.row.piece, Still)]
-        return _curved(labelled) or _in_time([*written, *still], answered)
+        return _curved(labelled) or _in_time(written, answered)
     if not any(isinstance(row.piece, Pfaffian) for row in written):
         return None
     linear = any(isinstance(t.row.piece, Pfaffian) for t in labelled)
@@ -94,8 +93,6 @@ def by_itself(i: int, r: Reduced, labelled: Sequence[LabelledRow], answered: Ans
 def _largest(i: int, r: Reduced, answers: AnsweredParts) -> Answer | None:
     """The answer of the largest branch; None where that is finite, undecided where it is not known which is."""
     mentioned = {name for n in r.normals for b in n.branches for p in b for name in coordinates_of(p)}
-    mentioned -= {*r.constants}
-    constants = {c: Row(i, Still(c)) for c in r.constants}
     normals = [branches_at_reference(normal, answers.setting) for normal in r.normals]
     best: tuple[tuple[int, int, int], Answer, bool] | None = None
     seen_all = True
@@ -104,7 +101,7 @@ def _largest(i: int, r: Reduced, answers: AnsweredParts) -> Answer | None:
         if number == MAX_CHOICES:
             seen_all = False
             break
-        result = _in_time(with_rows(rows, constants), answers, mentioned)
+        result = _in_time(rows, answers, mentioned)
         seen_all = seen_all and (result.consistent is False or result.dof is not None)
         size = int(result.consistent is not False), result.dof or 0, result.velocity_dof or 0
         if best is None or size > best[0]:
@@ -180,7 +177,7 @@ class Companionship:
             return Others()
         companions = tuple(f"'{self.names[o]}'" for o in kept if o != constraint)
         if integral is None:
-            return Others(companions)
+            return Others(companions, identically=False, timed=_advances(constraint, block, a))
         timed = _timed(integral, constraint, block, a)
         return Others(companions, equation(integral, block), integral.identically, timed)
 
@@ -236,14 +233,12 @@ class Companionship:
         return self._integrals_of(block, owners).by_row.get(forms[0]) if len(forms) == 1 else None
 
     def basis(self, block: Block) -> list[str]:
-        """Return independent integrals of all the block's rows together, as text, less those between constants."""
+        """Return independent integrals of all the block's rows together, as text."""
         owners = list(dict.fromkeys(r.constraint for r in block.rows))
         if len(owners) > MAX_CONSTRAINTS or len(block.coordinates) > MAX_COORDINATES or block.nonlinear:
             return []
         try:
-            constants = [c for r in block.rows if isinstance(r.piece, Still) for c in r.piece.coefficients]
-            every = self._integrals_of(block, owners).integrals
-            integrals = [f for f in every if not about_constants(f.expr, constants)]
+            integrals = self._integrals_of(block, owners).integrals
         except (OutOfTimeError, ArithmeticError):
             return []
         return [equation(f, block, i if len(integrals) > 1 else None) for i, f in enumerate(integrals)]
@@ -278,6 +273,19 @@ def _timed(f: FirstIntegral, constraint: int, block: Block, a: Answer) -> bool |
     if not uses_time(others):
         return TIME in f.expr.symbols
     return None if others.finite or a.hidden else True
+
+
+def _advances(constraint: int, block: Block, a: Answer) -> bool | None:
+    """Return True where a form has a dt term at a generic point and the other constraints hold no time, else None.
+
+    What it integrates to with them then has t: its differential is mu (a dq + b dt) and multiples of the others', none
+    of which has dt, so that its derivative by t is mu b.
+    """
+    numbers = _forms_of(constraint, block)
+    others = Block(block.coordinates, tuple(r for r in block.rows if r.constraint != constraint))
+    if len(numbers) != 1 or uses_time(others) or a.hidden or not a.matrix:
+        return None
+    return a.matrix[numbers[0]].get(len(block.coordinates), 0) % a.modulus != 0 or None
 
 
 def _forms_of(constraint: int, block: Block) -> list[int]:
@@ -316,24 +324,18 @@ def integrable_part(
     blocks = [(b, a) for b, a in zip(outcome.blocks, outcome.answers, strict=True) if b.forms]
     if not blocks or outcome.dof is None:
         return None
-    coordinates = len(outcome.untouched) + sum(len(b.coordinates) - _constants(b) for b in outcome.blocks)
+    coordinates = len(outcome.untouched) + sum(len(b.coordinates) for b in outcome.blocks)
     basis: list[str] | None = []
     for block, a in blocks:
         number_finite = len(block.finite) + len(a.hidden)
         finite = rank_of_rows(a.matrix[:number_finite], a.modulus) if a.matrix else number_finite
         remaining = len(block.coordinates) - (a.dof or 0) - finite
-        remaining -= _constants(block)
         result = _integrals(block, remaining, entries, company) if remaining > 0 else []
         if result is None or basis is None:
             basis = None
         else:
             basis += [f"{to_text(g)} = 0" for g in a.hidden] + result
     return IntegrablePart(rank=coordinates - outcome.dof, basis=basis)
-
-
-def _constants(block: Block) -> int:
-    """Return the number of constants of an earlier integration, which are coordinates of the block and do not move."""
-    return sum(isinstance(r.piece, Still) for r in block.rows)
 
 
 def _integrals(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from functools import partial
 from typing import NamedTuple
 
@@ -15,14 +15,12 @@ from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.labels.companions import Companionship, by_itself
 from dofkit.classification.labels.entry import Evidence, LabelledRow, entry, label_in_system, unfinished
 from dofkit.classification.labels.reasons import Others, in_words
-from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import substitute
-from dofkit.expressions.tree import TIME, Expr
+from dofkit.expressions.tree import TIME
 from dofkit.integrability.nonlinear_velocities import label_modulo_others
 from dofkit.integrability.traits import Traits, traits
 from dofkit.relations.answer import GAP, Redundancies
-from dofkit.relations.blocks import Row, about_constants, coordinates_of, given_by
-from dofkit.relations.normal.pieces import Clause, JointEquation, Nonlinear, Pfaffian, Reduced, piece_shape
+from dofkit.relations.blocks import Row, coordinates_of
+from dofkit.relations.normal.pieces import Clause, Finite, JointEquation, Nonlinear, Pfaffian, Reduced, piece_shape
 from dofkit.relations.setting import Setting
 from dofkit.report import ConstraintEntry, FieldVerdict
 
@@ -39,19 +37,20 @@ def entries_of(
     setting: Setting,
     outcome: Outcome,
     dependent: Sequence[Redundancies],
-    company: Companionship,
+    companionship: Callable[[], Companionship],
 ) -> list[ConstraintEntry]:
-    """An entry for every constraint, in order; one that there is no time for says so."""
+    """An entry for every constraint, in order; one that there is no time for says so.
+
+    ``companionship``: what a differential constraint is together with others, where there is one.
+    """
+    names = [r.constraint.name for r in reduced]
     dependence = _dependence(dependent, outcome)
     answer = _labelled_rows(len(reduced), outcome, setting)
-    constants = _fixed_constants(
-        [g for a in outcome.answers for g in a.hidden], [c for r in reduced for c in r.constants]
-    )
     entries, by_kind = list[ConstraintEntry](), dict[Hashable, ConstraintEntry]()
     traits_of, consistent = partial(_traits_of, setting), outcome.consistent
     for i, r in enumerate(reduced):
         number = dependence.independent.get(i, None if answer[i] else 0)
-        circuit = None if i not in dependence.circuits else [company.names[j] for j in dependence.circuits[i]]
+        circuit = None if i not in dependence.circuits else [names[j] for j in dependence.circuits[i]]
         try:
             check()
             copied = i in outcome.copies
@@ -61,9 +60,10 @@ def entries_of(
                 named = {"name": r.constraint.name, "text": r.constraint.text}
                 entries.append(by_kind[kind].model_copy(update=named))
                 continue
-            companions_of = partial(_with_others, i, answer[i], company)
-            alone = by_itself(i, r, answer[i], company.answered)
-            evidence = Evidence(answer[i], alone, number, circuit, constants, traits_of, companions_of, copied)
+            companions_of = partial(_with_others, i, answer[i], companionship)
+            finite = all(isinstance(p, Finite) for n in r.normals for p in n.pieces)
+            alone = None if finite else by_itself(i, r, answer[i], companionship().answered)
+            evidence = Evidence(answer[i], alone, number, circuit, traits_of, companions_of, copied)
             entries.append(_with_dependence(entry(r, evidence, setting, consistent), i, r, dependence))
             if kind is not None and _is_nameless(entries[-1]):
                 by_kind[kind] = entries[-1]
@@ -72,21 +72,13 @@ def entries_of(
     return entries
 
 
-def _fixed_constants(hidden: Sequence[Expr], constants: Sequence[str]) -> dict[str, Expr]:
-    """Return the constants that linear relations among them give in terms of parameters and the other constants."""
-    among = [g for g in hidden if about_constants(g, constants)] if constants else []
-    values = given_by(among, [ex.coordinate(c) for c in reversed(constants)])
-    named = {ex.coordinate(c): ex.parameter(c) for c in constants}
-    return {str(s.args[1]): substitute(value, named) for s, value in values.items()}
-
-
 def _likeness(r: Reduced, rows: Sequence[LabelledRow], setting: Setting) -> Hashable:
     """Return what is equal for constraints whose entries differ in name and text only; None where that is not clear.
 
     Of finite relations without time their number alone matters, of others also what they say, names apart.
     """
     pieces = [*(p for n in r.normals for p in n.pieces), *(t.row.piece for t in rows)]
-    branched = r.constants or any(len(n.branches) > 1 for n in r.normals)
+    branched = any(len(n.branches) > 1 for n in r.normals)
     modulo_others = any(t.reduced or (t.label is not None and t.label.modulo) for t in rows)
     if branched or modulo_others or not all(map(_is_plain, (*pieces, *r.inequalities))):
         return None
@@ -100,7 +92,7 @@ def _likeness(r: Reduced, rows: Sequence[LabelledRow], setting: Setting) -> Hash
     answers = [t.answer for t in rows]
     return (
         r.constraint.type,
-        tuple([(n.notes, n.once) for n in r.normals]),
+        tuple([n.notes for n in r.normals]),
         r.equations,
         tuple(shapes),
         tuple([t.label for t in rows]),
@@ -222,12 +214,15 @@ def _unmeasured(outcome: Outcome) -> set[int]:
     return {r.constraint for block, a in outcome.answered_parts if a.velocity_dof is None for r in block.rows}
 
 
-def _with_others(i: int, rows: Sequence[LabelledRow], company: Companionship, in_system: bool) -> Others:
+def _with_others(
+    i: int, rows: Sequence[LabelledRow], companionship: Callable[[], Companionship], in_system: bool
+) -> Others:
     """What the constraints of its block do for a form; nothing where it stands alone there or in several blocks."""
     blocks = {id(t.block): t for t in rows if t.block is not None}
     only = next(iter(blocks.values())) if len(blocks) == 1 else None
     if only is None or only.block is None or not (in_system or any(t.label and t.label.modulo for t in rows)):
         return Others()
+    company = companionship()
     return (company.of if in_system else company.modulo)(i, only.block, only.answer)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -23,12 +23,10 @@ from dofkit.classification.labels.reasons import (
 )
 from dofkit.classification.undecided import open_entry
 from dofkit.exact.zero import BOTH
-from dofkit.expressions import tree as ex
-from dofkit.expressions.tree import Expr
 from dofkit.integrability.traits import Integrability, Traits, integrability
 from dofkit.relations.answer import Answer, HolonomyLabel
 from dofkit.relations.blocks import Block, Row
-from dofkit.relations.normal.pieces import Clause, Finite, Nonlinear, Normal, Pfaffian, Reduced, Still, with_constants
+from dofkit.relations.normal.pieces import Clause, Finite, Nonlinear, Normal, Pfaffian, Reduced
 from dofkit.relations.setting import Setting
 from dofkit.report import FORMS, ConstraintEntry, FieldVerdict, Form
 
@@ -62,16 +60,15 @@ def form_of(piece: Clause) -> Form:
 class Evidence:
     """What was found of one constraint: its rows as they were labelled, and its rows by themselves (None: finite).
 
-    ``independent`` equations and ``circuit``, None where unknown or none; ``constants`` of integration that the system
-    fixes have values; ``traits_of`` gives what a piece carries by itself, ``companions_of`` what the other constraints
-    do for a form that is holonomic in the system, or is not; ``copied``: an earlier constraint says the same.
+    ``independent`` equations and ``circuit``, None where unknown or none; ``traits_of`` gives what a piece carries by
+    itself, ``companions_of`` what the other constraints do for a form that is holonomic in the system, or is not;
+    ``copied``: an earlier constraint says the same.
     """
 
     rows: Sequence[LabelledRow]
     by_itself: Answer | None
     independent: int | None
     circuit: list[str] | None
-    constants: Mapping[str, Expr]
     traits_of: Callable[[Clause], Traits]
     companions_of: Callable[[bool], Others]
     copied: bool = False
@@ -83,19 +80,16 @@ def entry(reduced: Reduced, evidence: Evidence, setting: Setting, consistent: bo
     pieces: list[Clause] = [p for normal in normals for p in normal.pieces] + list(reduced.inequalities)
     form: Form = max((form_of(p) for p in pieces), key=FORMS.index, default="finite")
     forms = _integrable_forms(normals, evidence.rows)
-    own_constants = {c: evidence.constants.get(c, ex.parameter(c)) for c in reduced.constants}
-    clauses = [*(with_constants(p, own_constants) for n in normals for p in n.pieces), *reduced.inequalities]
-    own_forms = [p for f in forms if isinstance(p := with_constants(f, own_constants), Pfaffian)]
-    proofs = _proofs(form, own_forms, evidence.by_itself, setting)
+    proofs = _proofs(form, forms, evidence.by_itself, setting)
     labels = _labels_of(reduced, evidence, form, proofs, forms, consistent)
     integral, others = _integral_of(form, labels, proofs, evidence, bool(consistent))
-    of_pieces = _traits_of(pieces, clauses, normals, evidence)
+    of_pieces = _traits_of(pieces, normals, evidence)
     branches = branches_of_time(reduced, bool(consistent), setting.positive)
-    single = evidence.rows[0] if len(evidence.rows) == len(clauses) == 1 else None
-    timed = timed_in_system(clauses[0], single.block, single.answer, others, setting) if single else None
+    single = evidence.rows[0] if len(evidence.rows) == len(pieces) == 1 else None
+    timed = timed_in_system(pieces[0], single.block, single.answer, others, setting) if single else None
     every = _of_every_form(labels, evidence.rows, normals)
     traits = traits_together([*of_pieces, *branches], form, every, timed)
-    sentences = (_once(normals), reason_of(form, labels, proofs, evidence.circuit, others), reason_of_time(traits))
+    sentences = (reason_of(form, labels, proofs, evidence.circuit, others), reason_of_time(traits))
     claims = _claims(form, labels, traits, integral, evidence, bool(proofs) and all(p.proved for p in proofs))
     return ConstraintEntry(
         name=constraint.name,
@@ -119,12 +113,10 @@ def entry(reduced: Reduced, evidence: Evidence, setting: Setting, consistent: bo
     )
 
 
-def _traits_of(
-    pieces: Sequence[Clause], with_values: Sequence[Clause], normals: Sequence[Normal], evidence: Evidence
-) -> list[Traits]:
+def _traits_of(pieces: Sequence[Clause], normals: Sequence[Normal], evidence: Evidence) -> list[Traits]:
     """Return the traits of the equations of a constraint, without those that only declare an unknown function."""
     generic = declared_functions(normals)
-    return [evidence.traits_of(q) for p, q in zip(pieces, with_values, strict=True) if p not in generic]
+    return [evidence.traits_of(p) for p in pieces if p not in generic]
 
 
 def _integrable_forms(normals: Sequence[Normal], rows: Sequence[LabelledRow]) -> list[Pfaffian]:
@@ -237,11 +229,6 @@ def _integral_of(
     return others.integral if labels.alone or labels.in_system else None, others
 
 
-def _once(normals: Sequence[Normal]) -> str:
-    """What was integrated once before anything else was asked, as sentences."""
-    return "".join(f"{n.once[:1].upper()}{n.once[1:]}. " for n in normals if n.once)
-
-
 def unfinished(reduced: Reduced, why: str) -> ConstraintEntry:
     """Return an entry without labels: there was no time for them."""
     pieces: list[Clause] = [p for normal in reduced.normals for p in normal.pieces] + list(reduced.inequalities)
@@ -275,7 +262,7 @@ def label_in_system(
 
 
 def _label_of_row(t: LabelledRow, integrable: Sequence[Pfaffian]) -> HolonomyVerdict:
-    if isinstance(t.row.piece, (Finite, Still)) or t.row.piece in integrable:
+    if isinstance(t.row.piece, Finite) or t.row.piece in integrable:
         return True, "proved"
     if isinstance(t.row.piece, Nonlinear) and not t.reduced:
         return (False, "proved") if t.answer.curved else (None, "undecided")

@@ -2,15 +2,28 @@
 
 from __future__ import annotations
 
+import random
 from collections.abc import Sequence
 from typing import Any
 
 from flint import arb
 
 from dofkit.base.deadline import check
-from dofkit.base.libraries import np
 from dofkit.configuration.local.manifold import Form, Manifold
-from dofkit.configuration.local.neighbourhood import FAULTS, SURE, Neighbourhood, damped, independent
+from dofkit.configuration.local.neighbourhood import FAULTS, SURE, Neighbourhood, independent
+from dofkit.configuration.local.quadratic_cone import floats_of, scaled
+from dofkit.exact.matrices.dense import (
+    Matrix,
+    Vector,
+    damped,
+    dot,
+    largest,
+    length,
+    plus,
+    singular_values,
+    times,
+    unit_rows,
+)
 from dofkit.exact.matrices.sparse import Pivots
 from dofkit.exact.points.balls import BallPoint, jacobian
 from dofkit.exact.ring.program import values
@@ -47,50 +60,43 @@ def largest_branch(ball: Manifold, forms: Sequence[Form], wanted: int) -> int | 
     return best
 
 
-def _tangents(here: Neighbourhood, forms: Sequence[Form]) -> list[np.ndarray]:
+def _tangents(here: Neighbourhood, forms: Sequence[Form]) -> list[list[float]]:
     """Unit tangents of M at the point on which all forms are 0, from random ones by Gauss-Newton."""
     ball = here.ball
-    tangent = np.zeros((len(here.place), ball.dimension))
-    for a, c in enumerate(ball.frame.free):
-        if c in here.number:
-            tangent[here.number[c], a] = 1.0
-    dependent = here.dependent
-    if dependent:
-        _, j = here.floats(np.zeros(len(here.place)), ball.rows)
-        tangent[dependent] = -np.linalg.solve(j[:, dependent], j @ tangent)
-    scales = np.array([ball.scales[c] for c in ball.frame.free])
-    cut = np.array([[[0.0 if v.contains(0) else float(v.mid()) for v in row] for row in f] for f in forms]) * np.outer(
-        scales, scales
-    )
-    sizes = np.abs(cut).max(axis=(1, 2))
-    cut = cut / np.where(sizes > 0, sizes, 1.0)[:, None, None]
-    rng = np.random.default_rng(7)
+    _, j = here.floats([0.0] * len(here.place), ball.rows)
+    scales = [ball.scales[c] for c in ball.frame.free]
+    cut = [scaled(floats_of(f), scales) for f in forms]
+    rng = random.Random(7)
     tangents = []
     for _ in range(ATTEMPTS):
-        v = _null(cut, rng.standard_normal(ball.dimension))
+        v = _null(cut, [rng.gauss(0.0, 1.0) for _ in range(ball.dimension)])
         if v is not None:
-            tangents.append(tangent @ v / np.linalg.norm(tangent @ v))
+            free = [0.0] * len(here.place)
+            for value, c in zip(v, ball.frame.free, strict=True):
+                if c in here.number:
+                    free[here.number[c]] = value
+            tangents += unit_rows([here.onto_rows(j, free)])
     return tangents
 
 
-def _null(forms: np.ndarray, v: np.ndarray) -> np.ndarray | None:
+def _null(forms: Sequence[Matrix], v: Vector) -> list[float] | None:
     """Return a unit vector near v on which all forms are 0, by damped steps across v: along v they would lead to 0."""
     for _ in range(ITERATIONS):
-        v = v / np.linalg.norm(v)
-        slopes = forms @ v
-        wrong = slopes @ v
-        if float(np.max(np.abs(wrong))) < 1e-13:
+        (v,) = unit_rows([v])
+        slopes = [times(form, v) for form in forms]
+        wrong = times(slopes, v)
+        if largest(wrong) < 1e-13:
             return v
-        v = v + damped(np.vstack([2 * slopes, v]), np.append(wrong, 0.0))
-    return v / np.linalg.norm(v) if float(np.max(np.abs((forms @ v) @ v))) < 1e-10 else None
+        v = plus(v, 1.0, damped([*([2 * s for s in slope] for slope in slopes), v], [*wrong, 0.0]))
+    return unit_rows([v])[0] if largest([dot(times(form, v), v) for form in forms]) < 1e-10 else None
 
 
-def _dimension_along(here: Neighbourhood, direction: np.ndarray) -> int | None:
+def _dimension_along(here: Neighbourhood, direction: Vector) -> int | None:
     dimension: int | None = None
     for distance in DISTANCES:
         try:
-            u = _descend(here, distance * direction)
-            size = 0.0 if u is None else float(np.linalg.norm(u))
+            u = _descend(here, [distance * v for v in direction])
+            size = 0.0 if u is None else length(u)
             if u is None or not distance / 8 < size < distance * 8:
                 return None
             dimension_here = _dimension_at(here, u)
@@ -98,25 +104,25 @@ def _dimension_along(here: Neighbourhood, direction: np.ndarray) -> int | None:
             return None
         if dimension_here is None or dimension not in (None, dimension_here):
             return None
-        dimension, direction = dimension_here, u / size
+        dimension, direction = dimension_here, [v / size for v in u]
     return dimension
 
 
-def _descend(here: Neighbourhood, u: np.ndarray) -> np.ndarray | None:
+def _descend(here: Neighbourhood, u: list[float]) -> list[float] | None:
     """Return the nearest point of the set, by damped steps."""
     for _ in range(ITERATIONS):
         check()
         f, j = here.floats(u, here.ball.nodes)
-        if float(np.max(np.abs(f))) < 1e-15:
+        if largest(f) < 1e-15:
             return u
-        step = damped(j, f)
-        u = u + step
-        if float(np.linalg.norm(step)) < 1e-14:
+        change = damped(j, f)
+        u = plus(u, 1.0, change)
+        if length(change) < 1e-14:
             return u
-    return u if float(np.max(np.abs(here.floats(u, here.ball.nodes)[0]))) < 1e-12 else None
+    return u if largest(here.floats(u, here.ball.nodes)[0]) < 1e-12 else None
 
 
-def _dimension_at(here: Neighbourhood, u: np.ndarray) -> int | None:
+def _dimension_at(here: Neighbourhood, u: Vector) -> int | None:
     """Return the dimension of the set at a regular point near u; None where the point is not seen to be one."""
     ball = here.ball
     _, j = here.floats(u, ball.nodes)
@@ -127,9 +133,8 @@ def _dimension_at(here: Neighbourhood, u: np.ndarray) -> int | None:
     point = BallPoint(moved, 0)
     at = values(here.ring, point)
     exact = jacobian(here.ring, at, point, ball.nodes, here.columns, arb(0))
-    j = np.array([[float(v.mid()) for v in row] for row in exact]) * here.scales / here.norms[:, None]
-    singular = np.linalg.svd(j, compute_uv=False)
-    rank = int(np.sum(singular > SOME))
+    singular = singular_values([here.scaled(row, n) for n, row in zip(ball.nodes, exact, strict=True)])
+    rank = sum(value > SOME for value in singular)
     if rank != len(rows) or (rank < len(singular) and singular[rank] > NOUGHT):
         return None
     return len(ball.columns) - rank if _stays(here, moved, rows, columns) else None
@@ -143,6 +148,6 @@ def _stays(here: Neighbourhood, moved: dict[Expr, arb], rows: Sequence[int], col
     dependent = tuple(sorted(here.place[c] for c in columns))
     free = tuple(i for i in range(len(ball.columns)) if i not in set(dependent))
     there = Manifold(ball.ring, ball.nodes, ball.columns, Pivots(tuple(sorted(rows)), dependent, free), point)
-    rng = np.random.default_rng(11)
-    direction: list[Any] = [arb(int(rng.integers(64, 512))) / 256 * ball.scales[c] for c in free]
+    rng = random.Random(11)
+    direction: list[Any] = [arb(rng.randrange(64, 512)) / 256 * ball.scales[c] for c in free]
     return all(s.coefficient(k).contains(0) for s in there.follow(direction, ORDER) for k in range(ORDER))

@@ -12,7 +12,7 @@ from flint import arb, arb_mat
 from dofkit.base.deadline import check
 from dofkit.base.verdicts import ArgumentKey, Verdict
 from dofkit.exact.matrices.sparse import FactoredMatrix, Pivots
-from dofkit.exact.points.frames import pivots, solve
+from dofkit.exact.points.frames import field_frame, solve
 from dofkit.exact.points.series import Series, SeriesPoint, monomial, zero_poly
 from dofkit.exact.residues import Residue, ResidueMatrix, modulus, residue, residue_matrix
 from dofkit.exact.ring.program import Scalar, gradient, raising_no_value, values
@@ -223,13 +223,9 @@ class Split:
 def split(forms: Sequence[Form]) -> Split:
     """Return a choice of equations and of coordinates that they determine, from forms over GF(p)."""
     m = len(forms[0])
-    p = modulus(forms[0][0][0])
     rows = [(i, j) for i in range(len(forms)) for j in range(m)]
-    columns = [[int(forms[i][j][c]) for i, j in rows] for c in range(m)]
-    kept = pivots(residue_matrix(columns, p))
-    chosen = [[int(forms[rows[a][0]][rows[a][1]][c]) for c in range(m)] for a in kept]
-    solved = pivots(residue_matrix(chosen, p)) if chosen else []
-    return Split(tuple(rows[a] for a in kept), tuple(solved), tuple(c for c in range(m) if c not in set(solved)))
+    frame = field_frame([forms[i][j] for i, j in rows], m, modulus(forms[0][0][0]))
+    return Split(tuple(rows[a] for a in frame.rows), frame.dependent, frame.free)
 
 
 def series_on_critical(

@@ -7,8 +7,8 @@ from collections.abc import Mapping, Sequence
 from flint import arb, arb_mat, ctx
 
 from dofkit.base.deadline import check
-from dofkit.base.libraries import np
 from dofkit.configuration.local.manifold import Manifold, Split
+from dofkit.exact.matrices.dense import Vector, dot, largest, length, plus, step, times
 from dofkit.exact.points.balls import BallPoint, jacobian
 from dofkit.exact.ring.program import values
 from dofkit.expressions.tree import Expr
@@ -41,28 +41,36 @@ class Neighbourhood:
         self.dependent = [self.number[c] for c in ball.frame.dependent]
         self.columns = [ball.columns[i] for i in self.place]
         self.keys = [ball.ring.vars[c].key for c in self.columns]
-        self.scales = np.array([ball.scales[i] for i in self.place])
+        self.scales = [float(ball.scales[i]) for i in self.place]
         self.middle: dict[Expr, arb] = {s: arb(v).mid() for s, v in ball.base.symbols.items()}
-        _, j = self.floats(np.zeros(len(self.columns)), ball.nodes, weighed=False)
-        norms = np.linalg.norm(j, axis=1)
-        self.norms = np.where(norms > 0, norms, 1.0)
-        self.norm_of = dict(zip(ball.nodes, self.norms, strict=True))
+        self.norm_of = dict.fromkeys(ball.nodes, 1.0)
+        _, j = self.floats([0.0] * len(self.columns), ball.nodes)
+        self.norm_of = {n: length(row) or 1.0 for n, row in zip(ball.nodes, j, strict=True)}
 
-    def floats(self, u: np.ndarray, nodes: Sequence[int], weighed: bool = True) -> tuple[np.ndarray, np.ndarray]:
+    def floats(self, u: Vector, nodes: Sequence[int]) -> tuple[list[float], list[list[float]]]:
         """Return the relations and their derivatives by u, rows scaled to gradients of length 1 at the point."""
         with ctx.workprec(WIDE):
             point = BallPoint(self.exactly(u), 0)
             at = values(self.ring, point)
-            f = np.array([float(at[n].mid()) for n in nodes], dtype=float)
+            f = [float(at[n].mid()) / self.norm_of[n] for n in nodes]
             rows = jacobian(self.ring, at, point, nodes, self.columns, arb(0))
-            j = np.array([[float(v.mid()) for v in row] for row in rows], dtype=float)
-        j = j.reshape(len(nodes), len(self.columns)) * self.scales
-        if weighed:
-            norms = np.array([self.norm_of[n] for n in nodes])
-            f, j = f / norms, j / norms[:, None]
-        return f, j
+        return f, [self.scaled(row, n) for n, row in zip(nodes, rows, strict=True)]
 
-    def exactly(self, u: np.ndarray) -> dict[Expr, arb]:
+    def scaled(self, row: Sequence[arb], node: int) -> list[float]:
+        """Return a relation's derivatives by u, in its scale."""
+        return [float(v.mid()) * s / self.norm_of[node] for v, s in zip(row, self.scales, strict=True)]
+
+    def onto_rows(self, j: Sequence[Vector], ahead: Vector) -> list[float]:
+        """Return a velocity whose dependent entries are those that rows let the free ones have."""
+        if not self.dependent:
+            return list(ahead)
+        moved = list(ahead)
+        square = [[row[c] for c in self.dependent] for row in j]
+        for c, v in zip(self.dependent, step(square, times(j, ahead)), strict=True):
+            moved[c] = v
+        return moved
+
+    def exactly(self, u: Vector) -> dict[Expr, arb]:
         """Return the symbols at u."""
         moved = {
             k: self.middle[k] + arb(float(s)) * arb(float(v)) for k, s, v in zip(self.keys, self.scales, u, strict=True)
@@ -137,7 +145,7 @@ def holds_away(ball: Manifold, direction: Sequence[float], deep: bool) -> bool |
         while reach > NEAR:
             u = _walk(here, direction, reach)
             if u is not None and len(ball.rows) > MANY:
-                return bool(np.max(np.abs(here.floats(u, ball.others)[0])) <= ROUGH)
+                return largest(here.floats(u, ball.others)[0]) <= ROUGH
             if u is not None:
                 with ctx.workprec(DEEP if deep else ctx.prec):
                     return _holds_at(here, u, DEEP_SURE if deep else SURE)
@@ -147,7 +155,7 @@ def holds_away(ball: Manifold, direction: Sequence[float], deep: bool) -> bool |
     return None
 
 
-def _holds_at(here: Neighbourhood, u: np.ndarray, sure: float) -> bool | None:
+def _holds_at(here: Neighbourhood, u: Vector, sure: float) -> bool | None:
     ball = here.ball
     rows, columns = independent(here.floats(u, ball.rows)[1], 0.0) if ball.rows else ([], [])
     if len(rows) < len(ball.rows):
@@ -220,61 +228,58 @@ def _round(here: Neighbourhood, critical: Split, symbols: dict[Expr, arb]) -> tu
     return size, here.onto(symbols)
 
 
-def _walk(here: Neighbourhood, direction: Sequence[float], reach: float) -> np.ndarray | None:
+def _walk(here: Neighbourhood, direction: Sequence[float], reach: float) -> list[float] | None:
     """The point of M at about the distance ``reach`` along a curve; None where steps are too rough to stay on it."""
     ball = here.ball
-    u, ahead = np.zeros(len(here.place)), np.zeros(len(here.place))
+    u, ahead = [0.0] * len(here.place), [0.0] * len(here.place)
     for value, c in zip(direction, ball.frame.free, strict=True):
         if c in here.number:
-            ahead[here.number[c]] = value
+            ahead[here.number[c]] = float(value)
     if not ball.rows:
-        return u + reach * ahead
+        return [reach * v for v in ahead]
     _, j = here.floats(u, ball.rows)
-    if here.dependent:
-        ahead[here.dependent] = -np.linalg.solve(j[:, here.dependent], j @ ahead)
+    ahead = here.onto_rows(j, ahead)
     for _ in range(STEPS):
-        tangent = ahead - np.linalg.lstsq(j, j @ ahead, rcond=None)[0]
-        size = float(np.linalg.norm(tangent))
+        tangent = plus(ahead, 1.0, step(j, times(j, ahead)))
+        size = length(tangent)
         if not size > 0:
             return None
-        tangent = tangent / size
-        if tangent @ ahead < STRAIGHT * np.linalg.norm(ahead):
+        tangent = [v / size for v in tangent]
+        if dot(tangent, ahead) < STRAIGHT * length(ahead):
             return None
-        moved = u + (reach / STEPS) * tangent
+        moved = plus(u, reach / STEPS, tangent)
         corrected = _back(here, moved)
-        if corrected is None or np.linalg.norm(corrected - moved) > (1 - STRAIGHT) * reach / STEPS:
+        if corrected is None or length(plus(corrected, -1.0, moved)) > (1 - STRAIGHT) * reach / STEPS:
             return None
         u, ahead = corrected, tangent
         _, j = here.floats(u, ball.rows)
     return u
 
 
-def _back(here: Neighbourhood, u: np.ndarray) -> np.ndarray | None:
+def _back(here: Neighbourhood, u: Vector) -> list[float] | None:
     """Newton's method with minimal steps in floating point."""
+    moved = list(u)
     for _ in range(8):
-        f, j = here.floats(u, here.ball.rows)
-        step = np.linalg.lstsq(j, f, rcond=None)[0]
-        u = u - step
-        if float(np.max(np.abs(step))) < 1e-12:
-            return u
+        f, j = here.floats(moved, here.ball.rows)
+        change = step(j, f)
+        moved = plus(moved, 1.0, change)
+        if largest(change) < 1e-12:
+            return moved
     return None
 
 
-def damped(j: np.ndarray, f: np.ndarray, power: int = 1) -> np.ndarray:
-    """The step -J^T (J J^T + |f|^power I)^-1 f: it leaves the directions alone in which J is smaller than the error."""
-    left_vectors, singular, right = np.linalg.svd(j, full_matrices=False)
-    factors = singular / (singular * singular + float(np.linalg.norm(f)) ** power + 1e-300)
-    return np.asarray(-(right.T @ (factors * (left_vectors.T @ f))))
-
-
-def independent(j: np.ndarray, least: float) -> tuple[list[int], list[int]]:
-    """As many rows and columns as there are singular values above ``least``, well conditioned (complete pivoting)."""
-    wanted = int(np.sum(np.linalg.svd(j, compute_uv=False) > least))
-    work, rows, columns = j.copy(), [], []
-    for _ in range(wanted):
-        r, c = np.unravel_index(int(np.argmax(np.abs(work))), work.shape)
-        rows.append(int(r))
-        columns.append(int(c))
-        work = work - np.outer(work[:, c], work[r]) / work[r, c]
-        work[r], work[:, c] = 0.0, 0.0
+def independent(j: Sequence[Vector], least: float) -> tuple[list[int], list[int]]:
+    """Return well conditioned rows and columns, by complete pivoting with pivots above ``least``."""
+    work, rows, columns = {r: list(row) for r, row in enumerate(j)}, list[int](), list[int]()
+    while work:
+        r = max(work, key=lambda i: largest(work[i]))
+        row = work.pop(r)
+        c = max(range(len(row)), key=lambda i: abs(row[i]))
+        if not abs(row[c]) > least:
+            break
+        rows.append(r)
+        columns.append(c)
+        for i, other in work.items():
+            work[i] = plus(other, -other[c] / row[c], row)
+            work[i][c] = 0.0
     return rows, columns

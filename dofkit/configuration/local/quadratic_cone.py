@@ -15,7 +15,7 @@ from typing import Any
 from flint import arb
 
 from dofkit.base.deadline import check
-from dofkit.base.libraries import np
+from dofkit.exact.matrices.dense import Matrix, dot, largest, least_eigenvector, length, pivoted, plus, times
 from dofkit.exact.residues import Residue, modulus, residue_matrix
 from dofkit.exact.ring.program import Scalar
 
@@ -98,41 +98,51 @@ def _candidates(forms: Sequence[Form], rank_wanted: int) -> list[list[arb]]:
     weightings = [[arb(int(i == j)) for i in range(k)] for j in range(k)]
     weights = _search(forms, rank_wanted)
     if weights is not None:
-        size = float(np.max(np.abs(weights)))
+        size = largest(weights)
         for d in DENOMINATORS:
-            rounded = [Fraction(round(float(w) / size * d), d) for w in weights]
+            rounded = [Fraction(round(w / size * d), d) for w in weights]
             weightings.append([arb(r.numerator) / r.denominator for r in rounded])
     return weightings
 
 
-def _search(forms: Sequence[Form], rank_wanted: int) -> np.ndarray | None:
+def floats_of(form: Form) -> list[list[float]]:
+    """Return a form of balls in floats, 0 for a ball that holds it."""
+    return [[0.0 if v.contains(0) else float(v.mid()) for v in row] for row in form]
+
+
+def scaled(form: Matrix, scales: Sequence[float]) -> list[list[float]]:
+    """Return a form in coordinates of these scales, its largest entry 1."""
+    rows = [[v * s * t for v, t in zip(row, scales, strict=True)] for row, s in zip(form, scales, strict=True)]
+    size = max(map(largest, rows), default=0.0) or 1.0
+    return [[v / size for v in row] for row in rows]
+
+
+def _search(forms: Sequence[Form], rank_wanted: int) -> list[float] | None:
     """Weights w whose combination B(w) is positive definite on all but the common kernel; None where none is near.
 
     w is the point nearest to 0 of the convex hull of the vectors (v.B_i v): where it is not 0 its B(w) is positive
     on every v (Gilbert's algorithm, with the least eigenvector as the next v).
     """
-    floats = np.array([[[0.0 if v.contains(0) else float(v.mid()) for v in row] for row in f] for f in forms])
-    sizes = np.abs(floats).max(axis=(1, 2))
-    if not sizes.max() > 0:
+    floats = [floats_of(form) for form in forms]
+    sizes = [max(map(largest, form)) or 1.0 for form in floats]
+    floats = [scaled(form, [1.0] * len(form)) for form in floats]
+    steps = pivoted([row for form in floats for row in form])
+    quotient = [v for v, size in zip(steps.basis, steps.sizes, strict=True) if size > POSITIVE * steps.sizes[0]]
+    if len(quotient) != rank_wanted or not quotient:
         return None
-    floats = floats / np.where(sizes > 0, sizes, 1.0)[:, None, None]
-    _, singular, right = np.linalg.svd(floats.reshape(-1, floats.shape[2]))
-    quotient = right[: int(np.sum(singular > POSITIVE * singular[0]))].T
-    if quotient.shape[1] != rank_wanted:
-        return None
-    cut = np.einsum("ia,kij,jb->kab", quotient, floats, quotient)
-    w = np.trace(cut, axis1=1, axis2=2) / rank_wanted
+    cut = [[times(quotient, times(form, v)) for v in quotient] for form in floats]
+    w = [sum(form[i][i] for i in range(rank_wanted)) / rank_wanted for form in cut]
     for _ in range(STEPS):
-        least, vectors = np.linalg.eigh(np.einsum("k,kab->ab", w, cut))
-        if least[0] > POSITIVE * max(1.0, float(np.linalg.norm(w))):
-            return np.asarray(w / np.where(sizes > 0, sizes, 1.0))
-        q = np.einsum("a,kab,b->k", vectors[:, 0], cut, vectors[:, 0])
-        apart = w - q
-        length = float(apart @ apart)
-        if length == 0:
+        rows = [[dot(w, entries) for entries in zip(*row, strict=True)] for row in zip(*cut, strict=True)]
+        least, vector = least_eigenvector(rows)
+        if least > POSITIVE * max(1.0, length(w)):
+            return [v / size for v, size in zip(w, sizes, strict=True)]
+        apart = plus(w, -1.0, [dot(times(form, vector), vector) for form in cut])
+        square = dot(apart, apart)
+        if square == 0:
             return None
-        w = w - min(1.0, max(0.0, float(w @ apart) / length)) * apart
-        if float(np.linalg.norm(w)) < POSITIVE:
+        w = plus(w, -min(1.0, max(0.0, dot(w, apart) / square)), apart)
+        if length(w) < POSITIVE:
             return None
     return None
 

@@ -127,7 +127,7 @@ def _within_tolerance(chart: Chart, at: Mapping[Expr, float], setting: Setting) 
         n - rank,
         conclusion.dimension,
         dependency_pattern(j, independent_rows(j, rank, tolerance)),
-        tuple(greedy_pivots(j.T, rank)),
+        tuple(greedy_pivots(j.T.tolist(), rank)),
         gap,
         conclusion.reason,
         problem.bound if conclusion.reason == OPEN else None,

@@ -69,7 +69,7 @@ class ScaledEquations:
 
     def rigid_motions(self, at: Point) -> Any:
         """Return the velocities of rigid motions of the system as rows."""
-        fields = displacements_real(self.chart, FloatPoint(at, 0))
+        fields = np.array(displacements_real(self.chart, FloatPoint(at, 0))).reshape(-1, len(self.symbols))
         return (fields + fields @ self._arms.slopes(at).T) / self.scale if fields.size else fields
 
     def system(self, at: Point, norms: Any = None) -> tuple[Any, Any]:

@@ -14,46 +14,42 @@ from typing import NamedTuple
 from flint import arb, arb_mat
 
 from dofkit.base.deadline import check
-from dofkit.base.errors import NoValueError
 from dofkit.base.libraries import np
+from dofkit.exact.matrices.dense import Matrix, dot, length, pivoted, plus, unit_rows
 
 #: Relative size below which a singular value of a matrix with scaled rows is taken for 0, and above which it is not.
 NOISE, SIGNAL = 1e-9, 1e-6
+FAINT = math.sqrt(NOISE * SIGNAL)
 
 
-def independent_part(j: np.ndarray) -> tuple[int, float, list[int], list[int]]:
+def independent_part(j: Matrix) -> tuple[int, float, list[int], list[int]]:
     """Return (rank, gap, rows, columns) of a matrix with its rows scaled; rows are taken greedily in their order.
 
     Raises NoValueError where an entry is not finite, as at a pole.
     """
-    if not j.size:
-        return 0, math.inf, [], []
-    if not np.isfinite(j).all():
-        raise NoValueError("an entry of the matrix is not finite")
-    norms = np.linalg.norm(j, axis=1)
-    scaled = j / np.where(norms > 0, norms, 1.0)[:, None]
-    singular = np.linalg.svd(scaled, compute_uv=False)
-    rank = int(np.sum(singular > math.sqrt(NOISE * SIGNAL)))
-    below = float(singular[rank]) if rank < len(singular) else 0.0
-    gap = math.inf if below == 0 or rank == 0 else float(singular[rank - 1]) / below
+    scaled = unit_rows(j)
+    sizes = pivoted(scaled).sizes
+    rank = sum(size > FAINT for size in sizes)
+    gap = sizes[rank - 1] / sizes[rank] if 0 < rank < len(sizes) else math.inf
     rows = greedy_rows(scaled, rank)
-    columns = greedy_pivots(scaled[rows].T, len(rows)) if rows else []
-    return len(rows), gap, rows, columns
+    return len(rows), gap, rows, greedy_pivots(list(zip(*(scaled[r] for r in rows), strict=True)), len(rows))
 
 
-def greedy_rows(matrix: np.ndarray, rank: int) -> list[int]:
+def greedy_rows(matrix: Matrix, rank: int) -> list[int]:
     """Return the first rows, in order, each independent of those before it."""
     kept: list[int] = []
-    basis = np.zeros((0, matrix.shape[1]))
+    basis: list[list[float]] = []
     for i, row in enumerate(matrix):
-        residual = row - basis.T @ (basis @ row)
-        residual = residual - basis.T @ (basis @ residual)
-        size = float(np.linalg.norm(residual))
-        if size > math.sqrt(NOISE * SIGNAL):
-            basis = np.vstack([basis, residual / size])
-            kept.append(i)
         if len(kept) == rank:
             break
+        residual = list(row)
+        for _ in range(2):  # rounding leaves something of the others
+            for direction in basis:
+                residual = plus(residual, -dot(residual, direction), direction)
+        size = length(residual)
+        if size > FAINT:
+            basis.append([v / size for v in residual])
+            kept.append(i)
     return kept
 
 
@@ -73,17 +69,9 @@ def dependency_pattern(j: np.ndarray, rows: Sequence[int]) -> list[list[int]]:
     return pattern
 
 
-def greedy_pivots(matrix: np.ndarray, rank: int) -> list[int]:
-    """Rows chosen for the largest remainder: well conditioned, in no order."""
-    kept: list[int] = []
-    residual = matrix.copy()
-    for _ in range(rank):
-        sizes = np.linalg.norm(residual, axis=1)
-        best = int(np.argmax(sizes))
-        kept.append(best)
-        direction = residual[best] / sizes[best]
-        residual = residual - np.outer(residual @ direction, direction)
-    return sorted(kept)
+def greedy_pivots(matrix: Matrix, rank: int) -> list[int]:
+    """Return rows chosen for the largest remainder, which are well conditioned, by their numbers."""
+    return sorted(pivoted(matrix, most=rank).order)
 
 
 Balls = Sequence[Sequence[arb]]

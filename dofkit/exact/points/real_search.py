@@ -14,8 +14,8 @@ from flint import arb, arb_mat, ctx
 
 from dofkit.base.deadline import check
 from dofkit.base.errors import NoValueError
-from dofkit.base.libraries import np
 from dofkit.exact.matrices.certified import PivotedPart, ball_part, independent_part
+from dofkit.exact.matrices.dense import largest, length, step
 from dofkit.exact.points.balls import BallPoint, FloatPoint, jacobian, precision, random_values
 from dofkit.exact.ring.program import raising_no_value, values
 from dofkit.exact.ring.ring import Ring
@@ -103,61 +103,63 @@ class RealSearch:
                 break
         return singular
 
-    def descend(self, symbols: dict[Expr, float], seed: int, steps: int = ITERATIONS) -> np.ndarray | None:
+    def descend(self, symbols: dict[Expr, float], seed: int, steps: int = ITERATIONS) -> list[list[float]] | None:
         """Gauss-Newton in floating point; ``symbols`` is moved; returns the Jacobian at the end.
 
         At a singular point each step only halves the distance: it goes on until the steps are fast, or to the last.
         """
         if not self.nodes:
-            return np.zeros((0, len(self.columns)))
-        previous, j = math.inf, np.zeros((0, 0))
-        base, step = dict.fromkeys(self.unknowns, 0.0), np.array([symbols[u] for u in self.unknowns])
+            return []
+        previous, j = math.inf, list[list[float]]()
+        base, change = dict.fromkeys(self.unknowns, 0.0), [symbols[u] for u in self.unknowns]
         for _ in range(steps):
             check()
-            system = self._within_domain(symbols, base, step, seed)
+            system = self._within_domain(symbols, base, change, seed)
             if system is None:
                 return None
             f, j = system
             reach = max(1.0, math.hypot(*(symbols[u] for u in self.unknowns)))
-            scale = np.maximum.reduce(abs(j), axis=1, initial=0.0) + 1e-300
-            residual = float(np.maximum.reduce(abs(f) / scale)) / reach
-            if not (math.isfinite(residual) and math.isfinite(np.maximum.reduce(scale))):
+            if not (math.isfinite(sum(f)) and math.isfinite(sum(map(sum, j)))):
                 return None
+            scale = [largest(row) + 1e-300 for row in j]
+            j = [[v / size for v in row] for row, size in zip(j, scale, strict=True)]
+            f = [v / size for v, size in zip(f, scale, strict=True)]
+            residual = largest(f) / reach
             fast, stands = residual <= previous / 8, residual >= 0.9 * previous
             if residual == 0 or (residual < 1e-13 and (fast or stands)) or (residual < 1e-11 and stands):
                 return j
             previous = residual
-            step = np.linalg.lstsq(j / scale[:, None], -f / scale, rcond=1e-12)[0]
-            length = math.hypot(*step.tolist())
-            if not math.isfinite(length):
+            change = step(j, f)
+            far = length(change)
+            if not math.isfinite(far):
                 return None
-            if length > 4 * reach:
-                step *= 4 * reach / length
+            if far > 4 * reach:
+                change = [4 * reach / far * s for s in change]
             base = {u: symbols[u] for u in self.unknowns}
-            for u, s in zip(self.unknowns, step.tolist(), strict=True):
+            for u, s in zip(self.unknowns, change, strict=True):
                 symbols[u] += s
         return j if previous < 1e-13 else None
 
     def _within_domain(
-        self, symbols: dict[Expr, float], base: Mapping[Expr, float], step: np.ndarray, seed: int
-    ) -> tuple[np.ndarray, np.ndarray] | None:
+        self, symbols: dict[Expr, float], base: Mapping[Expr, float], change: Sequence[float], seed: int
+    ) -> tuple[list[float], list[list[float]]] | None:
         """The system at ``symbols``; where it has no value there, at ``base`` and half of the step, and so on."""
         for halvings in range(HALVINGS):
             try:
                 return self.float_system(symbols, seed)
             except (ValueError, OverflowError, NoValueError):
-                for u, s in zip(self.unknowns, step, strict=True):
-                    symbols[u] = base[u] + float(s) / 2 ** (halvings + 1)
+                for u, s in zip(self.unknowns, change, strict=True):
+                    symbols[u] = base[u] + s / 2 ** (halvings + 1)
         return None
 
-    def float_system(self, symbols: Mapping[Expr, float], seed: int) -> tuple[np.ndarray, np.ndarray]:
+    def float_system(self, symbols: Mapping[Expr, float], seed: int) -> tuple[list[float], list[list[float]]]:
+        """Return the relations at a point, and their derivatives by the unknowns."""
         point = FloatPoint(symbols, seed)
         at = values(self.ring, point, self.upto)
-        f = np.array([at[n] for n in self.nodes], dtype=float)
-        j = np.array(jacobian(self.ring, at, point, self.nodes, self.columns, 0.0), dtype=float)
-        return f, j.reshape(len(self.nodes), len(self.columns))
+        j = jacobian(self.ring, at, point, self.nodes, self.columns, 0.0)
+        return [float(at[n]) for n in self.nodes], [list(map(float, row)) for row in j]
 
-    def refine(self, symbols: Mapping[Expr, float], j: np.ndarray | None, seed: int) -> RealPoint | None:
+    def refine(self, symbols: Mapping[Expr, float], j: list[list[float]] | None, seed: int) -> RealPoint | None:
         """To high precision on independent rows of the Jacobian (None: it has none), and the interval Newton test.
 
         Rows that floating point takes for dependent are tried as independent where the others do not imply them.
@@ -167,7 +169,7 @@ class RealSearch:
         with ctx.workprec(max(ctx.prec, precision())):
             return self._precise(symbols, j, seed)
 
-    def _precise(self, symbols: Mapping[Expr, float], j: np.ndarray | None, seed: int) -> RealPoint | None:
+    def _precise(self, symbols: Mapping[Expr, float], j: list[list[float]] | None, seed: int) -> RealPoint | None:
         if j is None:
             return self._refined(symbols, (), (), seed)
         rows, columns = independent_part(j)[2:]

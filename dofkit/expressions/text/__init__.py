@@ -10,8 +10,7 @@ from __future__ import annotations
 
 from dofkit.expressions.calculus import Comparison
 from dofkit.expressions.text.applications import parse_expression, parse_relations
-from dofkit.expressions.text.characters import spelled
-from dofkit.expressions.text.names import AmbiguousError, Names, UnknownNameError, valid_name
+from dofkit.expressions.text.names import AmbiguousError, Names, UnknownNameError, spelled, valid_name
 from dofkit.expressions.text.printing import to_text
 
 __all__ = [

@@ -55,7 +55,8 @@ _SIGNS: dict[str, str] = {
     "÷": "/", "∕": "/", "⁄": "/", "≤": "<=", "⩽": "<=", "≦": "<=", "≥": ">=", "⩾": ">=", "≧": ">=",
     "′": "'", "’": "'", "‘": "'", "ʹ": "'", "″": "''", "‴": "'''", "√": "√", "∣": "|", "ǀ": "|",
 }  # fmt: skip
-_LETTERS: dict[str, str] = {"ϑ": "θ", "ϕ": "φ", "ϵ": "ε", "ϱ": "ρ", "ς": "σ", "ϰ": "κ", "µ": "μ", "∆": "Δ"}
+#: Other signs for a Greek letter.
+LETTERS: dict[str, str] = {"ϑ": "θ", "ϕ": "φ", "ϵ": "ε", "ϱ": "ρ", "ς": "σ", "ϰ": "κ", "µ": "μ", "∆": "Δ"}
 _SPACES = dict.fromkeys("\u00a0\u2002\u2003\u2004\u2005\u2006\u2007\u2008\u2009\u200a\u202f\u205f\u3000", " ")
 SUBSCRIPTS: dict[str, str] = dict(zip("₀₁₂₃₄₅₆₇₈₉", "0123456789", strict=True))
 #: After a number: so many times pi/180.
@@ -96,9 +97,6 @@ class Folded(NamedTuple):
 
 def fold(text: str) -> Folded:
     """Return ``text`` in the plain characters that the tokenizer knows, or TextError at the first other one."""
-    columns: Sequence[int] = range(1, len(text) + 2)
-    if text.isascii():
-        return Folded(text, columns)
     out: list[str] = []
     places: list[int] = []
     below = False
@@ -119,7 +117,7 @@ def _plain(char: str, column: int) -> str:
     """Return what one character outside ASCII stands for."""
     if char in _KEPT:
         return char
-    for table in (_SIGNS, _LETTERS, _SPACES, _MARKS):
+    for table in (_SIGNS, LETTERS, _SPACES, _MARKS):
         if char in table:
             return table[char]
     if char not in _LOOKALIKES and char not in _REFUSED:
@@ -137,7 +135,7 @@ def _composed(char: str, decomposition: list[str]) -> str | None:
     """Return a letter in another type face, or a letter with dots above it."""
     if decomposition[0] == "<font>":
         base = chr(int(decomposition[1], 16))
-        base = _LETTERS.get(base, base)
+        base = LETTERS.get(base, base)
         return base if (base.isascii() and base.isalnum()) or base in GREEK else None
     base, mark = (chr(int(part, 16)) for part in decomposition)
     return base + mark if mark in (DOT, TWO_DOTS) else None
@@ -176,19 +174,10 @@ def _wide(char: str) -> str | None:
     return chr(ord(char) - 0xFEE0) if "！" <= char <= "～" else None
 
 
-def spelled(name: str) -> str:
-    """Return ``name`` with its Greek letters spelled out: θ_1 and theta_1 are one name."""
-    if name.isascii():
-        return name
-    return "".join([GREEK.get(c, c) for c in (_LETTERS.get(c, c) for c in name)])
-
-
 def check_name_characters(name: str) -> str | None:
     """None if ``name`` is made of letters, digits and `_`, else the reason why not."""
-    if name.isascii() and name.replace("_", "").isalnum():
-        return None
     for char in name:
-        plain = _LETTERS.get(char, char)
+        plain = LETTERS.get(char, char)
         if plain in GREEK or (plain.isascii() and (plain.isalnum() or plain == "_")):
             continue
         if not char.isascii() and (char in _LOOKALIKES or char in _REFUSED):
@@ -221,7 +210,6 @@ _COMMAND = re.compile(
     r"|_\s*\{\s*(?P<below>[A-Za-z0-9]+)\s*\}|_\s*\{(?P<odd>)",
     re.ASCII | re.DOTALL,
 )
-_UNUSUAL = re.compile(r"[\\{$\x00-\x1f]")
 #: What stands around mathematics in LaTeX.
 _DELIMITED = re.compile(r"\s*(\$\$?|\\\(|\\\[)(?P<inner>[^$]*?)(\$\$?|\\\)|\\\])\s*", re.DOTALL)
 _CLOSING = {"$": "$", "$$": "$$", "\\(": "\\)", "\\[": "\\]"}
@@ -259,8 +247,6 @@ _REFUSED_COMMANDS: dict[str, tuple[str, str]] = {
 
 def unlatex(folded: Folded) -> Folded:
     """Return ``folded`` with its LaTeX commands rewritten into plain characters."""
-    if not _UNUSUAL.search(folded.text):
-        return folded
     text, columns = _undelimited(folded.text), folded.columns
     out: list[str] = []
     places: list[int] = []
@@ -287,14 +273,6 @@ def unlatex(folded: Folded) -> Folded:
     out.append(text[position:])
     places.extend(columns[position:])
     return Folded("".join(out), places)
-
-
-def without_latex(text: str) -> str | None:
-    """Return a text in plain Latin letters and signs, or None where it holds what is not read."""
-    try:
-        return spelled(unlatex(fold(text)).text).strip()
-    except TextError:
-        return None
 
 
 def _undelimited(text: str) -> str:

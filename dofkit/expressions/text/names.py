@@ -12,8 +12,23 @@ from typing import Any, Literal, NamedTuple
 from dofkit.base.errors import TextError
 from dofkit.base.wording import closest
 from dofkit.expressions.renaming import MOVING
-from dofkit.expressions.text.characters import DOT, MAX_NAME, TWO_DOTS, check_name_characters, spelled
+from dofkit.expressions.text.characters import (
+    DOT,
+    GREEK,
+    LETTERS,
+    MAX_NAME,
+    TWO_DOTS,
+    check_name_characters,
+)
 from dofkit.expressions.tree import DT, FUNCTIONS, PI, TIME, E, Expr, coordinate, differential, sym, velocity
+
+
+def spelled(name: str) -> str:
+    """Return ``name`` with its Greek letters spelled out: θ_1 and theta_1 are one name."""
+    if name.isascii():
+        return name
+    return "".join([GREEK.get(c, c) for c in (LETTERS.get(c, c) for c in name)])
+
 
 SYNONYMS: dict[str, str] = {
     "arcsin": "asin", "arccos": "acos", "arctan": "atan", "arctan2": "atan2", "ln": "log", "cosec": "csc",
@@ -106,6 +121,7 @@ class AmbiguousError(TextError):
         return (AmbiguousError, (self.message, self.column, self.hint, self.readings, self.span))
 
 
+_PLAIN = re.compile(r"[A-Za-z0-9_]*")
 _NUMBERED = re.compile(r"(.*[A-Za-z])(_?)(\d+)", re.ASCII)
 _SUFFIXED = re.compile(r"(.+?)_?(d?dot)(_.*)?", re.ASCII)
 _MARKED = re.compile(f"([^{DOT}{TWO_DOTS}]+)([{DOT}{TWO_DOTS}]+)([_0-9][^{DOT}{TWO_DOTS}]*)?")
@@ -263,7 +279,7 @@ def valid_name(name: str) -> str | None:
         return "the name is empty"
     if len(name) > MAX_NAME:
         return f"the name has {len(name)} letters; at most {MAX_NAME} are read"
-    odd = check_name_characters(name)
+    odd = None if _PLAIN.fullmatch(name) else check_name_characters(name)
     if odd is not None:
         return odd
     if name[0].isdigit() or name[0] == "_":

@@ -26,10 +26,20 @@ from dofkit.expressions.text.characters import (
     MAX_TEXT_BITS,
     SUPERSCRIPTS,
     TWO_DOTS,
+    Folded,
     fold,
     unlatex,
 )
-from dofkit.expressions.text.names import FOREIGN, UNITS, VARIATION, Lookup, Meaning, UnknownNameError, unknown_name
+from dofkit.expressions.text.names import (
+    FOREIGN,
+    UNITS,
+    VARIATION,
+    Lookup,
+    Meaning,
+    UnknownNameError,
+    spelled,
+    unknown_name,
+)
 from dofkit.expressions.tree import PI, E, Expr, mul, num, sym
 
 
@@ -71,6 +81,8 @@ _TOKEN = re.compile(
     |(?P<end>$))""",
     re.ASCII | re.VERBOSE,
 )
+#: No character that stands for another, and no LaTeX.
+_PLAIN = re.compile(r"[^\\{$\x00-\x1f\x7f-\U0010ffff]*")
 _SQUARE = r"\s*(?:²|(?:\^|\*\*)\s*(?:2|\{\s*2\s*\}))"
 _SECOND = re.compile(rf"d{_SQUARE}\s*(?P<name>{WORD})\s*/\s*dt{_SQUARE}", re.ASCII)
 _SPACED_VARIATION = re.compile(rf"{VARIATION}[ \t]+(?P<name>{WORD})", re.ASCII)
@@ -115,8 +127,17 @@ def tokenize(text: str, lookup: Lookup) -> Tokens:
     if (size := len(text)) > MAX_CHARACTERS:
         hint = "split it into several texts"
         raise TextError(f"the text has {size} characters; at most {MAX_CHARACTERS} are read", MAX_CHARACTERS + 1, hint)
-    plain, columns = unlatex(fold(text.rstrip()))
+    text = text.rstrip()
+    plain, columns = Folded(text, range(1, len(text) + 2)) if _PLAIN.fullmatch(text) else unlatex(fold(text))
     return Tokens(_scan(plain, columns, lookup), plain, columns)
+
+
+def without_latex(text: str) -> str | None:
+    """Return a text in plain Latin letters and signs, or None where it holds what is not read."""
+    try:
+        return spelled(unlatex(fold(text)).text).strip()
+    except TextError:
+        return None
 
 
 def _scan(text: str, columns: Sequence[int], lookup: Lookup) -> list[Token]:

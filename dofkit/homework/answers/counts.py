@@ -9,7 +9,18 @@ from fractions import Fraction
 from dofkit.base.errors import TextError
 from dofkit.expressions.text import Names, parse_relations
 from dofkit.homework.answers.notation import Script, script_of
-from dofkit.homework.answers.prose import DOUBTS, LEADING, NEGATIONS, NUMBERS, REASONS, UNITS, plain, takes_back, words
+from dofkit.homework.answers.prose import (
+    CONCLUSION,
+    DOUBTS,
+    LEADING,
+    NEGATIONS,
+    NUMBERS,
+    REASONS,
+    UNITS,
+    plain,
+    takes_back,
+    words,
+)
 from dofkit.homework.answers.words import one_text
 from dofkit.homework.judgement import DoubtError
 
@@ -21,11 +32,7 @@ _SEGMENT = re.compile(
     r"⇒(?=\s*[^\W\d_]+\s*=)|(?<=\s)(?:so|therefore|hence|thus|also|donc|luego|quindi|portanto|daher|folglich)(?=\s)",
     re.IGNORECASE,
 )
-#: What draws a conclusion, and what is replaced by what follows it: `not 3 but 2`.
-_CONCLUSION = re.compile(
-    r"(?:[.,;]|\s)\s*(?:so|therefore|hence|thus|donc|luego|quindi|portanto|daher|folglich)\b\s*:?\s*(?=\S)",
-    re.IGNORECASE,
-)
+#: What is replaced by what follows it: `not 3 but 2`.
 _REPLACED = re.compile(
     r"\b(?:not|nicht|pas|no|non|n[aã]o)\s+(?:\d+|[^\W\d_]+)\s*,?\s*(?:but|sondern|mais|sino|ma|mas)\s+(?=\S)",
     re.IGNORECASE,
@@ -115,7 +122,7 @@ def number(answer: object, called: frozenset[str] = frozenset(), foreign: frozen
 
 def _concluded(script: Script) -> Script:
     """Return what follows the last conclusion, if there is a number in it."""
-    ends = [match.end() for match in _CONCLUSION.finditer(script.text)]
+    ends = [match.end() for match in CONCLUSION.finditer(script.text)]
     last = script.cut(ends[-1]) if ends else script
     return last if ends and (_FIGURE.search(last.text) or plain(last.text) in NUMBERS) else script
 

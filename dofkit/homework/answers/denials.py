@@ -5,43 +5,26 @@ from __future__ import annotations
 import re
 from collections.abc import Collection
 
-from dofkit.homework.answers.prose import FILLING, REASONS, YES, phrases, plain, words
+from dofkit.homework.answers.prose import FILLING, REASONS, YES, plain, word_list
 
 #: Answers that there is none which are no sentence of the words below; a dash alone is no answer.
-NONE = phrases(
-    "no|nope|null|nil|empty|∅|{}|[]|()|nein|leer|leere menge|non|vide|vacio|vuoto|nao|vazio|not possible|nicht moglich|"
-    "il n'y en a pas|il n'y en a aucune|no hay|no hay ninguna|no hay ninguno|non ce ne sono|nao ha|gibt es nicht|"
-    "gibt keine|es gibt keine|es gibt keines|es gibt keins|there is none|there are none|none of them"
-)
+NONE = word_list("denials: none")
 #: What stands between the parts of an answer.
 _PARTS = r"[,;:(\n]| - | – | — "
 _ANDS = r"\s(?:and|und|et|y|e|but|aber|mais|pero|ma|mas)\s"
 #: In a sentence of these words alone one denial says that there is none; two take each other back.
-_DENIALS = words("no not none nothing nein nicht kein keine keinen keines keins keiner nichts pas non nao never")
+_DENIALS = word_list("denials: denials")
 #: In Romance languages these go with a denial, or stand alone.
-_WITH_DENIALS = words(
-    "aucun aucune rien ni ninguno ninguna ningun nada nessun nessuno nessuna niente nao nenhum nenhuma jamais"
-)
-_NONES = words(
-    "none nothing keine keines keins keiner nichts aucun aucune rien ninguno ninguna nada nessuno nessuna niente "
-    "nenhum nenhuma"
-)
+_WITH_DENIALS = word_list("denials: with_denials")
+_NONES = word_list("denials: nones")
 #: What is denied, by its beginning; a prefix denies it too.
 _DENIED = re.compile(
     r"(?P<prefix>non-?|nicht-?|an|un|in)?(?:integr|holonom|olonom|exist|esist|redund|redond|ridond|ueberfluss|uberfluss|superflu|sobra"
     r"|entbehr|relation|beziehung|equation|gleichung|ecuacion|equazion|equac|dropped|weglass|primitive|stammfunktion"
     r"|potential)[a-z]*"
 )
-_AROUND = words(
-    "there here this that these they such any exists has have does do did can be form forme forma differential "
-    "differentielle zwangsbedingung bedingung gleichung lasst sich gibt man kann werden hier da admits admet possede "
-    "besitzt hat tiene ha posee ce il elle ne si se puede puo pode hay ci vi ha tem of finite finie "
-    "sobre constraint liaison relacion relazione relacao di de del della diese dieser die das der to for fur fuer pour "
-    "para per esta questa questo bindung exact exakt moglich possible es una uno lo la su sua ihr sein so "
-    "vorhanden endliche endlichen vincolo vincoli ligadura restriccion vinculo "
-    "ser sein etre essere been unfortunately leider hence also daher donc luego quindi"
-)
-_EVERY = words("all every each alle jede jeder toutes tous chaque todas todos tutti tutte")
+_AROUND = word_list("denials: around")
+_EVERY = word_list("denials: every")
 _NEEDED = re.compile(
     r"(?:need|necess|requir|independen|unabhangig|notig|benotigt|notwendig|indispens|independant|indipend)"
 )

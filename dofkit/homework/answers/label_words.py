@@ -10,7 +10,7 @@ from typing import NamedTuple
 from dofkit.base.errors import TextError
 from dofkit.base.wording import closest
 from dofkit.homework.answers.notation import Script, script_of
-from dofkit.homework.answers.prose import DOUBTS, NO, YES, plain, words
+from dofkit.homework.answers.prose import DOUBTS, NO, YES, plain, word_list, words
 from dofkit.homework.answers.words import Word, one_text, split_words
 from dofkit.homework.judgement import DoubtError, Given
 
@@ -32,22 +32,21 @@ def _forms(*stems: str) -> tuple[str, ...]:
 
 TERMS: dict[str, Terms] = {
     "holonomic": Terms(
-        "holonomic", "non-holonomic", (*_forms("holonom", "olonom"), "hol", "holon"),
-        ("nonhol", "nonholon", "anhol", "nichthol",
-         *_forms("nonholonom", "anholonom", "nichtholonom", "unholonom", "anolonom", "inholonom")),
+        "holonomic", "non-holonomic", _forms("holonom", "olonom"),
+        _forms("nonholonom", "anholonom", "nichtholonom", "unholonom", "anolonom", "inholonom"),
     ),
     "scleronomic": Terms(
         "scleronomic", "rheonomic",
         (*_forms("scleronom", "skleronom", "escleronom", "sclernom"), "timeindependent", "zeitunabhangig", "stationary",
-         "stationar", "scler", "skler", "sclero", "sklero"),
-        (*_forms("rheonom", "reonom", "nonscleronom"), "timedependent", "zeitabhangig", "instationar", "rheo", "rheon"),
+         "stationar"),
+        (*_forms("rheonom", "reonom", "nonscleronom"), "timedependent", "zeitabhangig", "instationar"),
     ),
     "bilateral": Terms(
         "bilateral", "unilateral",
-        ("bilateral", "bilaterale", "bilateraux", "bilatero", "twosided", "bilat", "doublesided", "zweiseitig",
+        ("bilateral", "bilaterale", "bilateraux", "bilatero", "twosided", "doublesided", "zweiseitig",
          "beidseitig",
          "equality", "bilateralis", "bilaterales"),
-        ("unilateral", "unilaterale", "unilatero", "onesided", "unilat", "singlesided", "einseitig", "inequality",
+        ("unilateral", "unilaterale", "unilatero", "onesided", "singlesided", "einseitig", "inequality",
          "nonbilateral",
          "unilaterales"),
     ),
@@ -58,17 +57,15 @@ _WORDS: dict[str, tuple[str, bool]] = {
     for words, holds in ((terms.positive, True), (terms.negative, False))
     for word in words
 }
+#: Labels that may be cut short, and the fewest letters of them: `hol.`, `skl.`
+_STEMS = ("holonom", "scleronom", "skleronom", "rheonom", "bilateral", "unilateral")
+_FEWEST = 3
 #: What misspelt labels are compared with.
 _GUESSED = [w for w in _WORDS if w[:3] in ("hol", "scl", "skl", "rhe", "bil", "uni")]
 _LONGEST = 24
-_NEGATIONS = words(
-    "not non no non- not- isn't isnt nicht kein keine never neither nor weder noch pas ni nao ne' nem cannot can't none"
-)
+_NEGATIONS = word_list("label_words: negations")
 #: Words over which a negation reaches.
-_FILLING = words(
-    "a an the is it be also really either both ist es eine ein auch est un une aussi es una e' son "
-    "constraint zwangsbedingung liaison ligadura vincolo explicitly called named considered said to as"
-)  # fmt: skip
+_FILLING = word_list("label_words: filling")  # fmt: skip
 #: Words of other meanings that look like labels.
 _OTHERS = frozenset({"integrable", "nonintegrable", "noncommutative", "nonlinear", "nonzero", "integrabel"})
 #: How alike a misspelt word and the label that is meant are.
@@ -239,9 +236,10 @@ def _label(text: str) -> tuple[str, bool] | None:
     bare = _HYPHEN.sub("", text)
     if bare in _WORDS:
         return _WORDS[bare]
-    negated = next((n for n in ("non", "not", "nicht", "nao", "no") if bare.startswith(n)), "")
+    negated = next((n for n in ("non", "not", "nicht", "nao", "no", "an") if bare.startswith(n)), "")
     stem = bare[len(negated) :]
-    near = closest(stem, _GUESSED, ALIKE) if len(stem) <= _LONGEST else None
+    near = next((whole for whole in _STEMS if len(stem) >= _FEWEST and whole.startswith(stem)), None)
+    near = near or (closest(stem, _GUESSED, ALIKE) if len(stem) <= _LONGEST else None)
     if near is None:
         return None
     part, holds = _WORDS[near]

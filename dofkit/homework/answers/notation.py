@@ -174,6 +174,7 @@ _JOINED = (
     (re.compile(rf"(?<![\w\\])d\s+(?!(?:{'|'.join(sorted(ELEMENTARY))})\b)(?=[A-Za-zα-ωΑ-Ω])"), "d"),
 )
 _WHOLE = re.compile(r"Ddt|(?<![\w\\])d(?=\()")
+_BY_TIME = re.compile(r"\s*/\s*\(?d\s?t\)?(?!\w)")
 _OTHER_FORM = re.compile(r"(?<![A-Za-z])d[A-Za-zα-ωΑ-Ω]")
 
 
@@ -187,11 +188,12 @@ def with_differentials(script: Script) -> Script:
         while script.text[start : start + 1] == " ":
             start += 1
         end = _closed(script.text, start)
-        mixed = match[0] == "d" and _OTHER_FORM.search(script.text)
+        by_time = None if end is None or match[0] != "d" else _BY_TIME.match(script.text, end + 1)
+        mixed = match[0] == "d" and by_time is None and _OTHER_FORM.search(script.text)
         if end is None or mixed:
             continue
         inside = script.text[start + 1 : end]
-        script = script.spliced(match.start(), end + 1, f"diff({inside}, t)")
+        script = script.spliced(match.start(), by_time.end() if by_time else end + 1, f"diff({inside}, t)")
     return script
 
 

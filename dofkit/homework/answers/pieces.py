@@ -11,7 +11,7 @@ from dofkit.expressions.text import Names, parse_relations, spelled
 from dofkit.expressions.text.characters import GREEK
 from dofkit.expressions.text.tokens import read_word
 from dofkit.homework.answers.notation import ARROW, Script, script_of, with_differentials
-from dofkit.homework.answers.prose import plain, takes_back, words
+from dofkit.homework.answers.prose import CONCLUSION, plain, takes_back, word_list
 from dofkit.homework.answers.words import one_text
 from dofkit.homework.judgement import DoubtError, Given
 
@@ -55,10 +55,7 @@ _CURVES = re.compile(
     re.IGNORECASE,
 )
 _TITLED = re.compile(r"\A\s*[^=<>:+*/^]{1,60}:(?!=)\s*(?=\S)")
-_REMARKED = words(
-    "constant constante const konstante konst costante cte arbitrary beliebig arbitraire real reell reel reale any "
-    "some positive angle radius length hence therefore so thus daher also donc luego quindi qed given fixed fest fester"
-)
+_REMARKED = word_list("pieces: remarked")
 _ABOUT_CONSTANT = re.compile(
     r"\s*(?:with|mit|where|wobei|avec|con|où|donde|dove)?\s*[^\W\d_][\w]{0,8}\s*"
     r"(?:(?:∈|\bin\b|is|ist|est|es|è|:)\s*(?:R|ℝ|IR|reals?|an?\b|eine?\b|une?\b|una?\b)?[^=<>]{0,40}"
@@ -69,6 +66,8 @@ _BESIDE = re.compile(r"[^\s=+\-*/^(,]\s+[ye]\s+[^\s=+\-*/^),]")
 #: A sign of equality for numbers that are rounded.
 _ROUNDED = re.compile(r"(?:[≈≃≅]|\\(?:approx|simeq|cong)(?![A-Za-z]))(?=.*\d[.,]\d)")
 _CHAINED = re.compile(r"(?<![<>=!])=(?!=)")
+#: That a side is constant, said after an equation: `x + y = l = const.`
+_CONSTANT_SIDE = re.compile(r"(?<==)([^=<>]+)=\s*(?:const|konst|cte|cst)[^\W\d_]*\.?\s*\Z", re.IGNORECASE)
 #: Energies that lead to a Lagrangian: `T = ..., V = ..., L = T - V` is one expression.
 _ENERGY = r"(?:E_?\{?(?:kin|pot|k|p)\w{0,6}\}?|[TVUK](?:_\{?\w{1,4}\}?)?)"
 _STEP = re.compile(rf"\A\s*(?P<name>{_ENERGY})\s*=(?!=)(?P<value>[^=<>]+)\Z")
@@ -101,7 +100,7 @@ def pieces_of(answer: object, names: Names) -> Pieces:
     equations: list[Script] = []
     derived = False
     for text in texts:
-        script = script_of(text)
+        script = script_of(text).replaced(CONCLUSION, ARROW)
         if "d" not in names.coordinates and "d" not in names.parameters:
             script = with_differentials(script)
         derived = derived or ARROW in script.text
@@ -186,6 +185,7 @@ def _cleaned(script: Script, names: Names) -> Script | None:
     script = script.replaced(re.compile(r"\A\s*(?:\.|&)+|\s*\.\s*\Z|!\s*\Z"), "").stripped()
     if _RELATION.search(script.text):
         script = script.replaced(_NUMBER_AFTER, "").replaced(_ALWAYS, "").stripped()
+    script = script.replaced(_CONSTANT_SIDE, r"\1")
     script = script.replaced(_CURVES, "") if _RELATION.search(script.text) else script
     for lead in (_TITLED, _INTRODUCED):
         match = lead.match(script.text)

@@ -37,6 +37,7 @@ _OF_INTEGRATION = re.compile(r"[CcKk](?:_?\d)?|[A-Za-z]+_?0|const\w*|konst\w*|c[
 _WHOLE = re.compile(r"const|konst|cst|cte|lam|mu|mult", re.IGNORECASE)
 _DEFINITION = re.compile(r"\s*(?P<name>\\?[A-Za-zα-ω]+(?:_\w+)?)\s*(?:\^\s*\{?2\}?|²)?\s*:?=(?!=)(?P<value>[^=]+)\Z")
 _WORDS = re.compile(r"\\?[A-Za-zα-ωΑ-Ω]+(?:_\w+)?")
+_FUNCTION_FIRST = re.compile(r"\s*\w+\((?P<inside>[^()]+)\)\*")
 _SIGNS, _PLUS, _MINUS = re.compile("[±∓]"), re.compile("±"), re.compile("∓")
 
 
@@ -179,9 +180,10 @@ class AnswerNames:
         return replace(self.names, allow_accelerations=self.accelerations)
 
     def _twin(self, word: str) -> str | None:
-        """The one declared name that differs by capitals and `_` only."""
+        """The one declared name that differs by capitals and `_` only, or the one coordinate that begins so: `x_P`."""
         declared = (*self.names.coordinates, *self.names.parameters)
         twins = {name for name in declared if unmarked(name) == unmarked(word)}
+        twins = twins or {name for name in self.names.coordinates if name.partition("_")[0] == word}
         return twins.pop() if len(twins) == 1 else None
 
     def _may_be_own(self, word: str) -> bool:
@@ -202,9 +204,9 @@ class AnswerNames:
         candidates = []
         for base in (self, replace(self, euler="e" in word or self.euler)):
             for letter in dict.fromkeys(["", *(c for c in word if c.isalpha() and not base.declares(c))]):
-                if letter and not base._may_be_own(letter):
+                grown = base.with_word(letter) if letter else base
+                if grown is None:
                     continue
-                grown = replace(base, undeclared=(*base.undeclared, letter)) if letter else base
                 try:
                     read_word(word, grown.as_names().lookup, 1, False)
                 except TextError:
@@ -317,7 +319,8 @@ def _ways(script: Script, vocabulary: AnswerNames) -> Iterator[tuple[tuple[Compa
                 if vocabulary.choice.get(kind, n) != n:
                     continue
                 way = f" {way} "
-                rank = vocabulary.rank + (n > 0 and _HALF.match(error.readings[0]) is not None)
+                supposing = (n > 0 and _HALF.match(error.readings[0])) or _is_of_constants(way, vocabulary.names)
+                rank = vocabulary.rank + bool(supposing)
                 chosen = replace(vocabulary, choice={**vocabulary.choice, kind: n}, rank=rank)
                 yield from _ways(script.spliced(start - 1, end - 1, way), chosen)
             return
@@ -332,6 +335,13 @@ def _ways(script: Script, vocabulary: AnswerNames) -> Iterator[tuple[tuple[Compa
             vocabulary = replace(grown, places=places)
         except TextError as error:
             raise script.moved(error) from None
+
+
+def _is_of_constants(way: str, names: Names) -> bool:
+    """Return whether a function of constants alone stands before what moves: `sin(omega) t` for `sin omega t`."""
+    function = _FUNCTION_FIRST.match(way)
+    moving = {"t", *names.coordinates}
+    return function is not None and moving.isdisjoint(in_words(word) for word in _WORDS.findall(function["inside"]))
 
 
 def _as_frequency(

@@ -16,52 +16,28 @@ import unicodedata
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property, lru_cache
+from functools import cached_property
 from pathlib import Path
 from typing import NamedTuple
 
 from dofkit.base.errors import DofkitError
+from dofkit.homework.answers.prose import word_list
 from dofkit.homework.answers.spreadsheet import decoded, spreadsheet
 from dofkit.homework.answers.submission import MOST_BYTES, clean, reason
 
 #: What headers call each field, in small letters.
 _HEADERS: Mapping[str, frozenset[str]] = {
-    "name": frozenset(
-        {"student", "name", "full name", "fullname", "student name", "display name", "vollständiger name",
-         "nom complet", "nombre completo"}
-    ),
-    "first": frozenset({"first name", "firstname", "given name", "vorname", "prénom", "nombre"}),
-    "last": frozenset(
-        {"last name", "lastname", "surname", "family name", "nachname", "nom", "nom de famille", "apellido",
-         "apellidos", "apellido(s)"}
-    ),
-    "email": frozenset(
-        {"email", "e-mail", "mail", "email address", "e-mail address", "e-mail-adresse", "useremail",
-         "adresse de courriel", "courriel", "dirección de correo", "correo", "correo electrónico"}
-    ),
-    "number": frozenset(
-        {"id number", "idnumber", "useridnumber", "student id", "sid", "sis user id", "student number",
-         "matriculation number", "matrikelnummer", "matrikel", "id-nummer", "numéro d'identification", "número de id"}
-    ),
-    "username": frozenset(
-        {"username", "user name", "login", "login id", "sis login id", "uid", "anmeldename", "nutzername",
-         "nom d'utilisateur", "nombre de usuario"}
-    ),
+    **{
+        name: word_list(f"roster: {name}")
+        for name in ("name", "first", "last", "email", "number", "username", "moodle", "section")
+    },
     "canvas": frozenset({"canvas id"}),
-    "moodle": frozenset({"userid", "moodle id"}),
-    "section": frozenset({"section", "sections", "group", "gruppe"}),
-}  # fmt: skip
+}
 #: Of what one person has, and nobody else.
 _UNIQUE = ("email", "number", "username", "canvas", "moodle", "other")
 #: Folders and files as Moodle calls them when all submissions are downloaded, and as Canvas does.
 _MOODLE = re.compile(r"(?P<who>.+?)(?P<number>_\d+)_assignsubmission_\w+")
 _CANVAS = re.compile(r"[^\W_]+_(?:LATE_)?(?P<who>\d+)_\d+_", re.IGNORECASE)
-#: What stands beside the folders of Gradescope's export, and says of each who submitted it.
-METADATA = "submission_metadata.yml"
-_SUBMITTER = re.compile(
-    r"^(?P<folder>submission_\d+):|^  :(?P<block>\w+):|^\s+(?P<next>- )?:(?P<field>name|email|sid): *(?P<value>.*)$",
-    re.MULTILINE,
-)
 #: Cyrillic and Greek letters that look like Latin ones, and these.
 _LOOKALIKES = str.maketrans(
     "\u0430\u0435\u043e\u0440\u0441\u0443\u0445\u0456\u0458\u0455\u0501\u04bb\u03b1\u03bf\u03b9\u03bd",
@@ -276,33 +252,6 @@ def identity_column(header: Sequence[str]) -> int:
     return -1
 
 
-@lru_cache(maxsize=4)
-def submitters(source: str) -> dict[str, tuple[Participant, ...]]:
-    """Return who submitted each folder of an export of Gradescope, called by the address, else by the name."""
-    try:
-        with open(os.path.join(source, METADATA), "rb") as file:
-            text = file.read(MOST_BYTES).decode("utf-8", "replace")
-    except OSError:
-        return {}
-    people: dict[str, list[dict[str, str]]] = {}
-    folder = block = ""
-    for match in _SUBMITTER.finditer(text):
-        folder, block = match["folder"] or folder, match["block"] or ("" if match["folder"] else block)
-        if match["field"] and folder and block == "submitters":
-            persons = people.setdefault(folder, [])
-            if match["next"] or not persons:
-                persons.append({})
-            persons[-1][match["field"]] = clean(match["value"]).strip("\"' \r")
-    return {folder: members for folder, persons in people.items() if (members := tuple(_participants(persons)))}
-
-
-def _participants(persons: Iterable[Mapping[str, str]]) -> Iterator[Participant]:
-    for person in persons:
-        email, name, number = (person.get(key, "") for key in ("email", "name", "sid"))
-        if email or name or number:
-            yield Participant(email or name or number, name=name, email=email, number=number)
-
-
 class Attribution(NamedTuple):
     """``student``: the name in the result. ``confirmed``: a platform or a name of its file says so, not its text alone.
 
@@ -314,24 +263,15 @@ class Attribution(NamedTuple):
     doubt: str | None = None
 
 
-def attributed(
-    roster: Roster | None, claims: Sequence[str], users: Sequence[Participant], student: str, by_default: bool
-) -> Attribution:
+def attributed(roster: Roster | None, claims: Sequence[str], student: str, by_default: bool) -> Attribution:
     """Return whose a submission is that names ``student``.
 
-    ``claims``: the names of its file and folders, the innermost first; ``users``: who submitted it by a platform's
-    export; ``by_default``: it names nobody, and ``student`` stands for that. Of several owners the outermost is taken,
-    because platforms name folders.
+    ``claims``: the names of its file and folders, the innermost first; ``by_default``: it names nobody, and ``student``
+    stands for that. Of several owners the outermost is taken, because platforms name folders.
     """
-    called = users[0].called() if len(users) == 1 else ()
-    names = (*claims, *(name for name in called if roster is not None and roster.find(name)))
-    owners = [] if roster is None else roster.owners(names)
-    if users and not owners:
-        platform = ", ".join(user.student for user in users)
-        return Attribution(platform, True, None if by_default else doubt_of_platform(users, student))
     if roster is None:
         return Attribution(student, by_default or _key(student) in map(_key, claims))
-    member = roster.find(student)
+    member, owners = roster.find(student), roster.owners(claims)
     if not owners:
         return Attribution(student if member is None else member.student, by_default)
     owner = owners[-1]

@@ -15,7 +15,7 @@ from io import BytesIO
 from itertools import islice
 from typing import Any, BinaryIO
 
-from dofkit.homework.answers.roster import METADATA, Participant, own_name, submitters
+from dofkit.homework.answers.roster import own_name
 from dofkit.homework.answers.spreadsheet import decoded
 from dofkit.homework.answers.submission import (
     MOST_BYTES,
@@ -43,8 +43,8 @@ class Handed:
     """What was handed in at a place: the text of a document, the mapping of a table's row, or why there is neither.
 
     ``name``: the student's name where it gives none. ``claims``: the names of the file and of the folders it was found
-    in, the innermost first: a roster knows whether they are somebody's. ``users``: who handed it in, where a platform's
-    export says so. ``listed``: it stands in a table that the lecturer names, which confirms whose it is.
+    in, the innermost first: a roster knows whether they are somebody's. ``listed``: it stands in a table that the
+    lecturer names, which confirms whose it is.
     """
 
     name: str
@@ -52,7 +52,6 @@ class Handed:
     data: bytes | Mapping[str, object] | None = None
     error: str = ""
     claims: tuple[str, ...] = ()
-    users: tuple[Participant, ...] = ()
     listed: bool = False
 
     def submissions(self, columns: Columns) -> list[Submission]:
@@ -67,8 +66,7 @@ class Handed:
     def key(self) -> str:
         """Return 16 characters that distinguish it from others."""
         said = self.data if isinstance(self.data, bytes) else repr((self.data, self.error)).encode("utf-8", "replace")
-        users = "\0".join(user.student for user in self.users)
-        named = f"{self.name}\0{self.place}\0{users}\0".encode("utf-8", "replace")
+        named = f"{self.name}\0{self.place}\0".encode("utf-8", "replace")
         return hashlib.blake2b(named + said, digest_size=8).hexdigest()
 
     @property
@@ -114,7 +112,7 @@ def _claimed(handed: Handed, source: str) -> Handed:
     gives.
     """
     path = handed.place.file
-    if source == STDIN or not path or handed.users:
+    if source == STDIN or not path:
         return handed
     folder = os.path.isdir(source)
     handed = replace(handed, listed=handed.listed and not folder)
@@ -122,9 +120,6 @@ def _claimed(handed: Handed, source: str) -> Handed:
     *folders, _ = [part for part in within.split(os.sep) if part not in ("", os.curdir, os.pardir)]
     stem = _stem(path)
     claims = (stem, *reversed(folders)) if folder or stem.lower() in GENERIC else (stem,)
-    if folder and folders and (users := submitters(source).get(folders[0])):
-        named = ", ".join(user.student for user in users)
-        return replace(handed, claims=(*claims, named), users=users, name=named if handed.name == stem else handed.name)
     if handed.name != stem or not isinstance(handed.data, bytes | None):
         return replace(handed, claims=claims)
     naming = claims[1] if stem.lower() in GENERIC and len(claims) > 1 else stem
@@ -152,7 +147,7 @@ def _folder(folder: str, columns: Columns, left_out: frozenset[str]) -> Iterator
         return
     for name, is_folder, is_link in entries:
         path = os.path.join(folder, name)
-        if name.startswith(".") or name.lower() in (*_LEFT, METADATA) or os.path.realpath(path) in left_out:
+        if name.startswith(".") or name.lower() in _LEFT or os.path.realpath(path) in left_out:
             continue
         if is_link:
             yield _unreadable(path, "it is a symbolic link, which is not followed")

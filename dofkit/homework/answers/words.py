@@ -116,12 +116,12 @@ def lists_only(part: str, names: Sequence[str]) -> bool:
     return len(others) < min(len(listed), _FEW_WORDS) and all(plain(w) in FILLING for w in others)
 
 
-def alternatives(answer: Given, names: Sequence[str] = ()) -> list[Given]:
+def alternatives(answer: Given, names: Sequence[str], what: str) -> list[Given]:
     """Return the answers of `x or y`, `one of x and y`, or `any one` of the known names; else the answer itself."""
     if not isinstance(answer, str):
         return [answer]
-    if names and (some := _ANY.match(plain(answer))) is not None:
-        return list(names_of(some["which"], names, "constraint")) if some["which"] else list(names)
+    if (some := _ANY.match(plain(answer))) is not None:
+        return list(names_of(some["which"], names, what)) if some["which"] else list(names)
     choices = _OR.split(_EITHER.sub("", answer))
     return [*choices] if all(part.strip() for part in choices) else [answer]
 
@@ -213,18 +213,3 @@ def shown_text(answer: Given) -> str:
     """The same, of which a person sees at most so many characters."""
     text = typed_text(answer)
     return text if len(text) <= MOST_SHOWN else text[: MOST_SHOWN - 3] + "..."
-
-
-def in_whole(answer: Given, error: TextError, read: Callable[[Given], object]) -> TextError:
-    """An error with its column in the text that is shown: of a list it is that of a part, which ``read`` tells."""
-    if isinstance(answer, str | bool | int | float | Fraction) or len(answer) < 2:
-        return error
-    place = 0
-    for part in answer:
-        try:
-            read(part)
-        except TextError as found:
-            if (found.message, found.column) == (error.message, error.column):
-                return TextError(error.message, place + (error.column or 1), error.hint)
-        place += len(typed_text(part)) + len(_BETWEEN)
-    return error

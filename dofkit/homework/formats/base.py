@@ -20,7 +20,7 @@ from dofkit.homework.result import Result, json_line
 
 #: Where results go: the path that ``--out`` names, or a stream such as standard output.
 Target = Path | TextIO
-Document: TypeAlias = Callable[[Result], dict[str, Any]]
+Document: TypeAlias = Callable[[Result, Prepared], dict[str, Any]]
 #: Writes results, which come one by one in the order of the submissions; a gradebook has rows for a roster only.
 Write: TypeAlias = Callable[[Iterator[Result], Prepared, Target, "Roster | None"], None]
 #: What spreadsheets read as the beginning of a formula, also after spaces, and in its full-width forms.
@@ -77,27 +77,31 @@ def write_native(results: Iterator[Result], prepared: Prepared, target: Target, 
             stream.flush()
 
 
-def write_documents(results: Iterator[Result], target: Target, document: Document) -> None:
-    """Write one JSON document per student.
+def per_student(document: Document) -> Write:
+    """Return a writer of one JSON document per student.
 
     A stream, or a path that ends in ``.json``, holds one student; any other path is a folder, with a file for each.
-    Raises FormatError where a second student does not fit, or where there is none at all for a file.
+    The writer raises FormatError where a second student does not fit, or where there is none at all for a file.
     """
-    if isinstance(target, Path) and (target.is_dir() or target.suffix.lower() != ".json"):
-        names = FileNames()
-        target.mkdir(parents=True, exist_ok=True)
-        for result in results:
-            _write(document(result), target / f"{names.of(result.student)}.json")
-        return
-    first = next(results, None)
-    if first is None:
-        if isinstance(target, Path):
-            raise FormatError(f"there is no submission to write to {target}")
-        return
-    _write(document(first), target)
-    second = next(results, None)
-    if second is not None:
-        raise FormatError("this format holds one student: give --out a folder, to get one file per student")
+
+    def write(results: Iterator[Result], prepared: Prepared, target: Target, roster: Roster | None = None) -> None:
+        del roster
+        if isinstance(target, Path) and (target.is_dir() or target.suffix.lower() != ".json"):
+            names = FileNames()
+            target.mkdir(parents=True, exist_ok=True)
+            for result in results:
+                _write(document(result, prepared), target / f"{names.of(result.student)}.json")
+            return
+        first = next(results, None)
+        if first is None:
+            if isinstance(target, Path):
+                raise FormatError(f"there is no submission to write to {target}")
+            return
+        _write(document(first, prepared), target)
+        if next(results, None) is not None:
+            raise FormatError("this format holds one student: give --out a folder, to get one file per student")
+
+    return write
 
 
 def text(document: dict[str, Any]) -> str:

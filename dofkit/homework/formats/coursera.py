@@ -7,12 +7,9 @@ not be read, or that claims nothing in one way (``7?``), has none, and the text 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any
 
-from dofkit.homework.answers.roster import Roster
-from dofkit.homework.assignment import Prepared
-from dofkit.homework.formats.base import Format, Target, write_documents
+from dofkit.homework.formats.base import Format, per_student
 from dofkit.homework.formats.wording import feedback, number
 from dofkit.homework.result import Result
 from dofkit.homework.sentences import Language, in_language
@@ -44,10 +41,4 @@ def document(result: Result, language: Language = "en") -> dict[str, Any]:
     }
 
 
-def write(results: Iterator[Result], prepared: Prepared, target: Target, roster: Roster | None = None) -> None:
-    """Write one ``feedback.json`` per student."""
-    del roster
-    write_documents(results, target, lambda result: document(result, prepared.assignment.language))
-
-
-COURSERA = Format("coursera", write)
+COURSERA = Format("coursera", per_student(lambda result, prepared: document(result, prepared.assignment.language)))

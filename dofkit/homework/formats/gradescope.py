@@ -2,8 +2,8 @@
 
 All texts are in the format ``text``, which Gradescope shows as it is, so that nothing a student wrote is markup there.
 
-What an answer is worth is shown as the assignment's ``visibility`` says, by default after the due date where attempts
-are unlimited: else students would try until it is right. One test that is not visible hides the total, so that there
+What an answer is worth is shown as the assignment's ``visibility`` says, by default after the due date: else students
+would try until it is right. One test that is not visible hides the total, so that there
 either all are or none is. Gradescope shows ``after_due_date`` when the late due date has passed where there is one,
 and says nothing of assignments that have none at all: the autograder asks for ``after_published`` there, since nobody
 would ever see a point. How an answer was read, or where it could not be, is shown at once in any case.
@@ -15,12 +15,10 @@ says first that it is not final and how many points are open, and ``extra_data``
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any
 
-from dofkit.homework.answers.roster import Roster
 from dofkit.homework.assignment import Prepared, Visibility
-from dofkit.homework.formats.base import Format, Target, write_documents
+from dofkit.homework.formats.base import Format, per_student
 from dofkit.homework.formats.wording import line, open_points, plain, points, remark, standing, title
 from dofkit.homework.result import Item, Result
 from dofkit.homework.sentences import Language, in_language
@@ -28,7 +26,7 @@ from dofkit.homework.sentences import Language, in_language
 
 def visibility_of(prepared: Prepared | None) -> Visibility:
     """Return when students see their points: at once if there is no assignment."""
-    return "visible" if prepared is None else prepared.assignment.points_visibility
+    return "visible" if prepared is None else prepared.assignment.visibility
 
 
 def document(result: Result, visibility: Visibility = "visible", language: Language = "en") -> dict[str, Any]:
@@ -98,11 +96,7 @@ def _test(item: Item, visibility: Visibility, language: Language) -> dict[str, A
     }
 
 
-def write(results: Iterator[Result], prepared: Prepared, target: Target, roster: Roster | None = None) -> None:
-    """Write one ``results.json`` per student."""
-    del roster
-    visibility = visibility_of(prepared)
-    write_documents(results, target, lambda result: document(result, visibility, prepared.assignment.language))
-
-
-GRADESCOPE = Format("gradescope", write)
+GRADESCOPE = Format(
+    "gradescope",
+    per_student(lambda result, prepared: document(result, visibility_of(prepared), prepared.assignment.language)),
+)

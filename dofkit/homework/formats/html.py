@@ -16,16 +16,14 @@ from typing import Any, NamedTuple
 from dofkit.homework.answers.roster import Roster
 from dofkit.homework.assignment import Prepared
 from dofkit.homework.formats.base import Format, FormatError, Target
-from dofkit.homework.formats.pages import BADGES, percent, question_text, rendered, student_page
+from dofkit.homework.formats.pages import BADGES, asked_text, percent, rendered, student_page
 from dofkit.homework.formats.review import queue_of, write_page
 from dofkit.homework.formats.wording import FileNames, number
-from dofkit.homework.key.misconceptions import CODES
 from dofkit.homework.result import Item, Result, Status
+from dofkit.homework.sentences import meanings
 
 #: Bars of the distribution; errors and unreadable texts that are listed for a question.
 BARS, MOST_LISTED = 10, 3
-#: So many answers, and such a part of all, that could not be read make a question doubtful.
-FEWEST_UNREAD, LEAST_UNREAD = 2, 0.2
 
 
 class Submitted(NamedTuple):
@@ -43,8 +41,8 @@ class Submitted(NamedTuple):
 class Question(NamedTuple):
     """How one question went: ``counts`` of its statuses, and ``mean`` of what was decided, in points.
 
-    ``unread`` of so many ``answered`` ones could not be read, the commonest of which are ``unread_texts``; ``right``:
-    the share of the graded answers with full points; ``errors``: the commonest errors.
+    ``right``: the share of the graded answers with full points; ``errors``: the commonest errors; ``unread_texts``:
+    the commonest answers that could not be read.
     """
 
     name: str
@@ -52,18 +50,9 @@ class Question(NamedTuple):
     counts: list[tuple[Status, int, float]]
     mean: float | None
     most: float
-    unread: int
-    answered: int
     right: float | None
     errors: list[tuple[int, str]]
     unread_texts: list[tuple[int, str]]
-
-    @property
-    def doubt(self) -> str:
-        """Return what to ask of a question whose answers often could not be read, else nothing."""
-        if self.unread < FEWEST_UNREAD or self.unread < LEAST_UNREAD * self.answered:
-            return ""
-        return f"{self.unread} of {self.answered} answers could not be read: is the question clear?"
 
 
 def overview(submitted: Sequence[Submitted], prepared: Prepared, roster: Roster | None = None) -> dict[str, Any]:
@@ -91,8 +80,7 @@ def overview(submitted: Sequence[Submitted], prepared: Prepared, roster: Roster 
         "median": median(scores) if scores else None,
         "bars": _bars(scores, most),
         "questions": questions,
-        "unclear": max((q for q in questions if q.doubt), key=lambda q: q.unread / q.answered, default=None),
-        "codes": [(code, count, CODES.get(code, "")) for code, count in codes.most_common()],
+        "codes": [(code, count, meanings().get(code, "")) for code, count in codes.most_common()],
         "reviews": queue,
         "open_count": sum(queued.count for queued in queue),
         "errors": [submission for submission in submitted if submission.result.error is not None],
@@ -111,14 +99,12 @@ def _questions(prepared: Prepared, answers: dict[tuple[str, str], list[Item]]) -
         unread = Counter(item.answer or "" for item in items if item.status == "unreadable")
         yield Question(
             f"{problem.id}.{question.id}",
-            question_text(question),
+            asked_text(question),
             [(status, counts[status], 100 * counts[status] / len(items)) for status in BADGES if counts[status]],
             mean(scores) if scores else None,
             float(question.points),
-            counts["unreadable"],
-            len(items) - counts["missing"],
             mean(score >= question.points for score in scores) if scores else None,
-            [(count, CODES.get(code, code)) for code, count in errors.most_common(MOST_LISTED)],
+            [(count, meanings().get(code, code)) for code, count in errors.most_common(MOST_LISTED)],
             [(count, text) for text, count in unread.most_common(MOST_LISTED)],
         )
 

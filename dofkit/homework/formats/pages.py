@@ -13,7 +13,7 @@ from dofkit.homework.formats.wording import STATUSES, line, number, open_points,
 from dofkit.homework.problem import Problem
 from dofkit.homework.questions import QuestionBase
 from dofkit.homework.result import Item, Result, Status
-from dofkit.homework.sentences import in_language
+from dofkit.homework.sentences import Language, in_language
 
 if TYPE_CHECKING:
     from jinja2 import Environment
@@ -50,7 +50,7 @@ def student_page(result: Result, prepared: Prepared) -> dict[str, Any]:
     language, sections = prepared.assignment.language, list[dict[str, Any]]()
     for problem in prepared.assignment.problems:
         rows = [
-            _answer_row(by_question.pop((problem.id, q.id)), plain(q.asked(", ".join(q.about)).translated(language)))
+            _answer_row(by_question.pop((problem.id, q.id)), asked_text(q, language))
             for q in problem.questions
             if (problem.id, q.id) in by_question
         ]
@@ -81,13 +81,9 @@ def problem_title(problem: Problem) -> str:
     return problem.id if problem.title is None else f"{problem.id}: {problem.title}"
 
 
-def question_text(question: QuestionBase) -> str:
-    """Return what a question asks for, in words."""
-    text = type(question).model_fields["ask"].description or question.kind()
-    about = getattr(question, "constraint", None) or getattr(question, "coordinate", None)
-    if about:
-        text += f" ({about if isinstance(about, str) else ', '.join(about)})"
-    return plain(text)
+def asked_text(question: QuestionBase, language: Language = "en") -> str:
+    """Return a question in words."""
+    return plain(question.asked(", ".join(question.about)).translated(language))
 
 
 def rendered(template: str, **values: Any) -> str:

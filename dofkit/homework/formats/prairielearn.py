@@ -9,12 +9,9 @@ gives them on PrairieLearn's own page.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any
 
-from dofkit.homework.answers.roster import Roster
-from dofkit.homework.assignment import Prepared
-from dofkit.homework.formats.base import Format, Target, text, write_documents
+from dofkit.homework.formats.base import Format, per_student, text
 from dofkit.homework.formats.wording import line, plain, remark, shortened, standing, title
 from dofkit.homework.result import Item, Result
 from dofkit.homework.sentences import Language, in_language
@@ -30,12 +27,12 @@ UNGRADED = (
 def document(result: Result, language: Language = "en") -> dict[str, Any]:
     """Return the ``results.json`` of a submission, in less than a megabyte."""
     fields = _document(result, language)
-    for most in (MOST_CHARACTERS, MOST_CHARACTERS // 10):
-        fields = fields if len(text(fields)) <= MOST_BYTES else _cut(fields, most)
     if len(text(fields)) > MOST_BYTES:
         too_many = in_language(language, "There are too many answers to be listed one by one.")
-        errors = {"format_errors": fields["format_errors"][:50]} if "format_errors" in fields else {}
-        fields = {**fields, **errors, "tests": [], "message": f"{fields['message']}\n{too_many}"}
+        errors = [shortened(error, MOST_CHARACTERS) for error in fields.get("format_errors", [])[:50]]
+        fields |= {"tests": [], "message": f"{fields['message']}\n{too_many}"} | (
+            {"format_errors": errors} if errors else {}
+        )
     return fields
 
 
@@ -75,18 +72,7 @@ def _error(item: Item, language: Language) -> str:
     return f"{title(item)}{where}: {line(item.feedback) or in_language(language, 'not readable')}"
 
 
-def _cut(fields: dict[str, Any], most: int) -> dict[str, Any]:
-    tests = [{k: shortened(v, most) if isinstance(v, str) else v for k, v in test.items()} for test in fields["tests"]]
-    cut = {**fields, "tests": tests, "message": shortened(fields["message"], most)}
-    if "format_errors" in fields:
-        cut["format_errors"] = [shortened(error, most) for error in fields["format_errors"]]
-    return cut
-
-
-def write(results: Iterator[Result], prepared: Prepared, target: Target, roster: Roster | None = None) -> None:
-    """Write one ``results.json`` per student."""
-    del roster
-    write_documents(results, target, lambda result: document(result, prepared.assignment.language))
-
-
-PRAIRIELEARN = Format("prairielearn", write)
+PRAIRIELEARN = Format(
+    "prairielearn",
+    per_student(lambda result, prepared: document(result, prepared.assignment.language)),
+)

@@ -18,7 +18,7 @@ from typing import Any
 
 from dofkit.homework.assignment import Prepared
 from dofkit.homework.formats.base import cell
-from dofkit.homework.formats.pages import question_text, rendered
+from dofkit.homework.formats.pages import asked_text, rendered
 from dofkit.homework.formats.wording import unmarked
 from dofkit.homework.result import Result
 from dofkit.homework.review import COLUMNS, FilledTable, Queue, QueuedAnswer, ReviewRow, read_table
@@ -84,7 +84,7 @@ def _questions(waiting: Sequence[QueuedAnswer], prepared: Prepared) -> Iterator[
         ]
         if answers:
             name = f"{problem.id}.{question.id}"
-            yield {"name": name, "asked": question_text(question), "most": float(question.points), "answers": answers}
+            yield {"name": name, "asked": asked_text(question), "most": float(question.points), "answers": answers}
 
 
 @dataclass(frozen=True)

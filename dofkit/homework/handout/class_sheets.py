@@ -11,16 +11,15 @@ from pathlib import Path
 from typing import Any
 
 import yaml
-from pydantic import ValidationError
 
 from dofkit.base.documents import read_document
 from dofkit.homework.answers.roster import Roster
-from dofkit.homework.assignment import Assignment, Prepared, load_assignment
+from dofkit.homework.assignment import Prepared, load_assignment
 from dofkit.homework.formats.base import cell
 from dofkit.homework.formats.wording import FileNames
 from dofkit.homework.handout.markup import Draw, pictures_of
 from dofkit.homework.handout.sheets import write_sheet, written_sheet
-from dofkit.homework.problem import DRAWN, UNDRAWN, Problem, StudentVariant, Variants
+from dofkit.homework.problem import DRAWN, UNDRAWN, Problem, Variants
 from dofkit.homework.variants import VaryError, differing_share, drawn, picked, rows_of
 
 #: What the folder contains.
@@ -31,12 +30,11 @@ LEAST_DIFFERING = 0.5
 
 @dataclass(frozen=True)
 class ClassSheets:
-    """The varied assignment as it is written, and who has which variant; ``gone``: students who left the roster."""
+    """The varied assignment as it is written, and who has which variant."""
 
     prepared: Prepared
     written: Mapping[str, Any]
     variants: Variants
-    gone: tuple[str, ...] = ()
 
     def remarks(self) -> Iterator[str]:
         """Yield what a lecturer should know before the sheets are handed out."""
@@ -46,48 +44,19 @@ class ClassSheets:
                 f"the right answers of two students differ for {100 * share:.0f} % of the points on average: more "
                 "values in `vary`, or questions whose answers depend on them, make copying less useful"
             )
-        for student in self.gone:
-            yield f"'{student}' is no longer in the roster, and keeps the variant"
 
 
-def class_sheets(source: str, roster: Roster, seed: str, out: Path, anew: bool = False) -> ClassSheets:
-    """Pick a variant for everyone in a roster; who has one in the folder ``out`` keeps it, unless ``anew``.
+def class_sheets(source: str, roster: Roster, seed: str, out: Path) -> ClassSheets:
+    """Pick a variant for everyone in a roster.
 
-    Raises AssignmentError, and VaryError for an assignment in which nothing varies, for a roster of nobody, and for a
-    folder with the sheets of another assignment.
+    Raises AssignmentError, and VaryError for an assignment in which nothing varies and for a roster of nobody.
     """
     prepared = load_assignment(source)
     if prepared.assignment.variants is not None:
         raise VaryError(f"{source} was made by `dofkit assignment vary`: vary what it was made from")
     if not prepared.combinations:
         raise VaryError(f"nothing varies in {source}: write `vary: {{n: [2, 3, 5]}}` in a problem")
-    value = standing_alone(prepared, out)
-    before = () if anew else _earlier(out, value)
-    variants = drawn(prepared, roster, seed, before)
-    present = {member.student for member in roster.members}
-    gone = tuple(o.student for o in before if not present & {o.student, *o.known_as})
-    return ClassSheets(prepared, value, variants, gone)
-
-
-def _earlier(out: Path, value: Mapping[str, Any]) -> tuple[StudentVariant, ...]:
-    """Return who has which variant in a folder. Raises VaryError if its sheets are those of another assignment."""
-    path = out / ASSIGNMENT
-    if not path.exists():
-        return ()
-    document = read_document(path.read_bytes(), str(path)).value
-    try:
-        assignment = Assignment.model_validate(document)
-        same = assignment.variants is not None and assignment.model_copy(
-            update={"variants": None}
-        ) == Assignment.model_validate(value)
-    except ValidationError:
-        same = False
-    if not same or assignment.variants is None:
-        raise VaryError(
-            f"{out} contains the sheets of another assignment, and students may have them: name another folder, or "
-            "replace all variants with --anew"
-        )
-    return assignment.variants.students
+    return ClassSheets(prepared, standing_alone(prepared, out), drawn(prepared, roster, seed))
 
 
 def standing_alone(prepared: Prepared, out: Path) -> dict[str, Any]:

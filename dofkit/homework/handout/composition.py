@@ -1,6 +1,6 @@
 """What a sheet says, as Markdown: every problem with its picture, its names and questions, and how answers are written.
 
-It tells no answer: an equation that is asked for is not shown, and an example is one that is wrong for every question.
+It tells no answer: an equation that is asked for is not shown, and the examples are about names that no scene declares.
 """
 
 from __future__ import annotations
@@ -12,10 +12,9 @@ from itertools import groupby
 
 from dofkit.homework.assignment import Prepared
 from dofkit.homework.formats.wording import number
-from dofkit.homework.grading import Grader
 from dofkit.homework.handout.markup import SheetFigure
 from dofkit.homework.key.key import Key
-from dofkit.homework.problem import ALL, Problem, constraint_text, filled, marked, places
+from dofkit.homework.problem import Problem, constraint_text, marked
 from dofkit.homework.questions import QuestionBase
 from dofkit.homework.questions.equations import EquationQuestion
 from dofkit.homework.sentences import Language, described, say
@@ -73,7 +72,7 @@ class SheetComposer:
         whole = sum((q.points for q in problem.questions), Fraction(0))
         yield f"## {n}. {marked(problem.title or problem.id)} ({self._points(whole)})"
         if problem.text is not None:
-            yield filled(problem.text, key.scene, asked_equations(problem), self.language).strip()
+            yield problem.text.strip()
         figure = self.figures.get(problem.id)
         if figure is not None:
             caption = self._text("Figure {number}", number=n)
@@ -111,9 +110,8 @@ class SheetComposer:
             yield self._text(sign, names=f"${name}$") if sign else f"${name} = {as_written(value)}$"
         for name, arguments in key.scene.functions.items():
             yield self._text("{names}: unknown smooth function.", names=f"${name}({', '.join(arguments)})$")
-        if (ALL, None) not in places(problem.text or ""):
-            yield from self._constraints(key, asked_equations(problem))
-            yield from map(self._force, key.scene.forces)
+        yield from self._constraints(key, asked_equations(problem))
+        yield from map(self._force, key.scene.forces)
         yield from self._further(problem, key)
 
     def _constraints(self, key: Key, hidden: set[str]) -> Iterator[str]:
@@ -157,10 +155,8 @@ class SheetComposer:
                 line=f"`{first}.{question}: ...`",
             )
         for cls in kinds.values():
-            example = safe_example(self.prepared, cls)
             lead = self._text("Example (for a different system):")
-            sample = "" if example is None else f" {lead} `{self._text('{text}', text=example)}`"
-            yield self._text(cls.how) + sample
+            yield self._text(cls.how) + (f" {lead} `{cls.example}`" if cls.example else "")
         yield self._text("Greek letters may be typed directly or as words such as theta and omega. LaTeX is accepted.")
         yield self._text(
             "Decimals are written with a point or a comma; exact numbers such as 1/3 or sqrt(2) are preferred."
@@ -170,13 +166,3 @@ class SheetComposer:
 def asked_equations(problem: Problem) -> set[str]:
     """The constraints whose equations are asked for."""
     return {name for q in problem.questions if isinstance(q, EquationQuestion) for name in q.constraint}
-
-
-def safe_example(prepared: Prepared, kind: type[QuestionBase]) -> str | None:
-    """The first example of a kind that is wrong, or means nothing, for all its questions here; None where none is."""
-    grader = Grader(prepared)
-    places = [(p, q) for p, q in prepared.questions() if isinstance(q, kind)]
-    for example in kind.examples:
-        if not any(q.reveals(grader.judge(f"{p.id} {q.id} {example}", p, q, example, {})[0]) for p, q in places):
-            return example
-    return None

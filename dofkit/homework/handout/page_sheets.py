@@ -17,7 +17,6 @@ from dofkit.base.deadline import by_processor
 from dofkit.base.errors import DofkitError, TextError
 from dofkit.homework.answers.declared import DeclaredNames
 from dofkit.homework.answers.submission import Submission
-from dofkit.homework.answers.words import in_whole
 from dofkit.homework.assignment import Prepared, load_assignment
 from dofkit.homework.formats.wording import STATUSES, points
 from dofkit.homework.grading import ANSWER_SECONDS, Grader
@@ -94,9 +93,8 @@ def read_answer(declared: str, question: str, text: str, language: Language) -> 
                 return {"read_as": say("{text}", text=read_as).translated(language), "formula": False}
             return {"read_as": read_as, "formula": True}
     except TextError as error:
-        located = in_whole(text, error, lambda part: asked.read(part, names))
-        hint = stopped(located.hint, language) if located.hint else ""
-        return {"fault": stopped(located.message, language), "column": located.column or 1, "hint": hint}
+        hint = stopped(error.hint, language) if error.hint else ""
+        return {"fault": stopped(error.message, language), "column": error.column or 1, "hint": hint}
     except (DofkitError, ArithmeticError, ValueError, RecursionError) as error:
         return {"fault": stopped(str(error), language), "column": 1, "hint": ""}
 

@@ -19,29 +19,13 @@ from dofkit.homework.judgement import HALF, NOTHING, JudgedReading, Judgement, n
 from dofkit.homework.key.key import Key
 from dofkit.homework.key.own_names import renamed, without_own
 from dofkit.homework.key.regions import Condition, compared_regions, conditions, counterexample
-from dofkit.homework.sentences import Said, say
+from dofkit.homework.sentences import Said, meanings, say
 from dofkit.methods.classify import classify
 from dofkit.scene.added_equations import Read, with_equations
 from dofkit.scene.lowering import lower
 from dofkit.scene.scene import Scene
 from dofkit.system import System
 
-_FEEDBACK = {
-    Sameness.SAME: "",
-    Sameness.IRREGULAR: (
-        "The solutions are correct, but the gradient vanishes on all of them, as for a squared equation: take the root."
-    ),
-    Sameness.BRANCH: "This describes only one branch: the others were lost by taking a root.",
-    Sameness.DIFFERENTIATED: "This is the time derivative of the constraint: the constant is lost, so it is weaker.",
-    Sameness.INTEGRATED: "This is the constraint in integrated form.",
-    Sameness.WITHOUT_CONSTANT: (
-        "This is the integrated form without its constant, which is fixed by the initial conditions."
-    ),
-    Sameness.WEAKER: "This is weaker than the constraint: it allows motions that the constraint forbids.",
-    Sameness.STRONGER: "This is stronger than the constraint: it forbids motions that the constraint allows.",
-    Sameness.DIFFERENT: "This is a different constraint.",
-    Sameness.EMPTY: "No configuration satisfies it together with the other constraints.",
-}
 _UNDECIDED = "it could not be decided in the time available whether this is the same constraint."
 #: What an answer that is not quite the constraint is worth.
 _HALVES = frozenset({Sameness.IRREGULAR, Sameness.BRANCH, Sameness.DIFFERENTIATED, Sameness.WITHOUT_CONSTANT})
@@ -175,18 +159,18 @@ class EquationComparison:
         hint = say(allows if comparison.beyond else forbids, point=comparison.point) if comparison.point else ""
         both = comparison.beyond and comparison.lacking
         sameness = Sameness.DIFFERENT if both else Sameness.WEAKER if comparison.beyond else Sameness.STRONGER
-        return wrong(way.text, hint, sameness.value)
+        return wrong(way.text, sameness.value, why=hint)
 
     def _verdict(self, read: Read, text: str) -> Judgement:
         comparison = self.key.once((self.names, read.texts, read.constants), lambda: self._compared(read))
         if comparison.sameness is Sameness.UNDECIDED:
             return needs_review(text, _UNDECIDED)
-        hint, code = _FEEDBACK[comparison.sameness], comparison.sameness.value
+        code = comparison.sameness.value
         if comparison.sameness in _RIGHT:
-            return right(text, hint)
+            return right(text, meanings().get(code, ""))
         if comparison.sameness in _HALVES:
-            return partly(HALF, text, hint, code)
-        return self._in_part(comparison, read, text, hint, code)
+            return partly(HALF, text, code)
+        return self._in_part(comparison, read, text, code)
 
     def _others(self) -> Scene:
         """Return the scene without the constraints that are asked for."""
@@ -200,7 +184,7 @@ class EquationComparison:
         e = c.left - c.right if not c.right.is_zero else c.left
         return e.op == "mul" and sum(any(s.args[0] != "parameter" for s in f.symbols) for f in e.args) > 1
 
-    def _by_rank(self, read: Read, text: str, hint: str, code: str) -> Judgement:
+    def _by_rank(self, read: Read, text: str, code: str) -> Judgement:
         """Return what implied equations are worth, by the number of velocities that they leave free."""
         scene = self._others()
         free = classify(scene).velocity_dof
@@ -208,10 +192,10 @@ class EquationComparison:
         if free is None or yours is None or system is None:
             return needs_review(text, _UNDECIDED)
         if free - system < 2 or not system < yours < free or any(map(self._is_product, read.texts)):
-            return wrong(text, hint, code)
+            return wrong(text, code)
         more = "Your equations leave {yours} independent velocities; the system has {system}: equations are missing."
         count = say(more, yours=yours, system=system)
-        return partly(Fraction(free - yours, free - system), text, count, code)
+        return partly(Fraction(free - yours, free - system), text, code, why=count)
 
     def _compared(self, read: Read) -> Compared:
         return with_answer(
@@ -220,19 +204,19 @@ class EquationComparison:
             lambda posed: compare(posed.system, posed.system.numbers_of(*self.names), posed.numbers, read.constants),
         )
 
-    def _in_part(self, comparison: Compared, read: Read, text: str, hint: str, code: str) -> Judgement:
+    def _in_part(self, comparison: Compared, read: Read, text: str, code: str) -> Judgement:
         """Return points in proportion to the constraints that are implied, or to the rank of what is."""
         share = (
             Fraction(sum(comparison.met), len(comparison.met)) if len(self.names) > 1 and comparison.met else NOTHING
         )
         if comparison.sameness is Sameness.WEAKER and share == NOTHING and len(self.names) > 1:
-            return self._by_rank(read, text, hint, code)
+            return self._by_rank(read, text, code)
         if not 0 < share < 1:
-            return wrong(text, hint, code)
+            return wrong(text, code)
         missing = [n for n, met in zip(self.names, comparison.met, strict=True) if not met]
         met = len(self.names) - len(missing)
         count = say("It implies {number} of the {all} constraints.", number=met, all=len(self.names))
-        return partly(share, text, hint, code).saying(count)
+        return partly(share, text, code).saying(count)
 
 
 def _is_rounded(c: Comparison) -> bool:

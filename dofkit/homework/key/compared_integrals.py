@@ -51,8 +51,7 @@ def _judgement(way: AnswerReading, key: Key, name: str) -> Judgement:
     """The same of one reading, all names of its own constants."""
     read = _with_constants(way, key)
     if read.moving:
-        hint = "This still contains velocities; the integral, a relation between the coordinates, is asked for."
-        return wrong(read.text, hint, "NOT_INTEGRATED")
+        return wrong(read.text, "NOT_INTEGRATED")
     remark = "" if read.constants else _LEFT_OUT
     integral = with_answer(
         key, read, lambda posed: is_integral(posed.system, posed.system.numbers_of(name), posed.numbers)
@@ -64,11 +63,7 @@ def _judgement(way: AnswerReading, key: Key, name: str) -> Judgement:
         return right(read.text, remark)
     if family is Leaves.OPEN:
         return needs_review(read.text, "it could not be decided in the time available whether this is an integral.")
-    return wrong(
-        read.text,
-        ("This is not an integral of the constraint: its differential is a different condition."),
-        "WRONG_INTEGRAL",
-    )
+    return wrong(read.text, "WRONG_INTEGRAL")
 
 
 def _with_constants(way: AnswerReading, key: Key) -> Read:

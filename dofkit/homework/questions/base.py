@@ -49,11 +49,11 @@ Identifier = Annotated[str, BeforeValidator(identifier), Field(min_length=1, max
 class QuestionBase(WrittenModel):
     """One question: how an answer is read and judged, and what is right."""
 
-    #: What is asked, with places for the question's own fields; how an answer is written; answers to other questions of
-    #: the kind, to show how one looks.
+    #: What is asked, with places for the question's own fields; how an answer is written; a formula of another system,
+    #: to show how one looks.
     wanted: ClassVar[str] = ""
     how: ClassVar[str] = ""
-    examples: ClassVar[tuple[str, ...]] = ()
+    example: ClassVar[str] = ""
 
     id: Identifier = Field(description="its name, unique within the problem")
     text: str | None = Field(None, description="the question in your own words; by default as its kind is asked")
@@ -98,18 +98,9 @@ class QuestionBase(WrittenModel):
         """Return the answer as it is understood, the plainest readings only. Raises TextError if it cannot be read."""
         return shown_text_of(self.readings(answer, names))
 
-    def reveals(self, judgement: Judgement) -> bool:
-        """Return whether an example that is judged so reveals the answer, as one that is half right does."""
-        return judgement.status not in ("wrong", "unreadable")
-
     def solution(self, key: Key) -> Sentence:
         """Return the correct answer in words, or nothing if it is unknown."""
         raise NotImplementedError
-
-    def number(self, answer: Given) -> Fraction | None:
-        """The number that an answer gives, for later questions; None where the question asks for none."""
-        del answer
-        return None
 
 
 @cache

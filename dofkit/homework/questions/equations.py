@@ -34,11 +34,7 @@ class EquationQuestion(QuestionBase):
         "An equation: write * or a space for a product, ^ for a power, sqrt(...), sin(...), xdot for a "
         "velocity, dx for a differential. Write one equation per line, or separate equations with semicolons."
     )
-    examples: ClassVar[tuple[str, ...]] = (
-        "(u - a)^2 + w^2 = b^2",
-        "3 u - 2 w = a sin(nu t)",
-        "udot cos(chi) = wdot sin(chi)",
-    )
+    example: ClassVar[str] = "udot cos(chi) = wdot sin(chi)"
     ask: Literal["equation"] = Field(description="the equation of one constraint, or the equations of several")
     constraint: Annotated[
         tuple[str, ...], Listed, Field(min_length=1), BeforeValidator(_names, json_schema_input_type=str | list[str])
@@ -67,7 +63,7 @@ class IntegralQuestion(QuestionBase):
         "An integral: write a relation between the coordinates with a constant, such as C; if there is none, "
         "write: none."
     )
-    examples: ClassVar[tuple[str, ...]] = ("u^2 - w^3 = C", "u w^2 = C")
+    example: ClassVar[str] = "u w^2 = C"
     ask: Literal["integral"] = Field(description="the integral of a differential constraint")
     constraint: str = Field(description="the name of the constraint")
 
@@ -96,14 +92,9 @@ class IntegralQuestion(QuestionBase):
         if reading.value is None:
             if entry.holonomic is None:
                 return needs_review("none", "it is not known whether the constraint is integrable.")
-            hint = "The constraint is integrable, on its own or together with the other constraints."
-            return wrong("none", hint, "INTEGRABLE") if entry.holonomic else right("none")
+            return wrong("none", "INTEGRABLE") if entry.holonomic else right("none")
         if entry.holonomic is False:
-            return wrong(
-                reading.text,
-                ("This is not an integral of the constraint: its differential is a different condition."),
-                "NOT_INTEGRABLE",
-            )
+            return wrong(reading.text, "NOT_INTEGRABLE")
         return integral_judgement(reading.value, key, self.constraint)
 
 

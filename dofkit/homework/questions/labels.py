@@ -26,7 +26,7 @@ from dofkit.homework.judgement import (
 from dofkit.homework.key.key import Key
 from dofkit.homework.key.misconceptions import explain_label
 from dofkit.homework.questions.base import Earlier, QuestionBase
-from dofkit.homework.sentences import Said, say
+from dofkit.homework.sentences import Said, meanings, say
 from dofkit.report import ConstraintEntry
 from dofkit.scene.fields import Listed, suggestion
 
@@ -40,12 +40,6 @@ class LabelQuestion(QuestionBase):
     how: ClassVar[str] = (
         "Classification: write holonomic or non-holonomic, scleronomic or rheonomic, bilateral or unilateral,"
         " in any order."
-    )
-    examples: ClassVar[tuple[str, ...]] = (
-        "non-holonomic, rheonomic",
-        "holonomic, rheonomic",
-        "non-holonomic, scleronomic",
-        "holonomic, scleronomic",
     )
     ask: Literal["label"] = Field(description="the classification of a constraint")
     constraint: str = Field(description="the name of the constraint")
@@ -70,9 +64,6 @@ class LabelQuestion(QuestionBase):
         if hinted:
             raise DoubtError("a property is described but not named.", 1, None)
         return [Reading(labels, label_text(labels))]
-
-    def reveals(self, judgement: Judgement) -> bool:
-        return judgement.status in ("right", "needs_review")
 
     def solution(self, key: Key) -> Sentence:
         truth = truths(key.constraints[self.constraint])
@@ -107,14 +98,14 @@ class LabelQuestion(QuestionBase):
         truth = truths(entry)
         good = [p for p in self.parts if claims.get(p) == frozenset({truth[p]})]
         missing = [p for p in self.parts if p not in claims]
-        explained = [explain_label(p, entry, key) for p in self.parts if p not in good and p not in missing]
-        hints: list[Sentence] = [why for _, why in explained]
+        explained = [explain_label(p, entry) for p in self.parts if p not in good and p not in missing]
+        hints: list[Sentence] = [why or meanings()[code] for code, why in explained]
         hints += [
             say("State also whether it is {holds} or {fails}.", holds=TERMS[p].holds, fails=TERMS[p].fails)
             for p in missing
         ]
-        share = Fraction(len(good), len(self.parts))
-        return partly(share, label_text(claims), "", *(code for code, _ in explained)).saying(*hints)
+        codes, share = [code for code, _ in explained], Fraction(len(good), len(self.parts))
+        return partly(share, label_text(claims), *codes, why=hints[0] if hints else "").saying(*hints[1:])
 
 
 def truths(entry: ConstraintEntry) -> dict[str, bool | None]:

@@ -86,7 +86,7 @@ class Lagrangian(_Value):
     how: ClassVar[str] = (
         "A Lagrangian: write xdot for a velocity, ^ for a power, and * or a space for a product; L = is optional."
     )
-    examples: ClassVar[tuple[str, ...]] = ("L = 1/2 M (udot^2 + wdot^2) - M g w", "L = 1/2 I chidot^2 + kappa u^4")
+    example: ClassVar[str] = "L = 1/2 M (udot^2 + wdot^2) - M g w"
     ask: Literal["lagrangian"] = Field(description="the Lagrangian")
 
     def _comparison(self, expression: Expr, motion: RightMotion, text: str) -> Judgement:
@@ -96,10 +96,10 @@ class Lagrangian(_Value):
         if same is None:
             return needs_review(text, "it could not be decided whether this Lagrangian gives the same motion.")
         if same_lagrangian(expression, motion.total, motion):
-            return wrong(text, "This is the energy T + V; the Lagrangian is T - V.", "TOTAL_ENERGY")
+            return wrong(text, "TOTAL_ENERGY")
         if same_lagrangian(expression, -motion.lagrangian, motion):
-            return wrong(text, "This is V - T; the Lagrangian is T - V.", "SIGN")
-        return wrong(text, "This Lagrangian does not give the equations of motion of the system.", "WRONG_LAGRANGIAN")
+            return wrong(text, "SIGN", why="This is V - T; the Lagrangian is T - V.")
+        return wrong(text, "WRONG_LAGRANGIAN")
 
     def _solution(self, motion: RightMotion) -> Sentence:
         return say("A correct answer is {text}.", text=f"L = {to_text(motion.lagrangian)}")
@@ -108,9 +108,8 @@ class Lagrangian(_Value):
 class _OfCoordinate(_Value):
     """Momenta and forces; what is right before an elimination is looked at by a person."""
 
-    #: The code of a wrong answer, and what is said of it.
+    #: The code of a wrong answer.
     code: ClassVar[str]
-    hint: ClassVar[str]
     coordinate: str = Field(description="the coordinate it belongs to")
 
     def _right(self, motion: RightMotion) -> tuple[Expr | None, Expr]:
@@ -130,8 +129,8 @@ class _OfCoordinate(_Value):
                 text, "it may be written in the original coordinates, before the constraints are substituted."
             )
         if motion.zero(expression + wanted):
-            return wrong(text, "The sign is wrong.", "SIGN")
-        return wrong(text, say(self.hint, coordinate=self.coordinate), self.code)
+            return wrong(text, "SIGN")
+        return wrong(text, self.code)
 
     def _solution(self, motion: RightMotion) -> Sentence:
         kept, unreduced = self._right(motion)
@@ -143,9 +142,8 @@ class Momentum(_OfCoordinate):
 
     wanted: ClassVar[str] = "What is the generalized momentum conjugate to {about}?"
     how: ClassVar[str] = "A generalized momentum: write it like a Lagrangian; p = is optional."
-    examples: ClassVar[tuple[str, ...]] = ("p = M udot + a chidot", "p = I chidot^3")
+    example: ClassVar[str] = "p = M udot + a chidot"
     code: ClassVar[str] = "WRONG_MOMENTUM"
-    hint: ClassVar[str] = "The generalized momentum is the derivative of L with respect to {coordinate}dot."
     ask: Literal["momentum"] = Field(description="a generalized momentum")
 
     def _right(self, motion: RightMotion) -> tuple[Expr | None, Expr]:
@@ -157,12 +155,8 @@ class GeneralizedForce(_OfCoordinate):
 
     wanted: ClassVar[str] = "What is the generalized force for {about}?"
     how: ClassVar[str] = "A generalized force: write it like a Lagrangian; Q = is optional."
-    examples: ClassVar[tuple[str, ...]] = ("Q = -kappa u^3", "Q = -M g sin(chi)^2")
+    example: ClassVar[str] = "Q = -kappa u^3"
     code: ClassVar[str] = "WRONG_FORCE"
-    hint: ClassVar[str] = (
-        "The quantity asked for is the derivative of L with respect to {coordinate}, plus the forces that"
-        " have no potential."
-    )
     ask: Literal["force"] = Field(description="a generalized force")
 
     def _right(self, motion: RightMotion) -> tuple[Expr | None, Expr]:
@@ -174,7 +168,7 @@ class MotionQuestion(_MotionQuestion):
 
     wanted: ClassVar[str] = "What are the equations of motion?"
     how: ClassVar[str] = "Equations of motion: write xddot for an acceleration, one equation per line."
-    examples: ClassVar[tuple[str, ...]] = ("M uddot + kappa u^3 = 0", "chiddot + nu^2 sin(chi)^2 = 0")
+    example: ClassVar[str] = "M uddot + kappa u^3 = 0"
     ask: Literal["motion"] = Field(description="an equation of motion, or all of them")
     coordinate: str | None = Field(None, description="the coordinate whose equation is asked for")
 
@@ -185,7 +179,7 @@ class MotionQuestion(_MotionQuestion):
     def _judgement(self, posed: PosedMotion, motion: RightMotion, text: str) -> Judgement:
         relations, names_of_multipliers, key = posed.relations, posed.multipliers, posed.key
         if any(c.relation != "=" for c in relations):
-            return wrong(text, "An equation of motion is an equation, not an inequality.", "INEQUALITY")
+            return wrong(text, "INEQUALITY")
         equations = tuple(c.left - c.right for c in relations)
         answered = AnsweredMotion(motion, equations, names_of_multipliers)
         followed = answered.follow()
@@ -198,7 +192,7 @@ class MotionQuestion(_MotionQuestion):
             return needs_review(text, "the answer contradicts itself.")
         single = self.coordinate is not None and self.coordinate in motion.names
         if Found.NOT in followed.sameness and _are_linearized(answered, None if single else len(motion.names)):
-            return wrong(text, _LINEARIZED, "SMALL_ANGLES")
+            return wrong(text, "SMALL_ANGLES")
         return self._single(answered, followed.sameness, motion, text) if single else _all(followed, motion, text)
 
     def _single(self, answered: AnsweredMotion, sameness: Sequence[Found], motion: RightMotion, text: str) -> Judgement:
@@ -206,16 +200,13 @@ class MotionQuestion(_MotionQuestion):
         if answered.multipliers or motion.multipliers:
             return needs_review(text, "a single equation with multipliers can be written in many ways.")
         if Found.NOT in sameness:
-            return wrong(text, "This equation is not satisfied by the motion.", Found.NOT.value)
+            return wrong(text, Found.NOT.value)
         rows = [r for r, t in zip(answered.rows or (), sameness, strict=True) if t is Found.FOLLOWS]
         place = motion.names.index(self.coordinate or "")
         if not any(is_zero(row[place], motion.positive) is False for row in rows):
-            told_why = say(
-                ("This equation does not determine the acceleration of {coordinate}."), coordinate=self.coordinate
-            )
-            return wrong(text, told_why, Found.TRIVIAL.value)
+            return wrong(text, Found.TRIVIAL.value)
         if len(rows) == 1 and len(motion.names) > 1 and self._of_another(rows[0], answered, motion, place):
-            return wrong(text, "This is the equation of motion of another coordinate.", "OTHER_COORDINATE")
+            return wrong(text, "OTHER_COORDINATE")
         return right(text)
 
     def _of_another(self, row: Sequence[Expr], answered: AnsweredMotion, motion: RightMotion, place: int) -> bool:
@@ -228,9 +219,6 @@ class MotionQuestion(_MotionQuestion):
         equation = None if self.coordinate is None else of_coordinates.get(self.coordinate)
         chosen = list(of_coordinates.values()) if equation is None else [equation]
         return say("A correct answer is {text}.", text="; ".join(f"{to_text(e)} = 0" for e in chosen))
-
-
-_LINEARIZED = "This is the approximation for small oscillations (small angles); the exact equations are asked for."
 
 
 def _are_linearized(answered: AnsweredMotion, rank: int | None) -> bool:
@@ -249,23 +237,23 @@ def _all(followed: Followed, motion: RightMotion, text: str) -> Judgement:
         return right(text)
     if good and rank <= 0:
         why = "No acceleration is determined by this: write accelerations such as {name}."
-        return wrong(text, say(why, name=f"{motion.names[0]}ddot"), "WEAKER")
+        return wrong(text, "WEAKER", why=say(why, name=f"{motion.names[0]}ddot"))
     if good:
         share = Fraction(max(rank, 0), wanted)
-        told_why = say(
+        missing = say(
             "These equations determine only {number} of the {all} accelerations: an equation is missing.",
             number=max(rank, 0),
             all=wanted,
         )
-        return partly(share, text, told_why, "WEAKER")
+        return partly(share, text, "WEAKER", why=missing)
     share = Fraction(max(0, min(rank, wanted - 1)), wanted) if wanted > 1 else (HALF if rank else Fraction(0))
     number = sum(t is Found.NOT for t in sameness)
     if len(sameness) == 1:
-        return partly(share, text, "This equation is not satisfied by the motion.", Found.NOT.value)
-    told_why = say(
+        return partly(share, text, Found.NOT.value)
+    failing = say(
         "Equations that are not satisfied by the motion: {number} of {all}.", number=number, all=len(sameness)
     )
-    return partly(share, text, told_why, Found.NOT.value)
+    return partly(share, text, Found.NOT.value, why=failing)
 
 
 def _proportional(a: Sequence[Expr], b: Sequence[Expr], positive: frozenset[Expr]) -> bool:

@@ -21,11 +21,12 @@ class Coordinates(QuestionBase):
 
     wanted: ClassVar[str] = "Give a complete set of independent generalized coordinates."
     how: ClassVar[str] = "Coordinates: write their names, separated by commas; define any coordinate of your own."
-    examples: ClassVar[tuple[str, ...]] = ("u, w", "chi, where u = a cos(chi), w = a sin(chi)")
+    example: ClassVar[str] = "chi, where u = a cos(chi), w = a sin(chi)"
     ask: Literal["coordinates"] = Field(description="an independent and complete set of generalized coordinates")
 
     def readings(self, answer: Given, names: DeclaredNames) -> list[Reading]:
-        chosen = [chosen_coordinates(part, names) for part in alternatives(answer)]
+        offered = [*names.coordinates, *names.also]
+        chosen = [chosen_coordinates(part, names) for part in alternatives(answer, offered, "coordinate")]
         return [Reading(choice, ", ".join(choice.names) or "none", certain=not choice.undeclared) for choice in chosen]
 
     def solution(self, key: Key) -> Sentence:
@@ -39,14 +40,12 @@ class Coordinates(QuestionBase):
         if dof is None:
             return needs_review(text, "the number of degrees of freedom is not known for certain.")
         if len(names) < dof:
-            return wrong(
-                text, ("These coordinates do not determine the configuration: the set is incomplete."), "INCOMPLETE"
-            )
+            return wrong(text, "INCOMPLETE")
         independent = len(names) == dof and key.decided(determine, names)
         if independent is None:
             return needs_review(text, "it could not be decided whether these coordinates are independent.")
         if not independent:
-            return wrong(text, "These coordinates are not independent: the constraints relate them.", "DEPENDENT")
+            return wrong(text, "DEPENDENT")
         return right(text)
 
 
@@ -57,12 +56,15 @@ class Redundant(QuestionBase):
         "Which constraints are redundant? Give a largest set that may be removed without changing the motion."
     )
     how: ClassVar[str] = "Constraints: write their names, separated by commas; if there are none, write: none."
-    examples: ClassVar[tuple[str, ...]] = ("bar_17, bar_23",)
+    example: ClassVar[str] = "bar_17, bar_23"
     ask: Literal["redundant"] = Field(description="a largest set of redundant constraints")
 
     def readings(self, answer: Given, names: DeclaredNames) -> list[Reading]:
         constraint_names = list(names.constraints)
-        return [self._reading(part, constraint_names, names) for part in alternatives(answer, constraint_names)]
+        return [
+            self._reading(part, constraint_names, names)
+            for part in alternatives(answer, constraint_names, "constraint")
+        ]
 
     def _reading(self, answer: Given, constraint_names: list[str], names: DeclaredNames) -> Reading:
         none = is_none(answer, lambda part: lists_only(part, constraint_names), constraint_names, every=True)
@@ -81,14 +83,13 @@ class Redundant(QuestionBase):
         if set(names) == set(report.redundant):
             return right(text)
         if not names:
-            return wrong(text, "Some constraints are redundant: they are implied by the others.", "REDUNDANT_MISSED")
+            return wrong(text, "REDUNDANT_MISSED")
         dropped = key.decided(can_be_dropped, names)
         if dropped is None:
             return needs_review(text, "it could not be decided whether these constraints may be removed together.")
         if not dropped:
-            return wrong(text, "Without these constraints the system would have more freedom.", "NOT_REDUNDANT")
+            return wrong(text, "NOT_REDUNDANT")
         if len(names) < len(report.redundant):
-            return wrong(
-                text, ("These constraints may be removed, but more can be removed with them."), "REDUNDANT_MISSED"
-            )
+            why = "These constraints may be removed, but more can be removed with them."
+            return wrong(text, "REDUNDANT_MISSED", why=why)
         return right(text)

@@ -68,9 +68,6 @@ class NumberQuestion(QuestionBase):
         del key, earlier
         yield from ()
 
-    def number(self, answer: Given) -> Fraction | None:
-        return number(answer, self.letters, self.foreign)
-
     def readings(self, answer: Given, names: DeclaredNames) -> list[Reading]:
         del names
         amount = number(answer, self.letters, self.foreign)
@@ -86,13 +83,12 @@ class NumberQuestion(QuestionBase):
             return needs_review(text, "the correct number is not known for certain.")
         if amount == truth:
             return right(text)
-        codes, hint = explain(amount, self.kind(), key)
+        codes = explain(amount, self.kind(), key)
         if amount in set(self.consequences(key, earlier)):
-            why = "This is consistent with your earlier answer, which is wrong: half of the points."
-            return partly(HALF, text, why, CARRIED, *codes)
+            return partly(HALF, text, CARRIED, *codes)
         if amount == self.other(key):
-            return wrong(text, self.clash(key), OTHER_CONVENTION, *codes)
-        return wrong(text, hint or self.advice(key), *codes)
+            return wrong(text, OTHER_CONVENTION, *codes, why=self.clash(key))
+        return wrong(text, *codes, why="" if codes else self.advice(key))
 
 
 class Dof(NumberQuestion):
@@ -100,7 +96,6 @@ class Dof(NumberQuestion):
 
     wanted: ClassVar[str] = "How many degrees of freedom does the system have?"
     how: ClassVar[str] = "The number of degrees of freedom: write an integer."
-    examples: ClassVar[tuple[str, ...]] = ("f = 12", "f = 15", "f = 18")
     ask: Literal["dof"] = Field(description="the number of degrees of freedom")
 
     def advice(self, key: Key) -> str:
@@ -122,7 +117,6 @@ class VelocityDof(NumberQuestion):
 
     wanted: ClassVar[str] = "How many independent generalized velocities are there?"
     how: ClassVar[str] = "The number of independent generalized velocities: write an integer."
-    examples: ClassVar[tuple[str, ...]] = ("12", "15", "18")
     ask: Literal["velocity_dof"] = Field(description="the number of independent generalized velocities")
 
     def advice(self, key: Key) -> str:
@@ -153,7 +147,6 @@ class CountQuestion(NumberQuestion):
     foreign: ClassVar[frozenset[str]] = FREEDOM_NOUNS
     wanted: ClassVar[str] = "How many independent holonomic constraint equations are there?"
     how: ClassVar[str] = "The number of constraint equations: write an integer."
-    examples: ClassVar[tuple[str, ...]] = ("k = 12", "k = 15", "k = 18")
     ask: Literal["k"] = Field(description="the number of independent holonomic equations")
 
     def advice(self, key: Key) -> str:

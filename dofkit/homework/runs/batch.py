@@ -4,24 +4,21 @@ from __future__ import annotations
 
 import pickle
 import threading
-from collections.abc import Callable, Generator, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import lru_cache, partial
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 from dofkit.base.process_limits import allow_processor
 from dofkit.base.runs import Cluster, Journal, Pool, StoppedError, in_order
 from dofkit.base.workers import MEMORY, Job, Json
 from dofkit.homework.answers.sources import Handed
-from dofkit.homework.answers.submission import Submission
 from dofkit.homework.assignment import Prepared
-from dofkit.homework.grading import ANSWER_SECONDS, Echo, Grader, Spot, echo
+from dofkit.homework.grading import ANSWER_SECONDS, Grader, Identity
 from dofkit.homework.result import Result, json_line
 
-#: What becomes of a submission: its result, or how its answers are read.
-Outcome: TypeAlias = Result | Echo
 #: What a worker imports before its first job.
 MODULES = ("dofkit.homework.runs.batch",)
 _TOO_MUCH = "grading it took too long or too much memory."
@@ -50,15 +47,9 @@ class Orders:
         points = sum((question.points for _, question in prepared.questions()), Fraction(0))
         return cls(pickle.dumps(prepared), float(points), check_only)
 
-    def refused(self, student: str, error: str) -> Outcome:
+    def refused(self, student: str, error: str) -> Result:
         """Return the result of a submission that could not be graded."""
-        if self.check_only:
-            return Echo(student=student, items=[], error=error)
         return Result(student=student, score=None, max_score=self.max_score, items=[], error=error)
-
-    def outcome(self, line: str) -> Outcome:
-        """Return the result that a worker wrote as a line of JSON."""
-        return (Echo if self.check_only else Result).model_validate_json(line)
 
 
 @dataclass(frozen=True)
@@ -67,7 +58,7 @@ class GradingTask:
 
     orders: Orders
     handed: Handed
-    condemned: Mapping[Spot, str] = field(default_factory=dict)
+    condemned: Mapping[Identity, str] = field(default_factory=dict)
 
 
 def graded_lines(task: GradingTask) -> Iterator[Json]:
@@ -78,28 +69,22 @@ def graded_lines(task: GradingTask) -> Iterator[Json]:
     allow_processor(task.orders.hard)
     for submission in task.handed.submissions(grader.prepared.columns()):
         allow_processor(task.orders.hard)
-        steps = _steps(grader, submission, task.orders.check_only)
+        steps = grader.steps(submission)
         while True:
             try:
-                spot = next(steps)
+                identity = next(steps)
             except StopIteration as stop:
                 lines.append(json_line(stop.value))
                 break
-            yield {"next": spot}
+            yield {"next": identity}
             allow_processor(task.orders.hard)
     yield {"lines": lines}
-
-
-def _steps(grader: Grader, submission: Submission, check_only: bool) -> Generator[Spot, None, Any]:
-    if check_only:
-        return echo(grader.prepared, submission)
-    return (yield from grader.steps(submission))
 
 
 @lru_cache(maxsize=2)
 def _grader(orders: Orders) -> Grader:
     prepared: Prepared = pickle.loads(orders.assignment)
-    return Grader(prepared, orders.seconds)
+    return Grader(prepared, orders.seconds, check_only=orders.check_only)
 
 
 #: Yields everything submitted with the lines of its results, in order; a journal keeps them.
@@ -112,7 +97,7 @@ class Keeper:
     def __init__(self, orders: Orders, pool: Pool) -> None:
         self.orders = orders
         self.pool = pool
-        self._condemned: dict[Spot, str] = {}
+        self._condemned: dict[Identity, str] = {}
         self._lock = threading.Lock()
 
     def grade(self, handed: Handed) -> list[str]:
@@ -120,7 +105,7 @@ class Keeper:
 
         An answer that breaks two workers, of which the second is a fresh one, is not judged again.
         """
-        suspects: list[Spot | None] = []
+        suspects: list[Identity | None] = []
         while True:
             with self._lock:
                 condemned = dict(self._condemned)
@@ -130,15 +115,15 @@ class Keeper:
                 raise StoppedError(outcome.reason)
             if outcome.finished:
                 return list(outcome.value["lines"])
-            spot = outcome.value["next"] if outcome.value else None
-            if spot not in suspects:
-                suspects.append(spot)
-            elif spot is None or spot in condemned:
+            identity = outcome.value["next"] if outcome.value else None
+            if identity not in suspects:
+                suspects.append(identity)
+            elif identity is None or identity in condemned:
                 error = f"{handed.place}: it could not be graded: {_ENDED[outcome.ended]}"
                 return [json_line(self.orders.refused(handed.name, error))]
             else:
                 with self._lock:
-                    self._condemned[spot] = _ENDED[outcome.ended]
+                    self._condemned[identity] = _ENDED[outcome.ended]
 
 
 def grade_there(orders: Orders, handed: Handed) -> list[str]:

@@ -12,36 +12,35 @@ from typing import NamedTuple
 
 from dofkit.homework.answers.roster import Roster, attributed, lookalike
 from dofkit.homework.answers.sources import Handed
-from dofkit.homework.runs.batch import Orders, Outcome
+from dofkit.homework.result import Result
+from dofkit.homework.runs.batch import Orders
 
 
-class OwnedOutcome(NamedTuple):
+class OwnedResult(NamedTuple):
     """A result under the name of its owner, where it was submitted, and whether its owner is confirmed."""
 
-    outcome: Outcome
+    outcome: Result
     place: str
     confirmed: bool
 
 
 def named_by(roster: Roster, handed: Handed) -> Handed:
     """Return a submission under its owner's name, if the roster knows one by the names of its file and folders."""
-    user = handed.users[0] if len(handed.users) == 1 else None
-    more = () if user is None else tuple(name for name in user.called() if roster.find(name))
-    owners = roster.owners((*handed.claims, *more))
+    owners = roster.owners(handed.claims)
     return replace(handed, name=owners[-1].student) if len(owners) == 1 else handed
 
 
-def owned(roster: Roster | None, handed: Handed, outcome: Outcome) -> OwnedOutcome:
+def owned(roster: Roster | None, handed: Handed, outcome: Result) -> OwnedResult:
     """Return a result under the name of its owner, with the doubt there is."""
     inside = isinstance(handed.data, Mapping) and "student" in handed.data
     by_default = not inside and outcome.student == handed.name
-    student, confirmed, doubt = attributed(roster, handed.claims, handed.users, outcome.student, by_default)
+    student, confirmed, doubt = attributed(roster, handed.claims, outcome.student, by_default)
     doubt = outcome.doubt if doubt is None else f"{handed.place}: {doubt}"
     outcome = outcome.model_copy(update={"student": student, "doubt": doubt})
-    return OwnedOutcome(outcome, str(handed.place), confirmed or handed.listed)
+    return OwnedResult(outcome, str(handed.place), confirmed or handed.listed)
 
 
-def settled(orders: Orders, owned_outcomes: Iterable[OwnedOutcome], roster: Roster | None) -> list[Outcome]:
+def settled(orders: Orders, owned_outcomes: Iterable[OwnedResult], roster: Roster | None) -> list[Result]:
     """Return the results in their order; each of a student's but the first is an error that names both places.
 
     A confirmed submission counts before those that only claim to be the student's. The first keeps its points with a

@@ -22,8 +22,8 @@ from dofkit.homework.formats import FORMATS, Format, FormatError
 from dofkit.homework.formats.gradebooks import apart_path
 from dofkit.homework.formats.review import ReviewPaths, RunReview
 from dofkit.homework.result import Result, json_line
-from dofkit.homework.runs.batch import Grading, Orders, Outcome, grading
-from dofkit.homework.runs.owners import OwnedOutcome, named_by, owned, settled
+from dofkit.homework.runs.batch import Grading, Orders, grading
+from dofkit.homework.runs.owners import OwnedResult, named_by, owned, settled
 from dofkit.homework.variants import with_roster
 
 NATIVE = "native"
@@ -124,39 +124,38 @@ def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
         grading(orders, options.workers, options.scheduler) as grade_all,
         nullcontext() if out is None else closing(Journal(unfinished(out), mark)) as journal,
     ):
-        outcomes = settled(orders, _graded(grade_all, orders, stream, people, journal), people)
-        results = [entry for entry in outcomes if isinstance(entry, Result)]
+        results = settled(orders, _graded(grade_all, stream, people, journal), people)
         if form.name != NATIVE:
             form.write(iter(results), prepared, out or sys.stdout, roster)
         elif out is None:
-            _to_stdout(outcomes)
+            _to_stdout(results)
         else:
             native = out / RESULTS if options.in_folder else out
             native.parent.mkdir(parents=True, exist_ok=True)
-            native.write_text("".join(f"{json_line(entry)}\n" for entry in outcomes), encoding="utf-8", newline="\n")
+            native.write_text("".join(f"{json_line(entry)}\n" for entry in results), encoding="utf-8", newline="\n")
         review.write(results, prepared)
         if journal is not None:
             journal.remove()
-    doubted = sum(entry.doubt is not None for entry in outcomes)
+    doubted = sum(entry.doubt is not None for entry in results)
     if doubted:
         print(f"{doubted} of the submissions have a 'doubt': a person has to decide whose they are", file=sys.stderr)
-    return all(entry.error is None for entry in outcomes)
+    return all(entry.error is None for entry in results)
 
 
 def _graded(
-    grade_all: Grading, orders: Orders, stream: Iterator[Handed], people: Roster | None, journal: Journal | None
-) -> Iterator[OwnedOutcome]:
+    grade_all: Grading, stream: Iterator[Handed], people: Roster | None, journal: Journal | None
+) -> Iterator[OwnedResult]:
     """Yield every result with its owner; a bar on a terminal shows how far it is."""
     with _bar() as bar:
         task = bar.add_task("graded", total=None)
         for handed, lines in grade_all(stream, journal):
-            yield from (owned(people, handed, orders.outcome(line)) for line in lines)
+            yield from (owned(people, handed, Result.model_validate_json(line)) for line in lines)
             bar.update(task, advance=len(lines))
 
 
-def _to_stdout(outcomes: Iterable[Outcome]) -> None:
+def _to_stdout(results: Iterable[Result]) -> None:
     utf8 = (sys.stdout.encoding or "").lower().replace("-", "") == "utf8"
-    for text in map(json_line, outcomes):
+    for text in map(json_line, results):
         print(text if utf8 else json.dumps(json.loads(text)), flush=True)
 
 

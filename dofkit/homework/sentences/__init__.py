@@ -13,19 +13,29 @@ Language = Literal["en", "de", "fr", "es"]
 
 
 @cache
+def _rows(name: str) -> list[dict[str, str]]:
+    rows: list[dict[str, str]] = read_document(
+        files("dofkit.homework.sentences").joinpath(name).read_bytes(), name
+    ).value
+    return rows
+
+
+@cache
 def catalogue() -> dict[str, dict[str, str]]:
     """Language -> English sentence -> the same in this language."""
-    data = files("dofkit.homework.sentences").joinpath("catalogue.yaml").read_bytes()
-    rows: list[dict[str, str]] = read_document(data, "catalogue").value
-    return {language: {row["en"]: row[language] for row in rows} for language in ("de", "fr", "es")}
+    return {language: {row["en"]: row[language] for row in _rows("catalogue.yaml")} for language in ("de", "fr", "es")}
+
+
+@cache
+def meanings() -> dict[str, str]:
+    """Return the English sentence that explains each feedback code."""
+    return {code: row["en"] for row in _rows("catalogue.yaml") if "code" in row for code in row["code"].split()}
 
 
 @cache
 def _reading(language: Language) -> list[tuple[re.Pattern[str], str]]:
     """Return patterns of English texts of why reading stopped, each with the text in a language."""
-    data = files("dofkit.homework.sentences").joinpath("reading.yaml").read_bytes()
-    rows: list[dict[str, str]] = read_document(data, "reading").value
-    return [(_pattern(row["en"]), row[language]) for row in rows]
+    return [(_pattern(row["en"]), row[language]) for row in _rows("reading.yaml")]
 
 
 def _pattern(sentence: str) -> re.Pattern[str]:
@@ -53,9 +63,7 @@ def stopped(text: str, language: Language) -> str:
 
 @cache
 def _scene_words(language: Language) -> dict[str, str]:
-    data = files("dofkit.homework.sentences").joinpath("scene_words.yaml").read_bytes()
-    rows: list[dict[str, str]] = read_document(data, "scene_words").value
-    return {row["en"]: row[language] for row in rows}
+    return {row["en"]: row[language] for row in _rows("scene_words.yaml")}
 
 
 def described(text: str, language: Language) -> str:

@@ -51,11 +51,6 @@ LAST = (
 HINDRANCES = (CheckError, NoEstimateError, RecursionError, KeyError, ValueError, ZeroDivisionError, OverflowError)
 
 
-def certificate_of(document: Mapping[str, Any], report: Report) -> dict[str, Any]:
-    """The certificate of a report of the scene that a document writes."""
-    return made(document, report)[0]
-
-
 def made(document: Mapping[str, Any], report: Report) -> tuple[dict[str, Any], list[tuple[str, str]]]:
     """The certificate of the claims that the checker accepts, and the claims that evidence contradicts, with why."""
     making = Certifying(document, report)

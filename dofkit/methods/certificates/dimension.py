@@ -13,7 +13,7 @@ from flint import arb
 from dofkit.checker.evidence import HIGHEST_ORDER, along_curve
 from dofkit.checker.trees import CheckError
 from dofkit.methods.certificates.fields import backing, kept_motions, orbit
-from dofkit.methods.certificates.numerics import SMALL, NoEstimateError, echelon
+from dofkit.methods.certificates.numerics import NoEstimateError, echelon, solved
 from dofkit.methods.certificates.room import Room, Standing, Told
 from dofkit.methods.certificates.scenery import FAR, number_text
 from dofkit.methods.certificates.steps import Order, accounted, given_in_order
@@ -84,11 +84,13 @@ def _linear_relations(room: Room, samples: Samples) -> Iterator[str]:
     if point is None or not samples:
         return
     rows = [{q: sample[q] - point.floats[q] for q in coordinates} for sample in samples]
-    basis = reduced_rows(rows)
+    pivots = echelon(rows).pivots
+    columns = [p.column for p in pivots]
     for q in coordinates:
-        if q in basis:
+        spanned = [rows[p.row] for p in pivots]
+        terms = None if q in columns else solved(spanned, [row[q] for row in spanned], columns)
+        if terms is None:
             continue
-        terms = {p: row.get(q, 0.0) for p, row in basis.items()}
         short = {p: Fraction(value).limit_denominator(DENOMINATOR) for p, value in terms.items()}
         if all(abs(float(short[p]) - value) < 1e-6 for p, value in terms.items()):
             coefficients = [(q, Fraction(1)), *((p, -value) for p, value in short.items() if value)]
@@ -97,25 +99,6 @@ def _linear_relations(room: Room, samples: Samples) -> Iterator[str]:
 
 def _from(value: str, q: str) -> str:
     return q if value == "0" else f"({q} - ({value}))"
-
-
-def reduced_rows(rows: Samples) -> dict[str, dict[str, float]]:
-    """A basis of what rows span, by pivots: in each row the pivot's entry is 1, and those of the other pivots are 0."""
-    basis: dict[str, dict[str, float]] = {}
-    for pivot in echelon(rows).pivots:
-        row = dict(rows[pivot.row])
-        for column, other in basis.items():
-            factor = row.get(column, 0.0)
-            row = {q: value - factor * other.get(q, 0.0) for q, value in row.items()}
-        lead = row[pivot.column]
-        if abs(lead) < SMALL:
-            continue
-        row = {q: value / lead for q, value in row.items()}
-        for column, other in basis.items():
-            factor = other[pivot.column]
-            basis[column] = {q: value - factor * row[q] for q, value in other.items()}
-        basis[pivot.column] = row
-    return basis
 
 
 # Evidence that no part of the set is larger: graphs, single relations, relations with symbols of their own.
@@ -179,7 +162,8 @@ def _of_set(room: Room, standing: Standing) -> Iterator[Told]:
     claim["minor"] = room.minor(standing)
     if not unordered:
         yield {**claim, "order": order}
-    symbols = own_symbols(room)
+    letters = (*room.problem.world.generic, *room.problem.world.signs)
+    symbols = {name: letter for name in evidence.finite if (letter := evidence.own_symbol(name, letters))}
     if not standing.dependent or standing.accounted:
         for tried in (order, given_in_order(finite, room.scenery, partial(_gives, room)), []):
             remaining = [name for name in finite if all(name != chosen for chosen, _ in tried)]
@@ -247,20 +231,6 @@ def _gives(room: Room, name: str, q: str) -> bool:
         return plain or bool(evidence.ring.rational(slope))
     except CheckError:
         return False
-
-
-def own_symbols(room: Room) -> dict[str, str]:
-    """For each relation a generic symbol or parameter that occurs in no other."""
-    relations = room.problem.relations
-    held = {relation.name: relation.tree.symbols for relation in relations}
-    chosen: dict[str, str] = {}
-    for relation in relations:
-        for symbol in (*room.problem.world.generic, *room.problem.world.signs):
-            if symbol in held[relation.name] and not any(
-                symbol in held[other] for other in held if other != relation.name
-            ):
-                chosen.setdefault(relation.name, symbol)
-    return chosen
 
 
 def _split(

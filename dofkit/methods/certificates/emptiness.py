@@ -5,14 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
-from flint import fmpq, fmpq_mat
-
-from dofkit.checker.trees import ONE, substituted
+from dofkit.checker.trees import MINUS
 from dofkit.methods.certificates.room import Room, Told
 from dofkit.methods.certificates.scenery import number_text, text_of
-from dofkit.methods.certificates.steps import positive_sum, rate_of
-
-MOST_MONOMIALS = 400
+from dofkit.methods.certificates.steps import constant_cofactors, positive_sum, rate_of
 
 
 def inconsistent(room: Room) -> Iterator[Told]:
@@ -56,36 +52,10 @@ def refutations(room: Room, names: Sequence[str]) -> Iterator[Told]:
         rate for name in equations if evidence.relation(name).kind == "finite" and (rate := rate_of(room.scenery, name))
     ]
     for chosen in (equations, [*equations, *rates]):
-        if (claim := combination(room, chosen)) is not None:
-            yield claim
+        if (factors := constant_cofactors(room.scenery, MINUS, chosen)) is not None:
+            yield {"rule": "nullstellensatz", "c": factors, "number": "1"}
     for name in names:
         yield from _by_squares(room, name)
-
-
-def combination(room: Room, names: Sequence[str]) -> Told | None:
-    """Return numbers c with sum c_i relation_i = -1, as polynomials in the ring's generators, or None."""
-    ring, width = room.scenery.evidence.ring, len(names)
-    trees = [substituted(room.scenery.evidence.relation(name).tree, {"tdot": ONE}) for name in names]
-    for tree in trees:
-        ring.read(tree)  # all generators are there before the first normal form is used
-    normals = [ring.read(tree) for tree in trees]
-    if any(not normal.below.is_constant() for normal in normals):
-        return None
-    columns = [
-        {key: value / normal.below.leading_coefficient() for key, value in normal.above.to_dict().items()}
-        for normal in normals
-    ]
-    monomials = sorted({key for column in columns for key in column})
-    constant = tuple(0 for _ in monomials[0]) if monomials else ()
-    if constant not in monomials or len(monomials) > MOST_MONOMIALS:
-        return None
-    entries = [[*(column.get(key, fmpq(0)) for column in columns), fmpq(-(key == constant))] for key in monomials]
-    reduced, rank = fmpq_mat(len(entries), width + 1, [x for row in entries for x in row]).rref()
-    leads = [next(j for j in range(width + 1) if reduced[i, j] != 0) for i in range(rank)]
-    if width in leads:
-        return None
-    factors = {names[lead]: str(reduced[i, width]) for i, lead in enumerate(leads) if reduced[i, width] != 0}
-    return {"rule": "nullstellensatz", "c": factors, "number": "1"}
 
 
 def _by_squares(room: Room, name: str) -> Iterator[Told]:

@@ -217,7 +217,7 @@ def reach(room: Room) -> int:
 
 
 def _grown(room: Room, standing: Standing, fields: list[str], most: int) -> Words:
-    estimates = Estimates(standing.point.floats, slopes=False)
+    estimates = Estimates(standing.point.floats)
     chosen = room.scenery.chosen
     bases: dict[str, VelocityField] = {
         name: {q: chosen(tree) for q, tree in field_named(room.scenery.evidence, name).items()} for name in fields

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import combinations
 
-from dofkit.checker.label_rules import form_of
+from dofkit.checker.label_rules import exterior_part, form_of
 from dofkit.checker.trees import ZERO, CheckError, Tree, add, derivative, negative, number, symbol, times
 from dofkit.methods.certificates.fields import (
     LARGEST_CRAMER,
@@ -20,7 +20,7 @@ from dofkit.methods.certificates.numerics import Estimates, NoEstimateError, ech
 from dofkit.methods.certificates.points import FoundPoint
 from dofkit.methods.certificates.room import Room, Told
 from dofkit.methods.certificates.scenery import FAR, text_of
-from dofkit.methods.certificates.steps import Order, needed_puts, puts, rate_of, with_puts, without_factor
+from dofkit.methods.certificates.steps import Order, needed_puts, puts, rate_of, with_puts
 from dofkit.report import ConstraintEntry
 
 Components = dict[str, Tree]
@@ -201,18 +201,9 @@ def _wedge(room: Room, name: str) -> Told | None:
     if point is None or form is None:
         return None
     for triple in combinations([v for v in room.scenery.evidence.variables if v in variables_of(form)], 3):
-        i, j, k = triple
-        cycles = ((i, j, k), (j, k, i), (k, i, j))
-        tree = add(*(times(form.get(a, number(0)), curl(form, b, c)) for a, b, c in cycles))
-        if room.scenery.differs(tree, point.floats):
+        if room.scenery.differs(exterior_part(form, *triple), point.floats):
             return {"rule": "wedge", "at": point.name, "triple": list(triple)}
     return None
-
-
-def curl(form: dict[str, Tree], i: str, j: str) -> Tree:
-    """d_i form_j - d_j form_i."""
-    zero = number(0)
-    return add(derivative(form.get(j, zero), i), negative(derivative(form.get(i, zero), j)))
 
 
 def _reached(room: Room, owner: str, alone: bool) -> Told | None:
@@ -281,7 +272,7 @@ def exact(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
     for name in names:
         form = form_or_none(room, name) or {}
         for i, j in combinations([v for v in room.scenery.evidence.variables if v in variables_of(form)], 2):
-            if room.scenery.differs(curl(form, i, j), point.floats):
+            if room.scenery.differs(exterior_part(form, i, j), point.floats):
                 which = {"relation": name} if len(names) > 1 else {}
                 yield {"rule": "not exact", "at": point.name, "pair": [i, j], **which}
                 break
@@ -290,21 +281,12 @@ def exact(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
 def scleronomic(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
     """Time does not occur, or matters at a point."""
     if getattr(entry, field):
-        yield from timeless(room, entry, field)
+        yield {"rule": "timeless"}
         return
     evidence = room.scenery.evidence
     for name in evidence.owned(entry.name, ("finite", "velocity", "inequality")):
         for place in _turning(room, name, field):
             yield {"rule": "turns", "relation": name, **place}
-
-
-def timeless(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
-    """Time does not occur; what is nonlinear in velocities is homogeneous."""
-    yield {"rule": "timeless"}
-    names = room.scenery.evidence.owned(entry.name)
-    steps = [without_factor(room.scenery, name) for name in names]
-    if steps != list(names):
-        yield {"rule": "timeless", "steps": steps}
 
 
 def _turning(room: Room, name: str, field: str) -> Iterator[Told]:

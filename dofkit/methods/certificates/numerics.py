@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from dofkit.checker.trees import Tree
+from dofkit.checker.trees import Tree, derivative
 
 Row = Mapping[str, float]
 SMALL = 1e-8
@@ -87,7 +87,6 @@ def least_step(rows: Sequence[Row], right: Sequence[float]) -> dict[str, float]:
 # Values and gradients of trees in floats: good for looking, never for deciding.
 
 Gradient = dict[str, float]
-Estimate = tuple[float, Gradient]
 
 
 class NoEstimateError(Exception):
@@ -95,89 +94,38 @@ class NoEstimateError(Exception):
 
 
 class Estimates:
-    """Values and gradients at one point, by every symbol; values alone, which cost less, without ``slopes``."""
+    """Values and gradients of trees at one point."""
 
-    def __init__(self, values: Mapping[str, float], slopes: bool = True) -> None:
-        self.values, self.slopes = values, slopes
-        self._done: dict[int, tuple[Tree, Estimate]] = {}
+    def __init__(self, values: Mapping[str, float]) -> None:
+        self.values = values
+        self._done: dict[int, tuple[Tree, float]] = {}
 
     def value(self, tree: Tree) -> float:
         """The value; `NoEstimateError` where there is none."""
-        return self.value_and_gradient(tree)[0]
+        if id(tree) not in self._done:
+            try:
+                self._done[id(tree)] = tree, self._read(tree)
+            except (ValueError, OverflowError, ZeroDivisionError, KeyError, TypeError):
+                raise NoEstimateError(tree.head) from None
+        return self._done[id(tree)][1]
 
     def gradient(self, tree: Tree) -> Gradient:
         """The derivatives by the symbols that occur."""
-        return self.value_and_gradient(tree)[1]
+        return {name: self.value(derivative(tree, name)) for name in tree.symbols}
 
-    def value_and_gradient(self, tree: Tree) -> Estimate:
-        """Value and gradient."""
-        estimate = self._done.get(id(tree))
-        if estimate is None:
-            try:
-                estimate = self._done[id(tree)] = tree, self._read(tree)
-            except (ValueError, OverflowError, ZeroDivisionError, KeyError):
-                raise NoEstimateError(tree.head) from None
-        return estimate[1]
-
-    def _read(self, tree: Tree) -> Estimate:
-        head = tree.head
+    def _read(self, tree: Tree) -> float:
         if isinstance(tree.value, Fraction):
-            return float(tree.value), {}
-        if head == "symbol":
-            name = str(tree.value)
-            return self.values[name], {name: 1.0} if self.slopes else {}
-        if head == "pi":
-            return math.pi, {}
-        below = [self.value_and_gradient(part) for part in tree.below]
-        if head == "sum":
-            return sum(value for value, _ in below), combined([(1.0, slope) for _, slope in below])
-        if head == "product":
-            return _product(below)
-        if head == "power":
-            return _power(below[0], below[1])
-        if head == "atan2":
-            (y, dy), (x, dx) = below
-            size = x * x + y * y
-            return math.atan2(y, x), combined([(x / size, dy), (-y / size, dx)])
-        value, slope = _elementary(head, below[0][0])
-        return value, combined([(slope, below[0][1])])
+            return float(tree.value)
+        if tree.head == "symbol":
+            return self.values[str(tree.value)]
+        return float(VALUES[tree.head](*map(self.value, tree.below)))
 
 
-def combined(terms: list[tuple[float, Gradient]]) -> Gradient:
-    """A linear combination of gradients."""
-    gradient: Gradient = {}
-    for factor, slope in terms:
-        for name, part in slope.items():
-            gradient[name] = gradient.get(name, 0.0) + factor * part
-    return gradient
-
-
-def _product(below: list[Estimate]) -> Estimate:
-    value, slope = below[0]
-    for other, change in below[1:]:
-        slope = combined([(other, slope), (value, change)]) if change else {n: other * s for n, s in slope.items()}
-        value *= other
-    return value, slope
-
-
-def _power(base: Estimate, exponent: Estimate) -> Estimate:
-    (b, db), (e, de) = base, exponent
-    value = b**e
-    if isinstance(value, complex):
-        raise NoEstimateError("power")
-    terms = [(e * b ** (e - 1) if e else 0.0, db)]
-    if de:
-        terms.append((value * math.log(b), de))
-    return value, combined(terms)
-
-
-def _elementary(head: str, u: float) -> tuple[float, float]:
-    """Return the value and the slope of a function; the checker's trees are written in these four and ``atan2``."""
-    if head == "log":
-        return math.log(u), 1 / u
-    if head == "exp":
-        return math.exp(u), math.exp(u)
-    if head not in ("sin", "cos"):
-        raise NoEstimateError(head)
-    sine, cosine = math.sin(u), math.cos(u)
-    return (sine, cosine) if head == "sin" else (cosine, -sine)
+#: The functions that the checker's trees are written in.
+VALUES: dict[str, Callable[..., Any]] = {
+    "sum": lambda *terms: sum(terms),
+    "product": lambda *factors: math.prod(factors),
+    "power": pow,
+    "pi": lambda: math.pi,
+    **{name: getattr(math, name) for name in ("sin", "cos", "exp", "log", "atan2")},
+}

@@ -64,7 +64,7 @@ def solved_rows(
     solution, wanted = dict(floats), set(columns)
     for _ in range(ITERATIONS):
         estimates = Estimates(solution)
-        pairs = [estimates.value_and_gradient(scenery.tree(name)) for name in rows]
+        pairs = [(estimates.value(tree), estimates.gradient(tree)) for tree in map(scenery.tree, rows)]
         matrix = [{n: s for n, s in slope.items() if n in wanted} for _, slope in pairs]
         step = solved(matrix, [value for value, _ in pairs], columns)
         if step is None or any(abs(change) > 1e6 for change in step.values()):
@@ -196,7 +196,7 @@ class PointSearch:
         for _ in range(ITERATIONS):
             self.scenery.effort.spend(40 * len(names) * (1 + len(names)))
             estimates = Estimates(floats)
-            pairs = [estimates.value_and_gradient(self.scenery.tree(name)) for name in names]
+            pairs = [(estimates.value(tree), estimates.gradient(tree)) for tree in map(self.scenery.tree, names)]
             if max((abs(value) for value, _ in pairs), default=0.0) < 1e-13:
                 return floats
             rows = [{n: s for n, s in slope.items() if n in unknowns} for _, slope in pairs]
@@ -213,7 +213,8 @@ class PointSearch:
         generic = set(self.problem.world.generic)
         estimates = Estimates(dict(floats))
         for name in names if generic else ():
-            value, slope = estimates.value_and_gradient(self.scenery.tree(name))
+            tree = self.scenery.tree(name)
+            value, slope = estimates.value(tree), estimates.gradient(tree)
             symbols = [symbol for symbol in slope if symbol in generic]
             if len(symbols) == 1:
                 floats[symbols[0]] -= value / slope[symbols[0]]

@@ -232,6 +232,7 @@ class Room:
         """Independent rows in an order of their own, the others by steps where that is possible."""
         standing = self.standing_of(names)
         if standing is not None and standing.dependent:
-            followed = [accounted(self.scenery, name, standing.rows, standing.point) for name in standing.dependent]
-            standing.accounted = all(followed)
+            standing.accounted = all(
+                accounted(self.scenery, name, standing.rows, standing.point) for name in standing.dependent
+            )
         return standing

@@ -129,7 +129,7 @@ class Scenery:
     def differs(self, tree: Tree, floats: Mapping[str, float]) -> bool:
         """Return whether a tree is not 0 at a point, by far."""
         try:
-            return abs(Estimates(floats, slopes=False).value(self.chosen(tree))) > FAR
+            return abs(Estimates(floats).value(self.chosen(tree))) > FAR
         except NoEstimateError:
             return False
 

@@ -2,26 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from fractions import Fraction
-from functools import partial
+from functools import partial, reduce
 from itertools import combinations
-from typing import Any
 
+from flint import fmpq, fmpq_mat
+
+from dofkit.checker.ring import Quotient
 from dofkit.checker.trees import (
+    ONE,
     ZERO,
     CheckError,
     Tree,
-    add,
     difference,
     linear_in,
     negative,
     number,
     power,
     put_in,
+    substituted,
     times,
 )
-from dofkit.methods.certificates.numerics import Estimates, NoEstimateError, echelon, solved
 from dofkit.methods.certificates.points import FoundPoint
 from dofkit.methods.certificates.scenery import Scenery, number_text, text_of
 
@@ -90,26 +92,6 @@ def _square(term: Tree) -> tuple[Fraction, Tree, int] | None:
         else:
             return None
     return None if base is None or not base.symbols else (coefficient, base, exponent)
-
-
-def without_factor(scenery: Scenery, name: str) -> str:
-    """The id of a step that drops a factor that is a positive number plus squares; the relation's own without one."""
-    step, tree = f"{scenery.label}{name} without its factor", scenery.evidence.relation(name).tree
-    if scenery.has_step(step):
-        return step
-    terms = [_operands(term, "product") for term in _operands(tree, "sum")]
-    for factor in terms[0]:
-        positive = positive_sum(factor)
-        if positive is None or not all(factor in term for term in terms):
-            continue
-        places = [term.index(factor) for term in terms]
-        quotient = add(*(times(*term[:i], *term[i + 1 :]) for term, i in zip(terms, places, strict=True)))
-        made = {"id": step, "by": "implied", "function": text_of(quotient), "c": {name: text_of(quotient)}, "power": 2}
-        sos = [[c, text_of(times(base, quotient))] for c, base in positive[1]]
-        back: dict[str, object] = {"id": f"{step}, and back", "by": "implied", "of": name, "c": {step: text_of(factor)}}
-        if _stand(scenery, {**made, "h": positive[0], "sos": sos}, back):
-            return step
-    return name
 
 
 def _operands(tree: Tree, head: str) -> list[Tree]:
@@ -224,84 +206,64 @@ def _pair_steps(scenery: Scenery, pair: tuple[str, str], point: FoundPoint) -> I
 
 # Rows that follow from others: cofactors by linear algebra over the rationals.
 
+#: The most terms of all relations that are combined, as they are written and multiplied out.
+MOST_TERMS = 4_000
+
 
 def accounted(scenery: Scenery, name: str, rows: Sequence[str], point: FoundPoint, what: str = "others") -> bool:
-    """Whether a step was found by which a relation follows from others near the point."""
+    """Whether a step was found by which a relation follows from others near the point.
+
+    The cofactors are numbers: as the relations are, or after coordinates that some of them give are put in.
+    """
     dependent = scenery.evidence.relation(name)
-    kinds = [row for row in rows if scenery.evidence.relation(row).kind == dependent.kind]
+    sources = [row for row in rows if scenery.evidence.relation(row).kind == dependent.kind]
     if dependent.kind == "velocity":
-        kinds += [rate for row in rows if row not in kinds and (rate := rate_of(scenery, row))]
+        sources += [rate for row in rows if row not in sources and (rate := rate_of(scenery, row))]
     step = f"{scenery.label}{name} from {what}"
     if scenery.has_step(step):
         return True
     try:
-        for cofactors in combined(scenery, name, kinds, point):
-            scenery.add_step({"id": step, "by": "implied", "of": name, **cofactors})
-            return True
-    except (CheckError, NoEstimateError):
+        if (factors := constant_cofactors(scenery, dependent.tree, sources)) is not None:
+            return _stand(scenery, {"id": step, "by": "implied", "of": name, "c": factors})
+        finite = [row for row in sources if scenery.evidence.relation(row).kind == "finite"]
+        order = puts(scenery, [*solved_pairs(scenery, finite, point), *finite])
+        factors = constant_cofactors(scenery, dependent.tree, sources, order) if order else None
+    except CheckError:
         return False
-    return False
-
-
-def combined(scenery: Scenery, name: str, rows: Sequence[str], point: FoundPoint) -> Iterator[dict[str, Any]]:
-    """Cofactors that are numbers, as they seem; and those after coordinates that relations give are put in."""
-    combination = _combination(scenery, name, rows, point, [])
-    if combination is not None:
-        yield combination
-    finite = [row for row in rows if scenery.evidence.relation(row).kind == "finite"]
-    order = puts(scenery, [*solved_pairs(scenery, finite, point), *finite])
-    combination = _combination(scenery, name, rows, point, order) if order else None
-    if combination is not None:
-        yield combination
-
-
-def _combination(
-    scenery: Scenery, name: str, rows: Sequence[str], point: FoundPoint, order: Order
-) -> dict[str, Any] | None:
-    """Numbers by which a relation is a sum of multiples of others, once coordinates that relations give are put in."""
-    trees = {row_name: with_puts(scenery, scenery.tree(row_name), order) for row_name in (name, *rows)}
-    put = {row for row, _ in order}
-    target = trees.pop(name)
-    factors = constant_cofactors(scenery, target, {row: tree for row, tree in trees.items() if row not in put}, point)
     if factors is None:
+        return False
+    used = [scenery.evidence.relation(row).tree for row in (name, *factors)]
+    put = needed_puts(scenery, used, order)
+    return _stand(scenery, {"id": step, "by": "implied", "of": name, "c": factors, "put": put})
+
+
+def constant_cofactors(
+    scenery: Scenery, target: Tree, names: Sequence[str], order: Order | None = None
+) -> dict[str, str] | None:
+    """Numbers c with target = sum c_i relation_i in the checker's ring, by linear algebra over Q; or None.
+
+    ``order``: coordinates that relations give are put in first; those relations are 0 then.
+    """
+    ring, put = scenery.evidence.ring, order or []
+    used = [name for name in names if all(name != row for row, _ in put)]
+    trees = [*(scenery.evidence.relation(name).tree for name in used), target]
+    if sum(tree.size for tree in trees) > MOST_TERMS:
         return None
-    combination: dict[str, Any] = {"c": {row: number_text(value) for row, value in factors.items()}}
-    used = [scenery.evidence.relation(row_name).tree for row_name in (name, *factors)]
-    return {**combination, "put": needed_puts(scenery, used, order)} if order else combination
+    quotients = [ring.read(with_puts(scenery, substituted(tree, {"tdot": ONE}), put)) for tree in trees]
+    if any(len(below) > 1 for _, below in quotients) or sum(len(above) for above, _ in quotients) > MOST_TERMS:
+        return None
+    denominator = Quotient(reduce(lambda a, b: a * b / a.gcd(b), (q.below for q in quotients), ring.unit), ring.unit)
+    columns = [ring.times(quotient, denominator).above.to_dict() for quotient in quotients]
+    monomials = sorted({key for column in columns for key in column})
+    entries = [column.get(key, fmpq(0)) for key in monomials for column in columns]
+    matrix, rank = fmpq_mat(len(monomials), len(columns), entries).rref()
+    leads = [next(j for j in range(len(columns)) if matrix[i, j] != 0) for i in range(rank)]
+    if len(used) in leads:
+        return None
+    return {used[lead]: str(matrix[i, len(used)]) for i, lead in enumerate(leads) if matrix[i, len(used)] != 0}
 
 
 def rate_of(scenery: Scenery, name: str) -> str:
     """Return the id of a step for the rate of a configuration-level equation; "" where it does not stand up."""
     step = f"{scenery.label}rate of {name}"
     return step if _stand(scenery, {"id": step, "by": "rate", "of": name}) else ""
-
-
-def constant_cofactors(
-    scenery: Scenery, goal: Tree, trees: Mapping[str, Tree], point: FoundPoint
-) -> dict[str, Fraction] | None:
-    """Numbers c with left = sum c_i tree_i, as they seem from the point and one other; None where there are none."""
-    rows = list(trees)
-    coordinates = [s for q in scenery.problem.coordinates for s in (q, f"{q}dot")]
-    rates = {f"{q}dot": 0.0 for q in (*scenery.problem.coordinates, "t")} | {"tdot": 1.0}
-    estimates = Estimates({**rates, **point.floats})
-    wanted = set(coordinates)
-    entries = [{s: v for s, v in estimates.gradient(tree).items() if s in wanted} for tree in trees.values()]
-    target = {s: v for s, v in estimates.gradient(goal).items() if s in wanted}
-    pivots = echelon(entries).pivots
-    chosen = [rows[p.row] for p in pivots]
-    transposed = [
-        {chosen_row: entries[p.row].get(q.column, 0.0) for chosen_row, p in zip(chosen, pivots, strict=True)}
-        for q in pivots
-    ]
-    solution = solved(transposed, [target.get(q.column, 0.0) for q in pivots], chosen)
-    if solution is None:
-        return None
-    short = {chosen_row: Fraction(value).limit_denominator(1000) for chosen_row, value in solution.items()}
-    if any(abs(float(short[chosen_row]) - value) > 1e-7 for chosen_row, value in solution.items()):
-        return None
-    shifted = {s: value + 0.137 * (1 + i % 7) for i, (s, value) in enumerate({**rates, **point.floats}.items())}
-    other = Estimates(shifted)
-    total = sum(float(value) * other.value(trees[chosen_row]) for chosen_row, value in short.items() if value)
-    if abs(other.value(goal) - total) > 1e-6 * (1 + abs(total)):
-        return None
-    return {chosen_row: value for chosen_row, value in short.items() if value}

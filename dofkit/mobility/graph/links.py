@@ -7,7 +7,7 @@ from itertools import chain
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from dofkit.base.errors import DofkitError
-from dofkit.base.libraries import np, nx
+from dofkit.base.libraries import nx
 
 if TYPE_CHECKING:
     from dofkit.base.verdicts import Verdict
@@ -32,28 +32,25 @@ class Proof(NamedTuple):
 
 
 class Graph(NamedTuple):
-    """The joints in the order in which they first occur, the links as given, and the joints' numbers of each in turn.
-
-    Link i lies between joints ``ends[2 i]`` and ``ends[2 i + 1]`` of an array.
-    """
+    """The joints in the order in which they first occur, the links as given, and the numbers of each one's joints."""
 
     joints: tuple[Joint, ...]
     links: Sequence[Link]
-    ends: Any
+    ends: list[Ends]
 
 
 def read(links: Iterable[Link] | Any, joints: Iterable[Joint] = ()) -> Graph:
     """Return the graph with its joints numbered. Raises LinkageError that names the first link that is not one."""
     pairs = _pairs(links)
-    names = list(chain.from_iterable(pairs))
+    names = chain(getattr(links, "nodes", ()), joints, chain.from_iterable(pairs))
     try:
-        number = {v: i for i, v in enumerate(dict.fromkeys(chain(getattr(links, "nodes", ()), joints, names)))}
+        number = {v: i for i, v in enumerate(dict.fromkeys(names))}
     except TypeError as error:
         raise LinkageError(f"joints need distinct names: {error}") from error
-    ends = np.fromiter(map(number.__getitem__, names), np.int32, len(names))
-    loops = np.flatnonzero(ends[::2] == ends[1::2])
-    if len(loops):
-        raise LinkageError(f"link number {loops[0] + 1} joins {names[2 * loops[0]]!r} to itself")
+    ends = [(number[a], number[b]) for a, b in pairs]
+    for i, (a, b) in enumerate(ends):
+        if a == b:
+            raise LinkageError(f"link number {i + 1} joins {pairs[i][0]!r} to itself")
     return Graph(tuple(number), pairs, ends)
 
 
@@ -62,7 +59,7 @@ def _pairs(links: Iterable[Link] | Any) -> Sequence[Link]:
     if hasattr(links, "nodes") and hasattr(links, "edges"):
         return [(a, b) for a, b, *_ in links.edges()]
     try:
-        pairs = links.tolist() if isinstance(links, np.ndarray) else list(links)
+        pairs = links.tolist() if hasattr(links, "tolist") else list(links)
     except TypeError as error:
         raise LinkageError(f"links are a list of pairs or a graph, not {links!r}") from error
     kinds = set(map(type, pairs))
@@ -81,12 +78,12 @@ _PROOF = Proof("proved", "spanning forest: in one dimension a link is redundant 
 class LineGraph:
     """Links along a line: one is redundant if and only if it closes a cycle [Kirchhoff1847].
 
-    Joints and links are numbers from 0; ``ends`` are the joints of all links in turn. ``redundant``: the links that are
+    Joints and links are numbers from 0; ``ends`` are the joints of each link. ``redundant``: the links that are
     implied by those before them, ascending.
     """
 
-    def __init__(self, joints: int, ends: Any) -> None:
-        self._ends = list(zip(ends[::2].tolist(), ends[1::2].tolist(), strict=True))
+    def __init__(self, joints: int, ends: Sequence[Ends]) -> None:
+        self._ends = ends
         self.redundant: list[int] = []
         self._forest: nx.Graph[int] = nx.Graph()
         self._forest.add_nodes_from(range(joints))

@@ -20,8 +20,7 @@ from functools import cached_property
 from typing import Any, NamedTuple
 
 from dofkit.base.deadline import check
-from dofkit.base.libraries import np
-from dofkit.mobility.graph.links import Proof, Question
+from dofkit.mobility.graph.links import Ends, Proof, Question
 from dofkit.mobility.graph.rigid_blocks import NONE, RigidBlocks
 
 # [JacobsHendrickson1997] [PollaczekGeiringer1927] [Laman1970]
@@ -35,38 +34,24 @@ FREE = -1
 
 
 class Neighbours(NamedTuple):
-    """The joints ``across[start[v]]``, ``across[start[v] + 1]``, ... to which links of joint v lead.
+    """The joints ``across[v]`` to which links of joint v lead, in the order of the links.
 
     Link i lies between ``tail[i]`` and ``head[i]``; ``degree`` counts the links of a joint that are not taken off.
     """
 
     tail: list[int]
     head: list[int]
-    across: list[int]
-    start: list[int]
+    across: list[list[int]]
     degree: list[int]
 
-    def of(self, v: int) -> list[int]:
-        """Return the joints that links lead to from joint v, in the order of the links."""
-        return self.across[self.start[v] : self.start[v + 1]]
 
-
-def neighbours_of(flat: Any, joints: int) -> Neighbours:
-    """Return the links by joints, from the joints of all links in turn, an array.
-
-    A joint's number is one object in all lists, which are then fast to read.
-    """
-    names = np.arange(joints).astype(object)
-    bits = len(flat).bit_length()
-    places = np.arange(len(flat), dtype=np.int64)
-    places |= flat.astype(np.int64) << bits
-    places.sort()
-    places &= (1 << bits) - 1
-    places ^= 1
-    degree = np.bincount(flat, minlength=joints)
-    start = np.concatenate([[0], np.cumsum(degree)])
-    tail, head, across = (names[part].tolist() for part in (flat[::2], flat[1::2], flat[places]))
-    return Neighbours(tail, head, across, start.tolist(), degree.tolist())
+def neighbours_of(ends: Sequence[Ends], joints: int) -> Neighbours:
+    """Return the links by joints."""
+    across: list[list[int]] = [[] for _ in range(joints)]
+    for a, b in ends:
+        across[a].append(b)
+        across[b].append(a)
+    return Neighbours([a for a, _ in ends], [b for _, b in ends], across, list(map(len, across)))
 
 
 class PebbleGame:
@@ -77,7 +62,7 @@ class PebbleGame:
     neighbours are played.
     """
 
-    def __init__(self, joints: int, ends: Any) -> None:
+    def __init__(self, joints: int, ends: Sequence[Ends]) -> None:
         self.net = neighbours_of(ends, joints)
         self.first, self.second = [FREE] * joints, [FREE] * joints
         self.blocks = RigidBlocks(joints)
@@ -97,7 +82,7 @@ class PebbleGame:
 
     def _played_for(self) -> list[int]:
         """Return the links that go with no joint, last to first; all others are paid for."""
-        tail, head, _, _, degree = self.net
+        tail, head, _, degree = self.net
         self._take_off([v for v, number in enumerate(degree) if number <= 2])
         played, queue = [], list[int]()
         for i, a, b in zip(range(len(tail) - 1, -1, -1), reversed(tail), reversed(head), strict=True):
@@ -119,18 +104,17 @@ class PebbleGame:
 
         A joint that is off has no links left, and a link that is gone by itself comes after all that are left.
         """
-        first, second, (_, _, across, start, degree) = self.first, self.second, self.net
+        first, second, (_, _, across, degree) = self.first, self.second, self.net
         for v in queue:
             number = degree[v]
             if not number:
                 continue
-            k = start[v]
-            while not degree[w := across[k]]:
-                k += 1
+            joined = iter(across[v])
+            while not degree[w := next(joined)]:
+                pass
             if number == 2:
-                k += 1
-                while not degree[x := across[k]]:
-                    k += 1
+                while not degree[x := next(joined)]:
+                    pass
                 if x == w:
                     continue
                 second[v] = x
@@ -249,7 +233,7 @@ class PebbleGame:
         for x in range(len(self.first)):
             check()
             apart: list[int] = []
-            for z in self.net.of(x):
+            for z in self.net.across[x]:
                 if not any(y == z or self._turn_together(x, y, z) for y in apart):
                     apart.append(z)
 
@@ -274,14 +258,9 @@ class PebbleGame:
 class PlaneGraph:
     """A graph of links in two dimensions; see `dofkit.mobility.graph.links.LineGraph`."""
 
-    def __init__(self, joints: int, ends: Any) -> None:
-        self._joints = joints
+    def __init__(self, joints: int, ends: Sequence[Ends]) -> None:
+        self._joints, self._ends = joints, ends
         self._game = PebbleGame(joints, ends)
-
-    @cached_property
-    def _ends(self) -> list[tuple[int, int]]:
-        """The joints of each link."""
-        return list(zip(self._game.net.tail, self._game.net.head, strict=True))
 
     @property
     def redundant(self) -> list[int]:
@@ -291,7 +270,7 @@ class PlaneGraph:
         """With three pebbles at its ends, what they reach is tight, and lies in every tight set that holds both."""
         redundant = set(self.redundant)
         link = {frozenset(pair): i for i, pair in enumerate(self._ends) if i not in redundant}
-        basis = PebbleGame(self._joints, np.array([v for i in link.values() for v in self._ends[i]], dtype=np.int32))
+        basis = PebbleGame(self._joints, [self._ends[i] for i in link.values()])
         for i in links:
             check()
             reached = basis.gather(*self._ends[i]) or ()

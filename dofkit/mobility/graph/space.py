@@ -15,9 +15,9 @@ import random
 from collections.abc import Iterable, Iterator, Sequence
 from functools import cached_property
 from itertools import combinations
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-from dofkit.base.libraries import np, nx
+from dofkit.base.libraries import nx
 from dofkit.exact.matrices.sparse import SparseRow, components, echelon, rank_of_rows, vector_in_kernel
 from dofkit.exact.points.field import prime_for
 from dofkit.mobility.graph.links import Ends, LinkageError, Proof, Question
@@ -30,8 +30,8 @@ _INDEPENDENT = "links are independent in general position where they are at one 
 class SpaceGraph:
     """A graph of links in three dimensions; see `dofkit.mobility.graph.links.LineGraph`."""
 
-    def __init__(self, joints: int, ends: Any) -> None:
-        self._joints, self._ends = joints, list(zip(ends[::2].tolist(), ends[1::2].tolist(), strict=True))
+    def __init__(self, joints: int, ends: Sequence[Ends]) -> None:
+        self._joints, self._ends = joints, ends
         first: dict[frozenset[int], int] = {}
         self._original: dict[int, int] = {}
         for i, pair in enumerate(self._ends):
@@ -147,11 +147,11 @@ def _fixed_pairs(pairs: Sequence[Ends], joints: Sequence[int]) -> list[Ends]:
     """Return the pairs of joints whose distance stays the same in a random motion: (p_i - p_j) . (v_i - v_j) = 0."""
     rows, p, at = _matrix(pairs)
     motion = vector_in_kernel(rows, p, random.Random("dofkit motion in space"))
-    x = np.array([at[v] for v in joints], dtype=object)
-    v = np.array([[motion[3 * v + k] for k in range(3)] for v in joints], dtype=object)
-    diagonal, cross = (x * v).sum(axis=1), x @ v.T
-    fixed = (diagonal[:, None] + diagonal[None, :] - cross - cross.T) % p == 0
-    return [(joints[a], joints[b]) for a, b in np.argwhere(np.triu(fixed, 1)).tolist()]
+
+    def is_fixed(a: int, b: int) -> bool:
+        return sum((at[a][k] - at[b][k]) * (motion[3 * a + k] - motion[3 * b + k]) for k in range(3)) % p == 0
+
+    return [(a, b) for a, b in combinations(joints, 2) if is_fixed(a, b)]
 
 
 def _is_counted(circuit: Sequence[Ends]) -> bool:

@@ -31,7 +31,7 @@ from dofkit.motion.lagrange.elimination import (
     without_roots,
 )
 from dofkit.motion.lagrange.energies import Energy
-from dofkit.relations.blocks import Row, coordinates_of, split
+from dofkit.relations.blocks import Row, split
 from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian
 from dofkit.relations.setting import Setting
 from dofkit.report import BRANCH_WARNING
@@ -121,11 +121,6 @@ def _agreeing(
 
 def _possible(study: Examined) -> None:
     report = study.report
-    coordinate_names = {c.name for c in study.system.coordinates}
-    if any(coordinates_of(r.piece) - coordinate_names for r in study.outcome.rows):
-        raise NoEquationsError(
-            "a constraint on accelerations brings constants of integration: write its integral instead"
-        )
     if report.consistent is False:
         names = ", ".join(report.conflicting) or "its constraints"
         raise SceneError((Fault(f"the scene is inconsistent: no motion satisfies all of {names}", ("constraints",)),))

@@ -16,12 +16,12 @@ from typing import Any, NamedTuple
 
 from flint import fmpq
 
-from dofkit.base.errors import NoValueError, TextError
+from dofkit.base.errors import NoValueError
 from dofkit.exact.ring.canonical import Canon, divided, lowest_terms
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero import is_proved_zero
 from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import SOLVE_FOR_IT, accelerations_of, cleared, diff, in_velocities, substitute
+from dofkit.expressions.calculus import cleared, diff, in_velocities, refuse_accelerations, substitute
 from dofkit.expressions.terms import Combined, combined, without_cancelled
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.domain import (
@@ -45,7 +45,7 @@ from dofkit.relations.normal.pieces import (
     Normal,
     Pfaffian,
     Piece,
-    with_constants,
+    with_values,
 )
 from dofkit.relations.normal.polynomial_zeros import Conjunction
 from dofkit.relations.normal.semidefinite import Signs, weak_sign
@@ -181,17 +181,14 @@ def linear_form(e: Expr) -> Pfaffian | None:
 def normalise(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
     """What ``e = 0`` says; ``written`` equations are reduced over the reals, those of joints are regular as they are.
 
-    Raises TextError for accelerations (they are integrated before) and for sums of differentials with finite terms.
+    Raises TextError for second derivatives and for sums of differentials with finite terms.
     """
-    if accelerations_of(e):
-        raise TextError(
-            "an equation with a second derivative is not a constraint on positions or velocities", hint=SOLVE_FOR_IT
-        )
+    refuse_accelerations(e)
     fewer = combined(e) if written else Combined(e, {})
     result = _normalised(fewer.expr, positive, written)
     if not fewer.sums:
         return result
-    return result._replace(branches=tuple(tuple(with_constants(p, fewer.sums) for p in b) for b in result.branches))
+    return result._replace(branches=tuple(tuple(with_values(p, fewer.sums) for p in b) for b in result.branches))
 
 
 def _normalised(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:

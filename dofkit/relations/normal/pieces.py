@@ -46,13 +46,6 @@ class Pfaffian:
             yield ex.TIME, self.dt
 
 
-class Still(Pfaffian):
-    """dC = 0 for a constant of integration C."""
-
-    def __init__(self, constant: str) -> None:
-        super().__init__({constant: ex.ONE}, ex.ZERO)
-
-
 @dataclass(frozen=True)
 class Nonlinear:
     """f(q, qdot, t) = 0, not linear in the velocities over the reals."""
@@ -76,15 +69,10 @@ Branches = tuple[tuple[Piece, ...], ...]
 
 
 class Normal(NamedTuple):
-    """What a relation says, and what was done to see it.
-
-    ``constants``: coordinates that stand for constants of an integration by time, which ``once`` tells.
-    """
+    """What a relation says, and what was done to see it."""
 
     branches: Branches
     notes: tuple[str, ...] = ()
-    constants: tuple[str, ...] = ()
-    once: str = ""
 
     @property
     def pieces(self) -> tuple[Piece, ...]:
@@ -94,10 +82,8 @@ class Normal(NamedTuple):
         return tuple(piece for branch in self.branches for piece in branch if not isinstance(piece, DomainCondition))
 
 
-def with_constants(piece: Piece, values: Mapping[str, Expr]) -> Piece:
-    """``piece`` with constants of integration replaced by parameters or values: what it says for one initial state."""
-    if not values:
-        return piece
+def with_values(piece: Piece, values: Mapping[str, Expr]) -> Piece:
+    """Return a piece with some coordinates replaced by expressions."""
     mapping = {ex.coordinate(c): value for c, value in values.items()}
     if isinstance(piece, Pfaffian):
         named = {name: substitute(e, mapping) for name, e in piece.coefficients.items()}
@@ -143,11 +129,6 @@ class Reduced(NamedTuple):
     @property
     def equations(self) -> int:
         return len(self.normals)
-
-    @property
-    def constants(self) -> tuple[str, ...]:
-        """What stands for constants of an integration by time."""
-        return tuple([c for normal in self.normals for c in normal.constants])
 
     @property
     def domain(self) -> tuple[DomainCondition, ...]:

@@ -54,8 +54,7 @@ class Cam(ConstraintBase):
     def relations(self, world: World) -> Iterator[Relation]:
         point = world.point(self.point, "point")
         frame = world.frame(self.body, "body")
-        if point.frame == frame.name:
-            world.fault(f"the point is a point of {frame.name} itself", "point", hint="name a point of something else")
+        if not world.is_apart(point, frame, "point"):
             return
         profile = self._profile(world)
         if profile is None:

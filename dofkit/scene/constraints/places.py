@@ -139,8 +139,7 @@ class Slot(ConstraintBase):
     def relations(self, world: World) -> Iterator[Relation]:
         point = world.point(self.point, "point")
         frame = world.frame(self.body, "body")
-        if point.frame == frame.name:
-            world.fault(f"the point is a point of {frame.name} itself", "point", hint="name a point of something else")
+        if not world.is_apart(point, frame, "point"):
             return
         axis = world.direction(self.axis, "axis")
         through_point = self.at is None and point.reference is not None

@@ -20,14 +20,14 @@ def json_of_sheet(sheet: Sheet) -> dict[str, Any]:
 
 
 def _section(section: SheetSection) -> dict[str, Any]:
-    parts: list[dict[str, Any]] = []
+    lines: list[dict[str, Any]] = []
     for part in section.content:
         if isinstance(part, Grid):
             heads = [[column.head, column.numbers] for column in part.columns]
-            parts.append({"heads": heads, "rows": [[json_of_content(cell) for cell in row] for row in part.rows]})
+            lines.append({"heads": heads, "rows": [[json_of_content(cell) for cell in row] for row in part.rows]})
         else:
-            parts.append({"label": json_of_content(part.label), "text": json_of_content(part.text), "note": part.note})
-    return {"heading": section.heading, "parts": parts, "more": section.more}
+            lines.append({"label": json_of_content(part.label), "text": json_of_content(part.text), "note": part.note})
+    return {"heading": section.heading, "parts": lines, "more": section.more}
 
 
 def json_of_content(content: Content) -> str | dict[str, str]:

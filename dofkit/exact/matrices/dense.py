@@ -1,0 +1,185 @@
+"""Small dense matrices of floats, as lists: steps, pivots and singular values, by FLINT's numbers of `BITS` bits.
+
+They say where a search goes and what to prove; nothing else rests on them. A matrix of more than `SMALL` entries is
+numpy's, which is imported then.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from operator import mul
+from typing import NamedTuple
+
+from flint import acb_mat, arb_mat, ctx
+
+from dofkit.base.errors import NoValueError
+from dofkit.base.libraries import np
+
+Vector = Sequence[float]
+Matrix = Sequence[Vector]
+
+#: Bits of the numbers in which small matrices are multiplied and solved, and entries of what is small.
+BITS, SMALL = 256, 400
+#: A singular value that counts as 0 in a step, and what is always added to squares.
+FLAT, LEAST = 1e-10, 1e-60
+
+
+def dot(a: Vector, b: Vector) -> float:
+    """Return the scalar product."""
+    product: float = sum(map(mul, a, b))
+    return product
+
+
+def cross(a: Vector, b: Vector) -> list[float]:
+    """Return the vector product in space."""
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+
+def length(v: Vector) -> float:
+    """Return the Euclidean length."""
+    return math.hypot(*v)
+
+
+def largest(v: Vector) -> float:
+    """Return the largest absolute value; 0 of none, and no number where an entry is not finite."""
+    return max(map(abs, v), default=0.0) + 0.0 * sum(v)
+
+
+def times(matrix: Matrix, v: Vector) -> list[float]:
+    """Return the product of a matrix and a vector."""
+    return [dot(row, v) for row in matrix]
+
+
+def plus(a: Vector, factor: float, b: Vector) -> list[float]:
+    """Return a + factor b."""
+    return [x + factor * y for x, y in zip(a, b, strict=True)]
+
+
+def unit_rows(matrix: Matrix, least: float = 0.0) -> list[list[float]]:
+    """Return the rows scaled to length 1, those no longer than ``least`` as they are. Raises NoValueError at a pole."""
+    lengths = [length(row) for row in matrix]
+    if not all(map(math.isfinite, lengths)):
+        raise NoValueError("an entry of the matrix is not finite")
+    return [[v / size for v in row] if size > least else list(row) for row, size in zip(matrix, lengths, strict=True)]
+
+
+def step(j: Matrix, f: Vector) -> list[float]:
+    """Return the least step u for which J u + f is least; singular values below `FLAT` count as 0.
+
+    >>> step([[1.0, 1.0], [1.0, 1.0]], [2.0, 2.0])
+    [-1.0, -1.0]
+    """
+    return _step(j, f, 2, FLAT**4)
+
+
+def damped(j: Matrix, f: Vector, power: int = 1) -> list[float]:
+    """The step -J^T (J J^T + |f|^power I)^-1 f: it leaves the directions alone in which J is smaller than the error."""
+    return _step(j, f, 1, length(f) ** power)
+
+
+def _step(j: Matrix, f: Vector, order: int, shift: float) -> list[float]:
+    """Return the f whose part in the direction of a singular value s is divided by -(s + shift / s^(2 order - 1))."""
+    if not j or not j[0]:
+        return [0.0] * len(j[0] if j else ())
+    if len(j) * len(j[0]) > SMALL:
+        return [float(v) for v in array_step(np.array(j), np.array(f), order, shift)]
+    with ctx.workprec(BITS):
+        matrix, right = arb_mat([list(map(float, row)) for row in j]), arb_mat([[float(v)] for v in f])
+        transposed = matrix.transpose()
+        gram = matrix * transposed
+        square, right = (gram * gram, gram * right) if order == 2 else (gram, right)
+        for i in range(len(j)):
+            square[i, i] = square[i, i] + max(shift, LEAST)
+        change = transposed * square.solve(right, algorithm="approx")
+        return [-float(change[i, 0].mid()) for i in range(len(j[0]))]
+
+
+def array_step(j: np.ndarray, f: np.ndarray, order: int, shift: float) -> np.ndarray:
+    """Return the same for arrays of numpy."""
+    left, singular, right = np.linalg.svd(j, full_matrices=False)
+    factors = singular ** (2 * order - 1) / (singular ** (2 * order) + shift + 1e-300)
+    return np.asarray(-(right.T @ (factors * (left.T @ f))))
+
+
+class Pivoting(NamedTuple):
+    """Rows in the ``order`` of their remainders, the largest first, their ``sizes``, an orthonormal ``basis``."""
+
+    order: list[int]
+    sizes: list[float]
+    basis: list[list[float]]
+
+
+def pivoted(matrix: Matrix, least: float = 0.0, most: int | None = None) -> Pivoting:
+    """Return at ``most`` so many rows, each with the largest remainder beyond those before it, if above ``least``.
+
+    >>> pivoted([[0.0, 1.0], [3.0, 0.0], [6.0, 0.0]], 1e-9)
+    Pivoting(order=[2, 0], sizes=[6.0, 1.0], basis=[[1.0, 0.0], [0.0, 1.0]])
+    """
+    residual, chosen = list(map(list, matrix)), Pivoting([], [], [])
+    rank = min(len(residual), len(residual[0])) if residual else 0
+    for _ in range(rank if most is None else min(rank, most)):
+        sizes = [length(row) for row in residual]
+        best = max(range(len(sizes)), key=sizes.__getitem__)
+        if not sizes[best] > least:
+            break
+        direction = residual[best]
+        for _ in range(2):  # rounding leaves something of the others
+            for other in chosen.basis:
+                direction = plus(direction, -dot(direction, other), other)
+            size = length(direction)
+            if not size:
+                return chosen
+            direction = [v / size for v in direction]
+        chosen.order.append(best)
+        chosen.sizes.append(sizes[best])
+        chosen.basis.append(direction)
+        residual = [plus(row, -dot(row, direction), direction) for row in residual]
+        residual[best] = [0.0] * len(direction)
+    return chosen
+
+
+def rank(matrix: Matrix, least: float) -> int:
+    """Return how many remainders of rows are above ``least``."""
+    return len(pivoted(matrix, least).order)
+
+
+def complement(basis: Matrix, n: int) -> list[list[float]]:
+    """Return an orthonormal basis of what is orthogonal to an orthonormal one in n dimensions."""
+    rows = []
+    for i in range(n):
+        row = [float(i == c) for c in range(n)]
+        for direction in basis:
+            row = plus(row, -direction[i], direction)
+        rows.append(row)
+    return pivoted(rows, most=n - len(basis)).basis
+
+
+def singular_values(matrix: Matrix) -> list[float]:
+    """Return the singular values, from the largest.
+
+    >>> singular_values([[3.0, 0.0], [0.0, -4.0]])
+    [4.0, 3.0]
+    """
+    if not matrix or not matrix[0]:
+        return []
+    if len(matrix) * len(matrix[0]) > SMALL:
+        return [float(v) for v in np.linalg.svd(np.array(matrix), compute_uv=False)]
+    with ctx.workprec(BITS):
+        rows = arb_mat([list(map(float, row)) for row in matrix])
+        gram = rows * rows.transpose() if len(matrix) <= len(matrix[0]) else rows.transpose() * rows
+        squares = acb_mat(gram).eig(algorithm="approx")
+        return sorted((math.sqrt(max(0.0, float(v.real.mid()))) for v in squares), reverse=True)
+
+
+def least_eigenvector(form: Matrix) -> tuple[float, list[float]]:
+    """Return the least eigenvalue of a symmetric matrix, and a unit vector that belongs to it."""
+    if len(form) ** 2 > SMALL:
+        eigenvalues, vectors = np.linalg.eigh(np.array(form))
+        return float(eigenvalues[0]), [float(v) for v in vectors[:, 0]]
+    with ctx.workprec(BITS):
+        squares, columns = acb_mat(arb_mat([list(map(float, row)) for row in form])).eig(right=True, algorithm="approx")
+        place = min(range(len(form)), key=lambda i: float(squares[i].real.mid()))
+        vector = [float(columns[i, place].real.mid()) for i in range(len(form))]
+    size = length(vector)
+    return float(squares[place].real.mid()), [v / size for v in vector]

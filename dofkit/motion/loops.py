@@ -1,0 +1,150 @@
+"""Closed loops of the free coordinates: whether the others return too, and what the bracket predicts.
+
+The admissible directions are spanned by fields X_k, each of which moves one of the chosen columns at unit speed and no
+other chosen one. Around a small loop of area A of the columns i and j, counterclockwise, the others are displaced by
+A [X_i, X_j], here at the centre of the loop, and terms of third order. Forms that integrate have no displacement: their
+integral keeps its value.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from itertools import combinations
+
+import numpy as np
+
+from dofkit.base.deadline import DEFAULT_SECONDS, OutOfTimeError, limited
+from dofkit.exact.points.balls import precise_for
+from dofkit.motion.configurations import MotionSampler, NoMotionError
+from dofkit.motion.poses import FAULTS, Array, Pose
+from dofkit.system import System
+
+#: Corners of a loop, the loops that are followed at most, and the steps of differences.
+CORNERS, MOST_LOOPS, OUTER, INNER = 72, 3, 1e-3, 1e-4
+#: The least part of the largest column that makes a column one of those that are moved.
+LEAST = 0.2
+ONE_FIELD = "a loop needs two free velocities: with one, every motion runs back along itself"
+
+
+@dataclass(frozen=True)
+class Loop:
+    """A loop of two ``coordinates`` of a radius ``size``, and what it does to the others.
+
+    ``configurations`` along it; ``displacement`` of the others at its end, and the ``prediction`` of the bracket.
+    Lengths are in the scene's units; a body in space is displaced by a rotation vector, whose components are named
+    ``BODY about x`` and so on.
+    """
+
+    coordinates: tuple[str, str]
+    size: float
+    configurations: tuple[dict[str, float], ...]
+    displacement: Mapping[str, float]
+    prediction: Mapping[str, float]
+
+
+class LoopSampler:
+    """The loops of a system about its first configuration. Raises NoMotionError if it has none."""
+
+    def __init__(self, system: System, numbers: Mapping[str, float]) -> None:
+        with limited(DEFAULT_SECONDS), precise_for(system.longest):
+            self.sampler = MotionSampler(system, numbers, None)
+        self.relations, self.follower, self.start = self.sampler.relations, self.sampler.follower, self.sampler.start
+        if self.relations.timed:
+            raise NoMotionError("a loop needs constraints without time")
+        basis = self.follower.null_space(self.start)
+        if len(basis) != self.follower.freedom:
+            raise NoMotionError("a loop needs a regular configuration")
+        self.chosen = _independent_columns(basis, len(self.relations.plain))
+        pairs = combinations([c for c in self.chosen if c < len(self.relations.plain)], 2)
+        size = {pair: float(np.linalg.norm(self.bracket(pair, self.start))) for pair in pairs}
+        self.pairs = sorted(size, key=lambda pair: -round(size[pair], 6))[:MOST_LOOPS]
+        if not self.pairs:
+            raise NoMotionError(ONE_FIELD)
+        bodies = [f"{r.body} about {letter}" for r in self.relations.rotations for letter in "xyz"]
+        self.columns = [*self.relations.names, *bodies]
+
+    def fields(self, pose: Pose) -> Array:
+        """Return the fields X_k at a pose, as rows."""
+        basis = self.follower.null_space(pose)[: len(self.chosen)]
+        return np.asarray(np.linalg.solve(basis[:, self.chosen].T, np.eye(len(self.chosen))).T @ basis)
+
+    def loops(self, size: float) -> list[Loop]:
+        """Return a loop for each pair of chosen coordinates, as far as they can be followed, largest bracket first."""
+        try:
+            with limited(DEFAULT_SECONDS), precise_for(self.sampler.system.longest):
+                loops = [self._loop(pair, size) for pair in self.pairs]
+        except OutOfTimeError:
+            return []
+        return [loop for loop in loops if loop is not None]
+
+    def _loop(self, pair: tuple[int, int], size: float) -> Loop | None:
+        angles = 2 * np.pi * np.arange(CORNERS + 1) / CORNERS
+        poses = self._along(pair, size * np.column_stack([np.sin(angles), 1 - np.cos(angles)]))
+        centre = self._along(pair, size * np.column_stack([np.zeros(CORNERS), np.linspace(0, 1, CORNERS)]))
+        if len(poses) <= CORNERS or len(centre) < CORNERS:
+            return None
+        area = CORNERS / 2 * np.sin(2 * np.pi / CORNERS) * size**2
+        configurations = [self.sampler.values(poses[0], {})]
+        for pose in poses[1:]:
+            configurations.append(self.sampler.values(pose, configurations[-1]))
+        names = (self.columns[pair[0]], self.columns[pair[1]])
+        displacement = self._named(self.relations.between(self.start, poses[-1]))
+        return Loop(
+            names, size, tuple(configurations), displacement, self._named(area * self.bracket(pair, centre[-1]))
+        )
+
+    def _along(self, pair: tuple[int, int], corners: Array) -> list[Pose]:
+        """Return the poses along a polygon of two coordinates, as far as it can be followed."""
+        along = np.eye(self.relations.columns)[self.chosen]
+        first, second = (self.chosen.index(column) for column in pair)
+        poses = [self.start]
+        for step in np.diff(corners, axis=0):
+            rates = np.zeros(len(self.chosen))
+            rates[first], rates[second] = step
+            try:
+                pose = self.follower.stepped(poses[-1], rates @ self.fields(poses[-1]), along)
+            except FAULTS:
+                break
+            if pose is None:
+                break
+            poses.append(pose)
+        return poses
+
+    def _named(self, step: Array) -> dict[str, float]:
+        """Return a step by the names of all columns but the chosen coordinates, in the scene's units."""
+        plain = len(self.relations.plain)
+        units = np.concatenate([self.relations.scales, np.ones(self.relations.columns - plain)])
+        others = [c for c in range(len(units)) if c >= plain or c not in self.chosen]
+        return {self.columns[c]: float(units[c] * step[c]) for c in others}
+
+    def bracket(self, pair: tuple[int, int], pose: Pose) -> Array:
+        """Return [X, Y] = DY X - DX Y of the fields of two columns at a pose, by differences."""
+
+        def field(number: int, at: Array) -> Array:
+            """Return a field in the chart of steps from the pose."""
+            moved = self.relations.moved(pose, at)
+            vector = INNER * self.fields(moved)[number]
+            ends = (self.relations.between(pose, self.relations.moved(moved, s * vector)) for s in (1, -1))
+            return np.asarray(np.subtract(*ends) / (2 * INNER))
+
+        def along(number: int, way: Array) -> Array:
+            return (field(number, OUTER * way) - field(number, -OUTER * way)) / (2 * OUTER)
+
+        first, second = (self.chosen.index(column) for column in pair)
+        x, y = self.fields(pose)[[first, second]]
+        return along(second, x) - along(first, y)
+
+
+def _independent_columns(basis: Array, plain: int) -> list[int]:
+    """Return as many independent columns as there are rows: of the first ``plain`` ones where that is possible."""
+    remainder, columns = basis.copy(), []
+    for _ in range(len(basis)):
+        sizes = np.linalg.norm(remainder, axis=0)
+        column = int(np.argmax(sizes[:plain])) if plain else 0
+        if not plain or sizes[column] < LEAST * np.max(sizes):
+            column = int(np.argmax(sizes))
+        direction = remainder[:, column] / sizes[column]
+        remainder = remainder - np.outer(direction, direction @ remainder)
+        columns.append(column)
+    return sorted(columns)

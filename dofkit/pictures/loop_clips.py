@@ -1,0 +1,76 @@
+"""Loops as motions: some coordinates go round and return, and it is seen whether the others do."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import pairwise
+
+import numpy as np
+
+from dofkit.base.wording import many, series, verb
+from dofkit.motion.configurations import NoMotionError
+from dofkit.motion.loops import Loop, LoopSampler
+from dofkit.pictures.shapes import Clip, Shape, Sketch, fixed
+from dofkit.pictures.stage import StagedScene
+from dofkit.pictures.words import sure
+from dofkit.report import Report
+
+#: Radii of loops, in radians or parts of the scene's size; each such frame is kept; a smaller displacement is rounding.
+SIZES, EVERY, CLOSED = (0.25, 0.5, 0.8), 2, 1e-9
+
+
+def loop_clips(stage: StagedScene) -> list[Clip]:
+    """Return the loops of each pair of free coordinates, in several sizes. Raises NoMotionError if there are none."""
+    sampler = LoopSampler(stage.system, stage.arrangement.first_values)
+    clips = [_clip(stage, loop) for size in SIZES for loop in sampler.loops(size)]
+    if not clips:
+        raise NoMotionError("no loop could be followed from this configuration")
+    names = list(dict.fromkeys(clip.name for clip in clips))
+    return sorted(clips, key=lambda clip: names.index(clip.name))
+
+
+def _clip(stage: StagedScene, loop: Loop) -> Clip:
+    frames = tuple(stage.arrangement.frames(loop.configurations[::EVERY]))
+    return Clip(f"loop of {' and '.join(loop.coordinates)}", frames, size=loop.size, text=_words(loop), loop=True)
+
+
+def _words(loop: Loop) -> str:
+    """Return which coordinates return, and how far the others are displaced beside the prediction of the bracket."""
+    round_again = f"{' and '.join(loop.coordinates)} return"
+    moved = {n: v for n, v in loop.displacement.items() if abs(v) > CLOSED}
+    if not moved:
+        return f"{round_again}, and so does everything else: the loop closes."
+    least = 1e-3 * max(map(abs, moved.values()))
+    predicted = {n: v if abs(v) > CLOSED else 0.0 for n, v in loop.prediction.items()}
+    listed = [f"{n} by {v:.3g} (bracket: {predicted[n]:.3g})" for n, v in moved.items() if abs(v) > least]
+    return f"{round_again}; displaced are {series(listed)}."
+
+
+def loop_notes(report: Report) -> Iterator[str]:
+    """Yield the growth vector, one bracket after another, and the integrals that keep their values."""
+    vector = report.growth_vector or []
+    if vector:
+        added = [
+            f"brackets of {order} fields add {many(more - fewer, 'direction')}"
+            for order, (fewer, more) in enumerate(pairwise(vector), 2)
+        ]
+        words = series(added) or "no bracket adds a direction"
+        yield f"Growth vector ({', '.join(map(str, vector))}){sure(report, 'growth_vector')}: {words}."
+    integrals = [f"{entry.name}: {entry.integral}" for entry in report.constraints if entry.integral]
+    if integrals:
+        keeps = verb(len(integrals), "An integral keeps its value", "Integrals keep their values")
+        yield f"{keeps}: {'; '.join(integrals)}."
+
+
+def traces(sketch: Sketch, clip: Clip, frame: int) -> Iterator[Shape]:
+    """Yield the paths of traced vertices up to a frame; of a loop where it began, and at its end the displacement."""
+    bodies = [s for s in sketch.shapes if clip.loop and frame and s.role in ("body", "bar") and s.state == "moving"]
+    for shape in bodies:
+        corners = fixed(*(sketch.at(v, clip.frames[0]) for v in shape.vertices))
+        yield shape._replace(vertices=corners, role="ghost", state="plain")
+    for vertex in sketch.traced:
+        path = [sketch.at(vertex, poses) for poses in clip.frames[: frame + 1]]
+        yield Shape("line", fixed(*path), "trace")
+        gap = float(np.linalg.norm(path[-1] - path[0]))
+        if frame == len(clip.frames) - 1 and gap > 1e-6 * sketch.size:
+            yield Shape("arrow", fixed(path[0], path[-1]), "arrow", size=0.04 * sketch.size)

@@ -1,0 +1,124 @@
+"""Closed loops: the displacement is that of the bracket up to third order, and what integrates returns."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import pytest
+
+import dofkit
+from dofkit.expressions.tree import TIME, Expr, coordinate, parameter
+from dofkit.motion.configurations import NoMotionError
+from dofkit.motion.loops import Loop, LoopSampler
+from dofkit.pictures.arrangement import finite_relations, velocity_rows
+from dofkit.pictures.evaluation import derivatives, values_at
+from dofkit.scene.lowering import lower
+from dofkit.system import System
+
+SKATE = {"coordinates": ["x", "y", "theta"], "constraints": ["sin(theta) dx - cos(theta) dy = 0"]}
+TRAILER = {
+    "coordinates": ["x", "y", "theta", "psi"],
+    "constraints": ["sin(theta) dx - cos(theta) dy = 0", "dpsi = sin(theta - psi) (cos(theta) dx + sin(theta) dy)"],
+}
+NAMES = dofkit.catalog_names()
+
+
+def _sampler(scene: Any, numbers: Mapping[str, float] | None = None) -> LoopSampler:
+    system = lower(dofkit.load(scene))
+    return LoopSampler(system, dict.fromkeys(system.parameters, 1.0) | dict(numbers or {}))
+
+
+def _gap(loop: Loop) -> float:
+    return max(abs(loop.displacement[n] - loop.prediction[n]) for n in loop.displacement)
+
+
+def test_the_contact_form_shows_the_area_of_the_loop() -> None:
+    """For dz = x dy the bracket [d/dx, d/dy + x d/dz] is d/dz, so z grows by the area, here of a polygon."""
+    (loop,) = _sampler({"coordinates": ["x", "y", "z"], "constraints": ["dz = x dy"]}).loops(0.5)
+    corners = np.array([[q["x"], q["y"]] for q in loop.configurations])
+    x, y = corners.T
+    area = float(np.sum(x[:-1] * y[1:] - x[1:] * y[:-1]) / 2)
+    assert area == pytest.approx(math.pi / 4, rel=2e-3)
+    assert loop.displacement["z"] == pytest.approx(area, rel=1e-9)
+    assert loop.prediction["z"] == pytest.approx(area, rel=1e-6)
+
+
+def test_a_rolling_disc_is_displaced_across_its_heading() -> None:
+    """[X_theta, X_phi] of dx = -R sin(theta) dphi, dy = R cos(theta) dphi is R (-cos(theta), -sin(theta))."""
+    (loop,) = _sampler("disc-rolling-on-plane", {"theta": 0.3}).loops(0.1)
+    theta = loop.configurations[0]["theta"]
+    area = 36 * math.sin(2 * math.pi / 72) * 0.01
+    assert loop.prediction == pytest.approx({"x": -area * math.cos(theta), "y": -area * math.sin(theta)}, rel=1e-5)
+    assert loop.configurations[-1]["theta"] == pytest.approx(theta, abs=1e-10)
+
+
+@pytest.mark.parametrize(
+    "scene", [SKATE, TRAILER, "disc-rolling-on-plane", "rolling-ball", "rolling-ball-euler-angles"]
+)
+def test_the_difference_to_the_bracket_falls_with_the_third_power_of_the_size(scene: Any) -> None:
+    sampler = _sampler(scene)
+    for large, small in zip(sampler.loops(0.05), sampler.loops(0.025), strict=True):
+        assert max(map(abs, large.prediction.values())) > 1e-3
+        assert _gap(small) < max(_gap(large) / 7, 1e-8)
+
+
+@pytest.mark.parametrize("scene", ["planetary-gear-bodies", "disc-string-no-slip-equation"])
+def test_what_integrates_returns(scene: str) -> None:
+    loops = _sampler(scene).loops(0.2)
+    assert max(abs(v) for loop in loops for v in loop.displacement.values()) < 1e-9
+
+
+def test_one_free_velocity_has_no_loop() -> None:
+    with pytest.raises(NoMotionError, match="two free velocities"):
+        _sampler("velocities-that-integrate")
+
+
+def test_no_loop_where_time_occurs() -> None:
+    with pytest.raises(NoMotionError, match="without time"):
+        _sampler({"coordinates": ["x", "y", "z"], "constraints": ["dz = x dy + t dt"]})
+
+
+def _residual(system: System, path: list[dict[str, float]], chords: bool) -> float:
+    """Return the largest residual of finite relations, by their gradients, and of forms along chords."""
+    symbols = [coordinate(c.name) for c in system.coordinates]
+    worst = 0.0
+    for k, q in enumerate(path):
+        numbers: dict[Expr, float] = {parameter(p): q[p] for p in system.parameters if p in q}
+        numbers |= {s: q[str(s.args[1])] for s in symbols} | {TIME: q.get("t", 0.0)}
+        finite = finite_relations(system)
+        slopes = np.linalg.norm(derivatives(finite, symbols, numbers), axis=1)
+        gaps = np.abs(values_at(finite, numbers).reshape(len(finite)))
+        worst = max([worst, *(gaps / np.maximum(slopes, 1.0) / max(1.0, *map(abs, q.values())))])
+        if chords and k:
+            step = np.array([q[str(s.args[1])] - path[k - 1][str(s.args[1])] for s in symbols])
+            middle = numbers | {s: numbers[s] - d / 2 for s, d in zip(symbols, step, strict=True)}
+            rows = velocity_rows(system, middle)[0]
+            worst = max([worst, *np.abs(rows[len(finite) :] @ step)])
+    return float(worst)
+
+
+def _held(name: str) -> None:
+    system = lower(dofkit.load(name))
+    if system.functions or system.generic or any(r.chart == "gibbs" for r in system.rotations):
+        return
+    try:
+        path = dofkit.configurations(system, steps=12, step=0.1, values=dict.fromkeys(system.parameters, 1.0))
+        assert _residual(system, path, chords=False) < 1e-9
+        for loop in _sampler(name).loops(0.2):
+            assert _residual(system, [*loop.configurations], chords=True) < 1e-9
+    except NoMotionError:
+        return
+
+
+@pytest.mark.parametrize("name", [*NAMES[::16], "disc-rolling-on-plane"])
+def test_constraints_hold_along_a_sampled_motion(name: str) -> None:
+    _held(name)
+
+
+@pytest.mark.sweep
+@pytest.mark.parametrize("name", NAMES)
+def test_constraints_hold_along_every_sampled_motion(name: str) -> None:
+    _held(name)
