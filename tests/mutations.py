@@ -79,8 +79,8 @@ SAME: Mapping[tuple[str, str, str], str] = {
     ): "a floating point number does not meet a bound exactly",
     (
         "dofkit/configuration/local/neighbourhood.py",
-        "if float(np.max(np.abs(step))) < 1e-12:",
-        "if float(np.max(np.abs(step))) <= 1e-12:",
+        "if largest(change) < 1e-12:",
+        "if largest(change) <= 1e-12:",
     ): "a floating point number does not meet a bound exactly",
     (
         "dofkit/relations/normal/polynomial_zeros.py",

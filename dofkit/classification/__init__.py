@@ -13,6 +13,7 @@ Mechanisms, in the order in which a report is filled
        and time [ImplicitFunctions]. The numbers of the largest branch count.
     2. `dependence`: circuits and redundant constraints, by the rank of rows where the rank measures dependence
        [Whitney1935], otherwise by implication at drawn states and by removal; conflicts of an inconsistent system.
+       What is asked differs, the search for a minimal set or a largest redundant one (`minimal_sets`) does not.
        `equivalence` compares an answer with the constraints that it should state.
     3. `labels`: holonomic (on its own, and in the system) [HermannNagano], scleronomic, catastatic, with the sentence
        that gives the reason.

@@ -10,7 +10,6 @@ relation (single minors carry factors of A of their own).
 from __future__ import annotations
 
 import math
-import random
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations, islice
@@ -21,7 +20,6 @@ from flint import arb
 
 from dofkit.base.deadline import check
 from dofkit.base.errors import NoValueError
-from dofkit.configuration.at_reference import CLEAR, ball_matrix, ball_point
 from dofkit.configuration.variety import Variety, on_variety, pose_point
 from dofkit.exact.analyticity import is_analytic
 from dofkit.exact.matrices.certified import ball_part
@@ -92,7 +90,7 @@ def first_order_freedom(block: Block, setting: Setting, reference: Mapping[Expr,
     """
     forms = codistribution(block, setting, ())
     if "field" not in setting.engines:
-        return _first_order_by_balls(forms, reference), False
+        return None, False
     point = pose_point(forms.chart, {**reference, ex.TIME: ex.ZERO}, 3)
     if point is None or not on_variety(forms.chart, point):
         return None, False
@@ -102,18 +100,6 @@ def first_order_freedom(block: Block, setting: Setting, reference: Mapping[Expr,
         return None, False
     rank = rank_of([row[: forms.n] for row in matrix], point.p)
     return forms.n - rank, rank == len(matrix)
-
-
-def _first_order_by_balls(forms: Codistribution, reference: Mapping[Expr, Expr]) -> int | None:
-    ball = ball_point(forms.chart, {**reference, ex.TIME: ex.ZERO}, random.Random("dofkit reference"))
-    if ball is None or ball_matrix(forms.chart, ball, True) is None:
-        return None
-    try:
-        matrix = forms.rows.matrix(values(forms.chart.ring, ball), arb(0))
-    except NoValueError:
-        return None
-    part = ball_part([row[: forms.n] for row in matrix])
-    return forms.n - part.rank if part.gap > CLEAR else None
 
 
 #: Choices of columns that are looked at, and minors that are divided out of each other.

@@ -1,40 +1,33 @@
 """Freedom and labels of a block with differential relations from points over GF(p), held against a ball.
 
-Labels at a generic point are those of the component on which it was found. Where the set may have several components,
-the Lie algebra is taken at the reference configuration: its dimension along a generic admissible curve from there is
-that of the component of the reference, if the rows have the same rank near it on that component [HermannNagano].
+Labels at a generic point are those of the component on which it was found [HermannNagano].
 """
 
 from __future__ import annotations
 
-import random
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from operator import mul
 
-from flint import arb, ctx
+from flint import arb
 
-from dofkit.base.errors import NoValueError
 from dofkit.base.verdicts import Verdict, weakest
-from dofkit.configuration.at_reference import CLEAR, ball_matrix, ball_point
+from dofkit.configuration.at_reference import CLEAR
 from dofkit.configuration.finite_blocks import dependent_names
-from dofkit.configuration.variety import SAMPLES, Variety, on_variety, pose_point
+from dofkit.configuration.variety import Variety
 from dofkit.exact.matrices.certified import ball_part, dependencies
 from dofkit.exact.matrices.sparse import rank_of, sparse
-from dofkit.exact.points.balls import precision
 from dofkit.exact.points.field import FieldPoint
-from dofkit.exact.points.frames import field_frame, pairing
+from dofkit.exact.points.frames import pairing
 from dofkit.exact.points.real_search import RealPoint
 from dofkit.exact.residues import null_vectors, residue_matrix
 from dofkit.exact.ring.canonical import error_bits
 from dofkit.exact.ring.program import Scalar, values
-from dofkit.exact.zero import independent_on_set, zero_and_verdict
+from dofkit.exact.zero import independent_on_set
 from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import substitute
-from dofkit.expressions.tree import Expr
 from dofkit.integrability.growth_vector import derived_flag, growth
-from dofkit.integrability.lie_algebra import AdmissibleCurve, SampledSpan, Span, ball_span
+from dofkit.integrability.lie_algebra import SampledSpan, Span, ball_span
 from dofkit.integrability.pfaffian_system import Codistribution, is_nonzero, linear_rows
 from dofkit.integrability.traits import CurlAtPoint, proof
 from dofkit.relations.answer import Answer, HolonomyLabel
@@ -292,79 +285,3 @@ def ball_labels(block: Block, forms: Codistribution, real: RealPoint, result: An
             continue
         sure: Verdict = "proved" if finite or not zero else "numeric"
         result.labels[i] = HolonomyLabel(zero, sure)
-
-
-#: Coefficients along a curve in which a dependent row has to be dependent.
-ORDER = 8
-
-
-def reference_points(forms: Codistribution, reference: Mapping[Expr, Expr]) -> list[FieldPoint] | None:
-    """Return the reference configuration (t = 0) over GF(p), one point per sample; none if an equation is not 0 there.
-
-    None where it has no point over GF(p): numbers there may be related in a way that is not known.
-    """
-    points = [pose_point(forms.chart, {**reference, ex.TIME: ex.ZERO}, 11 + k) for k in range(SAMPLES)]
-    drawn = [point for point in points if point is not None]
-    if len(drawn) < SAMPLES:
-        return None
-    return drawn if all(on_variety(forms.chart, point) for point in drawn) else []
-
-
-def regular_reference(
-    forms: Codistribution, points: list[FieldPoint], reference: Mapping[Expr, Expr]
-) -> Variety | None:
-    """Return the set near the reference configuration, or None where the rank of the rows may differ near it."""
-    try:
-        if not all(_is_regular(forms, point) for point in points):
-            return None
-        point = points[0]
-        matrix = forms.rows.matrix(values(forms.chart.ring, point), point.number(ex.ZERO.args[0]))
-    except NoValueError:
-        return None
-    rank = rank_of(matrix[: forms.finite], point.p)
-    verdict: Verdict = "proved" if rank == forms.finite else "probable"
-    return Variety(True, forms.n - rank, verdict, points, _real_point(forms, reference), about="reference")
-
-
-def _is_regular(forms: Codistribution, point: FieldPoint) -> bool:
-    """Return whether rows that depend on others at the point depend on them along a generic curve through it.
-
-    On the fields X with A_d X_d = -A_f X_f, where A holds the independent rows, every other row has to vanish.
-    """
-    n = len(forms.chart.symbols)
-    matrix = forms.rows.matrix(values(forms.chart.ring, point), point.number(ex.ZERO.args[0]))
-    frame = field_frame(matrix, n, point.p)
-    others = [row for r, row in enumerate(forms.rows.entries) if r not in frame.rows]
-    if not others or not frame.free:
-        return True
-    if not frame.rows:
-        return False
-    curve = AdmissibleCurve(forms.rows, frame, point)
-    curve.follow(ORDER)
-    return not any(any(_along(curve, row, k, point.p)) for row in others for k in range(ORDER))
-
-
-def _along(curve: AdmissibleCurve, row: Mapping[int, int], order: int, p: int) -> list[int]:
-    """Return the coefficient of an order, along the curve, of a row on each of the admissible fields."""
-    total = [0] * len(curve.frame.free)
-    for j in range(order + 1):
-        fields = curve.full_frame[order - j]
-        for column, node in row.items():
-            factor = int(curve.at[node].coefficient(j))
-            total = [t + factor * int(fields[column, f]) for f, t in enumerate(total)] if factor else total
-    return [t % p for t in total]
-
-
-def _real_point(forms: Codistribution, reference: Mapping[Expr, Expr]) -> RealPoint | None:
-    """Return the reference configuration in balls; certified where every equation is proved to be 0 there."""
-    chart, place = forms.chart, {**reference, ex.TIME: ex.ZERO}
-    if "balls" not in chart.engines:
-        return None
-    with ctx.workprec(max(ctx.prec, precision())):
-        ball = ball_point(chart, place, random.Random("dofkit reference"))
-        matrix = None if ball is None else ball_matrix(chart, ball, True)
-    if ball is None or matrix is None:
-        return None
-    exact = all(zero_and_verdict(substitute(g, place), chart.positive) == (True, "proved") for g in chart.relations)
-    part = ball_part(matrix) if matrix else ball_part([[arb(0)] * len(chart.symbols)])
-    return RealPoint(ball, part, exact, True, matrix)

@@ -77,7 +77,7 @@ def test_nothing_is_answered_wrongly_and_little_is_left_open(family: str) -> Non
 
 @pytest.mark.parametrize(("sweep", "step"), [case for name in SWEEPS for case in ((name, 29), swept(name, 1))])
 def test_near_singular_poses(sweep: str, step: int) -> None:
-    """At singular poses and near them, of any size, anywhere, renamed, rounded and measured."""
+    """At singular poses and near them, of any size, anywhere, rounded and measured."""
     scenes = [*SWEEPS[sweep]()]
     assert share_right(scenes[step // 2 :: step]) >= (FLOORS.get(sweep, 1) if step == 1 else 0)
 

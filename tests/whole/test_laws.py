@@ -32,7 +32,7 @@ NUMBERS = (
 )  # fmt: skip
 LABELS = ("form", "holonomic", "holonomic_alone", "scleronomic", "catastatic", "bilateral", "equations")
 #: What tells the scene's story and not its mathematics.
-STORY = ("title", "source", "notes", "expect", "energies")
+STORY = ("title", "source", "notes", "picture", "expect", "energies")
 
 
 every_scene = pytest.mark.parametrize("path", EVERY, ids=stem)

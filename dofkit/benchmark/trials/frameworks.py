@@ -38,16 +38,6 @@ class Framework:
         joints = {name: to(p) for name, p in self.joints.items()}
         return replace(self, joints=joints, ground=tuple(to(p) for p in self.ground))
 
-    def shuffled(self, rng: random.Random) -> Framework:
-        """Joints renamed, and everything in another order."""
-        names = list(self.joints)
-        rng.shuffle(names)
-        new = {name: f"J{rng.randrange(10**6)}_{i}" for i, name in enumerate(names)}
-        bars = [tuple(new[e] if isinstance(e, str) else e for e in bar)[:: rng.choice((1, -1))] for bar in self.bars]
-        rng.shuffle(bars)
-        joints = {new[name]: self.joints[name] for name in names}
-        return Framework(joints, self.ground, tuple((a, b) for a, b in bars))
-
     def rows(self) -> list[list[Fraction]]:
         """The rigidity matrix: a row for every bar, d columns for every free joint."""
         d = self.dimension

@@ -1,4 +1,4 @@
-"""Mechanisms near their singular poses: scaled, moved, rounded, renamed, measured.
+"""Mechanisms near their singular poses: scaled, moved, rounded, measured.
 
 The truths are derived by hand at the singular pose and beside it (see ``poses.yaml``), for every size of the step; of
 rounded positions it is the exact rank.
@@ -6,7 +6,6 @@ rounded positions it is the exact rank.
 
 from __future__ import annotations
 
-import random
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -90,7 +89,6 @@ MOVES: Mapping[str, tuple[Move, float, float]] = {
     "moved a million away": (lambda p: tuple(x + MILLION * (k + 1) for k, x in enumerate(p)), 1, MILLION),
     "small and far away": (lambda p: tuple(x / MILLION + MILLION for x in p), 1 / MILLION, MILLION),
 }
-SEEDS = range(2)
 #: The tolerance of exact drawings.
 TOLERANCE = "1e-4"
 
@@ -116,16 +114,6 @@ def sizes() -> Iterator[KnownScene]:
     for how in MOVES:
         for step in (ZERO, STEPS[0]):
             yield from (_moved(pose, step, how) for pose in (*NEAR, *JOINTED))
-
-
-def shuffles() -> Iterator[KnownScene]:
-    """Yield each renamed and in another order."""
-    for seed in SEEDS:
-        for pose in NEAR:
-            for step in (ZERO, STEPS[2]):
-                drawn = pose.at(step).shuffled(random.Random(f"{pose.name} {seed}"))
-                name = f"{pose.name}, {float(step):g} beside, shuffled by {seed}"
-                yield pose.scene(name, drawn, pose.freedom(step), {"step": float(step)})
 
 
 def turned(position: Position) -> Position:
@@ -190,7 +178,6 @@ def _scene_of_pose(
 SWEEPS: Mapping[str, Callable[[], Iterator[KnownScene]]] = {
     "beside a singular pose": steps,
     "scaled and moved": sizes,
-    "renamed and reordered": shuffles,
     "rounded": roundings,
     "rounded, with tolerance": measured,
     "scaled and moved, with tolerance": measured_elsewhere,

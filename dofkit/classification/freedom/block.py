@@ -29,7 +29,8 @@ from dofkit.integrability.pfaffian_system import (
     first_order_freedom,
     prolong,
 )
-from dofkit.integrability.row_labels import ball_labels, field_labels, reference_points, regular_reference
+from dofkit.integrability.regular_reference import reference_points, regular_reference
+from dofkit.integrability.row_labels import ball_labels, field_labels
 from dofkit.mobility.general_position import framework_answer
 from dofkit.relations.answer import Answer, Size
 from dofkit.relations.blocks import Block, Row, is_measured, split

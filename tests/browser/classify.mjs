@@ -1,0 +1,31 @@
+// node classify.mjs PYODIDE ARCHIVE SCENES: the reports on scenes by Python compiled for browsers, as JSON by name.
+// SCENES is a JSON file of texts by name; ARCHIVE has dofkit and what it needs, and no numpy.
+import { readFileSync } from "node:fs";
+import { pathToFileURL } from "node:url";
+
+const [runtime, archive, scenes] = process.argv.slice(2);
+const { loadPyodide } = await import(pathToFileURL(`${runtime}/pyodide.mjs`).href);
+const program = `
+import json, sys, time
+import dofkit
+
+reports, begun = {}, time.monotonic()
+for name, text in json.loads(scenes).items():
+    reports[name] = dofkit.classify(dofkit.loads(text, name=name)).model_dump(mode="json")
+seconds = time.monotonic() - begun
+watched = dofkit.classify({"coordinates": ["x", "y"], "constraints": ["x dy + y dx = 0"]}, budget=10)
+json.dumps({
+    "reports": reports, "seconds": seconds, "platform": sys.platform, "warnings": watched.warnings,
+    "imported": sorted({"numpy.linalg", "resource", "dofkit.base.workers"} & sys.modules.keys()),
+})
+`;
+try {
+  const python = await loadPyodide();
+  const site = python.runPython("import site; site.getsitepackages()[0]");
+  python.unpackArchive(new Uint8Array(readFileSync(archive)), "zip", { extractDir: site });
+  python.globals.set("scenes", readFileSync(scenes, "utf8"));
+  process.stdout.write(python.runPython(program));
+} catch (error) {
+  process.stderr.write(error.message); // an error that is not caught prints the whole runtime
+  process.exitCode = 1;
+}
