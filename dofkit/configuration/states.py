@@ -10,13 +10,10 @@ from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import Any
 
-from flint import arb
-
 from dofkit.base.errors import NoValueError
-from dofkit.exact.matrices.certified import ball_part
-from dofkit.exact.matrices.sparse import rank_of
 from dofkit.exact.points.balls import BallPoint, jacobian
 from dofkit.exact.points.field import FieldPoint, field_point
+from dofkit.exact.points.frames import rank_over
 from dofkit.exact.points.real_search import RealPoint, RealSearch, at_another_time
 from dofkit.exact.ring.program import Scalar, values
 from dofkit.exact.ring.ring import Ring
@@ -203,9 +200,9 @@ class States:
         places = [i for s in (*self.places, ex.TIME) if (i := self.ring.var_index(s)) is not None]
         present = [c for c in self.velocities if c is not None]
         return (
-            _rank(jacobian(self.ring, at, point, self.relations, [*places, *present], zero), point),
-            _rank(jacobian(self.ring, at, point, self.moving, present, zero), point),
-            _rank(jacobian(self.ring, at, point, self.finite, places, zero), point),
+            rank_over(jacobian(self.ring, at, point, self.relations, [*places, *present], zero), zero),
+            rank_over(jacobian(self.ring, at, point, self.moving, present, zero), zero),
+            rank_over(jacobian(self.ring, at, point, self.finite, places, zero), zero),
         )
 
 
@@ -229,18 +226,6 @@ def rows_at(relations: Sequence[Expr], pose: Mapping[Expr, Expr]) -> tuple[Row, 
 def moves(ring: Ring, index: int) -> bool:
     """Return whether a generator depends on velocities."""
     return any(s.args[0] == "velocity" for s in ring.var_expr[index].symbols)
-
-
-def _rank(matrix: list[list[Scalar]], point: FieldPoint | BallPoint) -> int:
-    """Over GF(p); of balls, by pivots that exclude 0."""
-    if not matrix or not matrix[0]:
-        return 0
-    return rank_of(matrix, point.p) if isinstance(point, FieldPoint) else ball_part(matrix).rank
-
-
-def vanishes(value: Scalar) -> bool:
-    """0 over GF(p), or what a ball does not tell from 0."""
-    return bool(value.contains(0)) if isinstance(value, arb) else bool(value == 0)
 
 
 def value_at(ring: Ring, point: FieldPoint | BallPoint, node: int) -> Scalar | None:

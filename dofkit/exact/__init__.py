@@ -22,8 +22,9 @@ Mechanisms
     `ideals` gives the dimension of a complex variety by Groebner bases [Buchberger1965], and `linear_inequalities` a
     solution of linear conditions or a proof that there is none [Motzkin1936]. `boxes` excludes regions by interval
     arithmetic, which proves that a system has no solution [Moore1966].
-    `matrices` computes ranks: modulo p, of sparse rows, of rational rows, certified ones of balls, and singular values
-    for measured numbers. `ring.program` has the errors by which arithmetic fails.
+    `matrices` computes ranks: modulo p, of sparse rows, of rational rows, certified ones of balls; `dense`
+    has the steps and singular values of floats, by numpy only where they are many. `ring.program` has the errors by
+    which arithmetic fails.
 
 What leaves this room is a value with its certainty: a rank that is exact or bounded from one side, a zero that is
 proved or probable with a bound, a point with a ball in which a true solution lies.

@@ -23,13 +23,13 @@ from dofkit.base.errors import NoValueError
 from dofkit.base.verdicts import VERDICTS, weakest
 from dofkit.configuration.local.manifold import Manifold
 from dofkit.configuration.search import find
-from dofkit.configuration.states import States, moves, rows_at, state_relations, value_at, vanishes
+from dofkit.configuration.states import States, moves, rows_at, state_relations, value_at
 from dofkit.configuration.variety import Variety
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.sparse import Pivots
 from dofkit.exact.points.balls import BallPoint
 from dofkit.exact.points.field import FieldPoint
-from dofkit.exact.points.frames import kernel
+from dofkit.exact.points.frames import kernel, vanishes
 from dofkit.exact.points.real_search import RealPoint
 from dofkit.exact.ring.program import VAR, Scalar, raising_no_value, reachable, values
 from dofkit.exact.ring.ring import Ring

@@ -23,10 +23,11 @@ from dofkit.classification.dependence.minimal_sets import minimal_set
 from dofkit.classification.freedom.branches import in_time
 from dofkit.classification.freedom.preparation import all_of, branches_at_reference, conditional
 from dofkit.configuration.implied_relations import ImpliedRelations
-from dofkit.configuration.states import States, value_at, vanishes
+from dofkit.configuration.states import States, value_at
 from dofkit.exact.matrices.sparse import echelon
 from dofkit.exact.points.balls import BallPoint
 from dofkit.exact.points.field import FieldPoint
+from dofkit.exact.points.frames import vanishes
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Answer

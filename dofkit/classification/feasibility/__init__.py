@@ -2,7 +2,7 @@
 
 Types
     `Part` and `StateProblem` (`state_problem`): constraints that share coordinates with an inequality, and what a
-    state of motion has to satisfy. `Witness`: a certified point. `Feasibility`: the answer.
+    state of motion has to satisfy. `Values`: a certified point. `Feasibility`: the answer.
 
 Mechanisms, in the order in which they are tried (`feasibility` is the driver)
     1. `state_problem`: the inequalities contradict each other as linear conditions on their terms [Motzkin1936].

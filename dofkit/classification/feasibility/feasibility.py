@@ -148,9 +148,9 @@ class _Judge:
         if not contradictory(claims, positive):
             for problem in self._problems(part):
                 fixed_values = {s: value_of(s) for s in problem.constants} if fixed else {}
-                result = witness(replace(problem, fixed=fixed_values), positive, self._drawn)
-                if result is not None:
-                    return Feasibility(True, at=result.at, verdict=result.verdict)
+                at = witness(replace(problem, fixed=fixed_values), positive, self._drawn)
+                if at is not None:
+                    return Feasibility(True, at=at, verdict="proved")
             if not _refuted(part, positive):
                 return Feasibility(None)
         return Feasibility(False, part.numbers, verdict="proved")

@@ -9,13 +9,11 @@ from __future__ import annotations
 import random
 from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
-from typing import NamedTuple
 
 from flint import arb, fmpq, fmpq_mat
 
 from dofkit.base.deadline import check
 from dofkit.base.errors import NoValueError
-from dofkit.base.verdicts import Verdict
 from dofkit.classification.feasibility.state_problem import StateProblem
 from dofkit.exact.boxes import WHOLE, BoxProgram, EmptyError, Interval, bounds
 from dofkit.exact.linear_inequalities import LinearCondition, solution
@@ -38,15 +36,10 @@ SEARCHES, STARTS, STEPS, MAX_ROWS = 3, 6, 60, 80
 Values = Mapping[Expr, Expr | arb]
 
 
-class Witness(NamedTuple):
-    """A certified point: the values of all symbols; ``verdict``: how sure it is."""
+def witness(problem: StateProblem, positive: frozenset[Expr], drawn: Mapping[Expr, Expr]) -> Values | None:
+    """Return the values of all symbols at a certified point at which all of a problem is satisfied, or None.
 
-    at: Values
-    verdict: Verdict = "proved"
-
-
-def witness(problem: StateProblem, positive: frozenset[Expr], drawn: Mapping[Expr, Expr]) -> Witness | None:
-    """A point at which all of a problem holds, and through which a motion passes; None where none was found.
+    A motion passes through it.
 
     ``drawn``: values of places to try first.
     """
@@ -70,7 +63,7 @@ def value_of(s: Expr) -> Fraction:
 # -- exact points -----------------------------------------------------------------------------------
 
 
-def _at(problem: StateProblem, positive: frozenset[Expr], drawn: Mapping[Expr, Expr]) -> Witness | None:
+def _at(problem: StateProblem, positive: frozenset[Expr], drawn: Mapping[Expr, Expr]) -> Values | None:
     """The point with some exact values of all places, where it is at rest.
 
     The equations hold there whatever the parameters; the conditions strictly at some values of them, or at all.
@@ -87,9 +80,7 @@ def _at(problem: StateProblem, positive: frozenset[Expr], drawn: Mapping[Expr, E
         held = zip(moved[n:], problem.conditions, strict=True)
         if all(_holds(e, c, positive, here) for e, c in held):
             numbers = {s: ex.num(v) for s, v in here.items()}
-            return Witness(
-                {s: substitute(v, numbers) for s, v in (*point.items(), *((c, c) for c in problem.constants))}
-            )
+            return {s: substitute(v, numbers) for s, v in (*point.items(), *((c, c) for c in problem.constants))}
     except (NoValueError, ArithmeticError, ValueError):
         return None
     return None
@@ -116,7 +107,7 @@ def _holds(e: Expr, c: DomainCondition, positive: frozenset[Expr], at: Mapping[E
 # -- linear ones ------------------------------------------------------------------------------------
 
 
-def _linearly(problem: StateProblem, positive: frozenset[Expr]) -> Witness | None:
+def _linearly(problem: StateProblem, positive: frozenset[Expr]) -> Values | None:
     """A point from exact linear programming: all is linear with rational coefficients."""
     rows, columns = problem.independent
     order = sorted(problem.symbols, key=repr)
@@ -131,7 +122,7 @@ def _linearly(problem: StateProblem, positive: frozenset[Expr]) -> Witness | Non
     if not result:
         return None
     at: dict[Expr, Expr | arb] = dict.fromkeys(problem.unknowns, ex.ZERO)
-    return Witness(at | {s: ex.num(Fraction(int(v.p), int(v.q))) for s, v in zip(order, result, strict=True)})
+    return at | {s: ex.num(Fraction(int(v.p), int(v.q))) for s, v in zip(order, result, strict=True)}
 
 
 def _linear_condition(e: Expr, sense: str, order: Sequence[Expr]) -> LinearCondition:
@@ -182,7 +173,7 @@ class _Search:
         return all(arb(at[p]) > 0 for p in self.positive if p in at)
 
 
-def _by_slacks(problem: StateProblem, positive: frozenset[Expr]) -> Witness | None:
+def _by_slacks(problem: StateProblem, positive: frozenset[Expr]) -> Values | None:
     search = _Search(problem, positive)
     for seed in range(SEARCHES):
         check()
@@ -190,7 +181,7 @@ def _by_slacks(problem: StateProblem, positive: frozenset[Expr]) -> Witness | No
         if point is not None and _is_certified(problem, search, point):
             at = point.point.symbols
             point_values = {s: arb(at[s]) for s in (*problem.unknowns, *problem.constants) if s in at}
-            return Witness({**dict.fromkeys(problem.unknowns, ex.ZERO), **point_values})
+            return {**dict.fromkeys(problem.unknowns, ex.ZERO), **point_values}
     return None
 
 

@@ -15,8 +15,9 @@ from flint import arb
 
 from dofkit.base.verdicts import Verdict
 from dofkit.configuration.local import quadratic_cone
-from dofkit.configuration.local.manifold import Form, Manifold, Split, is_zero, series_on_critical, split
+from dofkit.configuration.local.manifold import Form, Manifold, Split, series_on_critical, split
 from dofkit.configuration.local.neighbourhood import holds_away
+from dofkit.exact.points.frames import vanishes
 from dofkit.exact.points.series import Series
 from dofkit.exact.ring.program import ADD, MUL, NUM, POW, VAR, Scalar, reachable
 from dofkit.exact.ring.ring import Ring
@@ -98,7 +99,7 @@ class Germ:
     @cached_property
     def vanishes(self) -> bool:
         """Whether they are 0 along it, to the order."""
-        return all(is_zero(s.coefficient(k)) for s in self.series for k in range(self.order))
+        return all(vanishes(s.coefficient(k)) for s in self.series for k in range(self.order))
 
     @cached_property
     def vanishes_away(self) -> bool | None:
@@ -176,7 +177,7 @@ def random_direction(manifold: Manifold) -> Sequence[Scalar]:
 def time_moves(manifold: Manifold, time: int, order: int) -> bool:
     """Return whether time, the column of that number, changes along a random curve of the manifold, to the order."""
     path = manifold.line(random_direction(manifold), order).path[time]
-    return any(not is_zero(path.coefficient(k)) for k in range(1, order))
+    return any(not vanishes(path.coefficient(k)) for k in range(1, order))
 
 
 def _ahead(ball: Manifold, count: int) -> list[float]:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from flint import arb, arb_mat
+from flint import arb_mat
 
 from dofkit.base.deadline import check
 from dofkit.base.verdicts import ArgumentKey, Verdict
@@ -194,11 +194,6 @@ def product(matrix: Any, vector: Sequence[Scalar]) -> list[Scalar]:
     )
     image = matrix * column
     return [image[i, 0] for i in range(len(vector))]
-
-
-def is_zero(value: Scalar) -> bool:
-    """0 over GF(p), or what a ball does not tell from 0."""
-    return bool(value.contains(0)) if isinstance(value, arb) else bool(value == 0)
 
 
 # The critical set N of dependent relations

@@ -1,7 +1,7 @@
 """Small dense matrices of floats, as lists: steps, pivots and singular values, by FLINT's numbers of `BITS` bits.
 
 They say where a search goes and what to prove; nothing else rests on them. A matrix of more than `SMALL` entries is
-numpy's, which is imported then.
+numpy's, which is imported then; where numpy is not installed, as in a browser, all are small.
 """
 
 from __future__ import annotations
@@ -14,15 +14,15 @@ from typing import NamedTuple
 from flint import acb_mat, arb_mat, ctx
 
 from dofkit.base.errors import NoValueError
-from dofkit.base.libraries import np
+from dofkit.base.libraries import HAS_NUMPY, np
 
 Vector = Sequence[float]
 Matrix = Sequence[Vector]
 
 #: Bits of the numbers in which small matrices are multiplied and solved, and entries of what is small.
-BITS, SMALL = 256, 400
+BITS, SMALL = 512, 400 if HAS_NUMPY else math.inf
 #: A singular value that counts as 0 in a step, and what is always added to squares.
-FLAT, LEAST = 1e-10, 1e-60
+FLAT, LEAST = 1e-12, 1e-60
 
 
 def dot(a: Vector, b: Vector) -> float:
@@ -70,12 +70,12 @@ def step(j: Matrix, f: Vector) -> list[float]:
     >>> step([[1.0, 1.0], [1.0, 1.0]], [2.0, 2.0])
     [-1.0, -1.0]
     """
-    return _step(j, f, 2, FLAT**4)
+    return _step(j, f, 3, FLAT**6)
 
 
 def damped(j: Matrix, f: Vector, power: int = 1) -> list[float]:
     """The step -J^T (J J^T + |f|^power I)^-1 f: it leaves the directions alone in which J is smaller than the error."""
-    return _step(j, f, 1, length(f) ** power)
+    return _step(j, f, 1, length(f) ** power + LEAST)
 
 
 def _step(j: Matrix, f: Vector, order: int, shift: float) -> list[float]:
@@ -88,10 +88,12 @@ def _step(j: Matrix, f: Vector, order: int, shift: float) -> list[float]:
         matrix, right = arb_mat([list(map(float, row)) for row in j]), arb_mat([[float(v)] for v in f])
         transposed = matrix.transpose()
         gram = matrix * transposed
-        square, right = (gram * gram, gram * right) if order == 2 else (gram, right)
+        product = gram
+        for _ in range(order - 1):
+            product, right = product * gram, gram * right
         for i in range(len(j)):
-            square[i, i] = square[i, i] + max(shift, LEAST)
-        change = transposed * square.solve(right, algorithm="approx")
+            product[i, i] = product[i, i] + shift
+        change = transposed * product.solve(right, algorithm="approx")
         return [-float(change[i, 0].mid()) for i in range(len(j[0]))]
 
 

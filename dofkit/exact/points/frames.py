@@ -111,11 +111,16 @@ def _invertible(value: Any) -> bool:
 
 def rank_over(vectors: Sequence[Sequence[Scalar]], sample: Scalar) -> int:
     """Return the rank over GF(p), or a certified lower bound with balls, by the kind of ``sample``."""
-    if not vectors:
+    if not vectors or not vectors[0]:
         return 0
     if isinstance(sample, Residue):
         return rank_of(vectors, modulus(sample))
     return ball_part(vectors).rank
+
+
+def vanishes(value: Scalar) -> bool:
+    """Return whether a value is 0 over GF(p), or a ball that does not exclude 0."""
+    return bool(value.contains(0)) if isinstance(value, arb) else bool(value == 0)
 
 
 def pairing(row: Sequence[Scalar], vectors: Sequence[Sequence[Scalar]]) -> list[Scalar]:

@@ -104,7 +104,7 @@ class RealSearch:
         return singular
 
     def descend(self, symbols: dict[Expr, float], seed: int, steps: int = ITERATIONS) -> list[list[float]] | None:
-        """Gauss-Newton in floating point; ``symbols`` is moved; returns the Jacobian at the end.
+        """Gauss-Newton in floating point; ``symbols`` is moved; returns the Jacobian at the end, rows scaled.
 
         At a singular point each step only halves the distance: it goes on until the steps are fast, or to the last.
         """
