@@ -29,7 +29,7 @@ PACKAGE = Path(__file__).parents[1]
 #: The compiled packages, and the platform and the Python of Pyodide.
 COMPILED = ("python-flint", "pydantic-core")
 PLATFORM = ("--platform", "pyemscripten_2026_0_wasm32", "--python-version", "3.14", "--abi", "cp314")
-#: The packages of an archive: what a report needs, and what is loaded after it for sheets of homework.
+#: The packages of each archive: what a report needs, and what is loaded after it for homework and equations of motion.
 CORE = (
     "annotated_types",
     "latex2mathml",
@@ -41,8 +41,9 @@ CORE = (
     "yaml",
 )
 SHEETS = ("markdown_it", "mdit_py_plugins", "mdurl")
+SYMBOLS = ("mpmath", "sympy")
 #: Folders of dofkit that no page needs; of its site only what the worker calls.
-LEFT_OUT = ("benchmark", "_catalog", "site")
+LEFT_OUT = ("benchmark", "homework", "site", "_catalog")
 #: Files that tests and typists need.
 UNUSED = ("tests", "test", "__pycache__", "testing")
 #: What Pyodide needs at run time.
@@ -75,6 +76,8 @@ def build_bench(out: Path, catalog: Sequence[ShownScene]) -> None:
         _stage_packages(CORE, stage / "core")
         _stage_dofkit(stage / "core")
         _stage_packages(SHEETS, stage / "sheets")
+        _stage_folder(PACKAGE / "homework", stage / "sheets" / "dofkit" / "homework")
+        _stage_packages(SYMBOLS, stage / "symbols")
         _run(["node", "compile.mjs", str(stage), str(out.resolve())], "the compilation to bytecode")
     _run(["node", "bundle.mjs", str(out.resolve())], "the bundle")
     for path in SOURCES.iterdir():

@@ -214,7 +214,8 @@ def test_the_keyboard_alone_is_enough(served: Served, visit: Any) -> None:
     page.keyboard.press("Enter")
     page.keyboard.type("four bar")
     page.keyboard.press("Enter")
-    seen(page, "#report h2", "our-bar")
+    page.wait_for_url(lambda url: "#example=" in url and "disc-rolling-on-plane" not in url)
+    page.locator("#report h2").filter(has_not_text="Upright disc").wait_for(timeout=SOON)
 
 
 def test_a_practice_sheet_in_german(served: Served, visit: Any) -> None:

@@ -248,7 +248,9 @@ async function start() {
 at("examples").addEventListener("click", () => { menu(); at("menu").showModal(); at("search").select(); });
 at("search").addEventListener("input", menu);
 at("search").addEventListener("keydown", (event) => {
-  if (event.key === "Enter") at("found").querySelector("button")?.click();
+  if (event.key !== "Enter") return;
+  event.preventDefault();
+  at("found").querySelector("button")?.click();
 });
 at("copy").addEventListener("click", async () => {
   await navigator.clipboard.writeText(location.href.replace("?embed", ""));

@@ -14,29 +14,6 @@ const CALLS = {
   read: { module: "answers", archives: ["sheets"] },
   judge: { module: "answers", archives: ["sheets"] },
 };
-const REPAIRS = `
-import sys, types
-import importlib.util
-if sys.platform == "emscripten":
-    try:
-        import resource
-    except ImportError:
-        stub = sys.modules["resource"] = types.ModuleType("resource")
-        stub.RLIM_INFINITY = -1
-    import types, sys
-    class _N(types.ModuleType):
-        def __getattr__(self, name):
-            if name.startswith("__"): raise AttributeError(name)
-            return _Any
-    class _Any:
-        def __class_getitem__(cls, item): return cls
-        def __init__(self,*a,**k): raise ImportError("numpy is not here")
-    for name in ("numpy","numpy.typing","numpy.linalg","numpy.random"):
-        sys.modules[name]=_N(name); sys.modules[name].__spec__=types.SimpleNamespace(name=name,loader=None,origin="stub",submodule_search_locations=[])
-    import dofkit.exact.points.field as field
-    if field._bits.get() > 31:
-        field._bits.set(31)
-`;
 const loaded = new Set();
 const ready = start();
 
@@ -56,7 +33,6 @@ async function start() {
   });
   const site = python.runPython("import site; site.getsitepackages()[0]");
   python.unpackArchive(await core, "zip", { extractDir: site });
-  python.runPython(REPAIRS);
   const module = python.pyimport("dofkit.site.browser");
   postMessage({ ready: true });
   return { python, site, answer: module.answer };

@@ -13,9 +13,6 @@ from dofkit.scene.reading import loads
 from dofkit.scene.scene import without
 from dofkit.site.browser.shown import json_of_sheet
 
-#: Seconds for one report.
-BUDGET = 60.0
-
 
 def check(text: str) -> dict[str, Any]:
     """Return the names that a scene declares, for completion."""
@@ -31,8 +28,8 @@ def report(text: str, left_out: Sequence[str]) -> dict[str, Any]:
     names = [constraint.name or f"c{i}" for i, constraint in enumerate(whole.constraints, 1)]
     dropped = [name for name in left_out if name in names]
     scene = without(whole, dropped) if dropped else whole
-    classified = classify(scene, budget=BUDGET)
-    sections = [changed(classify(whole, budget=BUDGET), classified, dropped)] if dropped else []
+    classified = classify(scene)
+    sections = [changed(classify(whole), classified, dropped)] if dropped else []
     sheet = sheet_of_report(as_the_scene(classified, scene), whole.title)
     return {
         "faults": [],

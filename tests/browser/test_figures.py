@@ -1,0 +1,62 @@
+"""How long the bench takes and what it transfers: measured in Chromium and printed (`pytest -m browser -s`)."""
+
+from __future__ import annotations
+
+import time
+from statistics import quantiles
+from typing import Any
+
+import pytest
+from shared.served import Served
+
+pytestmark = [pytest.mark.browser, pytest.mark.xdist_group("browser"), pytest.mark.timeout(900)]
+ASK = """async ([url, texts]) => {
+  const worker = new Worker(url, {type: "module"});
+  const ask = (id, call, args) => new Promise((resolve) => {
+    const hear = ({data}) => { if (data.id === id) { worker.removeEventListener("message", hear); resolve(data); } };
+    worker.addEventListener("message", hear);
+    worker.postMessage({id, call, args});
+  });
+  await ask(-1, "check", [texts[0]]);
+  const checks = [], reports = [], faults = [];
+  for (const [k, text] of texts.entries()) {
+    let start = performance.now();
+    await ask(2 * k, "check", [text]);
+    checks.push(performance.now() - start);
+    start = performance.now();
+    const answer = await ask(2 * k + 1, "report", [text, []]);
+    reports.push(performance.now() - start);
+    if (answer.error || answer.value.faults.length) faults.push(text.slice(0, 60));
+  }
+  return {checks, reports, faults};
+}"""
+
+
+def measured(what: str, value: float, unit: str) -> None:
+    """Print a figure."""
+    print(f"{what}: {value:.3g} {unit}")
+
+
+def test_the_first_and_the_second_visit(served: Served, visit: Any) -> None:
+    before, start = served.sent, time.perf_counter()
+    page = visit.opened(f"{served.url}/bench/")
+    sent = served.sent
+    page.locator("#picture:not([hidden])").wait_for()
+    measured("first visit, page to report with picture", time.perf_counter() - start, "s")
+    measured("transferred before the first report", (sent - before) / 1e6, "MB")
+    page.evaluate("navigator.serviceWorker.ready.then(() => null)")
+    start = time.perf_counter()
+    page.reload()
+    page.locator("#report table").first.wait_for()
+    measured("second visit, page to report", time.perf_counter() - start, "s")
+
+
+def test_keystrokes_and_the_reports_of_the_catalog(served: Served, visit: Any) -> None:
+    page = visit.page
+    page.goto(f"{served.url}/bench/player.html")
+    texts = page.evaluate("fetch('catalog.json').then((a) => a.json()).then((all) => all.map((scene) => scene.text))")
+    answer = page.evaluate(ASK, [f"{served.url}/bench/worker.js", texts])
+    for name in ("checks", "reports"):
+        measured(f"{name}, 95 of 100 scenes within", quantiles(answer[name], n=20)[-1], "ms")
+        measured(f"{name}, slowest", max(answer[name]), "ms")
+    assert answer["faults"] == []
