@@ -9,8 +9,9 @@ From a scene to a file, in this order
        Newton's method; it also has the infinitesimal motions, the null space of the Jacobian (`evaluation`). `stage`
        adds the places and sizes of symbols, `words` what the report says of each constraint.
     2. Shapes: a `Sketch` is made of `shapes` that bodies and particles carry. There are four kinds: a `mechanism`
-       (with `joints`, the `loci` of equations and the `placed_shapes` of the scene's own picture), the set of up to
-       three `coordinates`, the `directions` that brackets add, and the `constraint_graph`.
+       (with `joints`, the `loci` of equations and the `placed_shapes` of the scene's own picture, or of a disc or knife
+       edge by `recognition`), the set of two or three `coordinates`, the `directions` that brackets add, and the
+       `constraint_graph`.
     3. Motion: frames are the same shapes with other poses (`animation`): a sampled finite motion, a closed loop
        (`loop_clips`), or each infinitesimal motion on its own.
     4. Paper: `paper` projects shapes and has their outlines, `layout` chooses the scale and where names stand, and

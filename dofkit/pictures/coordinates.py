@@ -86,4 +86,4 @@ def _sets(stage: StagedScene, symbols: Sequence[Expr], half: float) -> Iterator[
         for line in lines_of(stage.arrangement, relation.expr, symbols, half):
             yield Shape("line", fixed(*line), role, stage.state(name), name)
     if any(r.expr not in finite for _, r in relations) and len(symbols) == 2 and is_linear(stage.arrangement):
-        yield from elements(Distribution(stage.arrangement), range(len(symbols)), 0.9 * half)
+        yield from elements(Distribution(stage.arrangement), 0.9 * half)

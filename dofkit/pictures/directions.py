@@ -19,12 +19,12 @@ from dofkit.pictures.words import alternative, answer, sure
 from dofkit.report import Report
 from dofkit.system import GROUND
 
-#: Elements of a field along each direction, in the plane and in space; corners of an element.
-PLANE, SPACE, CORNERS = 11, (5, 5, 3), 12
-#: Half of the box that is shown, the length of directions, the step of brackets, and the sides of their square.
-HALF, LONG, STEP, SIDE = 1.2, 0.75, 1e-3, 0.55
-#: The least sine of the angle of a new direction, steps of a path, and the depth of brackets.
-NEW, PARTS, DEEPEST = 2e-2, 16, 4
+#: Elements of a field of the plane along each direction, and corners of an element of space.
+PLANE, CORNERS = 11, 24
+#: Half of the box that is shown, the length of directions, and the step of brackets.
+HALF, LONG, STEP = 1.2, 0.75, 1e-3
+#: The least sine of the angle of a new direction, and the depth of brackets.
+NEW, DEEPEST = 2e-2, 4
 
 Field = Callable[[Array], Array]
 
@@ -95,18 +95,13 @@ def _orthonormal(directions: Array) -> Array:
     return np.asarray(right[: int(np.sum(singular > 1e-3))])
 
 
-def elements(distribution: Distribution, chosen: Sequence[int], half: float) -> Iterator[Shape]:
-    """Yield the field over a grid of the chosen coordinates, about the configuration of the scene."""
-    counts = (PLANE,) * 2 if len(chosen) == 2 else SPACE
-    centre = distribution.start[list(chosen)]
-    grids = [np.linspace(c - half, c + half, n) for c, n in zip(centre, counts, strict=False)]
-    size = (0.75 if len(chosen) == 2 else 0.6) * half / (counts[0] - 1)
+def elements(distribution: Distribution, half: float) -> Iterator[Shape]:
+    """Yield the directions over a grid of the plane of two coordinates, about the configuration of the scene."""
+    grids = [np.linspace(c - half, c + half, PLANE) for c in distribution.start]
     for spot in product(*grids):
-        q = distribution.start.copy()
-        q[list(chosen)] = spot
-        directions = distribution.basis(q)[:, list(chosen)]
-        if np.all(np.isfinite(directions)) and 0 < len(_orthonormal(directions)) < 3:
-            yield from element(spot, directions, size)
+        directions = distribution.basis(np.array(spot))
+        if np.all(np.isfinite(directions)) and len(_orthonormal(directions)) == 1:
+            yield from element(spot, directions, 0.75 * half / (PLANE - 1))
 
 
 # The picture
@@ -124,8 +119,8 @@ def phase_sketch(stage: StagedScene) -> Sketch:
         raise NoFormsError("no admissible direction was found at this configuration")
     directions = directions_of(distribution)
     chosen = _chosen(distribution, directions)
-    shapes = [*elements(distribution, chosen, HALF)] if len(chosen) > 1 else []
-    shapes += [*_at_start(distribution, directions, chosen), *_square(distribution, chosen)]
+    shapes = [*elements(distribution, HALF)] if len(distribution.names) == 2 else []
+    shapes += [*_at_start(distribution, directions, chosen)]
     names = [distribution.names[k] for k in chosen]
     axes = f"hown: {', '.join(names)}."
     if len(names) < len(distribution.names):
@@ -234,19 +229,3 @@ def _at_start(distribution: Distribution, directions: Sequence[Direction3], chos
         yield Shape("line", fixed(start, tip), role, owner=direction.name)
         yield Shape("ball", fixed(tip), role, owner=direction.name, size=0.03)
         yield Shape("words", fixed(tip), "name", owner=direction.name, text=direction.name)
-
-
-def _square(distribution: Distribution, chosen: Sequence[int]) -> Iterator[Shape]:
-    """Yield a path along X1, X2, back along X1, back along X2: it ends aside, along the bracket."""
-    if distribution.fields < 2 or len(chosen) < 3:
-        return
-    q = distribution.start.copy()
-    path = [q]
-    for k, sign in ((0, 1.0), (1, 1.0), (0, -1.0), (1, -1.0)):
-        for _ in range(PARTS):
-            half = q + sign * SIDE / PARTS / 2 * distribution.at(q)[k]
-            q = q + sign * SIDE / PARTS * distribution.at(half)[k]
-            path.append(q)
-    seen = [p[list(chosen)] for p in path]
-    yield Shape("line", fixed(*seen), "trace", owner="square")
-    yield Shape("ball", fixed(seen[-1]), "trace", owner="square", size=0.025)

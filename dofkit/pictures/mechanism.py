@@ -21,6 +21,7 @@ PAD, THIN, STUB, FREE = 0.85, 0.45, 6.0, (3.0, 1.8, 1.2)
 #: More particles, and more named constraints, than this have no names; so many equations stand below.
 MOST_PARTICLES, MOST_NAMES, MOST_TEXTS, MOST_TRACED = 60, 24, 4, 8
 _WEIGHT: tuple[State, ...] = ("plain", "moving", "redundant", "conflicting")
+BY_FORM = "Drawn by the form of its constraints: an upright disc that rolls, or a knife edge."
 FREE_PLACES = "Schematic: the scene gives no positions of its joints."
 
 
@@ -198,6 +199,8 @@ def notes_of(stage: StagedScene) -> Iterator[str]:
     """Yield what stands below a picture: where its positions come from, numbers, and the equations as written."""
     if stage.unseen is not None:
         yield stage.unseen
+    if stage.picture.shapes and not stage.scene.picture:
+        yield BY_FORM
     if stage.schematic:
         yield FREE_PLACES
     elif stage.arrangement.note is not None:

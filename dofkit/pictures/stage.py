@@ -18,6 +18,7 @@ from dofkit.pictures.arrangement import (
     movers,
 )
 from dofkit.pictures.placed_shapes import picture_shapes, placements_of
+from dofkit.pictures.recognition import recognised
 from dofkit.pictures.shapes import AT_REST, Array, Place, State, Vertex, place
 from dofkit.pictures.words import can_hold, meanings, state_of
 from dofkit.report import Report
@@ -150,7 +151,10 @@ def stage_of(scene: Scene, report: Report) -> StagedScene:
     """Return a scene with its positions. Raises SceneError as `lower` does."""
     system = lower(scene)
     picture = picture_of(scene, vocabulary_of(scene), [])
-    arrangement = replace(arrangement_of(system), placements=placements_of(picture))
+    arrangement = arrangement_of(system)
+    if not (system.bodies or system.particles or picture.shapes):
+        picture = recognised(system, arrangement.numbers) or picture
+    arrangement = replace(arrangement, placements=placements_of(picture))
     written = [_written_place(arrangement, c) for c in system.connections]
     points = _points(scene, arrangement, written)
     sizes = [s for s in picture_shapes(picture, arrangement.numbers, 0.0) if s.kind != "words"]
