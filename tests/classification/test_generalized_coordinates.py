@@ -74,17 +74,7 @@ def test_the_unit_of_length_means_nothing(size: Fraction) -> None:
     assert report.generalized_coordinates == ["x_weight", "theta_crank"]
 
 
-def test_first_order_freedom_by_balls_is_told_at_a_reference_on_the_set_only() -> None:
-    for x, told in (("3/5", 2), ("4/5", None)):
-        scene = {
-            "coordinates": ["x", "y", "z", "w"],
-            "constraints": ["x + y = 1", "zdot = y wdot"],
-            "configuration": {"x": x, "y": "2/5", "z": 0, "w": 0},
-        }
-        assert dofkit.classify(scene, method="balls").instantaneous_dof == told
-
-
-@pytest.mark.parametrize("method", ["auto", "field", "balls"])
+@pytest.mark.parametrize("method", ["auto", "field"])
 def test_a_reference_on_no_branch_of_a_relation_has_no_first_order(method: Any) -> None:
     for place, told in ((1, 1), (2, None)):
         scene = {

@@ -97,8 +97,23 @@ def test_a_page_fits_its_frame_in_a_notebook(viewer: Viewer, name: str, tmp_path
 def test_another_motion_can_be_chosen(viewer: Viewer, tmp_path: Path) -> None:
     viewer.show(dofkit.animate("planetary-gear-bodies").save(tmp_path / "a.html"))
     assert viewer.page.locator("#clip option").count() == 3
-    viewer.page.select_option("#clip", "2")
+    viewer.page.select_option("#clip", index=2)
     assert viewer.page.get_attribute("#slider", "max") == "31"
+    assert viewer.said == []
+
+
+def test_a_loop_has_a_size_and_says_what_is_displaced(viewer: Viewer, tmp_path: Path) -> None:
+    before = viewer.show(dofkit.animate("disc-rolling-on-plane", loop=True).save(tmp_path / "a.html"))
+    told = viewer.page.inner_text("#seen")
+    assert "theta and phi return; displaced are x by" in told
+    viewer.page.evaluate(
+        "s => { s.value = 0; s.dispatchEvent(new Event('input')); }", viewer.page.query_selector("#size")
+    )
+    assert viewer.page.inner_text("#seen") != told
+    viewer.page.evaluate(
+        "s => { s.value = s.max; s.dispatchEvent(new Event('input')); }", viewer.page.query_selector("#slider")
+    )
+    assert viewer.shot() != before
     assert viewer.said == []
 
 
