@@ -47,7 +47,7 @@ def scenes(models: Iterable[str]) -> Iterator[dict[str, Any]]:
         if path.parent.name != "bad":
             yield {"group": f"tests/{path.parent.name}", "name": path.stem, "text": path.read_text(encoding="utf-8")}
     for model in models:
-        yield {"group": "models", "name": Path(model).name, "path": model}
+        yield {"group": "models", "name": "/".join(Path(model).parts[-2:]), "path": model}
     yield from _trials()
 
 

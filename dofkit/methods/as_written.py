@@ -130,7 +130,7 @@ class WrittenRows:
         finite = [slopes[node] for _, node in self.finite]
         forms = [[node_values[a[c]] if c in a else zero for c in range(len(self.columns))] for _, a in self.forms]
         curls = [self._curl({c: slopes[node] for c, node in a.items()}, zero) for _, a in self.forms]
-        return SampledRows(finite, forms, curls, [node_values[node] for _, node in self.finite], node_values)
+        return SampledRows(finite, forms, curls, [node_values[node] for _, node in self.finite])
 
     def _nodes(self) -> set[int]:
         return {node for _, node in self.finite} | {node for _, a in self.forms for node in a.values()}
@@ -155,7 +155,6 @@ class SampledRows:
     forms: Matrix
     curls: list[Matrix]
     residuals: list[Scalar]
-    known: Sequence[Scalar]
 
     @property
     def rows(self) -> Matrix:

@@ -53,7 +53,7 @@ class RationalPoint:
 
     def __init__(self, rng: random.Random, free: bool) -> None:
         self.rng, self.free = rng, free
-        self.given: dict[object, Scalar] = {}
+        self.values: dict[object, Scalar] = {}
 
     def number(self, value: Fraction) -> fmpq:
         return fmpq(value.numerator, value.denominator)
@@ -63,24 +63,24 @@ class RationalPoint:
 
     def generator(self, var: Var, args: Sequence[Scalar]) -> Scalar:
         key = var.key if var.kind == "symbol" else (var.kind, var.key)
-        if key not in self.given:
+        if key not in self.values:
             self._set(key, var, args)
-        return self.given[key]
+        return self.values[key]
 
     def _set(self, key: object, var: Var, args: Sequence[Scalar]) -> None:
         if var.kind in ("cos", "sin"):
             cos, sin = self._turn(args[0])
-            self.given["cos", var.key], self.given["sin", var.key] = cos, sin
+            self.values["cos", var.key], self.values["sin", var.key] = cos, sin
         elif var.kind == "root":
-            self.given[key] = rational_root(args[0], var.degree)
+            self.values[key] = rational_root(args[0], var.degree)
         elif var.kind == "sign":
             if args[0] == 0:
                 raise IrrationalError(KINK)
-            self.given[key] = fmpq(1 if args[0] > 0 else -1)
+            self.values[key] = fmpq(1 if args[0] > 0 else -1)
         elif var.kind == "symbol" or var.kind == "call" or self.free:
-            self.given[key] = self.draw()
+            self.values[key] = self.draw()
         elif args and args[0] == (1 if var.kind == "log" else 0):
-            self.given[key] = fmpq(1 if var.kind == "exp" else 0)
+            self.values[key] = fmpq(1 if var.kind == "exp" else 0)
         else:
             raise IrrationalError(IRRATIONAL)
 
@@ -153,8 +153,8 @@ class Rationals:
     def _drawn(self, written: Written) -> RationalPoint:
         point = RationalPoint(random.Random("dofkit rational 0"), free=False)
         for symbol, value in (written.system.reference or {}).items():
-            point.given[symbol] = drawn_value(value, point)
-        point.given[ex.TIME] = fmpq(0)
+            point.values[symbol] = drawn_value(value, point)
+        point.values[ex.TIME] = fmpq(0)
         return point
 
 
@@ -171,7 +171,10 @@ def solvable(written: Written) -> list[tuple[int, Expr]] | None:
     order: list[tuple[int, Expr]] = []
     while remaining:
         ready = (
-            (i, s) for i, g in remaining.items() for s in _own(i, remaining, movable) if s not in diff(g, s).symbols
+            (i, s)
+            for i, g in remaining.items()
+            for s in _private_symbols(i, remaining, movable)
+            if s not in diff(g, s).symbols
         )
         step = next(ready, None)
         if step is None:
@@ -181,7 +184,7 @@ def solvable(written: Written) -> list[tuple[int, Expr]] | None:
     return order[::-1]
 
 
-def _own(i: int, remaining: Mapping[int, Expr], movable: set[Expr]) -> list[Expr]:
+def _private_symbols(i: int, remaining: Mapping[int, Expr], movable: set[Expr]) -> list[Expr]:
     """Symbols that only this equation holds of those that are left, in a fixed order."""
     mine = sorted(remaining[i].symbols & movable, key=repr)
     return [s for s in mine if not any(s in g.symbols for j, g in remaining.items() if j != i)]
@@ -193,12 +196,12 @@ def solved(written: Written, ring: Ring, order: Sequence[tuple[int, Expr]], poin
     relations = [g for _, g in written.finite]
     for i, symbol in order:
         slope = Ring([diff(relations[i], symbol)], written.positive)
-        point.given[symbol] = fmpq(0)
+        point.values[symbol] = fmpq(0)
         start = value_of(ring, point, ring.node(relations[i]))
         below = value_of(slope, point, slope.node(diff(relations[i], symbol)))
         if below == 0:
             raise PoleError
-        point.given[symbol] = -start / below
+        point.values[symbol] = -start / below
 
 
 def _linear(written: Written) -> bool:
@@ -213,7 +216,7 @@ def solved_together(written: Written, point: RationalPoint) -> None:
     """Solve linear equations A q = b; what is free is drawn. Raises PoleError where there is no solution."""
     columns = written.coordinates
     for s in columns:
-        point.given[s] = fmpq(0)
+        point.values[s] = fmpq(0)
     rows = []
     for _, g in written.finite:
         slopes = [diff(g, s) for s in columns]
@@ -224,10 +227,10 @@ def solved_together(written: Written, point: RationalPoint) -> None:
     if len(columns) in pivots:
         raise ContradictionError("the linear equations contradict each other")
     for c in set(range(len(columns))) - set(pivots):
-        point.given[columns[c]] = point.draw()
+        point.values[columns[c]] = point.draw()
     for r, c in enumerate(pivots):
-        moved = sum((reduced[r, k] * point.given[columns[k]] for k in range(c + 1, len(columns))), fmpq(0))
-        point.given[columns[c]] = -reduced[r, len(columns)] - moved
+        moved = sum((reduced[r, k] * point.values[columns[k]] for k in range(c + 1, len(columns))), fmpq(0))
+        point.values[columns[c]] = -reduced[r, len(columns)] - moved
 
 
 def _look(scene: Scene | System) -> tuple[SampledPoints, Rationals] | MethodReply:

@@ -99,9 +99,9 @@ def _step(j: Matrix, f: Vector, order: int, shift: float) -> list[float]:
 
 def array_step(j: np.ndarray, f: np.ndarray, order: int, shift: float) -> np.ndarray:
     """Return the same for arrays of numpy."""
-    left, singular, right = np.linalg.svd(j, full_matrices=False)
+    u, singular, v = np.linalg.svd(j, full_matrices=False)
     factors = singular ** (2 * order - 1) / (singular ** (2 * order) + shift + 1e-300)
-    return np.asarray(-(right.T @ (factors * (left.T @ f))))
+    return np.asarray(-(v.T @ (factors * (u.T @ f))))
 
 
 class Pivoting(NamedTuple):
