@@ -234,8 +234,9 @@ def test_a_practice_sheet_in_german(served: Served, visit: Any) -> None:
     page.locator(".read math").wait_for(timeout=SOON)
     page.get_by_role("button", name="Alle Antworten prüfen").click()
     page.locator(".judged").nth(2).filter(has_text="richtig").wait_for(timeout=4 * SOON)
-    assert "falsch" in page.locator(".judged").nth(0).inner_text()
+    assert "falsch (0 von 2)" in page.locator(".judged").nth(0).inner_text()
     assert "richtig" in page.locator(".judged").nth(1).inner_text()
+    assert page.locator("h1").bounding_box()["x"] == page.locator("h2").last.bounding_box()["x"]
     shot(page, served, "practice-judged")
     assert violations(page) == []
     page.reload()

@@ -114,7 +114,7 @@ def judge_answers(assignment: str, answers: Mapping[str, Mapping[str, str]]) -> 
             "question": item.question,
             "status": in_language(language, STATUSES[item.status]),
             "tone": _TONES.get(item.status, "plain"),
-            "points": points(item),
+            "points": points(item, language),
             "feedback": item.feedback,
         }
         for item in grader.grade(Submission("", answers)).items
