@@ -40,7 +40,7 @@ from dofkit.system import GROUND
 #: Steps of a sampled motion to either side, their length, and the most frames that are kept.
 STEPS, STEP, FRAMES = 160, 0.1, 96
 #: How far from the picture a motion is shown, by the picture's size; a closed one returns to within this part of it.
-FAR, BACK = 0.8, 0.03
+FAR, BACK = 0.8, 0.05
 #: Steps if there are several freedoms, and the number of points of a sketch that are compared.
 SHORT, MOST_SEEN = 50, 60
 #: With many coordinates fewer steps are made: this many coordinates times steps, but not fewer steps than this.
