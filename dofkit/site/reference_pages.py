@@ -166,9 +166,9 @@ _ROW = re.compile(r"^\| `(\w+)` \|([^|]+)\|([^|]+)\|(.+)\|([^|]+)\|$", re.MULTIL
 
 #: A small bench, which is loaded when it is opened.
 _SMALL_BENCH = """
-<details class="bench">
+<details class="bench" ontoggle="const bench = this.querySelector('iframe'); bench.src ||= bench.dataset.page">
 <summary>Try it: change the disc in the bench, here in your browser</summary>
-<iframe src="bench/index.html?embed#example=disc-rolling-on-plane" title="The bench" loading="lazy"></iframe>
+<iframe data-page="bench/index.html?embed#example=disc-rolling-on-plane" title="The bench"></iframe>
 </details>
 
 ## Install
