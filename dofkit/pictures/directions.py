@@ -98,10 +98,10 @@ def _orthonormal(directions: Array) -> Array:
 def elements(distribution: Distribution, half: float) -> Iterator[Shape]:
     """Yield the directions over a grid of the plane of two coordinates, about the configuration of the scene."""
     grids = [np.linspace(c - half, c + half, PLANE) for c in distribution.start]
-    for spot in product(*grids):
-        directions = distribution.basis(np.array(spot))
+    for center in product(*grids):
+        directions = distribution.basis(np.array(center))
         if np.all(np.isfinite(directions)) and len(_orthonormal(directions)) == 1:
-            yield from element(spot, directions, 0.75 * half / (PLANE - 1))
+            yield from element(center, directions, 0.75 * half / (PLANE - 1))
 
 
 # The picture

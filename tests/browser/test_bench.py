@@ -86,7 +86,7 @@ def test_an_example_is_found_by_its_words(served: Served, visit: Any) -> None:
     page = visit.opened(f"{served.url}/bench/")
     page.get_by_role("button", name="Examples").click()
     page.get_by_label("Search").fill("pendulum angle")
-    page.locator("#found button").first.wait_for()
+    page.locator("#matching button").first.wait_for()
     shot(page, served, "examples")
     page.get_by_role("button", name="pendulum", exact=False).first.click()
     seen(page, "#report h2", "endulum")
@@ -187,15 +187,15 @@ def test_axe_finds_no_violation(served: Served, visit: Any, scheme: str) -> None
     shot(page, served, scheme)
     assert violations(page) == []
     page.get_by_role("button", name="Examples").click()
-    page.locator("#found button").first.wait_for()
+    page.locator("#matching button").first.wait_for()
     assert violations(page) == []
 
 
 def violations(page: Any) -> list[str]:
     """Return what axe-core finds."""
     page.evaluate(Path(AXE).read_text(encoding="utf-8"))
-    found = page.evaluate("axe.run({iframes: false})")["violations"]
-    return [f"{v['id']}: {v['nodes'][0]['html'][:200]} {v['nodes'][0]['failureSummary']}" for v in found]
+    violations = page.evaluate("axe.run({iframes: false})")["violations"]
+    return [f"{v['id']}: {v['nodes'][0]['html'][:200]} {v['nodes'][0]['failureSummary']}" for v in violations]
 
 
 def test_the_keyboard_alone_is_enough(served: Served, visit: Any) -> None:

@@ -50,10 +50,9 @@ def largest_redundant_set(
         gone += [member] if together else []
         undecided += [member] if together is None else []
     while len(gone) < len(single) and not exchange:
-        larger = next((c for c in combinations(single, len(gone) + 1) if is_redundant(c) is not False), None)
-        if larger is None:
-            break
-        if is_redundant(larger) is None:
+        asked = ((choice, is_redundant(choice)) for choice in combinations(single, len(gone) + 1))
+        larger, answer = next(((choice, answer) for choice, answer in asked if answer is not False), ((), False))
+        if not answer:
             undecided += larger
             break
         gone = list(larger)

@@ -202,11 +202,11 @@ const EXPORTS = {
 
 function menu() {
   const words = at("search").value.toLowerCase().split(/\s+/);
-  const found = catalog.filter(({ name, title, text }) => words.every((w) => `${name} ${title} ${text}`.toLowerCase().includes(w)));
-  const folders = Map.groupBy ? Map.groupBy(found, ({ folder }) => folder) : new Map([["", found]]);
+  const matching = catalog.filter(({ name, title, text }) => words.every((w) => `${name} ${title} ${text}`.toLowerCase().includes(w)));
+  const folders = Map.groupBy ? Map.groupBy(matching, ({ folder }) => folder) : new Map([["", matching]]);
   const groups = [...folders].map(([folder, scenes]) =>
     element("section", {}, element("h3", { textContent: folder }), element("ul", {}, ...scenes.map(example))));
-  at("found").replaceChildren(...(groups.length ? groups : [element("p", { textContent: "No example has these words." })]));
+  at("matching").replaceChildren(...(groups.length ? groups : [element("p", { textContent: "No example has these words." })]));
 }
 
 function example({ name, title, text }) {
@@ -250,7 +250,7 @@ at("search").addEventListener("input", menu);
 at("search").addEventListener("keydown", (event) => {
   if (event.key !== "Enter") return;
   event.preventDefault();
-  at("found").querySelector("button")?.click();
+  at("matching").querySelector("button")?.click();
 });
 at("copy").addEventListener("click", async () => {
   await navigator.clipboard.writeText(location.href.replace("?embed", ""));

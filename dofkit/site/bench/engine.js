@@ -6,9 +6,9 @@
 export class Stopped extends Error {}
 
 export class Engine {
-  /** @param {(state: "loading" | "ready") => void} told is called when the worker is ready, or loads anew */
-  constructor(told) {
-    this.told = told;
+  /** @param {(state: "loading" | "ready") => void} changed is called when the worker is ready, or loads anew */
+  constructor(changed) {
+    this.changed = changed;
     /** @type {Map<number, Asked>} */
     this.asked = new Map();
     this.next = 0;
@@ -16,7 +16,7 @@ export class Engine {
   }
 
   start() {
-    this.told("loading");
+    this.changed("loading");
     this.worker = new Worker(new URL("./worker.js", import.meta.url), { type: "module" });
     this.worker.addEventListener("message", ({ data }) => this.hear(data));
     this.worker.addEventListener("error", (event) => this.fail(event.message || "the worker could not be started"));
@@ -26,7 +26,7 @@ export class Engine {
     if (ready) {
       for (const asked of this.asked.values()) asked.since = performance.now();
       this.ready = true;
-      this.told("ready");
+      this.changed("ready");
       return;
     }
     const asked = this.asked.get(id);
