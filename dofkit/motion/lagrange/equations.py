@@ -275,7 +275,7 @@ def _report(derived: Derived, small: Linearized | None, more: tuple[str, ...]) -
         multipliers=list(derived.multipliers),
         eliminated={n: to_text(e) for n, e in model.elimination.solved.items()},
         left_out=list(model.left_out),
-        non_conservative=[n for n, force in zip(model.names, derived.handover.forces, strict=True) if force != 0],
+        non_conservative=[n for n in model.names if not _zero(derived, model.applied(n))],
         cyclic=cyclic(derived),
         conserved=list(conserved(derived)),
         linearized=small,
