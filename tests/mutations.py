@@ -285,7 +285,7 @@ class Trial:
         print(f"{number:>3}  {outcome:<9} {mutant}\n     {by or why_same}", flush=True)
 
     def _measured(self, tests: Mapping[str, pytest.Item]) -> str:
-        """Return the tests that run each line, with the seconds of processor time that they take."""
+        """Return the tests that run each line and pass, with the seconds of processor time that they take."""
         hits: set[int] = set()
         setattr(builtins, PROBE, hits.add)
         for path in {mutant.path for mutant in self._mutants.values()}:
@@ -293,9 +293,10 @@ class Trial:
         seconds: dict[int, dict[str, float]] = {}
         for test, item in tests.items():
             hits.clear()
+            self._failed = ""
             start = time.process_time()
             item.config.hook.pytest_runtest_protocol(item=item, nextitem=None)
-            for number in hits:
+            for number in hits if not self._failed else ():
                 seconds.setdefault(number, {})[test] = time.process_time() - start
         return json.dumps(seconds)
 

@@ -15,7 +15,6 @@ from dofkit.methods.table import METHODS
 
 #: `auto` should take no more than so many times the fastest method that is right.
 TWICE = 2
-_NUMBERS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")
 
 
 def summary(data: Data) -> ChartRun:
@@ -58,7 +57,7 @@ def _trials(chart: ChartRun) -> str:
     undecided = mine.trials - mine.right - mine.wrong
     wrong = f"{mine.wrong} {'is' if mine.wrong == 1 else 'are'}" if mine.wrong else "none is"
     return (
-        f"{_spaced(chart.ran.trials)} trials by {_word(methods)} methods, at most {chart.ran.limit:g} s each: of the "
+        f"{_spaced(chart.ran.trials)} trials by {methods} methods, at most {chart.ran.limit:g} s each: of the "
         f"answers of `auto` {wrong} wrong and {_percent(undecided, mine.trials)} are undecided."
     )
 
@@ -99,10 +98,6 @@ def percent(share: float, below: str = "<", above: str = ">") -> str:
     if 99.9 < value < 100:
         return f"{above}99.9 %"
     return f"{value:.1f} %" if 0 < value < 10 or 90 < value < 100 else f"{value:.0f} %"
-
-
-def _word(number: int) -> str:
-    return _NUMBERS[number] if number < len(_NUMBERS) else str(number)
 
 
 def _spaced(number: int) -> str:

@@ -186,15 +186,6 @@ def test_a_pendulums_frequency() -> None:
     assert "give one as the scene's `configuration`" in wire.notes[-1]
 
 
-def test_an_upright_pendulum_is_unstable() -> None:
-    upright = scene(coordinates="x", configuration={"x": "pi"}, **energies("m l^2 xdot^2/2", "-m g l cos(x)"))
-    small = dofkit.lagrange(upright, linearize=True).linearized
-    assert small is not None
-    assert small.equilibrium == {"x": "pi"}
-    assert small.stiffness == [["-m*g*l"]]
-    assert small.unstable
-
-
 def chain_of_links(n: int) -> Scene:
     """Particles of mass m one below the other, by links of length l."""
     names = ["O", *(f"P{i}" for i in range(1, n + 1))]

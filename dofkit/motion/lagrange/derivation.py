@@ -1,4 +1,4 @@
-"""Lagrange's equations d/dt dL/dqdot - dL/dq = Q + sum lam a [Lagrange1788], in readable form, and SymPy's method."""
+"""Lagrange's equations d/dt dL/dqdot - dL/dq + sum lam a = Q [Lagrange1788], in readable form, and SymPy's method."""
 
 from __future__ import annotations
 
@@ -17,7 +17,6 @@ from dofkit.expressions.calculus import diff
 from dofkit.expressions.sympy_bridge import Bridge
 from dofkit.expressions.text.printing import to_text
 from dofkit.expressions.tree import ZERO, Expr
-from dofkit.motion.lagrange.elimination import by_time
 from dofkit.motion.lagrange.model import LagrangeModel, NoEquationsError
 from dofkit.motion.lagrange.tidying import Tidier, ordered
 
@@ -73,39 +72,46 @@ class Derived:
 
     def sympys_method(self) -> Any:
         """Return SymPy's LagrangesMethod of the same model, its equations not yet formed."""
-        from sympy.physics.mechanics import LagrangesMethod, Point, ReferenceFrame
-
-        model, frame, loads = self.model, ReferenceFrame("N"), []
-        bridge = Bridge(model.names, model.positive)
-        for n, q in bridge.positions.items():
-            force = bridge.sympy(model.applied(n))
-            if force != 0:
-                point = Point(f"P_{n}")
-                point.set_vel(frame, q.diff() * frame.x)
-                loads.append((point, force * frame.x))
-        return LagrangesMethod(
-            bridge.sympy(model.energy.lagrangian),
-            list(bridge.positions.values()),
-            forcelist=loads or None,
-            frame=frame if loads else None,
-            hol_coneqs=[bridge.sympy(g) for g in model.holonomic] or None,
-            nonhol_coneqs=[bridge.sympy(r) for r in model.nonholonomic] or None,
-        )
+        return sympys_method(self.model, Bridge(self.model.names, self.model.positive))
 
 
 def derive(model: LagrangeModel) -> Derived:
-    """Return Lagrange's equations of a model."""
-    tidy = Tidier(Bridge(model.names, model.positive), model.positive)
-    lagrangian, multipliers = model.energy.lagrangian, _multipliers(model)
-    pulls = [(ex.parameter(name), slopes) for name, slopes in zip(multipliers, model.slopes, strict=True)]
-    momenta, forces, equations = {}, {}, {}
-    for n in model.names:
-        momentum, slope = (diff(lagrangian, kind(n)) for kind in (ex.velocity, ex.coordinate))
-        force = slope + model.applied(n)
-        momenta[n], forces[n] = tidy.shorter(momentum), tidy.shorter(force)
-        equation = tidy.shorter(by_time(momentum) - force - ex.add(*(lam * slopes[n] for lam, slopes in pulls)))
-        equations[n] = equation if multipliers else without_exponentials(equation, model.positive)
-    return Derived(model, tidy.shorter(lagrangian), momenta, forces, equations, multipliers)
+    """Return Lagrange's equations of a model. Raises UntranslatableError where SymPy's result cannot be written."""
+    bridge = Bridge(model.names, model.positive)
+    method, tidy, multipliers = sympys_method(model, bridge), Tidier(bridge, model.positive), _multipliers(model)
+    formed = list(method.form_lagranges_equations()) if model.names else []
+    symbols = [bridge.sympy(ex.parameter(name)) for name in multipliers]
+    swapped = dict(zip(getattr(method, "lam_vec", ()) or (), symbols, strict=False))
+    equations = {n: tidy(e.xreplace(swapped)) for n, e in zip(model.names, formed, strict=True)}
+    if not multipliers:
+        equations = {n: without_exponentials(e, model.positive) for n, e in equations.items()}
+    lagrangian = bridge.sympy(model.energy.lagrangian)
+    momenta, forces = {}, {}
+    for n, q in bridge.positions.items():
+        momenta[n] = tidy(lagrangian.diff(bridge.velocity(n)))
+        forces[n] = tidy(lagrangian.diff(q) + bridge.sympy(model.applied(n)))
+    return Derived(model, tidy(lagrangian), momenta, forces, equations, multipliers)
+
+
+def sympys_method(model: LagrangeModel, bridge: Bridge) -> Any:
+    """Return SymPy's LagrangesMethod of a model, its equations not yet formed."""
+    from sympy.physics.mechanics import LagrangesMethod, Point, ReferenceFrame
+
+    frame, loads = ReferenceFrame("N"), []
+    for n, q in bridge.positions.items():
+        force = bridge.sympy(model.applied(n))
+        if force != 0:
+            point = Point(f"P_{n}")
+            point.set_vel(frame, q.diff() * frame.x)
+            loads.append((point, force * frame.x))
+    return LagrangesMethod(
+        bridge.sympy(model.energy.lagrangian),
+        list(bridge.positions.values()),
+        forcelist=loads or None,
+        frame=frame if loads else None,
+        hol_coneqs=[bridge.sympy(g) for g in model.holonomic] or None,
+        nonhol_coneqs=[bridge.sympy(r) for r in model.nonholonomic] or None,
+    )
 
 
 def without_exponentials(e: Expr, positive: frozenset[Expr]) -> Expr:
