@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 from dofkit.base.deadline import check
 from dofkit.base.errors import NoValueError
-from dofkit.exact.ring.canonical import Canon, Poly, cleared, determinant, lowest_terms
+from dofkit.exact.ring.canonical import Canon, Poly, cleared, determinant, is_identically_zero, lowest_terms
 from dofkit.exact.ring.program import TooLargeError, raising_no_value
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
@@ -48,7 +48,7 @@ class Locus:
     @cached_property
     def others(self) -> tuple[Expr, ...]:
         """The equations that give none."""
-        return tuple(e for e in (substitute(e, self.given) for e in self.equations) if not e.is_zero)
+        return tuple(e for e in (substitute(e, self.given) for e in self.equations) if not is_identically_zero(e))
 
     def on(self, e: Expr) -> Expr:
         """Return an expression on the locus, as far as that is solved."""
