@@ -32,7 +32,7 @@ def _inequalities(room: Room) -> dict[str, str] | None:
     places: dict[str, str] = {}
     for relation in room.problem.relations:
         if relation.kind == "inequality":
-            point = room.search.meeting([relation.name]) or room.search.touching(relation.name, 70)
+            point = room.meeting([relation.name]) or room.search.touching(relation.name, 70)
             if point is None:
                 return None
             places[relation.name] = room.add_point(point)
@@ -176,13 +176,13 @@ def circuit(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
 
 def feasible(room: Room) -> Iterator[Told]:
     """A point at which everything holds."""
-    standing = room.standing
-    if not room.report.feasible or standing is None:
-        return
-    yield {"rule": "point", "at": room.add_point(standing.point)}
     inequalities = [relation.name for relation in room.problem.relations if relation.kind == "inequality"]
-    if (point := room.search.meeting(inequalities, 200)) is not None:
-        yield {"rule": "point", "at": room.add_point(point)}
+    for point in (room.point, room.meeting(inequalities, 200)) if room.report.feasible else ():
+        standing = None if point is None else room.standing_of(room.equations, point=point)
+        if standing is not None:
+            minor = {"minor": room.minor(standing)}
+            yield {"rule": "point", "at": room.add_point(standing.point), **minor}
+            yield {"rule": "regular", **minor}
 
 
 def integrable_part(room: Room) -> Iterator[Told]:
