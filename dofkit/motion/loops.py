@@ -48,7 +48,7 @@ class LoopSampler:
 
     def __init__(self, system: System, numbers: Mapping[str, float]) -> None:
         with limited(DEFAULT_SECONDS), precise_for(system.longest):
-            self.sampler = MotionSampler(system, numbers, None)
+            self.sampler = MotionSampler(system, numbers)
         self.relations, self.follower, self.start = self.sampler.relations, self.sampler.follower, self.sampler.start
         if self.relations.timed:
             raise NoMotionError("a loop needs constraints without time")
