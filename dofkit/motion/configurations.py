@@ -103,7 +103,7 @@ class MotionSampler:
 
     def __init__(self, system: System, numbers: Mapping[str, float]) -> None:
         reduced, setting = prepared(system)
-        outcome = solve(system, reduced, setting)
+        outcome = solve(reduced, setting)
         self.system, self.setting, self.names = system, setting, [c.name for c in system.coordinates]
         self.numbers = _known_symbols(system, numbers)
         self.relations = _relations(system, outcome, setting, _limits(reduced, outcome))

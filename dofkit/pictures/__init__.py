@@ -1,8 +1,8 @@
 """Pictures: how does a mechanism look, how does it move, and what do its constraints allow?
 
 Pictures read a scene and its report, and never decide anything. `still` has `draw`, `graph` and `phase`; `animation`
-has `animate`. Pages (`player`, `player.js`) play, rotate and drag by a script of their own and fetch nothing; png, pdf, gif
-and mp4 need matplotlib, svg does not (`files`).
+has `animate`. Pages (`player`, `player.js`) play, rotate and drag by scripts of their own and fetch nothing; png, pdf, gif and mp4
+need matplotlib, svg does not (`files`).
 
 From a scene to a file, in this order
     1. Positions: `arrangement` takes those of the reference configuration, or some that satisfy the equations, by
