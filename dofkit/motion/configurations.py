@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from itertools import islice
 
 import numpy as np
@@ -92,10 +93,17 @@ def configurations(
     source = scene_or_system(scene)
     system = source if isinstance(source, System) else lower(source)
     try:
-        with limited(DEFAULT_SECONDS), precise_for(system.longest):
+        with sampling(system):
             return MotionSampler(system, dict(values or {})).configurations(steps, step, along, both=both)
     except OutOfTimeError as error:
         raise NoMotionError(str(error)) from None
+
+
+@contextmanager
+def sampling(system: System, seconds: float = DEFAULT_SECONDS) -> Iterator[None]:
+    """Sample motions of a system within a time limit, as precisely as its numbers ask for. Raises OutOfTimeError."""
+    with limited(seconds), precise_for(system.longest):
+        yield
 
 
 class MotionSampler:

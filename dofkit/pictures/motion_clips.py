@@ -8,10 +8,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from dofkit.base.deadline import limited
 from dofkit.base.errors import DofkitError
-from dofkit.exact.points.balls import precise_for
-from dofkit.motion.configurations import MotionSampler
+from dofkit.motion.configurations import MotionSampler, sampling
 from dofkit.pictures.arrangement import MOVES, FreeMotion, displaced, free_motions, moved_numbers
 from dofkit.pictures.evaluation import by_pivots, kernel
 from dofkit.pictures.shapes import Array, Clip, Poses, Sketch, Switch, place
@@ -59,7 +57,7 @@ class ClipMaker:
         """Return the finite motions, where they could be followed, and infinitesimal ones in the place of others."""
         if not self.moves:
             return []
-        with limited(SECONDS), precise_for(self.stage.system.longest):
+        with sampling(self.stage.system, SECONDS):
             try:
                 sampler = MotionSampler(self.stage.system, self.stage.arrangement.first_values)
                 if self.stage.report.singular:
@@ -214,7 +212,7 @@ class ClipMaker:
         if not extra:
             return None
         held = [m.symbol for m in motions if m is not extra[0]]
-        with limited(SECONDS), precise_for(stage.system.longest):
+        with sampling(arrangement.system, SECONDS):
             sampler = MotionSampler(arrangement.system, arrangement.first_values)
             path = sampler.free_motion(extra[0].rates, held, self._steps(SHORT), self._step(sampler, extra[0]))
         clips = self._sampled(f"without {name}: {extra[0].name}", path, FEW // 2)
