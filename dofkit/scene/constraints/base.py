@@ -74,11 +74,6 @@ class ConstraintBase(WrittenModel):
         """Yield its texts that may mention coordinates."""
         yield from ()
 
-    @classmethod
-    def restated(cls, entry: Mapping[str, Any]) -> dict[str, Any]:
-        """Return a faulty entry with what several wrong keys state together under the right one."""
-        return dict(entry)
-
     @property
     def in_words(self) -> str:
         """One line for a person to read."""

@@ -228,16 +228,6 @@ class String(ConstraintBase):
         if isinstance(self.length, str):
             yield self.length
 
-    @classmethod
-    def restated(cls, entry: Mapping[str, Any]) -> dict[str, Any]:
-        """Return a faulty entry with pulleys that are given by `over` between the two ends."""
-        over, keys = entry.get("over"), ("along", "members", "points", "over")
-        ends: Any = next((entry[key] for key in keys[:-1] if key in entry), ())
-        over = [over] if isinstance(over, str) else over
-        if not isinstance(ends, (list, tuple)) or not isinstance(over, (list, tuple)):
-            return dict(entry)
-        return {k: part for k, part in entry.items() if k not in keys} | {"along": [*ends[:1], *over, *ends[1:]]}
-
     @property
     def in_words(self) -> str:
         run = "-".join(show_point(point) for point in self.along)

@@ -150,14 +150,6 @@ class Slot(ConstraintBase):
         for u in axis.across:
             yield Relation(along(frame, point, place, u), part="across", vector=u)
 
-    @classmethod
-    def restated(cls, entry: Mapping[str, Any]) -> dict[str, Any]:
-        """Return a faulty entry with `between: [point, body]` as the two fields."""
-        fields = dict(entry)
-        if isinstance(fields.get("between"), (list, tuple)) and len(fields["between"]) == 2:
-            fields["point"], fields["body"] = fields.pop("between")
-        return fields
-
     @property
     def in_words(self) -> str:
         words = f"slot {show_point(self.point)} on {self.body}"
