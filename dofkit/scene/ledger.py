@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterable, Sequence
+from collections.abc import Hashable, Iterable
 from fractions import Fraction
 
 from dofkit.base.errors import Fault, TextError
 from dofkit.expressions.calculus import in_velocities, refuse_accelerations
-from dofkit.expressions.renaming import Renaming, is_name, shape_of
+from dofkit.expressions.renaming import Renaming, shape_of
 from dofkit.expressions.text import Names, parse_expression, parse_relations
 from dofkit.expressions.text.names import pattern_of
 from dofkit.expressions.tree import Expr, num, parameter
@@ -68,7 +68,6 @@ class ParsedTexts:
         self.names = names
         self._parsed: dict[str, Expr | TextError] = {}
         self._patterns: dict[Hashable, tuple[tuple[str, ...], list[Relation]]] = {}
-        self._made: dict[Hashable, tuple[list[str], Expr]] = {}
 
     def equations(self, text: str) -> list[Relation]:
         """Return the relations of a text that may mention anything.
@@ -92,21 +91,6 @@ class ParsedTexts:
                 shape_of(relation.expr)
             self._patterns[pattern.key] = pattern.names, relations
         return relations
-
-    def in_names(self, kind: Hashable, symbols: Sequence[Expr], make: Callable[[], Expr]) -> Expr:
-        """Return what ``make`` makes of symbols with different names; it is made once for each ``kind``.
-
-        An expression that holds further symbols, as after a fault, is made each time.
-        """
-        names = [s.args[1] for s in symbols]
-        if kind in self._made:
-            names_made, expression = self._made[kind]
-            return Renaming(dict(zip(names_made, names, strict=True))).of(expression)
-        expression = make()
-        if {s for s in expression.symbols if is_name(s)} <= set(symbols):
-            shape_of(expression)
-            self._made[kind] = names, expression
-        return expression
 
     def expression(self, text: str) -> Expr | TextError:
         """Return the expression of a text, or why it is none."""
@@ -183,10 +167,6 @@ class Texts(Ledger):
                     hint += f"; what moves is written as an equation, such as `{law}`"
                 self.fault(f"{_NAMES_OF_KINDS[kind].format(name)} cannot stand here", *where, hint=hint)
                 return
-
-    def in_names(self, kind: Hashable, symbols: Sequence[Expr], make: Callable[[], Expr]) -> Expr:
-        """Return what ``make`` makes of some symbols; see `ParsedTexts`."""
-        return self._reader.in_names(kind, symbols, make)
 
     def equations(self, text: str, *where: str | int) -> list[Relation]:
         """Return the relations of a text that may mention anything; see `ParsedTexts`."""

@@ -346,7 +346,7 @@ def _rotations(drawing: Drawing) -> tuple[Rotation, ...]:
 
 
 def _gear_warnings(constraints: Sequence[Constraint], connections: Sequence[Connection]) -> Iterator[str]:
-    """Yield a warning for a wheel that turns on a moving arm: without ``carrier`` a ratio is of angles to the ground."""
+    """Yield a warning for each wheel on a moving arm: without ``carrier`` a ratio is that of angles to the ground."""
     gears = [c for c in connections if c.facts.geared and len(c.members) == 2]
     hinges = [c.members for c in connections if c.facts.axial and c.facts.planar_pair and len(c.members) == 2]
     at_rest = _at_rest(connections) if gears else set()
