@@ -341,4 +341,4 @@ def _equation(terms: Sequence[Expr]) -> str:
 
 
 def _is_negative(term: Expr) -> bool:
-    return number_and_rest(term)[0] < 0
+    return ex.number_and_rest(term)[0] < 0
