@@ -124,27 +124,22 @@ def player_data(
         "names": name_size(sketch),
         "traced": [[carriers.index(v.carrier), *_rounded(v.at)] for v in sketch.traced if v.carrier in carriers],
         "still": [_pose_row(sketch.poses.get(c, AT_REST)) for c in carriers],
-        "clips": [
-            {
-                "name": clip.name,
-                "closed": clip.closed,
-                **({"size": clip.size, "loop": True} if clip.loop else {}),
-                **({"text": clip.text} if clip.text else {}),
-                **({"dropped": clip.dropped} if clip.dropped else {}),
-                "arrows": [[_rounded(a), _rounded(b)] for a, b in clip.arrows],
-                "frames": [
-                    [_pose_row(frame.get(c, AT_REST)) for c in carriers]
-                    if program is None
-                    else _rounded(program.values(numbers))
-                    for frame, numbers in zip(clip.frames, clip.path, strict=True)
-                ],
-            }
-            for clip in clips
-        ],
+        "clips": [_clip_data(clip, carriers, program) for clip in clips],
         "switches": [switch._asdict() for switch in switches],
         "program": None if program is None else program.data(carriers),
         **_panel(sketch, standpoint, every),
     }
+
+
+def _clip_data(clip: Clip, carriers: Sequence[str], program: PlanarProgram | None) -> dict[str, Any]:
+    """Return a clip, whose frames are values of the program's columns if there is one, else poses of all carriers."""
+    entry: dict[str, Any] = {"name": clip.name, "closed": clip.closed, "loop": clip.loop, "text": clip.text}
+    if program is not None:
+        frames: list[Any] = [_rounded(program.values(numbers)) for numbers in clip.path]
+    else:
+        frames = [[_pose_row(frame.get(c, AT_REST)) for c in carriers] for frame in clip.frames]
+    arrows = [[_rounded(a), _rounded(b)] for a, b in clip.arrows]
+    return entry | {"dropped": clip.dropped, "size": clip.size, "arrows": arrows, "frames": frames}
 
 
 def _panel(sketch: Sketch, standpoint: Standpoint, every: Iterable[Poses]) -> dict[str, Any]:
