@@ -104,7 +104,7 @@ class MotionSampler:
 
     def __init__(self, system: System, numbers: Mapping[str, float], along: str | None) -> None:
         reduced, setting = prepared(system)
-        outcome = solve(system, reduced, setting)
+        outcome = solve(reduced, setting)
         names = [c.name for c in system.coordinates]
         if along is not None and along not in names:
             raise NoMotionError(no_such(along, names, "coordinate"))
