@@ -10,7 +10,6 @@ from flint import fmpq, fmpq_mat
 
 from dofkit.exact.points.frames import pivots
 from dofkit.expressions import tree as ex
-from dofkit.expressions.terms import number_and_rest
 from dofkit.expressions.tree import Expr
 
 #: Entries of a matrix that is looked at; past that the relations are taken as they are.
@@ -23,7 +22,7 @@ def linear(e: Expr) -> Terms | None:
     """``e`` as a sum of numbers times symbols (`ONE` for the constant); None where it is not one."""
     terms: Terms = {}
     for term in e.args if e.op == "add" else (e,):
-        factor, remainder = (term.args[0], ex.ONE) if term.op == "num" else number_and_rest(term)
+        factor, remainder = ex.number_and_rest(term)
         if remainder.op != "sym" and remainder != ex.ONE:
             return None
         terms[remainder] = terms.get(remainder, Fraction(0)) + factor
