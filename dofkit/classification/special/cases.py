@@ -174,12 +174,12 @@ def special_cases(study: Study, report: Report, again: Again) -> dict[str, Any]:
                     search = SpecialLoci(study, report, block, a)
                     searched = True
                     cases.extend(search.cases())
-    changed: dict[str, Any] = {"special_cases": _merged(cases)} if cases or searched else {}
+    changed: dict[str, Any] = {"special_cases": merged(cases)} if cases or searched else {}
     return {**changed, "method": f"{report.method}; {SEARCHED}"} if searched else changed
 
 
-def _merged(cases: Sequence[SpecialCase]) -> list[SpecialCase]:
-    """What is said of several constraints at one place, said once."""
+def merged(cases: Sequence[SpecialCase]) -> list[SpecialCase]:
+    """Return the cases, those of several constraints at one place as one."""
     kept: dict[tuple[str, str], SpecialCase] = {}
     for case in cases:
         key = (case.where, case.what)
