@@ -84,7 +84,6 @@ class Score(_Row):
     median_seconds: float | None
     low_seconds: float | None = Field(description="the tenth percentile")
     high_seconds: float | None = Field(description="the ninetieth")
-    total_seconds: float
 
     @property
     def share_right(self) -> float:
@@ -151,10 +150,7 @@ class Against(_Row):
     question: str
     family: str
     fastest: str
-    fastest_seconds: float
-    auto_seconds: float
     ratio: float = Field(description="the median over trials of the ratio of their seconds")
-    lucky: bool = Field(False, description="is that method wrong on another family of the question?")
     sound: str | None = Field(None, description="the fastest of them that is never wrong on the question")
     sound_ratio: float | None = Field(None, description="the same ratio for that one")
 

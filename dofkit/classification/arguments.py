@@ -232,13 +232,13 @@ _OWN: dict[ArgumentKey, Argument] = {
         "dimensions of brackets",
         "Witt1937",
         "they attain the largest possible ranks, and a number that is nonzero over GF(p) is nonzero",
-        "dofkit.integrability.growth_vector.is_free",
+        "dofkit.integrability.lie_algebra.is_free",
     ),
     "brackets at points": Argument(
         "dimensions of brackets",
         "SchwartzZippel",
         "ranks along random curves over GF(p)",
-        "dofkit.integrability.growth_vector.growth",
+        "dofkit.integrability.growth_vector.spanning_curves",
     ),
     "rows at a point": Argument(
         "dependences among the constraints",

@@ -12,7 +12,6 @@ from dofkit.exact.analyticity import is_analytic
 from dofkit.exact.ring.canonical import is_identically_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
-from dofkit.expressions.terms import number_and_rest
 from dofkit.expressions.tree import Expr
 
 #: A value of more terms than this is put only into relations that it leaves below so many nodes.
@@ -25,7 +24,7 @@ def linear(e: Expr) -> Terms | None:
     """``e`` as a sum of numbers times symbols (`ONE` for the constant); None where it is not one."""
     terms: Terms = {}
     for term in e.args if e.op == "add" else (e,):
-        factor, remainder = (term.args[0], ex.ONE) if term.op == "num" else number_and_rest(term)
+        factor, remainder = ex.number_and_rest(term)
         if remainder.op != "sym" and remainder != ex.ONE:
             return None
         terms[remainder] = terms.get(remainder, Fraction(0)) + factor
