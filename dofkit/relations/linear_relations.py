@@ -64,6 +64,10 @@ class Explicit(NamedTuple):
             result[s] = substitute(self.values[s], result)
         return result
 
+    def implies(self, e: Expr) -> bool | None:
+        """Return whether a linear relation is a sum of these; None where it may be by those that give no coordinate."""
+        return substitute(e, self.by_others).is_zero or (None if self.implicit else False)
+
 
 def constant_coefficients(g: Expr) -> dict[Expr, Expr]:
     """Return the coordinates that stand once in a sum, times what holds no coordinate and is generically not 0."""

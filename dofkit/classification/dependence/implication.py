@@ -29,7 +29,6 @@ from dofkit.exact.points.balls import BallPoint
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import vanishes
 from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, Row, coordinates_of, make_chart, split
@@ -251,10 +250,7 @@ class BlockImplication:
         """Return whether a linear relation is a combination of others over Q; None if not all are linear."""
         pieces = [self.block.rows[i].piece for i in (*others, row)]
         relations = [p.expr for p in pieces if isinstance(p, Finite) and linear(p.expr) is not None]
-        if len(relations) < len(pieces):
-            return None
-        solved = solve_linear(relations[:-1])
-        return substitute(relations[-1], solved.by_others).is_zero or (None if solved.implicit else False)
+        return solve_linear(relations[:-1]).implies(relations[-1]) if len(relations) == len(pieces) else None
 
 
 class NearDrawing(BlockImplication):
