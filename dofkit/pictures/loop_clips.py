@@ -30,8 +30,9 @@ def loop_clips(stage: StagedScene) -> list[Clip]:
 
 
 def _clip(stage: StagedScene, loop: Loop) -> Clip:
-    frames = tuple(stage.arrangement.frames(loop.configurations[::EVERY]))
-    return Clip(f"loop of {' and '.join(loop.coordinates)}", frames, size=loop.size, text=_words(loop), loop=True)
+    path = tuple(stage.arrangement.along(loop.configurations[::EVERY]))
+    frames = tuple(stage.arrangement.poses_at(numbers, gibbs=False) for numbers in path)
+    return Clip(f"loop of {' and '.join(loop.coordinates)}", frames, path, size=loop.size, text=_words(loop), loop=True)
 
 
 def _words(loop: Loop) -> str:

@@ -54,9 +54,8 @@ def test_bars_keep_their_lengths() -> None:
 def test_each_of_several_freedoms_is_shown_by_itself() -> None:
     names = [clip.name for clip in dofkit.animate("planetary-gear-bodies").clips]
     assert names == [
-        "a finite motion that uses all freedoms",
-        "infinitesimal motion 1 of 2: theta_arm",
-        "infinitesimal motion 2 of 2: theta_sun",
+        "free velocity 1 of 2: theta_arm",
+        "free velocity 2 of 2: theta_sun",
     ]
 
 

@@ -27,7 +27,6 @@ from dofkit.exact.ring.program import raising_no_value, values
 from dofkit.exact.triangular import TriangularSolver
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
-from dofkit.expressions.terms import number_and_rest
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.growth_vector import growth_at
@@ -138,7 +137,7 @@ def _separating(reduced: Sequence[Reduced], outcome: Outcome) -> Iterator[Expr]:
     factors = {p.expr for n in products for branch in n.branches for p in branch if isinstance(p, Finite)}
     result = [r.piece.expr for r in outcome.rows if isinstance(r.piece, Finite) and r.piece.expr in factors]
     for h in [*result, *(h for a in outcome.answers for h in a.separating)]:
-        yield number_and_rest(h)[1]
+        yield ex.number_and_rest(h)[1]
 
 
 def _in_order(e: Expr, system: System) -> list[Expr]:
@@ -175,12 +174,12 @@ def special_cases(study: Study, report: Report, again: Again) -> dict[str, Any]:
                     search = SpecialLoci(study, report, block, a)
                     searched = True
                     cases.extend(search.cases())
-    changed: dict[str, Any] = {"special_cases": _merged(cases)} if cases or searched else {}
+    changed: dict[str, Any] = {"special_cases": merged(cases)} if cases or searched else {}
     return {**changed, "method": f"{report.method}; {SEARCHED}"} if searched else changed
 
 
-def _merged(cases: Sequence[SpecialCase]) -> list[SpecialCase]:
-    """What is said of several constraints at one place, said once."""
+def merged(cases: Sequence[SpecialCase]) -> list[SpecialCase]:
+    """Return the cases, those of several constraints at one place as one."""
     kept: dict[tuple[str, str], SpecialCase] = {}
     for case in cases:
         key = (case.where, case.what)
@@ -342,4 +341,4 @@ def _equation(terms: Sequence[Expr]) -> str:
 
 
 def _is_negative(term: Expr) -> bool:
-    return number_and_rest(term)[0] < 0
+    return ex.number_and_rest(term)[0] < 0
