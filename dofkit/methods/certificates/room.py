@@ -163,24 +163,10 @@ class Room:
         unknowns = [*problem.coordinates, *problem.world.generic]
         names = reduced(self.scenery, self.scenery.evidence.finite)
         if self.nonlinear:
-            names, unknowns = self._states
+            names, unknowns = states_of(self)
         finite = not self.scenery.evidence.moving and self.report.dof is not None
         rank = len(problem.coordinates) - (self.report.dof or 0) if finite else None
         return self.search.somewhere(names, unknowns, rank=rank)
-
-    @cached_property
-    def _states(self) -> tuple[list[str], list[str]]:
-        """The relations that hold of a configuration with its velocities, and the symbols of both."""
-        rates = [step for name in self.scenery.evidence.finite if (step := rate_of(self.scenery, name))]
-        symbols = [*self.problem.coordinates, *self.problem.world.generic]
-        return [*self.finite_first, *rates], [*symbols, *(f"{q}dot" for q in self.problem.coordinates)]
-
-    def meeting(self, inequalities: Sequence[str], seed: int = 100) -> FoundPoint | None:
-        """Return a point at which inequalities hold, and the finite relations; if they hold velocities, all."""
-        evidence = self.scenery.evidence
-        moving = any(evidence.met_by(evidence.relation(name).tree) for name in inequalities)
-        names, unknowns = self._states if moving else (evidence.finite, self.problem.coordinates)
-        return self.search.meeting(inequalities, names, unknowns, seed)
 
     @cached_property
     def equations(self) -> list[str]:
@@ -249,3 +235,10 @@ class Room:
                 accounted(self.scenery, name, standing.rows, standing.point) for name in standing.dependent
             )
         return standing
+
+
+def states_of(room: Room) -> tuple[list[str], list[str]]:
+    """The relations that hold of a configuration with its velocities, and the symbols of both."""
+    rates = [step for name in room.scenery.evidence.finite if (step := rate_of(room.scenery, name))]
+    symbols = [*room.problem.coordinates, *room.problem.world.generic]
+    return [*room.finite_first, *rates], [*symbols, *(f"{q}dot" for q in room.problem.coordinates)]
