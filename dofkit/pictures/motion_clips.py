@@ -92,7 +92,7 @@ class ClipMaker:
         speed = float(np.linalg.norm(sampler.relations.step_of(motion.rates)))
         step = float(np.clip(2 * FAR / REACH * self._reach(motion) * speed / SHORT, STEP / 10, 2 * STEP))
         return sampler.free_motion(
-            motion.rates, held, self._steps(SHORT if sampler.relations.forms else 3 * SHORT), step
+            motion.rates, held, self._steps(SHORT if sampler.relations.forms else 2 * SHORT), step
         )
 
     def _at_singularity(self, sampler: MotionSampler) -> Iterator[Clip]:
