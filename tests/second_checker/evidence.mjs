@@ -305,7 +305,7 @@ export class Evidence {
     const slopes = (p) => rows.map((r) => columns.map((q) => this.at(derivative(r.tree, q), p)));
     const inverse = approximateInverse(slopes(middle));
     const wide = slopes(point);
-    columns.forEach((q, i) => {
+    const images = columns.map((q, i) => {
       let moved = ZERO;
       inverse[i].forEach((y, k) => (moved = moved.sub(y.mul(values[k]))));
       columns.forEach((p, j) => {
@@ -313,8 +313,13 @@ export class Evidence {
         inverse[i].forEach((y, k) => (entry = entry.sub(y.mul(wide[k][j]))));
         moved = moved.add(entry.mul(point.balls.get(p).sub(middle.balls.get(p))));
       });
-      refuse(!point.balls.get(q).contains(middle.balls.get(q).add(moved)), "no zero is certain in the box");
+      const image = middle.balls.get(q).add(moved);
+      refuse(!point.balls.get(q).contains(image), "no zero is certain in the box");
+      return image;
     });
+    // the zero lies in its image, which is smaller than the box
+    columns.forEach((q, i) => point.balls.set(q, images[i]));
+    point.done = new Map();
     point.rows = given.rows;
   }
 

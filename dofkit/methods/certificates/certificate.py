@@ -60,9 +60,9 @@ def made(document: Mapping[str, Any], report: Report) -> tuple[dict[str, Any], l
 class Certifying:
     """A certificate while it is made; ``contradictions``: claims whose evidence gives another value, and why."""
 
-    def __init__(self, document: Mapping[str, Any], report: Report) -> None:
+    def __init__(self, document: Mapping[str, Any], report: Report, readings: Mapping[str, str] | None = None) -> None:
         self.document, self.report = document, report
-        self.certificate = empty_certificate(report.scene, document)
+        self.certificate = empty_certificate(report.scene, document, readings or {})
         self.rooms: list[Room] = []
         self.trial: ClaimTrial | None = None
         self.contradictions: dict[str, str] = {}

@@ -21,9 +21,10 @@ from dofkit.report import Report
 Outcome = Literal["shown", "contradicted", "open"]
 
 
-def empty_certificate(name: str, document: Mapping[str, Any]) -> dict[str, Any]:
+def empty_certificate(name: str, document: Mapping[str, Any], readings: Mapping[str, str]) -> dict[str, Any]:
     """Return a certificate of a scene without parts, claims, or what is uncovered."""
     scene = {"name": name, "sha256": sha256_of(document), "document": canonical(document)}
+    scene |= {"readings": dict(readings)} if readings else {}
     lists: dict[str, list[dict[str, Any]]] = {part: [] for part in PARTS}
     return {"certificate": 1, "scene": scene, "cayley": [], **lists, "claims": [], "uncovered": []}
 
