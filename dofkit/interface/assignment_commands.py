@@ -65,31 +65,36 @@ def handout(
     """
     from dofkit.homework.answers.roster import load_roster
     from dofkit.homework.assignment import load_assignment
-    from dofkit.homework.handout.class_sheets import ENDINGS, sheets_of, write_handout, write_sheets
+    from dofkit.homework.handout.class_sheets import sheets_of, write_handout, write_sheets
     from dofkit.homework.handout.sheets import remarks
     from dofkit.homework.variants import sheet_of
 
     with failures_of(assignment):
         prepared = load_assignment(assignment)
         if roster is not None:
-            folder = target = out or Path(assignment).with_suffix("")
-            form = form or "html"
-            write_sheets(sheets_of(prepared, load_roster(roster)), form, drawing(), folder)
+            form, target = form or "html", out or Path(assignment).with_suffix("")
+            write_sheets(sheets_of(prepared, load_roster(roster)), form, drawing(), target)
         else:
-            ending = ENDINGS.get(form or "html", form or "html")
-            if out is not None:
-                ending = format_of_path(out, ("html", "md"), ending if form else None)
-            target = Path(assignment).with_suffix(f".{ending}") if out is None else out
-            form, folder = form or ending, target.parent
-            if target.resolve() == Path(assignment).resolve():
-                raise typer.BadParameter("it would overwrite the assignment", param_hint="--out")
-            if student is not None:
-                prepared = sheet_of(prepared, student)
+            form, target = handout_file(Path(assignment), form, out)
+            prepared = prepared if student is None else sheet_of(prepared, student)
             write_handout(prepared, form, drawing(), target, student)
     for remark in remarks(prepared):
         typer.echo(f"{assignment}: {remark}", err=True)
-    with_runtime(form, folder, runtime)
+    with_runtime(form, target if roster else target.parent, runtime)
     typer.echo(target)
+
+
+def handout_file(assignment: Path, form: str | None, out: Path | None) -> tuple[str, Path]:
+    """Return the format of one handout and its path; the ending of a path decides where no format is asked for."""
+    from dofkit.homework.handout.class_sheets import ENDINGS
+
+    ending = ENDINGS.get(form or "html", form or "html")
+    if out is not None:
+        ending = format_of_path(out, ("html", "md"), ending if form else None)
+    path = assignment.with_suffix(f".{ending}") if out is None else out
+    if path.resolve() == assignment.resolve():
+        raise typer.BadParameter("it would overwrite the assignment", param_hint="--out")
+    return form or ending, path
 
 
 def with_runtime(form: str, folder: Path, runtime: Path | None) -> None:
