@@ -21,6 +21,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from dofkit.base.errors import DofkitError
+from dofkit.pictures.player import player_script
 from dofkit.scene.schema import scene_schema
 from dofkit.site.gallery import ShownScene
 
@@ -67,7 +68,7 @@ def build_bench(out: Path, catalog: Sequence[ShownScene]) -> None:
         _run(["npm", "ci", "--no-audit", "--no-fund"], "npm ci")
     shutil.rmtree(out, ignore_errors=True)
     (out / "pyodide").mkdir(parents=True)
-    shutil.copyfile(PACKAGE / "pictures" / "player.js", out / "player.js")
+    (out / "player.js").write_text(player_script(), encoding="utf-8")
     for name in RUNTIME:
         shutil.copyfile(modules / "pyodide" / name, out / "pyodide" / name)
     with TemporaryDirectory() as folder:
