@@ -71,7 +71,7 @@ def configurations(
     list of dict
         At most ``2 steps + 1`` mappings from the names of coordinates (and ``t``) to numbers: lengths in the scene's
         units, angles in radians. Each satisfies the holonomic equations g, hidden ones included, to 1e-12 |grad g|
-        times the size; a differential constraint is satisfied at the midpoint of every chord, at most 1/160 long.
+        times the size; a differential constraint is satisfied at the midpoint of every chord, at most 1/100 long.
 
     Raises
     ------
@@ -226,7 +226,7 @@ class MotionSampler:
 def _known_symbols(system: System, numbers: Mapping[str, float]) -> dict[Expr, float]:
     """Numbers for parameters and coordinates, by their symbols."""
     places = {c.name for c in system.coordinates}
-    names = places | set(system.parameters)
+    names = {*places, *system.parameters, *system.generic}
     wrong = sorted(set(numbers) - names)
     if wrong:
         message = f"'{wrong[0]}' is neither a coordinate nor a parameter without a value"

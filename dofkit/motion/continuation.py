@@ -23,7 +23,7 @@ SMALL = 1e-7
 #: What a correction may add to a step, the least cosine between steps, and the least part of a step that is tried.
 SLACK, STRAIGHT, LEAST = 0.3, 0.9, 2.0**-12
 #: The longest chord on which forms are integrated.
-CHORD = 1 / 160
+CHORD = 1 / 100
 #: Directions in which a singular configuration is left, and how much of a step the first one is.
 TRIES, AWAY = 32, (1.0, 0.25, 0.0625, 0.015625)
 

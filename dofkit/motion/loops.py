@@ -20,7 +20,7 @@ from dofkit.motion.poses import FAULTS, Array, Pose
 from dofkit.system import System
 
 #: Corners of a loop, the loops that are followed at most, and the steps of differences.
-CORNERS, MOST_LOOPS, OUTER, INNER = 72, 3, 1e-3, 1e-4
+CORNERS, MOST_LOOPS, OUTER, INNER = 72, 2, 1e-3, 1e-4
 #: The least part of the largest column that makes a column one of those that are moved.
 LEAST = 0.2
 ONE_FIELD = "a loop needs two free velocities: with one, every motion runs back along itself"

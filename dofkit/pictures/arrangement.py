@@ -67,7 +67,7 @@ class Arrangement:
     @property
     def first_values(self) -> dict[str, float]:
         """The values of parameters, and of coordinates without a reference, at which a motion begins."""
-        values = {p: self.numbers[parameter(p)] for p in self.system.parameters}
+        values = {p: self.numbers[parameter(p)] for p in (*self.system.parameters, *self.system.generic)}
         if self.system.reference is None:
             turning = {n for r in self.system.rotations for n in r.names}
             names = [c.name for c in self.system.coordinates if c.name not in turning]

@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from dofkit.base.errors import DofkitError
+from dofkit.expressions.tree import Expr
 from dofkit.motion.configurations import MotionSampler, sampling
 from dofkit.pictures.arrangement import MOVES, FreeMotion, displaced, free_motions, moved_numbers
 from dofkit.pictures.evaluation import by_pivots, kernel
@@ -22,7 +23,7 @@ from dofkit.system import GROUND
 #: Steps of a sampled motion to either side, their length, and the most frames that are kept.
 STEPS, STEP, FRAMES = 160, 0.1, 96
 #: The same if there are several motions.
-SHORT, FEW = 50, 40
+SHORT, FEW = 25, 40
 #: How far beyond the picture a motion is shown, by the picture's size; a closed one returns to within this part of it.
 FAR, BACK = 0.5, 0.05
 #: The number of points of a sketch by which two poses are compared.
@@ -80,11 +81,19 @@ class ClipMaker:
             held = [other.symbol for other in self.stage.motions if other is not motion]
             clips: list[Clip] = []
             try:
-                path = sampler.free_motion(motion.rates, held, self._steps(SHORT), self._step(sampler, motion))
+                path = self._free_motion(sampler, motion, held)
                 clips += self._sampled(name.format(k + 1, count, motion.name), path, FEW)
             except DofkitError:
                 pass
             yield from clips or self._swings([motion])
+
+    def _free_motion(self, sampler: MotionSampler, motion: FreeMotion, held: Sequence[Expr]) -> list[dict[str, float]]:
+        """Return a motion in steps that reach the edge of the picture in half of `SHORT`, and then go on."""
+        speed = float(np.linalg.norm(sampler.relations.step_of(motion.rates)))
+        step = float(np.clip(2 * FAR / REACH * self._reach(motion) * speed / SHORT, STEP / 10, 2 * STEP))
+        return sampler.free_motion(
+            motion.rates, held, self._steps(SHORT if sampler.relations.forms else 3 * SHORT), step
+        )
 
     def _at_singularity(self, sampler: MotionSampler) -> Iterator[Clip]:
         """Yield the finite motions that leave a singular configuration, and infinitesimal ones that do not go on."""
@@ -176,11 +185,6 @@ class ClipMaker:
         ]
         return min((b for b in bounds if math.isfinite(b)), default=0.0)
 
-    def _step(self, sampler: MotionSampler, motion: FreeMotion) -> float:
-        """Return the length of steps that reach the edge of the picture in a quarter of the steps."""
-        speed = float(np.linalg.norm(sampler.relations.step_of(motion.rates)))
-        return float(np.clip(4 * FAR / REACH * self._reach(motion) * speed / SHORT, STEP / 10, 2 * STEP))
-
     # Constraints left out
 
     def switches(self) -> Iterator[tuple[Switch, list[Clip]]]:
@@ -214,7 +218,7 @@ class ClipMaker:
         held = [m.symbol for m in motions if m is not extra[0]]
         with sampling(arrangement.system, SECONDS):
             sampler = MotionSampler(arrangement.system, arrangement.first_values)
-            path = sampler.free_motion(extra[0].rates, held, self._steps(SHORT), self._step(sampler, extra[0]))
+            path = self._free_motion(sampler, extra[0], held)
         clips = self._sampled(f"without {name}: {extra[0].name}", path, FEW // 2)
         return [clip._replace(text=NEEDED.format(name), dropped=name) for clip in clips]
 

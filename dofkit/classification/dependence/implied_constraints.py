@@ -16,7 +16,7 @@ from dofkit.classification.freedom.preparation import all_of
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Redundancies, undecided_dependence
-from dofkit.relations.linear_relations import linear, presolve
+from dofkit.relations.linear_relations import linear, solve_linear
 from dofkit.relations.normal.pieces import Finite, Normal, Reduced
 from dofkit.relations.setting import Setting
 
@@ -194,7 +194,7 @@ class ConstraintSets:
         """(consistent, proved); linear ones alone are simply solved."""
         straight = _linear([self.reduced[i] for i in numbers])
         if straight is not None:
-            return not presolve(straight).contradiction, True
+            return not solve_linear(straight).contradictory, True
         some = [r if i in set(numbers) else Reduced(r.constraint, (), ()) for i, r in enumerate(self.reduced)]
         result = solve(some, self.setting)
         return result.consistent, all(a.exists or a.verdict == "proved" for a in result.answers)
