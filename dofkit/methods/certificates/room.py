@@ -163,9 +163,7 @@ class Room:
         unknowns = [*problem.coordinates, *problem.world.generic]
         names = reduced(self.scenery, self.scenery.evidence.finite)
         if self.nonlinear:
-            names += [name for name in self.equations if name not in names]
-            names += [step for name in self.scenery.evidence.finite if (step := rate_of(self.scenery, name))]
-            unknowns += [f"{q}dot" for q in problem.coordinates]
+            names, unknowns = states_of(self)
         finite = not self.scenery.evidence.moving and self.report.dof is not None
         rank = len(problem.coordinates) - (self.report.dof or 0) if finite else None
         return self.search.somewhere(names, unknowns, rank=rank)
@@ -237,3 +235,10 @@ class Room:
                 accounted(self.scenery, name, standing.rows, standing.point) for name in standing.dependent
             )
         return standing
+
+
+def states_of(room: Room) -> tuple[list[str], list[str]]:
+    """The relations that hold of a configuration with its velocities, and the symbols of both."""
+    rates = [step for name in room.scenery.evidence.finite if (step := rate_of(room.scenery, name))]
+    symbols = [*room.problem.coordinates, *room.problem.world.generic]
+    return [*room.finite_first, *rates], [*symbols, *(f"{q}dot" for q in room.problem.coordinates)]

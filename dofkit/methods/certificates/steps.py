@@ -61,7 +61,7 @@ def _stand(scenery: Scenery, *steps: Step) -> bool:
 
 def _steps(label: str, name: str, tree: Tree) -> list[Step]:
     """Steps to the bases of a power or a sum of squares, and back; none where it is no such thing."""
-    squares = [_square(term) for term in _operands(tree, "sum")]
+    squares = [_square(term) for term in operands(tree, "sum")]
     pairs = [pair for pair in squares if pair is not None]
     signs = {coefficient > 0 for coefficient, *_ in pairs}
     if len(pairs) < len(squares) or len(signs) > 1 or (len(pairs) > 1 and any(k != 2 for *_, k in pairs)):
@@ -80,7 +80,7 @@ def _steps(label: str, name: str, tree: Tree) -> list[Step]:
 
 def _square(term: Tree) -> tuple[Fraction, Tree, int] | None:
     """A term as a number times an even power of what is no number."""
-    factors = _operands(term, "product")
+    factors = operands(term, "product")
     coefficient, base, exponent = Fraction(1), None, 0
     for factor in factors:
         if isinstance(factor.value, Fraction):
@@ -94,16 +94,16 @@ def _square(term: Tree) -> tuple[Fraction, Tree, int] | None:
     return None if base is None or not base.symbols else (coefficient, base, exponent)
 
 
-def _operands(tree: Tree, head: str) -> list[Tree]:
+def operands(tree: Tree, head: str) -> list[Tree]:
     """Return the terms of a sum or the factors of a product, those of sums in sums and products in products too."""
-    return [operand for part in tree.below for operand in _operands(part, head)] if tree.head == head else [tree]
+    return [operand for part in tree.below for operand in operands(part, head)] if tree.head == head else [tree]
 
 
 def positive_sum(tree: Tree, sign: Fraction = Fraction(1)) -> tuple[str, list[tuple[str, Tree]]] | None:
     """Return a sum (times a number) as a positive number and squares of bases with positive coefficients."""
     if tree.head == "product" and isinstance(tree.below[0].value, Fraction) and len(tree.below) == 2:
         return positive_sum(tree.below[1], sign * tree.below[0].value)
-    terms = _operands(tree, "sum")
+    terms = operands(tree, "sum")
     constant = sum((sign * term.value for term in terms if isinstance(term.value, Fraction)), Fraction(0))
     squares = [_square(term) for term in terms if not isinstance(term.value, Fraction)]
     positive = [
