@@ -234,7 +234,8 @@ def test_the_whole_catalog_is_animated(name: str) -> None:
     found = dofkit.animate(name)
     report = dofkit.classify(name)
     moves = bool(report.velocity_dof) or report.scleronomic is False
-    assert bool(found.clips) == moves
+    is_graph = any(shape.role == "node" for shape in found.sketch.shapes)
+    assert bool(found.clips) == (moves and not is_graph)
     assert _worst(found, name) < 1e-9
     data_of(found)
     assert len(found.html()) < 60_000
