@@ -76,11 +76,9 @@ def handout(
             write_sheets(sheets_of(prepared, load_roster(roster)), form, drawing(), target)
         else:
             form, target = handout_file(Path(assignment), form, out)
-            if prepared.combinations and student is None:
-                typer.echo(f"{assignment}: it varies: this is a preview with the first value of each name", err=True)
-            prepared = first_variant(prepared) if student is None else sheet_of(prepared, student)
-            write_handout(prepared, form, drawing(), target, student)
-    for remark in remarks(prepared):
+            sheet = first_variant(prepared) if student is None else sheet_of(prepared, student)
+            write_handout(sheet, form, drawing(), target, student)
+    for remark in remarks(prepared, is_preview=student is None and roster is None):
         typer.echo(f"{assignment}: {remark}", err=True)
     with_runtime(form, target if roster else target.parent, runtime)
     typer.echo(target)
