@@ -92,19 +92,19 @@ class ClipMaker:
         speed = float(np.linalg.norm(sampler.relations.step_of(motion.rates)))
         step = float(np.clip(2 * FAR / REACH * self._reach(motion) * speed / SHORT, STEP / 10, 2 * STEP))
         return sampler.free_motion(
-            motion.rates, held, self._steps(SHORT if sampler.relations.forms else 3 * SHORT), step
+            motion.rates, held, self._steps(SHORT if sampler.relations.forms else 2 * SHORT), step
         )
 
     def _at_singularity(self, sampler: MotionSampler) -> Iterator[Clip]:
         """Yield the finite motions that leave a singular configuration, and infinitesimal ones that do not go on."""
         rows = np.array([sampler.relations.step_of({m.symbol: 1.0}) for m in self.motions])
-        parts: list[Array] = []
+        coefficients: list[Array] = []
         for direction, path in sampler.branches(self._steps(SHORT), STEP):
-            parts.append(rows @ direction / np.sum(rows**2, axis=1))
-            arrows = self._arrows(_combined(self.motions, parts[-1]))
-            for clip in self._sampled(f"finite motion {len(parts)}", path, FEW):
+            coefficients.append(rows @ direction / np.sum(rows**2, axis=1))
+            arrows = self._arrows(_combined(self.motions, coefficients[-1]))
+            for clip in self._sampled(f"finite motion {len(coefficients)}", path, FEW):
                 yield clip._replace(text=GOES_ON, arrows=arrows)
-        others, pivots = by_pivots(kernel(np.array(parts), len(self.motions)), range(len(self.motions)))
+        others, pivots = by_pivots(kernel(np.array(coefficients), len(self.motions)), range(len(self.motions)))
         yield from self._swings([
             _combined(self.motions, part)._replace(name=self.motions[k].name)
             for part, k in zip(others, pivots, strict=False)

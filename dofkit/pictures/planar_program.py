@@ -62,15 +62,15 @@ class _Steps:
     def __init__(self, columns: Sequence[Expr], numbers: Mapping[Expr, float]) -> None:
         self.columns, self.numbers = {column: k for k, column in enumerate(columns)}, numbers
         self.steps: list[Any] = []
-        self.known: dict[Expr, int] = {}
+        self.written: dict[Expr, int] = {}
 
     def number_of(self, e: Expr) -> int:
         """Return the number of the step that computes an expression. Raises UnknownStepError."""
-        if e not in self.known:
+        if e not in self.written:
             step = self._step(e)
-            self.known[e] = len(self.steps)
+            self.written[e] = len(self.steps)
             self.steps.append(step)
-        return self.known[e]
+        return self.written[e]
 
     def _step(self, e: Expr) -> Any:
         if e in self.columns:

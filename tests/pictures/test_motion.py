@@ -58,15 +58,8 @@ def test_bars_keep_their_lengths() -> None:
 
 
 def test_each_of_several_freedoms_is_shown_by_itself() -> None:
-    names = [clip.name for clip in dofkit.animate("planetary-gear-bodies").clips]
-    assert names == [
-        "free velocity 1 of 2: theta_arm",
-        "free velocity 2 of 2: theta_sun",
-    ]
-
-
-def test_a_free_velocity_moves_while_the_others_rest() -> None:
-    arm, _ = dofkit.animate("planetary-gear-bodies").clips
+    arm, sun = dofkit.animate("planetary-gear-bodies").clips
+    assert (arm.name, sun.name) == ("free velocity 1 of 2: theta_arm", "free velocity 2 of 2: theta_sun")
     values = {name: [q[coordinate(name)] for q in arm.path] for name in ("theta_arm", "theta_sun")}
     assert np.ptp(values["theta_arm"]) > 1
     assert np.ptp(values["theta_sun"]) < 1e-9
