@@ -168,12 +168,10 @@ class IntegralSearch:
         if sample is None:
             return []
         base, p, order = sample.point, sample.point.p, -(-(len(monomials) + SPARE) // len(sample.basis))
-        path = {
-            c: Series(
-                residue_polynomial([int(sample.at[c]), *(base.rng.randrange(p) for _ in range(1, order))], p), order
-            )
-            for c in self.forms.chart.columns
-        }
+        path = {}
+        for i in (v.index for v in self.ring.vars if v.kind == "symbol"):  # parameters vary too, as from point to point
+            others = [base.rng.randrange(p) for _ in range(1, order)]
+            path[i] = Series(residue_polynomial([int(sample.at[i]), *others], p), order)
         curve = _sample_of(self.forms, base, sample.frame, SeriesPoint(base, path, order, residue_polynomial([0], p)))
         if curve is None:
             return []
