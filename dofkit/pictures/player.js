@@ -348,7 +348,8 @@
 
   function tick(time) {
     if (!state.playing) { return; }
-    if (time - last > 40 / Number(controls.speed.value)) { last = time; advance(); }
+    const pace = 40 * Math.max(1, 36 / data.clips[state.clip].frames.length);
+    if (time - last > pace / Number(controls.speed.value)) { last = time; advance(); }
     window.requestAnimationFrame(tick);
   }
 
