@@ -202,7 +202,7 @@ def _points(forms: Codistribution, setting: Setting) -> Variety:
         result = find(forms.chart, setting.pose)
         return result if alike else replace(result, about="component")
     undecided = Variety(None, None, "undecided", reasons=[IRREGULAR])
-    points = reference_points(forms, setting.reference) if "field" in forms.chart.engines else None
+    points = reference_points(forms, setting.reference) if "field" in forms.chart.setting.engines else None
     if points is None:
         return undecided
     if not points:
