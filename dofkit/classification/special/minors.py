@@ -23,7 +23,8 @@ from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, replace_nodes, substitute
 from dofkit.expressions.tree import Expr
-from dofkit.relations.blocks import Block, given_by
+from dofkit.relations.blocks import Block
+from dofkit.relations.linear_relations import explicit_relations, number_coefficients
 from dofkit.relations.normal.pieces import Finite, Pfaffian
 from dofkit.relations.normal.semidefinite import Signs, sum_of_even
 from dofkit.relations.normal.zero_set import zero_set
@@ -48,7 +49,7 @@ class Locus:
     @cached_property
     def given(self) -> dict[Expr, Expr]:
         """The coordinates that the equations give explicitly."""
-        return given_by(self.equations)
+        return explicit_relations(self.equations, number_coefficients).by_others
 
     @cached_property
     def others(self) -> tuple[Expr, ...]:

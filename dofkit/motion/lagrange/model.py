@@ -23,7 +23,6 @@ from dofkit.motion.lagrange.elimination import (
     Elimination,
     Eliminator,
     Remaining,
-    by_potential,
     in_velocities,
     inserted,
     motions,
@@ -105,7 +104,7 @@ def modelled(study: Examined, energy: Energy, names: Names, care: Care = ELIMINA
     finite = [EliminatedRelation(r.piece.expr) for r in outcome.rows if isinstance(r.piece, Finite)]
     finite += [EliminatedRelation(g) for a in outcome.answers for g in a.hidden]
     integrals = list(_integrals(study, names))
-    eliminator = Eliminator(study.setting.positive, by_potential(energy.potential, study.system.reference), care)
+    eliminator = Eliminator(study.setting.positive, energy.potential, study.system.reference, care)
     for relations in ([*finite, *integrals], finite, []):
         elimination = _agreeing(eliminator, relations, coordinates, free)
         model = _built_somehow(study, energy, elimination, coordinates)
