@@ -5,6 +5,7 @@ Each sentence is worked out from the data of the run, and so may stand beside th
 
 from __future__ import annotations
 
+from dataclasses import replace
 from importlib import resources
 
 import yaml
@@ -21,7 +22,7 @@ def summary(data: Data) -> ChartRun:
     """Return all that is drawn and printed."""
     captions = yaml.safe_load((resources.files(__package__) / "captions.yaml").read_text(encoding="utf-8"))
     scores, points = statistics.scores(data.lines), statistics.points(data.lines)
-    chart = ChartRun(
+    return ChartRun(
         ran=data.ran,
         scores=scores,
         fronts=statistics.fronts(scores),
@@ -31,7 +32,6 @@ def summary(data: Data) -> ChartRun:
         against=statistics.against(data.lines),
         captions={name: f"{text} {provenance(data.ran)}" for name, text in captions.items()},
     )
-    return chart.model_copy(update={"sentences": sentences(chart)})
 
 
 def provenance(ran: Ran) -> str:
@@ -43,10 +43,9 @@ def provenance(ran: Ran) -> str:
     )
 
 
-def sentences(chart: ChartRun) -> dict[str, str]:
-    """Return the sentences by what they are about; those that the run has no data of are left out."""
-    texts = {"trials": _trials(chart), "time": _time(chart)}
-    return {key: text for key, text in texts.items() if text}
+def sentences(chart: ChartRun) -> list[str]:
+    """Return how often ``auto`` is right and how long it takes, as far as the run has data of them."""
+    return [text for text in (_trials(chart), _time(chart)) if text]
 
 
 def _trials(chart: ChartRun) -> str:
@@ -79,7 +78,7 @@ def _total(chart: ChartRun, method: str) -> Score | None:
     """Return the score of a method on all questions together."""
     rows = [score for score in chart.scores if score.method == method and score.family == ALL]
     counts = {name: sum(getattr(row, name) for row in rows) for name in ("trials", "right", "wrong")}
-    return rows[0].model_copy(update=counts) if rows else None
+    return replace(rows[0], **counts) if rows else None
 
 
 def _percent(count: float, trials: float) -> str:

@@ -8,7 +8,10 @@ from typing import Any
 from flint import fmpq_mat
 
 from dofkit.checker.evidence import MOST, CheckedEvidence, CheckedMinor, Told, admissible, independent, of_word, span
-from dofkit.checker.trees import CheckedPoint, derivative, not_zero, refuse
+from dofkit.checker.geometry import determinant, dot
+from dofkit.checker.trees import ONE, CheckedPoint, derivative, not_zero, refuse, times
+
+MOST_FORMS = 6
 
 
 def bounds(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
@@ -271,6 +274,7 @@ def everywhere(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     ``order``: each relation gives a coordinate, or its velocity, with a factor of numbers and parameters, and those
     before do not hold it: the finite ones are a graph, and all have constant rank. Instead of a coordinate one may give
     t, of which almost all values are then regular, where nothing else is told (Sard 1942).
+    ``gram``: forms without these velocities whose Gram determinant is positive by itself are independent everywhere.
     ``blocks``: a single analytic relation that is not 0 everywhere has zeros of dimension n - 1 at most; a single form,
     of which all finite relations are a graph, has rank 1 but on such a part.
     ``generic``: relations with a symbol of their own in which they are nowhere stationary: for almost all values of
@@ -282,7 +286,8 @@ def everywhere(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     which is largest almost everywhere at once (Nagano 1966).
     """
     order, blocks, generic = claim.get("order", []), claim.get("blocks", []), dict(claim.get("generic", []))
-    names, size = [*(name for name, _ in order), *blocks, *generic], len(evidence.problem.coordinates)
+    gram, size = claim.get("gram", {"forms": []}), len(evidence.problem.coordinates)
+    names = [*(name for name, _ in order), *gram["forms"], *blocks, *generic]
     implied, rank = evidence.closure(names, None), len(names)
     whole, apart = implied.issuperset(evidence.equations), len(set(names)) == rank
     apart = apart and set(names) <= set(evidence.equations) and all(map(evidence.is_linear, names))
@@ -290,10 +295,12 @@ def everywhere(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     refuse(not fits, "a relation is left out, stands twice or is not linear, or the claim is not about everywhere")
     forms = [name for name in names if evidence.relation(name).kind != "finite"]
     refuse(forms and (generic or (blocks and not blocks == forms == names[-1:])), "forms stand in the order, or alone")
+    if gram["forms"]:
+        _independent_everywhere(evidence, gram, [f"{q}dot" for _, q in order])
     minor = evidence.accounts(evidence.minor(claim["minor"], names), names) if "minor" in claim else None
     free, rank = _free(evidence, order, minor and minor.point), len(minor.rows if minor else names)
-    groups = [_coordinates(evidence, name, free) for name in blocks]
-    groups.append(frozenset().union(*(_coordinates(evidence, name, free) for name in generic)))
+    groups = [free_coordinates(evidence, name, free) for name in blocks]
+    groups.append(frozenset().union(*(free_coordinates(evidence, name, free) for name in generic)))
     refuse(sum(map(len, groups)) != len(frozenset().union(*groups)), "two blocks share a coordinate")
     for name, letter in generic.items():
         refuse(not evidence.own_symbol(name, [letter]), f"`{letter}` is not the own symbol of `{name}`")
@@ -317,6 +324,21 @@ def everywhere(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     return dof
 
 
+def _independent_everywhere(evidence: CheckedEvidence, gram: Told, given: list[str]) -> None:
+    """`CheckError` unless det(J D J^T) is as it is told, and positive; D positive by itself (Cauchy and Binet)."""
+    forms, scales = gram["forms"], {q: evidence.text(text) for q, text in gram.get("scales", {}).items()}
+    relations = [evidence.relation(name) for name in forms]
+    own = all(form.kind == "velocity" and form.tree.symbols.isdisjoint(given) for form in relations)
+    refuse(not own or len(forms) > MOST_FORMS, "no form, one that holds a velocity that is given, or too many")
+    value, coordinates = evidence.text(gram["value"]), evidence.problem.coordinates
+    positive = all(evidence.is_nowhere_zero(tree, True) for tree in (value, *scales.values()))
+    refuse(not positive, "the determinant or a scale is not positive by itself")
+    rows = [[evidence.slope(name, q) for q in coordinates] for name in forms]
+    scaled = [[times(scales.get(q, ONE), slope) for q, slope in zip(coordinates, row, strict=True)] for row in rows]
+    matrix = [[dot(row, other) for other in scaled] for row in rows]
+    evidence.identity(determinant(matrix), value, "the determinant of the forms")
+
+
 def _is_analytic(evidence: CheckedEvidence, name: str, graphic: bool) -> bool:
     """Whether a relation is analytic at all places; a form, and what gives no coordinate, up to a denominator."""
     checked = evidence.relation(name)
@@ -326,7 +348,7 @@ def _is_analytic(evidence: CheckedEvidence, name: str, graphic: bool) -> bool:
 
 def _is_affine(evidence: CheckedEvidence, name: str) -> bool:
     """Whether a relation has rational slopes: its differential is the same at all places."""
-    return all(evidence.ring.rational(evidence.slope(name, q)) for q in _coordinates(evidence, name, {}))
+    return all(evidence.ring.rational(evidence.slope(name, q)) for q in free_coordinates(evidence, name, {}))
 
 
 def _free(evidence: CheckedEvidence, order: list[list[str]], point: CheckedPoint | None) -> dict[str, frozenset[str]]:
@@ -342,10 +364,11 @@ def _free(evidence: CheckedEvidence, order: list[list[str]], point: CheckedPoint
         refuse(not gives or q + dot == "tdot", f"`{name}` does not give `{q}` everywhere")
         refuse(not checked.tree.symbols.isdisjoint(q + dot for q in later[i + 1 :]), f"`{name}` holds what comes later")
         if not dot:
-            dependencies[q] = _coordinates(evidence, name, dependencies) - {q}
+            dependencies[q] = free_coordinates(evidence, name, dependencies) - {q}
     return dependencies
 
 
-def _coordinates(evidence: CheckedEvidence, name: str, dependencies: dict[str, frozenset[str]]) -> frozenset[str]:
+def free_coordinates(evidence: CheckedEvidence, name: str, dependencies: dict[str, frozenset[str]]) -> frozenset[str]:
+    """The coordinates that a relation holds, those of ``dependencies`` replaced by what they depend on."""
     held = evidence.relation(name).tree.symbols & set(evidence.problem.coordinates)
     return frozenset().union(*(dependencies.get(q, frozenset((q,))) for q in held))

@@ -46,7 +46,7 @@ _OWN: dict[ArgumentKey, Argument] = {
         "ImplicitFunctions",
         "each equation determines a coordinate that occurs in it linearly with a constant coefficient, after "
         "the preceding ones are substituted",
-        "dofkit.configuration.components.explicit_relations",
+        "dofkit.relations.linear_relations.explicit_relations",
     ),
     "joints that close no loop": Argument(
         "each joint removes its number of conditions from the freedom, everywhere",
@@ -90,7 +90,7 @@ _OWN: dict[ArgumentKey, Argument] = {
         "no configuration satisfies the equations",
         "",
         "a rational combination of linear equations is a nonzero number",
-        "dofkit.relations.linear_relations.presolve",
+        "dofkit.relations.linear_relations.solve_linear",
     ),
     "no real solution": Argument(
         "no real configuration satisfies the equations",

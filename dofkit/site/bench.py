@@ -7,6 +7,8 @@ the Python packages, in bytecode. The folder is not part of the wheel.
 
 from __future__ import annotations
 
+import base64
+import gzip
 import hashlib
 import importlib.util
 import json
@@ -21,6 +23,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from dofkit.base.errors import DofkitError
+from dofkit.pictures.player import player_script
 from dofkit.scene.schema import scene_schema
 from dofkit.site.gallery import ShownScene
 
@@ -50,6 +53,11 @@ UNUSED = ("tests", "test", "__pycache__", "testing")
 RUNTIME = ("pyodide.mjs", "pyodide.asm.mjs", "pyodide.asm.wasm", "python_stdlib.zip", "pyodide-lock.json")
 
 
+#: All that reads answers in one script, for the pages of sheets; the files in it beside its worker.
+ONE_SCRIPT, WORKER = "runtime.js", "runtime-worker.js"
+IN_ONE_SCRIPT = ("pyodide/pyodide.asm.wasm", "pyodide/python_stdlib.zip", "pyodide/pyodide-lock.json")
+ARCHIVES = ("core.zip", "sheets.zip")
+
 #: What a scene of the catalog expects of its report: the bench is not for reading that.
 _EXPECTED = re.compile(r"^expect:.*\n(?:[ \t#].*\n|\n)*", re.MULTILINE)
 
@@ -67,7 +75,7 @@ def build_bench(out: Path, catalog: Sequence[ShownScene]) -> None:
         _run(["npm", "ci", "--no-audit", "--no-fund"], "npm ci")
     shutil.rmtree(out, ignore_errors=True)
     (out / "pyodide").mkdir(parents=True)
-    shutil.copyfile(PACKAGE / "pictures" / "player.js", out / "player.js")
+    (out / "player.js").write_text(player_script(), encoding="utf-8")
     for name in RUNTIME:
         shutil.copyfile(modules / "pyodide" / name, out / "pyodide" / name)
     with TemporaryDirectory() as folder:
@@ -80,6 +88,7 @@ def build_bench(out: Path, catalog: Sequence[ShownScene]) -> None:
         _stage_packages(SYMBOLS, stage / "symbols")
         _run(["node", "compile.mjs", str(stage), str(out.resolve())], "the compilation to bytecode")
     _run(["node", "bundle.mjs", str(out.resolve())], "the bundle")
+    _fill_script(out)
     for path in SOURCES.iterdir():
         if path.suffix in (".html", ".css", ".svg", ".webmanifest"):
             shutil.copyfile(path, out / path.name)
@@ -160,9 +169,20 @@ def _write_catalog(out: Path, catalog: Sequence[ShownScene]) -> None:
     (out / "catalog.json").write_text(json.dumps(fields, ensure_ascii=False), encoding="utf-8")
 
 
+def _fill_script(out: Path) -> None:
+    """Put the worker and its files into the script that needs no web server, compressed and in base64."""
+    sources = {"worker": out / WORKER} | {Path(name).name: out / name for name in (*IN_ONE_SCRIPT, *ARCHIVES)}
+    packed = {
+        name: base64.b64encode(gzip.compress(path.read_bytes(), 9, mtime=0)).decode() for name, path in sources.items()
+    }
+    with (out / ONE_SCRIPT).open("a", encoding="utf-8") as script:
+        script.write(f"Object.assign(dofkitRuntime.files, {json.dumps(packed)});\n")
+    (out / WORKER).unlink()
+
+
 def _write_version(out: Path) -> None:
-    """Write what the service worker keeps: every file, and a digest of all of them."""
-    files = sorted(path for path in out.rglob("*") if path.is_file())
+    """Write what the service worker keeps: every file that the bench loads, and a digest of all of them."""
+    files = sorted(path for path in out.rglob("*") if path.is_file() and path.name != ONE_SCRIPT)
     digest = hashlib.sha256()
     for path in files:
         digest.update(path.read_bytes())

@@ -1,14 +1,15 @@
 // Bundles the pages' scripts: node bundle.mjs OUT.
 import { build } from "esbuild";
 
+const common = { bundle: true, minify: true, target: "es2022", legalComments: "linked", outdir: process.argv[2], logLevel: "warning" };
+await build({ ...common, format: "esm", entryPoints: ["bench.js", "worker.js", "player-frame.js"], external: ["./pyodide/*"] });
+await build({ ...common, format: "iife", globalName: "dofkitRuntime", entryPoints: ["runtime.js"] });
 await build({
-  entryPoints: ["bench.js", "practice.js", "worker.js", "player-frame.js"],
-  bundle: true,
-  minify: true,
-  format: "esm",
-  target: "es2022",
-  external: ["./pyodide/*"],
-  legalComments: "linked",
-  outdir: process.argv[2],
-  logLevel: "warning",
+  ...common,
+  format: "iife",
+  entryPoints: ["runtime-worker.js"],
+  external: ["node:*", "ws"],
+  // a page opened from a folder can start classic workers only, which Pyodide refuses by this function
+  banner: { js: "globalThis.importScripts = undefined;" },
+  logOverride: { "empty-import-meta": "silent" },
 });
