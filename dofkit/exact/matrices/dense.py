@@ -171,6 +171,9 @@ def rank(matrix: Matrix, least: float) -> int:
 
 def complement(basis: Matrix, n: int) -> list[list[float]]:
     """Return an orthonormal basis of what is orthogonal to an orthonormal one in n dimensions."""
+    if basis and n * n > SMALL:
+        columns: list[list[float]] = np.linalg.qr(np.array(basis).T, mode="complete")[0].T.tolist()
+        return columns[len(basis) :]
     rows = []
     for i in range(n):
         row = [float(i == c) for c in range(n)]

@@ -15,7 +15,7 @@ from dofkit.checker.verification import PARTS, Verifier
 from dofkit.methods.certificates.numerics import Estimates, NoEstimateError, echelon
 from dofkit.methods.certificates.points import FoundPoint, PointSearch
 from dofkit.methods.certificates.scenery import MOST_ROWS, Scenery
-from dofkit.methods.certificates.steps import accounted, rate_of, reduced
+from dofkit.methods.certificates.steps import accounted, rate_of
 from dofkit.report import Report
 
 Outcome = Literal["shown", "contradicted", "open"]
@@ -127,11 +127,6 @@ class Room:
         return not all(self.scenery.linear(name) for name in self.equations)
 
     @cached_property
-    def _squared(self) -> bool:
-        """Whether a relation that is not linear in the velocities was reduced to such that are."""
-        return not self.nonlinear and not all(map(self.scenery.linear, self.scenery.evidence.moving))
-
-    @cached_property
     def at_reference(self) -> bool:
         """Whether the main point is the scene's own configuration."""
         return self._reference is not None
@@ -151,8 +146,6 @@ class Room:
         if not self.small:
             return None
         place = self._reference or self._searched()
-        if place is not None and self._squared and not self.scenery.timed:
-            place.values |= dict.fromkeys((f"{q}dot" for q in self.problem.coordinates), "0")
         if place is not None:
             place.name = f"{self.scenery.label}{place.name}"
             self.scenery.entries["points"].append(place.entry())
@@ -161,7 +154,7 @@ class Room:
     def _searched(self) -> FoundPoint | None:
         problem = self.problem
         unknowns = [*problem.coordinates, *problem.world.generic]
-        names = reduced(self.scenery, self.scenery.evidence.finite)
+        names = list(self.scenery.evidence.finite)
         if self.nonlinear:
             names, unknowns = states_of(self)
         finite = not self.scenery.evidence.moving and self.report.dof is not None
@@ -170,15 +163,12 @@ class Room:
 
     @cached_property
     def equations(self) -> list[str]:
-        """All finite and velocity relations in their order, or what they were reduced to."""
-        return reduced(
-            self.scenery, [relation.name for relation in self.problem.relations if relation.kind != "inequality"]
-        )
+        """All finite and velocity relations in their order."""
+        return [relation.name for relation in self.problem.relations if relation.kind != "inequality"]
 
     def owner(self, name: str) -> str:
-        """The constraint of a relation, or of what it was reduced from."""
-        owners = {relation.name: relation.owner for relation in self.problem.relations}
-        return owners.get(name) or owners[self.scenery.reduced_from[name]]
+        """The constraint of a relation."""
+        return self.scenery.evidence.relation(name).owner
 
     def standing_of(
         self, names: Sequence[str], columns: Sequence[str] | None = None, point: FoundPoint | None = None

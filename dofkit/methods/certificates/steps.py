@@ -1,4 +1,4 @@
-"""Steps of a certificate: relations made simpler, coordinates put in, and relations that follow from others."""
+"""Steps of a certificate: coordinates put in, and relations that follow from others; sums of squares."""
 
 from __future__ import annotations
 
@@ -30,24 +30,6 @@ from dofkit.methods.certificates.scenery import Scenery, number_text, text_of
 Step = dict[str, object]
 
 
-def reduced(scenery: Scenery, names: Sequence[str]) -> list[str]:
-    """Relations, each one that is a power or a sum of squares replaced by its bases."""
-    return [base for name in names for base in _reduced(scenery, name)]
-
-
-def _reduced(scenery: Scenery, name: str) -> list[str]:
-    bases = [base for base, source in scenery.reduced_from.items() if source == name]
-    if bases:
-        return bases
-    tree = scenery.evidence.relation(name).tree
-    steps = _steps(scenery.label, name, tree)
-    if not steps or not _stand(scenery, *steps):
-        return [name]
-    ids = [str(step["id"]) for step in steps if "function" in step]
-    scenery.reduced_from |= dict.fromkeys(ids, name)
-    return ids
-
-
 def _stand(scenery: Scenery, *steps: Step) -> bool:
     """Return whether steps stand up, one after the other; those that are there already do."""
     try:
@@ -57,25 +39,6 @@ def _stand(scenery: Scenery, *steps: Step) -> bool:
     except CheckError:
         return False
     return True
-
-
-def _steps(label: str, name: str, tree: Tree) -> list[Step]:
-    """Steps to the bases of a power or a sum of squares, and back; none where it is no such thing."""
-    squares = [_square(term) for term in operands(tree, "sum")]
-    pairs = [pair for pair in squares if pair is not None]
-    signs = {coefficient > 0 for coefficient, *_ in pairs}
-    if len(pairs) < len(squares) or len(signs) > 1 or (len(pairs) > 1 and any(k != 2 for *_, k in pairs)):
-        return []
-    sign, made = "1" if signs == {True} else "-1", list[Step]()
-    ids = [f"{label}root {i} of {name}" for i in range(1, len(pairs) + 1)]
-    for i, (coefficient, base, exponent) in enumerate(pairs):
-        others = [[number_text(abs(c)), text_of(a)] for j, (c, a, _) in enumerate(pairs) if j != i]
-        root = {"function": text_of(base), "power": exponent, "h": number_text(abs(coefficient)), "c": {name: sign}}
-        made.append({"id": ids[i], "by": "implied", **root, **({"sos": others} if others else {})})
-    cofactors = {
-        step: text_of(times(number(c), power(a, number(k - 1)))) for step, (c, a, k) in zip(ids, pairs, strict=True)
-    }
-    return [*made, {"id": f"{label}{name} from its roots", "by": "implied", "of": name, "c": cofactors}]
 
 
 def _square(term: Tree) -> tuple[Fraction, Tree, int] | None:
