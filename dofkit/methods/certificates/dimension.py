@@ -10,6 +10,7 @@ from itertools import combinations
 
 from flint import arb
 
+from dofkit.checker.dimension_rules import free_coordinates
 from dofkit.checker.evidence import HIGHEST_ORDER, along_curve
 from dofkit.checker.geometry import determinant, dot
 from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, number, power, symbol, times
@@ -265,16 +266,10 @@ def _split(
     room: Room, order: Order, remaining: list[str], own_symbols_of: dict[str, str]
 ) -> tuple[list[str], list[str]]:
     """What is left as single relations, and those that share coordinates."""
-    dependencies: dict[str, frozenset[str]] = {}
-    coordinates = set(room.problem.coordinates)
-
-    def free(name: str) -> frozenset[str]:
-        held = room.scenery.evidence.relation(name).tree.symbols & coordinates
-        return frozenset().union(*(dependencies.get(q, frozenset((q,))) for q in held))
-
+    evidence, dependencies = room.scenery.evidence, dict[str, frozenset[str]]()
     for name, q in order:
-        dependencies[q] = free(name) - {q}
-    sets = {name: free(name) for name in remaining}
+        dependencies[q] = free_coordinates(evidence, name, dependencies) - {q}
+    sets = {name: free_coordinates(evidence, name, dependencies) for name in remaining}
     alone = [
         name for name in remaining if all(sets[name].isdisjoint(sets[other]) for other in remaining if other != name)
     ]
