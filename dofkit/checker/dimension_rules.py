@@ -324,12 +324,12 @@ def everywhere(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     return dof
 
 
-def _independent_everywhere(evidence: CheckedEvidence, gram: Told, given: list[str]) -> None:
+def _independent_everywhere(evidence: CheckedEvidence, gram: Told, ordered: list[str]) -> None:
     """`CheckError` unless det(J D J^T) is as it is told, and positive; D positive by itself (Cauchy and Binet)."""
     forms, scales = gram["forms"], {q: evidence.text(text) for q, text in gram.get("scales", {}).items()}
     relations = [evidence.relation(name) for name in forms]
-    own = all(form.kind == "velocity" and form.tree.symbols.isdisjoint(given) for form in relations)
-    refuse(not own or len(forms) > MOST_FORMS, "no form, one that holds a velocity that is given, or too many")
+    fits = all(form.kind == "velocity" and form.tree.symbols.isdisjoint(ordered) for form in relations)
+    refuse(not fits or len(forms) > MOST_FORMS, "no form, one that holds a velocity that is given, or too many")
     value, coordinates = evidence.text(gram["value"]), evidence.problem.coordinates
     positive = all(evidence.is_nowhere_zero(tree, True) for tree in (value, *scales.values()))
     refuse(not positive, "the determinant or a scale is not positive by itself")

@@ -161,18 +161,20 @@ def _gram(room: Room, forms: list[str]) -> Told | None:
     for q, column in zip(coordinates, zip(*rows, strict=True), strict=True):
         shared = [{*operands(entry, "product")} for entry in column if entry != ZERO]
         letters = [symbol(name) for name, sign in room.problem.world.signs.items() if sign == "positive"]
-        common = [power(letter, number(-2)) for letter in letters if shared and all(letter in one for one in shared)]
+        common = [
+            power(letter, number(-2)) for letter in letters if shared and all(letter in factors for factors in shared)
+        ]
         scales |= {q: times(*common)} if common else {}
     scaled = [[times(scales.get(q, ONE), slope) for q, slope in zip(coordinates, row, strict=True)] for row in rows]
     try:
         value = evidence.ring.read(determinant([[dot(row, other) for other in scaled] for row in rows]))
     except CheckError:
         return None
-    parts = [evidence.ring.text_of(part) for part in value]
-    told = f"({parts[0]})/({parts[1]})"
-    if None in parts or not evidence.is_nowhere_zero(evidence.text(told), True):
+    texts = [evidence.ring.text_of(part) for part in value]
+    determinant_text = f"({texts[0]})/({texts[1]})"
+    if None in texts or not evidence.is_nowhere_zero(evidence.text(determinant_text), True):
         return None
-    return {"forms": forms, "scales": {q: text_of(tree) for q, tree in scales.items()}, "value": told}
+    return {"forms": forms, "scales": {q: text_of(tree) for q, tree in scales.items()}, "value": determinant_text}
 
 
 def _needed(standing: Standing, names: Sequence[str]) -> list[str]:
