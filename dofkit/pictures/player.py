@@ -24,6 +24,7 @@ from dofkit.pictures.shapes import (
     Displacement,
     Ink,
     Poses,
+    Shape,
     Sketch,
     Switch,
     ink_of,
@@ -108,7 +109,7 @@ def player_data(
     for shape in sketch.shapes:
         entry: dict[str, Any] = {
             "k": shape.kind,
-            "v": [[carriers.index(v.carrier), *_rounded(v.at)] for v in shape.vertices],
+            **_vertex_data(shape, carriers, digits),
             "i": looks.setdefault(ink_of(shape), len(looks)),
         }
         if shape.size:
@@ -132,6 +133,15 @@ def player_data(
         "program": None if program is None else program.data(carriers),
         **_panel(sketch, standpoint, every),
     }
+
+
+def _vertex_data(shape: Shape, carriers: Sequence[str], digits: int) -> dict[str, Any]:
+    """Return the vertices of a shape: of one carrier its number and all components in a row, else one by one."""
+    places = [[round(x, digits) for x in v.at] for v in shape.vertices]
+    numbers = [carriers.index(v.carrier) for v in shape.vertices]
+    if len(set(numbers)) == 1:
+        return {"n": numbers[0], "p": [x for p in places for x in p]}
+    return {"v": [[number, *p] for number, p in zip(numbers, places, strict=True)]}
 
 
 def _clip_data(clip: Clip, carriers: Sequence[str], program: PlanarProgram | None, digits: int) -> dict[str, Any]:
