@@ -23,7 +23,7 @@ from dofkit.system import GROUND
 #: Steps of a sampled motion to either side, their length, and the most frames that are kept.
 STEPS, STEP, FRAMES = 160, 0.1, 96
 #: Steps and frames of each motion if there are several, and their frames together.
-SHORT, FEW, MOST_FRAMES = 25, 40, 160
+SHORT, FEW, MOST_FRAMES = 25, 40, 120
 #: How far beyond the picture a motion is shown, by the picture's size; a closed one returns to within this part of it.
 FAR, BACK = 0.5, 0.05
 #: The number of points of a sketch by which two poses are compared.
@@ -33,7 +33,7 @@ MANY, LEAST = 3000, 10
 #: The time limit of the finite motions.
 SECONDS = 12.0
 #: Frames of an infinitesimal motion to both sides, its extent by the picture's size, and its largest rotation.
-SWING, REACH, TURN = 32, 0.22, 0.6
+SWING, REACH, TURN = 24, 0.22, 0.6
 #: The number of motions, and of constraints with a switch, that are shown.
 MOST_MOTIONS, MOST_SWITCHES = 12, 8
 GOES_ON = "This infinitesimal motion goes on: it was followed as a finite motion."
@@ -77,13 +77,13 @@ class ClipMaker:
     def _in_turn(self, sampler: MotionSampler) -> Iterator[Clip]:
         """Yield a motion of each free velocity, while the others rest."""
         count = len(self.stage.motions)
-        name = "free velocity {} of {}: {}" if count > 1 else "a finite motion"
         for k, motion in enumerate(self.motions):
             held = [other.symbol for other in self.stage.motions if other is not motion]
             clips: list[Clip] = []
             try:
                 path = self._free_motion(sampler, motion, held)
-                clips += self._sampled(name.format(k + 1, count, motion.name), path, self.few)
+                name = f"free velocity {k + 1} of {count}: {motion.name}" if count > 1 else "a finite motion"
+                clips += self._sampled(name, path, self.few)
             except DofkitError:
                 pass
             yield from clips or self._swings([motion])

@@ -10,6 +10,9 @@
   const state = { clip: 0, frame: 0, playing: false, azimuth: data.view[0], elevation: data.view[1], free: null, off: new Set() };
   const night = window.matchMedia("(prefers-color-scheme: dark)");
   let hatch = makeHatch();
+  for (const shape of data.shapes) {
+    shape.v = shape.v || Array.from({ length: shape.p.length / 3 }, function (_, k) { return [shape.n, ...shape.p.slice(3 * k, 3 * k + 3)]; });
+  }
 
   /* A colour as it is on the paper that is shown: light, or dark where the reader has it so. */
   function tone(colour) { return night.matches && data.dark[colour] || colour; }
@@ -348,7 +351,8 @@
 
   function tick(time) {
     if (!state.playing) { return; }
-    if (time - last > 40 / Number(controls.speed.value)) { last = time; advance(); }
+    const pace = 40 * Math.max(1, 36 / data.clips[state.clip].frames.length);
+    if (time - last > pace / Number(controls.speed.value)) { last = time; advance(); }
     window.requestAnimationFrame(tick);
   }
 

@@ -198,7 +198,7 @@ def by_itself(r: Reduced, labelled: Sequence[LabelledRow], answered: AnsweredBlo
         bent = next((t.answer for t in labelled if isinstance(t.row.piece, Nonlinear) and t.answer.curved), None)
         if bent is not None:
             return bent
-    elif not any(isinstance(t.row.piece, Pfaffian) for t in labelled):
+    elif not any(isinstance(t.row.piece, Pfaffian) for t in labelled) and all(len(n.branches) < 2 for n in r.normals):
         return None
     elif len(labelled) == 1 and labelled[0].label is not None and labelled[0].label.holonomic is False:
         return Answer(labels={0: labelled[0].label})

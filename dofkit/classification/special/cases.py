@@ -51,7 +51,7 @@ def points_of(chart: Chart) -> tuple[FieldPoint, BallPoint, bool] | None:
     drawn = solver.draw(1)
     if drawn is None or not on_variety(chart, drawn):
         return None
-    search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.positive)
+    search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.setting.positive)
     real = search.search(starts=STARTS, steps=STEPS)
     if real is None or not real.certified or not real.consistent:
         return None
