@@ -114,7 +114,7 @@ def circuit(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[str]
     before = owners(evidence)[: owners(evidence).index(claim["owner"])]
     refuse(not dependent or not set(names) <= set(before), "a circuit holds constraints that were written before")
     verified[f"at circuit {claim['owner']}"] = evidence.is_about("here", point)
-    evidence.on_set(point, [*relations_of(evidence, names), *dependent])
+    evidence.on_set(point, {*evidence.finite, *relations_of(evidence, names), *dependent})
     evidence.follow(dependent, relations_of(evidence, names), point, "the circuit")
     for name in names:
         others = relations_of(evidence, [other for other in names if other != name])
