@@ -98,7 +98,7 @@ class Animation:
         return saved(self, path, _WRITERS)
 
     def _repr_html_(self) -> str:
-        return framed(self.html(), page_height(self.sketch, self.clips))
+        return framed(self.html(), page_height(self.sketch, self.clips, self.switches))
 
 
 def animate(scene: SceneLike, report: Report | None = None, *, loop: bool = False) -> Animation:

@@ -77,13 +77,13 @@ class ClipMaker:
     def _in_turn(self, sampler: MotionSampler) -> Iterator[Clip]:
         """Yield a motion of each free velocity, while the others rest."""
         count = len(self.stage.motions)
-        name = "free velocity {} of {}: {}" if count > 1 else "a finite motion"
         for k, motion in enumerate(self.motions):
             held = [other.symbol for other in self.stage.motions if other is not motion]
             clips: list[Clip] = []
             try:
                 path = self._free_motion(sampler, motion, held)
-                clips += self._sampled(name.format(k + 1, count, motion.name), path, self.few)
+                name = f"free velocity {k + 1} of {count}: {motion.name}" if count > 1 else "a finite motion"
+                clips += self._sampled(name, path, self.few)
             except DofkitError:
                 pass
             yield from clips or self._swings([motion])

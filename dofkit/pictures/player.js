@@ -416,7 +416,7 @@
     draw();
   }
 
-  const residual = make("span", { id: "residual" });
+  const residual = make("span", { id: "residual", textContent: "Drag a point, or move it by the arrow keys (N takes the next point)." });
 
   function drag(grip, target) {
     const clip = data.clips[state.clip], from = state.free || (clip ? clip.frames[state.frame] : program.start);

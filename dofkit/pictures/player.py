@@ -80,8 +80,8 @@ def framed(page: str, height: float) -> str:
     )
 
 
-def page_height(sketch: Sketch, clips: Sequence[Clip]) -> float:
-    """Return the height of `page_html` in pixels: title, answer, panel, buttons, legend, notes."""
+def page_height(sketch: Sketch, clips: Sequence[Clip], switches: Sequence[Switch] = ()) -> float:
+    """Return the height of `page_html` in pixels: title, answer, panel, buttons, switches, legend, notes."""
     margins = margins_of(sketch)
     panel = (FRAME - 2 * EDGE) * (margins.high - margins.low) / WIDTH
     lines = [
@@ -89,7 +89,9 @@ def page_height(sketch: Sketch, clips: Sequence[Clip]) -> float:
         1 + len(sketch.answer) // 85,
         *(1 + len(note) // 95 for note in _notes(sketch)),
     ]
-    lines.append(bool(keys_of(sketch.shapes, sketch.meanings)) + 2 * bool(clips))
+    lines.append(
+        bool(keys_of(sketch.shapes, sketch.meanings)) + (2 + (sketch.dimension < 3)) * bool(clips) + 3 * bool(switches)
+    )
     lines.append(max((1 + len(clip.text) // 85 for clip in clips if clip.text), default=0))
     return panel + LINE * sum(lines) + 4 * EDGE
 

@@ -257,7 +257,10 @@ class SpecialLoci:
 
     def _rows_on(self, locus: Locus) -> RowsOnLocus | None:
         """Return the rows on a locus; None where no such real configuration is found, or the engines disagree."""
-        remaining = [g for g in self.candidates.relations if not self.candidates.zeros.holds_on(locus, g)]
+        zeros, relations = self.candidates.zeros, self.candidates.relations
+        if not all(zeros.branches(locus.on(g)) for g in relations):
+            return None
+        remaining = [g for g in relations if not zeros.holds_on(locus, g)]
         if len(locus.equations) + len(remaining) > len(self.block.coordinates):
             return None
         with suppress(*_UNFINISHED):
