@@ -1,9 +1,9 @@
 """Candidates for where a block's rank drops, or the curvature on the kernel of its rows: loci, as equations.
 
 Rows are the differentials of the finite relations and the Pfaffian forms, each times its denominators. Rows with
-a coefficient that never vanishes are eliminated first: the rank drops where that of the rest does. Where nothing is
-left, the curvature d(omega)(u, v) of every form on every two vectors of the kernel is a polynomial as well. Both are
-matrices, whose largest minors vanish on the loci.
+a coefficient that never vanishes are eliminated first: the rank drops where that of the rest does. The rest is then
+eliminated where its pivots do not vanish, and the curvature d(omega)(u, v) of every form on every two vectors of the
+kernel is a polynomial as well. Both are matrices, whose largest minors vanish on the loci.
 """
 
 from __future__ import annotations
@@ -62,9 +62,9 @@ class Locus:
 
     @property
     def is_short(self) -> bool:
-        """Return whether a person can read it, and at most one equation gives no coordinate."""
+        """Return whether a person can read it, and at most two equations give no coordinate."""
         terms = (len(e.args) if e.op == "add" else 1 for e in (*self.given.values(), *self.others))
-        return len(self.others) < 2 and max(terms, default=0) <= MAX_READ
+        return len(self.others) < 3 and max(terms, default=0) <= MAX_READ
 
     @property
     def is_of_coordinates(self) -> bool:
@@ -158,12 +158,16 @@ class RowPolynomials:
 
     def _pivot(self) -> tuple[int, int] | None:
         """Return the place of a coefficient of a coordinate that never vanishes; a number where there is one."""
-        done, columns = {r for r, _ in self.pivots}, {c for _, c in self.pivots}
-        coordinates = [c for c, s in enumerate(self.symbols) if s != ex.TIME and c not in columns]
-        open_ = [(r, c) for r, row in enumerate(self.rows) if r not in done for c in coordinates if row[c] != 0]
+        open_ = self._open()
         numbers = ((r, c) for r, c in open_ if self.rows[r][c].is_constant())
         never = ((r, c) for r, c in open_ if self._never_vanishes(self.rows[r][c]))
         return next(chain(numbers, never), None)
+
+    def _open(self) -> list[tuple[int, int]]:
+        """Return the places of the coefficients of coordinates, other than 0, in rows and columns without a pivot."""
+        done, columns = {r for r, _ in self.pivots}, {c for _, c in self.pivots}
+        coordinates = [c for c, s in enumerate(self.symbols) if s != ex.TIME and c not in columns]
+        return [(r, c) for r, row in enumerate(self.rows) if r not in done for c in coordinates if row[c] != 0]
 
     def _never_vanishes(self, poly: Poly) -> bool:
         """Return whether a polynomial is a generic constant, or has terms of one sign of which one is not 0."""
@@ -182,6 +186,12 @@ class RowPolynomials:
                 pairs = zip(row, pivot, strict=True)
                 self.rows[k] = [self.canon.reduce(pivot[c] * a - row[c] * b) for a, b in pairs]
 
+    def eliminate_rest(self) -> None:
+        """Eliminate the other rows where the pivots that they need do not vanish. Raises TooLargeError."""
+        while (place := next(iter(self._open()), None)) is not None:
+            self._eliminate(*place)
+            self.pivots.append(place)
+
     @property
     def free(self) -> list[int]:
         """The columns without a pivot."""
@@ -194,7 +204,7 @@ class RowPolynomials:
         return [[row[c] for c in columns] for r, row in enumerate(self.rows) if r not in done]
 
     def curvature(self) -> list[list[Poly]]:
-        """Return d(omega)(u, v) of every form, for all pairs of vectors that span the kernel where all have a pivot."""
+        """Return d(omega)(u, v) of every form on all pairs of vectors that span the kernel where no pivot vanishes."""
         result = []
         vectors = [self._kernel_vector(column) for column in self.free]
         for curl in self._curls:
@@ -247,7 +257,8 @@ def candidates(block: Block, hidden: Sequence[Expr], setting: Setting, rank: int
     rows = raising_no_value(RowPolynomials)(block, hidden, setting)
     size = rank - len(rows.pivots)
     ranks = _loci(rows, rows.rest, size) if size > 0 else []
-    bends = _loci(rows, rows.curvature, curvature) if size == 0 and curvature else []
+    rows.eliminate_rest()
+    bends = _loci(rows, rows.curvature, curvature) if curvature else []
     return Candidates(ranks, bends, rows.zeros, rows.relations)
 
 
