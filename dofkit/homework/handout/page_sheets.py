@@ -32,7 +32,7 @@ from dofkit.homework.sentences import Language, in_language, say, stopped
 from dofkit.scene.scene import Scene
 
 #: What of a bench a practice sheet needs, and where `python -m dofkit.site` puts a bench in a clone.
-RUNTIME = ("pyodide", "core.zip", "sheets.zip", "worker.js", "practice.js", "bench.css", "icon.svg")
+RUNTIME = ("runtime", "practice.js", "bench.css", "icon.svg")
 BENCH = Path(__file__).parents[3] / "build" / "site" / "bench"
 #: What declares names; nothing else of a scene is on a page that only reads.
 _DECLARING = ("dimension", "parameters", "functions", "coordinates")

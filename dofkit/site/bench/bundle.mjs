@@ -2,12 +2,12 @@
 import { build } from "esbuild";
 
 await build({
-  entryPoints: ["bench.js", "practice.js", "worker.js", "player-frame.js"],
+  entryPoints: { bench: "bench.js", practice: "practice.js", "player-frame": "player-frame.js", "runtime/worker": "worker.js" },
   bundle: true,
   minify: true,
   format: "esm",
   target: "es2022",
-  external: ["./pyodide/*"],
+  external: ["./pyodide.mjs"],
   legalComments: "linked",
   outdir: process.argv[2],
   logLevel: "warning",
