@@ -1,52 +1,48 @@
 """Which tests notice a wrong line: lines of the deciding rooms are changed one at a time, and the tests are run.
 
-python tests/mutations.py --measure FILE          which tests run which line, by coverage.py: once, some 20 minutes
-python tests/mutations.py [--map FILE] [--many 100] [--seed 1] [--workers 2] [--only 3,17] [--list]
+python tests/mutations.py [--many 100] [--seed 1] [--workers 2] [--only 3,17] [--list] [options of pytest]
 
 A line is drawn from those that decide: with a comparison, a boolean operator, a sign, 0 or 1, a truth value, the end of
-a range. Each change is made in a copy of the repository, one copy a worker. There, in order and
-until one fails: the scenes of the catalog and of the tests against what they expect; the other tests of the default
-run, those of the changed room first; the sweeps. A change that makes the tests run without end, or take much more
-memory, is noticed too. With a map only the tests that run the line are asked, sweeps included: the others cannot
-notice. What is not noticed and changes no answer stands in `SAME`, with why.
+a range. The tests are collected once and run once with a probe at each of these lines. Then each change is made in a
+fork of that process, in memory, and the tests that run the line are run there until one fails: the catalog's scenes
+first, then the quickest. A change that makes a test run much longer, or take much more memory, is noticed too.
+Processes that a test starts run the files as they stand. What is not noticed and changes no answer stands in `SAME`,
+with why.
 """
 
 from __future__ import annotations
 
 import argparse
 import ast
+import builtins
+import gc
+import json
 import os
 import random
 import re
-import shutil
-import signal
-import subprocess
+import resource
 import sys
 import tempfile
+import time
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from itertools import count
+from importlib import import_module
 from pathlib import Path
-from queue import SimpleQueue
-from typing import Any
+from types import CodeType, FunctionType
 
-from coverage import CoverageData
-
-if sys.platform != "win32":
-    import resource
+import pytest
 
 ROOT = Path(__file__).parents[1]
 #: What decides.
 ROOMS = ("exact", "relations", "mobility", "configuration", "integrability", "classification", "scene/lowering.py")
-COPIED = ("dofkit", "tests", "catalog", "README.md", "pyproject.toml", ".ci", "LICENSE")
-#: The scenes against what they expect; the rest of the default run; what is left out there.
-SCENES = ("tests/whole/test_catalog.py",)
-STAGES = ("scenes", "tests", "sweeps")
-#: Seconds of processor time for each stage, and bytes of memory.
-SECONDS, MEMORY = (300, 3000, 6000), 8 << 30
+#: The scenes against what they expect.
+SCENES = "tests/whole/test_catalog.py"
+#: A test may take so many seconds of processor time, and so many times what it took; and bytes of memory.
+SECONDS, LONGER, MEMORY = 20, 10, 8 << 30
+#: What is called at the lines that are looked at.
+PROBE = "_line_is_run"
 COMPARED: Mapping[type[ast.cmpop], tuple[str, str]] = {
     ast.Lt: ("<", "<="),
     ast.LtE: ("<=", "<"),
@@ -68,11 +64,6 @@ JOINED: Mapping[type[ast.AST], tuple[str, str]] = {
 #: The file, the line as it is and as it is changed: why no answer is another one.
 SAME: Mapping[tuple[str, str, str], str] = {
     (
-        "dofkit/classification/dependence/equivalence.py",
-        "new = [g for g, sound in zip(_finite(self._answer), self._sound, strict=True) if not sound]",
-        "new = [g for g, sound in zip(_finite(self._answer), self._sound, strict=False) if not sound]",
-    ): "the two are of one length",
-    (
         "dofkit/configuration/measured/continuation.py",
         "if stages[-1].residual > VIOLATED * 10 * tolerance:",
         "if stages[-1].residual >= VIOLATED * 10 * tolerance:",
@@ -88,10 +79,40 @@ SAME: Mapping[tuple[str, str, str], str] = {
         "return [(index, -1 if (weight > 0) == (constant >= 0) else 1) for index, weight in weights.items()]",
     ): "the constant is not 0: its absolute value is a sum of weights that are not",
     (
-        "dofkit/relations/normal/semidefinite.py",
-        "linear.append(ex.add(*(ex.mul(ex.num(fraction(v)), s) for v, s in zip(entries, generators, strict=True))))",
-        "linear.append(ex.add(*(ex.mul(ex.num(fraction(v)), s) for v, s in zip(entries, generators, strict=False))))",
-    ): "the two are of one length",
+        "dofkit/configuration/distance_geometry.py",
+        "if visits > MAX_VISITS:",
+        "if visits >= MAX_VISITS:",
+    ): "a bound on the work that is done",
+    (
+        "dofkit/integrability/traits.py",
+        "new = new.args[1] if inside > 0 else -new.args[1]",
+        "new = new.args[1] if inside >= 0 else -new.args[1]",
+    ): "0 is excluded before",
+    (
+        "dofkit/exact/ring/program.py",
+        "return self.number(1) if exponent == 0 else self.emit(POW, (base, exponent))",
+        "return self.number(1) if exponent == 1 else self.emit(POW, (base, exponent))",
+    ): "a power with the exponent 0 has the value 1",
+    (
+        "dofkit/configuration/local/manifold.py",
+        "for k in range(1, order if self.rows else 1):",
+        "for k in range(1, order if self.rows else 0):",
+    ): "both ranges are empty",
+    (
+        "dofkit/integrability/first_integrals.py",
+        "if self._drawn > 4 * MAX_PRODUCTS:",
+        "if self._drawn >= 4 * MAX_PRODUCTS:",
+    ): "a bound on the work that is done",
+    (
+        "dofkit/configuration/local/quadratic_cone.py",
+        "for _ in range(STEPS):",
+        "for _ in range(STEPS - 1):",
+    ): "a bound on the work that is done",
+    (
+        "dofkit/classification/study.py",
+        "enters = {_time_enters(entries[r.constraint]) for r in block.rows} if shared else {False}",
+        "enters = {_time_enters(entries[r.constraint]) for r in block.rows} if shared else {True}",
+    ): "what does not use time has no part in either count",
 }
 
 
@@ -104,24 +125,8 @@ class Mutant:
     before: str
     after: str
 
-    @property
-    def room(self) -> str:
-        return self.path.split("/")[1]
-
-    @property
-    def why_same(self) -> str | None:
-        return SAME.get((self.path, self.before.strip(), self.after.strip()))
-
     def __str__(self) -> str:
         return f"{self.path}:{self.line}: {self.before.strip()}  ->  {self.after.strip()}"
-
-
-@dataclass(frozen=True)
-class Verdict:
-    """The stage that noticed a mutant (None where none did), and by what."""
-
-    stage: str | None
-    by: str
 
 
 # -- what may be changed ---------------------------------------------------------------------------
@@ -164,7 +169,7 @@ def _edits(tree: ast.Module, lines: Sequence[str]) -> Iterator[Edit]:
 
 
 def _deciding(tree: ast.AST) -> Iterator[ast.AST]:
-    """The expressions of the functions' bodies; nothing in a text, an annotation, a default or a raise."""
+    """The expressions of the functions' bodies; nothing in a text, an annotation, a default, a raise, or a check."""
     for function in ast.walk(tree):
         if isinstance(function, ast.FunctionDef):
             for statement in function.body:
@@ -175,6 +180,8 @@ def _within(node: ast.AST) -> Iterator[ast.AST]:
     if isinstance(node, ast.JoinedStr | ast.Raise | ast.FunctionDef | ast.ClassDef | ast.Import | ast.ImportFrom):
         return
     if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):
+        return
+    if isinstance(node, ast.keyword) and node.arg == "strict":
         return
     yield node
     for name, value in ast.iter_fields(node):
@@ -212,168 +219,135 @@ def drawn(many: int, seed: int, rooms: Sequence[str] = ROOMS) -> list[Mutant]:
     return [rng.choice(lines[key]) for key in rng.sample(sorted(lines), many)]
 
 
+# -- which tests run a line ------------------------------------------------------------------------
+
+
+def replaced(path: str, code: CodeType) -> None:
+    """Give every function of a file, wherever it is referred to, its body in another version of that file."""
+    file = str(ROOT / path)
+    import_module(path.removesuffix(".py").removesuffix("/__init__").replace("/", "."))
+    bodies = {(body.co_qualname, body.co_firstlineno): body for body in _bodies(code)}
+    for function in gc.get_objects():
+        if isinstance(function, FunctionType) and function.__code__.co_filename == file:
+            function.__code__ = bodies[function.__code__.co_qualname, function.__code__.co_firstlineno]
+
+
+def _bodies(code: CodeType) -> Iterator[CodeType]:
+    for constant in code.co_consts:
+        if isinstance(constant, CodeType):
+            yield constant
+            yield from _bodies(constant)
+
+
+def probed(path: str, lines: Mapping[int, int]) -> CodeType:
+    """Return a file in which the statement around each line, by its mutant's number, first calls the probe."""
+    tree = ast.parse((ROOT / path).read_text(encoding="utf-8"))
+    for number, line in lines.items():
+        body, index = _statement(tree, line)
+        call = ast.parse(f"{PROBE}({number})").body[0]
+        body.insert(index, ast.fix_missing_locations(ast.copy_location(call, body[index])))
+    return compile(tree, str(ROOT / path), "exec")
+
+
+def _statement(tree: ast.AST, line: int) -> tuple[list[ast.stmt], int]:
+    """Return the innermost statement around a line: a body, and where in it the statement stands."""
+    around = [
+        (statement.end_lineno - statement.lineno, body, index)
+        for node in ast.walk(tree)
+        for body in vars(node).values()
+        if isinstance(body, list)
+        for index, statement in enumerate(body)
+        if isinstance(statement, ast.stmt) and statement.lineno <= line <= (statement.end_lineno or 0)
+    ]
+    return min(around, key=lambda entry: entry[0])[1:]
+
+
 # -- who notices it --------------------------------------------------------------------------------
 
 
-class Copy:
-    """A copy of the repository in which one line at a time is another one."""
+class Trial:
+    """A pytest plugin: in place of one run of the tests, a run for each mutant, each in a fork of this process."""
 
-    def __init__(self, folder: Path, chart: LineMap | None) -> None:
-        self.folder = folder
-        self._times = count(1)
-        self._map = chart
-        for name in COPIED:
-            if (ROOT / name).is_dir():
-                shutil.copytree(ROOT / name, folder / name, ignore=shutil.ignore_patterns("__pycache__"))
-            else:
-                shutil.copy(ROOT / name, folder / name)
+    def __init__(self, mutants: Mapping[int, Mutant], workers: int, folder: Path) -> None:
+        self._mutants, self._workers, self._folder = mutants, workers, folder
+        self._failed = ""
+        self.outcomes: Counter[str] = Counter()
 
-    def judged(self, mutant: Mutant) -> Verdict:
-        """Which stage notices it first."""
-        path = self.folder / mutant.path
-        text = path.read_text(encoding="utf-8")
-        lines = text.splitlines(keepends=True)
-        lines[mutant.line - 1] = mutant.after + "\n"
-        self._write(path, "".join(lines))
+    def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
+        if report.failed:
+            self._failed = self._failed or report.nodeid
+
+    @pytest.hookimpl(tryfirst=True)
+    def pytest_runtestloop(self, session: pytest.Session) -> bool:
+        gc.unfreeze()
+        tests = {item.nodeid: item for item in session.items}
+        os.waitpid(self._fork("probes", partial(self._measured, tests)), 0)
+        seconds: dict[str, dict[str, float]] = json.loads((self._folder / "probes").read_text(encoding="utf-8"))
+        running: dict[int, int] = {}
+        for number, mutant in self._mutants.items():
+            if len(running) == self._workers:
+                self._end(running)
+            covering = seconds.get(str(number), {})
+            order = sorted(covering, key=lambda test: (not test.startswith(SCENES), covering[test]))
+            chosen = {tests[test]: covering[test] for test in order}
+            running[self._fork(str(number), partial(self._judged, mutant, chosen))] = number
+        while running:
+            self._end(running)
+        return True
+
+    def _fork(self, name: str, work: Callable[[], str]) -> int:
+        """Return a new process, which writes to a file of this name what the work returns."""
+        sys.stdout.flush()
+        process = os.fork()
+        if process:
+            return process
         try:
-            for stage, seconds in zip(STAGES, SECONDS, strict=True):
-                arguments = self._arguments(stage, mutant) if self._map is None else self._covering(stage, mutant)
-                by = self._failing(arguments, seconds) if arguments else ""
-                if by:
-                    return Verdict(stage, by)
-            return Verdict(None, mutant.why_same or "")
+            os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+            (self._folder / name).write_text(work(), encoding="utf-8")
+            os._exit(0)
         finally:
-            self._write(path, text)
+            os._exit(1)
 
-    def _write(self, path: Path, text: str) -> None:
-        """Write with a time of its own: Python takes a compiled file for good where time and length are the same."""
-        path.write_text(text, encoding="utf-8")
-        stamp = 1_000_000_000 + 10 * next(self._times)
-        os.utime(path, (stamp, stamp))
+    def _end(self, running: dict[int, int]) -> None:
+        """Wait for one of the processes, and print what noticed its mutant."""
+        process, status = os.wait()
+        number = running.pop(process)
+        mutant = self._mutants[number]
+        by = (self._folder / str(number)).read_text(encoding="utf-8") if status == 0 else "no end, no memory, no import"
+        why_same = SAME.get((mutant.path, mutant.before.strip(), mutant.after.strip()), "")
+        outcome = "noticed" if by else "same" if why_same else "UNNOTICED"
+        self.outcomes[outcome] += 1
+        print(f"{number:>3}  {outcome:<9} {mutant}\n     {by or why_same}", flush=True)
 
-    def _arguments(self, stage: str, mutant: Mutant) -> list[str]:
-        if stage == "scenes":
-            return list(SCENES)
-        rooms = sorted(path.name for path in (self.folder / "tests").iterdir() if any(path.glob("test_*.py")))
-        order = [mutant.room, "relations", "mobility", "configuration", "integrability", "classification", "exact"]
-        order = sorted(rooms, key=lambda room: order.index(room) if room in order else len(order))
-        chosen = [*(f"tests/{room}" for room in order), *(f"--deselect={path}" for path in SCENES)]
-        return [*chosen, "-m", "sweep"] if stage == "sweeps" else chosen
+    def _measured(self, tests: Mapping[str, pytest.Item]) -> str:
+        """Return the tests that run each line and pass, with the seconds of processor time that they take."""
+        hits: set[int] = set()
+        setattr(builtins, PROBE, hits.add)
+        for path in {mutant.path for mutant in self._mutants.values()}:
+            replaced(path, probed(path, {n: m.line for n, m in self._mutants.items() if m.path == path}))
+        seconds: dict[int, dict[str, float]] = {}
+        for test, item in tests.items():
+            hits.clear()
+            self._failed = ""
+            start = time.process_time()
+            item.config.hook.pytest_runtest_protocol(item=item, nextitem=None)
+            for number in hits if not self._failed else ():
+                seconds.setdefault(number, {})[test] = time.process_time() - start
+        return json.dumps(seconds)
 
-    def _covering(self, stage: str, mutant: Mutant) -> list[str]:
-        """The tests of a stage that run the line, in a file of arguments; none where no test does."""
-        found = [] if self._map is None else self._map.tests(mutant)
-        scenes = [test for test in found if test.startswith(SCENES)]
-        own = f"tests/{mutant.room}/"
-        others = sorted((t for t in found if t not in scenes), key=lambda t: (not t.startswith(own), t))
-        chosen = scenes if stage == "scenes" else others
-        which = "sweep" if stage == "sweeps" else "not sweep"
-        (self.folder / "chosen.txt").write_text("\n".join(["-m", which, *chosen]), encoding="utf-8")
-        return ["@chosen.txt"] if chosen else []
-
-    def _failing(self, arguments: Sequence[str], seconds: int) -> str:
-        """The first test that fails, with how; nothing where all pass."""
-        command = [sys.executable, "-m", "pytest", "-n0", "-x", "-p", "no:cacheprovider", "--tb=no", *arguments]
-        settings: dict[str, Any] = {"cwd": self.folder, "env": {**os.environ, "PYTHONPATH": str(self.folder)}}
-        settings |= {"capture_output": True, "text": True, "timeout": 4 * seconds}
-        try:
-            done = subprocess.run(command, check=False, preexec_fn=partial(_bound, seconds), **settings)
-        except subprocess.TimeoutExpired:
-            return "waits for ever"
-        if done.returncode == -signal.SIGTERM:
-            raise KeyboardInterrupt
-        failed = re.findall(r"^(?:FAILED|ERROR) (.+)$", done.stdout, re.MULTILINE)
-        if done.returncode in (0, 5):
-            return ""
-        return failed[0] if failed else f"ended with status {done.returncode} (no end, no memory, or no import)"
-
-
-def _bound(seconds: int) -> None:
-    if sys.platform != "win32":
-        resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 10))
+    def _judged(self, mutant: Mutant, tests: Mapping[pytest.Item, float]) -> str:
+        """Return the first of the tests that fails; nothing where all pass."""
         resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
-
-
-class LineMap:
-    """Which tests run which lines, as coverage.py measured it."""
-
-    def __init__(self, path: Path) -> None:
-        self._data = CoverageData(str(path))
-        self._data.read()
-        self._files = {Path(name).as_posix(): name for name in self._data.measured_files()}
-
-    def tests(self, mutant: Mutant) -> list[str]:
-        """The tests that run a line of the statement."""
-        name = next((own for path, own in self._files.items() if path.endswith(mutant.path)), None)
-        by_line = {} if name is None else self._data.contexts_by_lineno(name)
-        contexts = {c for line in _statement(mutant) for c in by_line.get(line, ())}
-        return sorted(found for c in contexts if (found := _test_of(c)) is not None)
-
-
-def _statement(mutant: Mutant) -> range:
-    """The lines of the smallest statement around a line."""
-    tree = ast.parse((ROOT / mutant.path).read_text(encoding="utf-8"))
-    around = [
-        range(node.lineno, (node.end_lineno or node.lineno) + 1)
-        for node in ast.walk(tree)
-        if isinstance(node, ast.stmt) and node.lineno <= mutant.line <= (node.end_lineno or node.lineno)
-    ]
-    return min(around, key=len)
-
-
-def _test_of(context: str) -> str | None:
-    """``tests/room/test_x.py::test_y`` from a context's dotted name."""
-    parts = context.split(".")
-    ends = [k for k in range(1, len(parts)) if (ROOT / "/".join(parts[:k])).with_suffix(".py").is_file()]
-    return None if not ends else "::".join(["/".join(parts[: ends[-1]]) + ".py", *parts[ends[-1] :]])
-
-
-def measure(path: Path, workers: int) -> None:
-    """Run all tests, sweeps included, and write which of them run which lines of the deciding rooms."""
-    include = ",".join(f"dofkit/{room}" + ("" if room.endswith(".py") else "/*") for room in ROOMS)
-    with tempfile.TemporaryDirectory() as folder:
-        settings = Path(folder) / "rc"
-        settings.write_text(f"[run]\ndynamic_context = test_function\ninclude = {include}\n", encoding="utf-8")
-        files = sorted((ROOT / "tests").rglob("test_*.py"), key=lambda p: p.stat().st_size)
-        parts = [files[k::workers] for k in range(workers)]
-        running = [subprocess.Popen(_measured(settings, Path(folder) / f"part.{k}", p)) for k, p in enumerate(parts)]
-        for one in running:
-            one.wait()
-        together = CoverageData(str(path))
-        for k in range(workers):
-            together.update(_read(Path(folder) / f"part.{k}"))
-        together.write()
-
-
-def _measured(settings: Path, data: Path, files: Sequence[Path]) -> list[str]:
-    """A run of some files of tests under coverage."""
-    run = ["-m", "coverage", "run", f"--rcfile={settings}", f"--data-file={data}", "-m", "pytest", "-n0"]
-    names = [str(file.relative_to(ROOT)) for file in files]
-    return [sys.executable, *run, "-q", "-p", "no:cacheprovider", "-m", "sweep or not sweep", *names]
-
-
-def _read(path: Path) -> CoverageData:
-    data = CoverageData(str(path))
-    data.read()
-    return data
-
-
-def table(chosen: Mapping[int, Mutant], workers: int, chart: Path | None) -> Iterator[tuple[int, Verdict]]:
-    """Every mutant with who noticed it, in order."""
-    with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(workers) as threads:
-        copies: SimpleQueue[Copy] = SimpleQueue()
-        for number in range(workers):
-            (place := Path(folder) / str(number)).mkdir()
-            copies.put(Copy(place, None if chart is None else LineMap(chart)))
-
-        def judged(mutant: Mutant) -> Verdict:
-            copy = copies.get()
-            try:
-                return copy.judged(mutant)
-            finally:
-                copies.put(copy)
-
-        yield from zip(chosen, threads.map(judged, chosen.values()), strict=True)
+        lines = (ROOT / mutant.path).read_text(encoding="utf-8").splitlines()
+        lines[mutant.line - 1] = mutant.after
+        replaced(mutant.path, compile("\n".join(lines), str(ROOT / mutant.path), "exec"))
+        for item, seconds in tests.items():
+            allowed = int(time.process_time() + SECONDS + LONGER * seconds)
+            resource.setrlimit(resource.RLIMIT_CPU, (allowed, resource.RLIM_INFINITY))
+            item.config.hook.pytest_runtest_protocol(item=item, nextitem=None)
+            if self._failed:
+                break
+        return self._failed
 
 
 def main() -> None:
@@ -382,25 +356,17 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--workers", type=int, default=2)
     parser.add_argument("--only", type=lambda text: [int(number) for number in text.split(",")])
-    parser.add_argument("--map", type=Path, help="what --measure wrote")
-    parser.add_argument("--measure", type=Path, help="write which tests run which lines, and no more")
     parser.add_argument("--list", action="store_true", help="only show what would be changed")
-    given = parser.parse_args()
-    if given.measure:
-        measure(given.measure, given.workers)
-        return
+    given, options = parser.parse_known_args()
     chosen = dict(enumerate(drawn(given.many, given.seed)))
     chosen = {number: chosen[number] for number in given.only or chosen}
     if given.list:
         print(*(f"{number:>3}  {mutant}" for number, mutant in chosen.items()), sep="\n")
         return
-    found: Counter[str] = Counter()
-    for number, verdict in table(chosen, given.workers, given.map):
-        same = verdict.stage is None and bool(verdict.by)
-        found[verdict.stage or ("same" if same else "unnoticed")] += 1
-        print(f"{number:>3}  {verdict.stage or ('same' if same else 'UNNOTICED'):<10} {chosen[number]}", flush=True)
-        print(f"     {verdict.by}", flush=True)
-    print(", ".join(f"{number} {name}" for name, number in found.items()), f"of {sum(found.values())}")
+    with tempfile.TemporaryDirectory() as folder:
+        trial = Trial(chosen, given.workers, Path(folder))
+        pytest.main(["-n0", "-s", "-p", "no:cacheprovider", "--tb=no", "--timeout=3000", *options], plugins=[trial])
+    print(", ".join(f"{count} {outcome}" for outcome, count in trial.outcomes.items()))
 
 
 if __name__ == "__main__":

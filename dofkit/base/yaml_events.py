@@ -18,7 +18,7 @@ from yaml.events import (
 )
 from yaml.reader import ReaderError
 
-from dofkit.base.errors import Fault
+from dofkit.base.errors import Fault, TextError
 
 Path: TypeAlias = tuple[str | int, ...]
 #: Where a value begins, and its key (-1: it has none): offsets into the text.
@@ -51,15 +51,6 @@ class UnreadableError(Exception):
     """Reading cannot go on."""
 
 
-class BadScalarError(ValueError):
-    """A number that cannot be taken; ``hint`` says what to write instead."""
-
-    def __init__(self, message: str, hint: str) -> None:
-        super().__init__(message)
-        self.message = message
-        self.hint = hint
-
-
 def plain(text: str) -> Scalar:
     """Return the value of an unquoted scalar by the core schema of YAML 1.2; a decimal is never a float.
 
@@ -71,14 +62,14 @@ def plain(text: str) -> Scalar:
     if text[0] not in _NUMERIC_START:
         return text
     if _NOT_FINITE.fullmatch(text):
-        raise BadScalarError(f"a finite number is needed, not {text}", "if it is meant as a name, put it in quotes")
+        raise TextError(f"a finite number is needed, not {text}", hint="if it is meant as a name, put it in quotes")
     match, other = _NUMBER.fullmatch(text), _OTHER_BASE.fullmatch(text)
     if match is None and other is None:
         return text
     short = text if len(text) <= 24 else text[:20] + "..."
     if len(text) > LONGEST_NUMBER:
         message = f"the number {short} has {len(text)} characters"
-        raise BadScalarError(message, f"write a number in at most {LONGEST_NUMBER} characters")
+        raise TextError(message, hint=f"write a number in at most {LONGEST_NUMBER} characters")
     if match is None:
         return int(text, 0)
     if match["int"]:
@@ -87,7 +78,7 @@ def plain(text: str) -> Scalar:
         value = Decimal(text)
         if not value or abs(value.adjusted()) <= LARGEST_EXPONENT:
             return value
-    raise BadScalarError(f"the number {short} is too large or too small", f"stay within 1e±{LARGEST_EXPONENT}")
+    raise TextError(f"the number {short} is too large or too small", hint=f"stay within 1e±{LARGEST_EXPONENT}")
 
 
 def _whole_characters(text: str) -> str | None:
@@ -136,7 +127,7 @@ class ComposedText:
             self.faults.append(syntax_fault(error))
             self.is_yaml = False
 
-    def _fault(self, event: Any, message: str, hint: str) -> None:
+    def _fault(self, event: Any, message: str, hint: str | None) -> None:
         self.faults.append((event.start_mark.index, Fault(message, hint=hint)))
 
     def _give_up(self, event: Any, message: str, hint: str) -> NoReturn:
@@ -209,7 +200,7 @@ class ComposedText:
         if event.implicit[0] and (event.tag or "") != _CORE + "str":
             try:
                 value = plain(text)
-            except BadScalarError as error:
+            except TextError as error:
                 self._fault(event, error.message, error.hint)
                 value = 1
         if event.anchor:

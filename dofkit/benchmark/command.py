@@ -22,7 +22,7 @@ from dofkit.base.runs import cores
 from dofkit.base.workers import function_named
 from dofkit.benchmark import record, runner, tasks
 from dofkit.benchmark.record import ALL, AUTO, ChartError, ChartRun, Data, Ran, Score
-from dofkit.benchmark.sentences import TWICE, summary
+from dofkit.benchmark.sentences import TWICE, sentences, summary
 from dofkit.benchmark.tasks import Selection
 from dofkit.benchmark.trials import FAMILIES
 
@@ -74,9 +74,9 @@ def chart(options: ChartOptions) -> bool:
         Console(stderr=True).print(f"interrupted after {done} of {total} trials", highlight=False)
         if not data.lines:
             return False
-    counts = {"lines": len(data.lines), "sweeps": len(data.sweeps)}
-    minutes = (time.monotonic() - started) / 60
-    data = replace(data, ran=data.ran.model_copy(update={**counts, "minutes": minutes, "complete": complete}))
+    minutes, lines, sweeps = (time.monotonic() - started) / 60, len(data.lines), len(data.sweeps)
+    ran = replace(data.ran, lines=lines, sweeps=sweeps, minutes=minutes, complete=complete)
+    data = replace(data, ran=ran)
     finish(data, options.out)
     return complete
 
@@ -106,7 +106,7 @@ def finish(data: Data, out: Path) -> None:
     order = {key: i for i, key in enumerate(dict.fromkeys((line.family, line.question) for line in data.lines))}
     data.lines.sort(key=lambda line: (order[line.family, line.question], line.size, line.trial))
     chart = summary(data)
-    record.write(data, chart, out)
+    record.write(data, out)
     able = find_spec("matplotlib") is not None
     drawn = list(function_named(FIGURES)(chart, out)) if able and data.ran.complete else []
     show(chart, data, out, drawn)
@@ -164,7 +164,7 @@ def show(chart: ChartRun, data: Data, out: Path, drawn: Sequence[Path]) -> None:
         console.print(table(chart))
         for sentence in auto_sentences(chart):
             console.print(sentence, soft_wrap=True)
-    console.print(f"data: {out}/ (trials.csv, sweeps.csv, chart.json)", soft_wrap=True)
+    console.print(f"data: {out}/ (trials.csv, sweeps.csv, run.json)", soft_wrap=True)
     if drawn:
         names = ", ".join(path.stem for path in drawn)
         console.print(f"figures, as .png and .svg: {names}", soft_wrap=True)
@@ -199,7 +199,7 @@ def _cells(score: Score) -> tuple[str, ...]:
 
 def auto_sentences(chart: ChartRun) -> Iterator[str]:
     """Yield how ``auto`` did, and the families on which it is slower than the fastest method that is never wrong."""
-    yield from (chart.sentences[key] for key in ("trials", "time") if key in chart.sentences)
+    yield from sentences(chart)
     slow = [(row.sound_ratio or 0, row) for row in chart.against]
     for ratio, row in sorted(slow, key=lambda pair: -pair[0])[:5]:
         if ratio > TWICE:

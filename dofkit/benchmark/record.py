@@ -1,15 +1,13 @@
-"""The record of a run: a line for every trial and method, a summary of all of them, and the files that hold both."""
+"""The record of a run: a line for every trial and method, what is worked out from them, and the files of a run."""
 
 from __future__ import annotations
 
 import csv
 import json
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, fields
+from dataclasses import asdict, dataclass, field, fields
 from pathlib import Path
-from typing import Any, Literal
-
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from typing import Any, Literal, NamedTuple
 
 from dofkit.base.errors import DofkitError
 
@@ -46,31 +44,37 @@ class TrialLine:
     group: str = ""
 
 
-class _Row(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True)
+@dataclass(frozen=True)
+class Ran:
+    """What was run, where and when. Run again, the command gives the same answers; seconds depend on the machine.
 
+    ``version``: dofkit's; ``date``: in UTC, when it began; ``machine``: the processor, as the system names it;
+    ``limit``: seconds of processor time for a trial and method; ``lines``: trials times methods, ``sweeps``: the same
+    in sweeps; ``minutes`` by the clock; ``complete``: false where it was interrupted.
+    """
 
-class Ran(_Row):
-    """What was run, where and when. Run again, the command gives the same answers; seconds depend on the machine."""
-
-    version: str = Field(description="dofkit's")
+    version: str
     command: str
-    date: str = Field(description="in UTC, when it began")
-    machine: str = Field(description="the processor, as the system names it")
+    date: str
+    machine: str
     cores: int
     python: str
     workers: int
-    limit: float = Field(description="seconds of processor time for a trial and method")
+    limit: float
     quick: bool
     trials: int
-    lines: int = Field(description="trials times methods")
-    sweeps: int = Field(description="the same in sweeps")
-    minutes: float = Field(description="by the clock")
-    complete: bool = Field(description="false where it was interrupted")
+    lines: int
+    sweeps: int
+    minutes: float
+    complete: bool
 
 
-class Score(_Row):
-    """How a method did on the trials of a family, or of all of them; seconds are those of all but ``cannot``."""
+@dataclass(frozen=True)
+class Score:
+    """How a method did on the trials of a family, or of all of them.
+
+    Seconds are the median and the tenth and ninetieth percentiles of all but ``cannot``.
+    """
 
     question: str
     family: str
@@ -82,9 +86,8 @@ class Score(_Row):
     timed_out: int
     cannot: int
     median_seconds: float | None
-    low_seconds: float | None = Field(description="the tenth percentile")
-    high_seconds: float | None = Field(description="the ninetieth")
-    total_seconds: float
+    low_seconds: float | None
+    high_seconds: float | None
 
     @property
     def share_right(self) -> float:
@@ -97,7 +100,7 @@ class Score(_Row):
         return self.wrong / self.trials
 
 
-class Front(_Row):
+class Front(NamedTuple):
     """The methods that no other one beats: as fast, as often right, as seldom wrong, and in one of these better.
 
     ``never_wrong``: the same among those that were never wrong. Both with the fastest first.
@@ -108,7 +111,7 @@ class Front(_Row):
     never_wrong: list[str]
 
 
-class MedianTime(_Row):
+class MedianTime(NamedTuple):
     """The median seconds of a method on the trials of one size; ``timed_out`` of them only give a lower bound."""
 
     question: str
@@ -120,20 +123,23 @@ class MedianTime(_Row):
     timed_out: int
 
 
-class Fit(_Row):
-    """seconds = factor * size^exponent, by least squares on the logarithms of the points of the largest decade."""
+class Fit(NamedTuple):
+    """seconds = factor * size^exponent, by least squares on the logarithms of the points of the largest decade.
+
+    ``error`` is the standard error of the exponent.
+    """
 
     question: str
     family: str
     method: str
     exponent: float
-    error: float = Field(description="the standard error of the exponent")
+    error: float
     factor: float
     points: int
 
 
-class Step(_Row):
-    """The outcomes of a method in a sweep, at one value of its knob; ``group`` is a curve."""
+class Step(NamedTuple):
+    """The outcomes of a method in a sweep, at one value of its knob; ``group`` is a curve; late is undecided."""
 
     sweep: str
     method: str
@@ -142,25 +148,27 @@ class Step(_Row):
     trials: int
     right: int
     wrong: int
-    undecided: int = Field(description="or timed out")
+    undecided: int
 
 
-class Against(_Row):
-    """``auto`` against the fastest method that is right on all trials of a family; medians of seconds."""
+class Against(NamedTuple):
+    """``auto`` against the fastest method that is right on all trials of a family.
+
+    ``ratio`` is the median over trials of the ratio of their seconds; ``sound``: the fastest of them that is never
+    wrong on the question, with the same ratio for that one.
+    """
 
     question: str
     family: str
     fastest: str
-    fastest_seconds: float
-    auto_seconds: float
-    ratio: float = Field(description="the median over trials of the ratio of their seconds")
-    lucky: bool = Field(False, description="is that method wrong on another family of the question?")
-    sound: str | None = Field(None, description="the fastest of them that is never wrong on the question")
-    sound_ratio: float | None = Field(None, description="the same ratio for that one")
+    ratio: float
+    sound: str | None
+    sound_ratio: float | None
 
 
-class ChartRun(_Row):
-    """``chart.json``: the summary of a run."""
+@dataclass(frozen=True)
+class ChartRun:
+    """What is drawn and printed of a run; ``captions`` of every figure, by its name."""
 
     ran: Ran
     scores: list[Score]
@@ -169,8 +177,7 @@ class ChartRun(_Row):
     fits: list[Fit]
     steps: list[Step]
     against: list[Against]
-    captions: dict[str, str] = Field(description="of every figure, by its name")
-    sentences: dict[str, str] = Field(default_factory=dict, description="what the figures say, by what it is about")
+    captions: dict[str, str]
 
 
 @dataclass(frozen=True)
@@ -184,7 +191,7 @@ class Data:
 
 # Files
 
-TRIALS, SWEEPS, SUMMARY = "trials.csv", "sweeps.csv", "chart.json"
+TRIALS, SWEEPS, RAN = "trials.csv", "sweeps.csv", "run.json"
 #: Columns that hold JSON, and those that hold numbers; the others are plain text.
 _JSON = ("swept", "truth", "answer")
 _NUMBERS: dict[str, Callable[[str], Any]] = {"size": int, "seconds": float, "value": float}
@@ -195,24 +202,24 @@ class ChartError(DofkitError):
     """What was asked for cannot be charted, read or written."""
 
 
-def write(data: Data, chart: ChartRun, out: Path) -> None:
+def write(data: Data, out: Path) -> None:
     """Write all data of a run into an existing folder. Raises OSError."""
     _write_table(out / TRIALS, _COLUMNS, map(_cells, data.lines))
     _write_table(out / SWEEPS, _COLUMNS, map(_cells, data.sweeps))
-    (out / SUMMARY).write_text(chart.model_dump_json(indent=1) + "\n", encoding="utf-8")
+    (out / RAN).write_text(json.dumps(asdict(data.ran), indent=1) + "\n", encoding="utf-8")
 
 
 def read(folder: Path) -> Data:
     """Return the data of a run. Raises ChartError where they are missing or incomplete."""
     try:
-        chart = ChartRun.model_validate_json((folder / SUMMARY).read_text(encoding="utf-8"))
+        ran = Ran(**json.loads((folder / RAN).read_text(encoding="utf-8")))
         lines, swept = (list(_read_lines(folder / name)) for name in (TRIALS, SWEEPS))
     except OSError as error:
         raise ChartError(f"there is no run in {folder}: {error.strerror} ({error.filename})") from None
-    except (ValidationError, ValueError, KeyError, TypeError) as error:
+    except (ValueError, KeyError, TypeError) as error:
         first = str(error).splitlines()[0]
         raise ChartError(f"the files in {folder} are not those of a run of this version: {first}") from None
-    return Data(chart.ran, lines, swept)
+    return Data(ran, lines, swept)
 
 
 def _write_table(path: Path, columns: Sequence[str], rows: Iterable[Sequence[Any]]) -> None:

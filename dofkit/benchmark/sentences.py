@@ -5,32 +5,24 @@ Each sentence is worked out from the data of the run, and so may stand beside th
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterator
-from fractions import Fraction
+from dataclasses import replace
 from importlib import resources
-from typing import NamedTuple
 
 import yaml
 
-from dofkit.base.wording import series
 from dofkit.benchmark import statistics
 from dofkit.benchmark.record import ALL, AUTO, ChartRun, Data, Ran, Score
-from dofkit.benchmark.statistics import grouped
 from dofkit.methods.table import METHODS
 
 #: `auto` should take no more than so many times the fastest method that is right.
 TWICE = 2
-#: So many families are named in which a method errs most, of at least so many trials each.
-NAMED, LEAST = 3, 8
-_NUMBERS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")
 
 
 def summary(data: Data) -> ChartRun:
     """Return all that is drawn and printed."""
     captions = yaml.safe_load((resources.files(__package__) / "captions.yaml").read_text(encoding="utf-8"))
     scores, points = statistics.scores(data.lines), statistics.points(data.lines)
-    chart = ChartRun(
+    return ChartRun(
         ran=data.ran,
         scores=scores,
         fronts=statistics.fronts(scores),
@@ -40,7 +32,6 @@ def summary(data: Data) -> ChartRun:
         against=statistics.against(data.lines),
         captions={name: f"{text} {provenance(data.ran)}" for name, text in captions.items()},
     )
-    return chart.model_copy(update={"sentences": sentences(chart)})
 
 
 def provenance(ran: Ran) -> str:
@@ -52,12 +43,9 @@ def provenance(ran: Ran) -> str:
     )
 
 
-def sentences(chart: ChartRun) -> dict[str, str]:
-    """Return the sentences by what they are about; those that the run has no data of are left out."""
-    texts = {"trials": _trials(chart), "time": _time(chart), "tolerance": _tolerance(chart), "bits": _bits(chart)}
-    texts |= {"cost": _cost(chart)}
-    texts |= {method: _method(chart, method) for method in dict.fromkeys(score.method for score in chart.scores)}
-    return {key: text for key, text in texts.items() if text}
+def sentences(chart: ChartRun) -> list[str]:
+    """Return how often ``auto`` is right and how long it takes, as far as the run has data of them."""
+    return [text for text in (_trials(chart), _time(chart)) if text]
 
 
 def _trials(chart: ChartRun) -> str:
@@ -68,7 +56,7 @@ def _trials(chart: ChartRun) -> str:
     undecided = mine.trials - mine.right - mine.wrong
     wrong = f"{mine.wrong} {'is' if mine.wrong == 1 else 'are'}" if mine.wrong else "none is"
     return (
-        f"{_spaced(chart.ran.trials)} trials by {_word(methods)} methods, at most {chart.ran.limit:g} s each: of the "
+        f"{_spaced(chart.ran.trials)} trials by {methods} methods, at most {chart.ran.limit:g} s each: of the "
         f"answers of `auto` {wrong} wrong and {_percent(undecided, mine.trials)} are undecided."
     )
 
@@ -86,101 +74,11 @@ def _time(chart: ChartRun) -> str:
     )
 
 
-def _method(chart: ChartRun, method: str) -> str:
-    """Return how often a method is wrong and undecided, and where most."""
-    total = _total(chart, method)
-    if total is None:
-        return ""
-    undecided = _percent(total.trials - total.right - total.wrong, total.trials)
-    start = f"`{method}` is wrong on {_percent(total.wrong, total.trials)} and undecided on {undecided}"
-    quoted = [f'"{family}"' for family in _worst(chart, method, wrong=bool(total.wrong))]
-    if not quoted:
-        return start + "."
-    return f"{start}; it is {'wrong' if total.wrong else 'undecided'} most often in {series(quoted)}."
-
-
-def _worst(chart: ChartRun, method: str, *, wrong: bool) -> Iterator[str]:
-    """Yield the families with the largest share of wrong, or else of undecided answers."""
-    rows: dict[str, tuple[int, int]] = {}
-    for score in chart.scores:
-        if score.method == method and score.family != ALL:
-            bad, trials = rows.get(score.family, (0, 0))
-            more = score.wrong if wrong else score.trials - score.right
-            rows[score.family] = bad + more, trials + score.trials
-    shares = {family: bad / trials for family, (bad, trials) in rows.items() if bad and trials >= LEAST}
-    yield from sorted(shares, key=lambda family: (-shares[family], family))[:NAMED]
-
-
-class _Rounded(NamedTuple):
-    """Counts at the tolerance equal to the rounding; the largest share of right answers at one tolerance for all."""
-
-    right: int
-    wrong: int
-    trials: int
-    best: float
-
-
-def _rounded(chart: ChartRun, sweep: str) -> _Rounded | None:
-    steps = [step for step in chart.steps if step.sweep == sweep and step.group.isdigit()]
-    equal = [step for step in steps if round(math.log10(step.value)) == -int(step.group)]
-    if not equal:
-        return None
-    values = grouped(steps, lambda step: step.value).values()
-    best = max(sum(s.right for s in same) / sum(s.trials for s in same) for same in values)
-    return _Rounded(sum(s.right for s in equal), sum(s.wrong for s in equal), sum(s.trials for s in equal), best)
-
-
-def _tolerance(chart: ChartRun) -> str:
-    ours, other = (_rounded(chart, sweep) for sweep in ("scene tolerance", "tolerance"))
-    if ours is None or other is None:
-        return ""
-    return (
-        "With the tolerance equal to the rounding dofkit finds what was rounded in "
-        f"{_percent(ours.right, ours.trials)} of the trials and is wrong in {_percent(ours.wrong, ours.trials)}; "
-        "singular values with that tolerance find it in "
-        f"{_percent(other.right, other.trials)}, and with the best one for all scenes in "
-        f"{_percent(other.best, 1)}."
-    )
-
-
-def _bits(chart: ChartRun) -> str:
-    steps = [step for step in chart.steps if step.sweep == "bits"]
-    gaps = sorted({float(Fraction(step.group)) for step in steps}, reverse=True)
-    needed = {}
-    for gap in gaps:
-        curve = [step for step in steps if float(Fraction(step.group)) == gap]
-        enough = [s.value for s in curve if not any(other.wrong for other in curve if other.value >= s.value)]
-        if enough and any(step.wrong for step in curve):
-            needed[gap] = min(enough)
-    if not needed:
-        return ""
-    ends = [max(needed), min(needed)]
-    needs = [f"{needed[gap]:g} bits for a gap of 10^{round(math.log10(gap))}" for gap in ends]
-    return f"`balls` on its own is never wrong from {needs[0]} and from {needs[1]} on."
-
-
-def _cost(chart: ChartRun) -> str:
-    points = [p for p in chart.points if (p.family, p.question, p.method) == ("Henneberg", "dof", AUTO)]
-    curve = sorted(points, key=lambda p: p.size)
-    if len(curve) < 2:
-        return ""
-    first, last = curve[0], curve[-1]
-    return (
-        f"A framework of {first.size} joints takes `auto` {_milliseconds(first.seconds)}, one of {last.size} joints "
-        f"{_milliseconds(last.seconds)}."
-    )
-
-
 def _total(chart: ChartRun, method: str) -> Score | None:
     """Return the score of a method on all questions together."""
     rows = [score for score in chart.scores if score.method == method and score.family == ALL]
     counts = {name: sum(getattr(row, name) for row in rows) for name in ("trials", "right", "wrong")}
-    return rows[0].model_copy(update=counts) if rows else None
-
-
-def _milliseconds(seconds: float) -> str:
-    value = 1000 * seconds
-    return f"{value:.1f} ms" if value < 10 else f"{value:.0f} ms"
+    return replace(rows[0], **counts) if rows else None
 
 
 def _percent(count: float, trials: float) -> str:
@@ -199,10 +97,6 @@ def percent(share: float, below: str = "<", above: str = ">") -> str:
     if 99.9 < value < 100:
         return f"{above}99.9 %"
     return f"{value:.1f} %" if 0 < value < 10 or 90 < value < 100 else f"{value:.0f} %"
-
-
-def _word(number: int) -> str:
-    return _NUMBERS[number] if number < len(_NUMBERS) else str(number)
 
 
 def _spaced(number: int) -> str:

@@ -49,7 +49,6 @@ def _score(question: str, family: str, method: str, lines: Sequence[TrialLine]) 
         median_seconds=middle,
         low_seconds=low,
         high_seconds=high,
-        total_seconds=sum(seconds),
     )
 
 
@@ -158,10 +157,7 @@ def against(lines: Sequence[TrialLine]) -> list[Against]:
                 question=question,
                 family=family,
                 fastest=fastest,
-                fastest_seconds=seconds[fastest],
-                auto_seconds=median(auto.values()),
                 ratio=ratios[fastest],
-                lucky=(question, fastest) in erring,
                 sound=sound,
                 sound_ratio=None if sound is None else ratios[sound],
             )

@@ -117,12 +117,14 @@ def known_fields(entry: Entry, fields: str) -> None:
 
 
 def nowhere_zero(tree: Tree, signs: Mapping[str, str], effort: Effort, positive: bool = False) -> bool:
-    """Whether a tree is a product of powers of numbers and parameters that are not 0, or are positive."""
+    """Whether a tree is a product of powers of numbers and parameters that are not 0, or sums of positive ones."""
     if not tree.symbols:
         ball = evaluated(tree, {}, effort)
         return bool(ball > 0) if positive else not_zero(ball)
     if tree.head == "product":
         return all(nowhere_zero(part, signs, effort, positive) for part in tree.below)
+    if tree.head == "sum":
+        return all(nowhere_zero(part, signs, effort, True) for part in tree.below)
     if tree.head == "power":
         return nowhere_zero(tree.below[0], signs, effort, positive) and not tree.below[1].symbols
     sign = signs.get(str(tree.value)) if tree.head == "symbol" else "positive" if tree.head == "exp" else ""

@@ -8,7 +8,10 @@ from typing import Any
 from flint import fmpq_mat
 
 from dofkit.checker.evidence import MOST, CheckedEvidence, CheckedMinor, Told, admissible, independent, of_word, span
-from dofkit.checker.trees import CheckedPoint, derivative, not_zero, refuse
+from dofkit.checker.geometry import determinant, dot
+from dofkit.checker.trees import ONE, CheckedPoint, derivative, not_zero, refuse, times
+
+MOST_FORMS = 6
 
 
 def bounds(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
@@ -271,6 +274,7 @@ def everywhere(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     ``order``: each relation gives a coordinate, or its velocity, with a factor of numbers and parameters, and those
     before do not hold it: the finite ones are a graph, and all have constant rank. Instead of a coordinate one may give
     t, of which almost all values are then regular, where nothing else is told (Sard 1942).
+    ``gram``: forms without these velocities whose Gram determinant is positive by itself are independent everywhere.
     ``blocks``: a single analytic relation that is not 0 everywhere has zeros of dimension n - 1 at most; a single form,
     of which all finite relations are a graph, has rank 1 but on such a part.
     ``generic``: relations with a symbol of their own in which they are nowhere stationary: for almost all values of
@@ -282,7 +286,8 @@ def everywhere(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     which is largest almost everywhere at once (Nagano 1966).
     """
     order, blocks, generic = claim.get("order", []), claim.get("blocks", []), dict(claim.get("generic", []))
-    names, size = [*(name for name, _ in order), *blocks, *generic], len(evidence.problem.coordinates)
+    gram, size = claim.get("gram", {"forms": []}), len(evidence.problem.coordinates)
+    names = [*(name for name, _ in order), *gram["forms"], *blocks, *generic]
     implied, rank = evidence.closure(names, None), len(names)
     whole, apart = implied.issuperset(evidence.equations), len(set(names)) == rank
     apart = apart and set(names) <= set(evidence.equations) and all(map(evidence.is_linear, names))
@@ -290,6 +295,8 @@ def everywhere(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     refuse(not fits, "a relation is left out, stands twice or is not linear, or the claim is not about everywhere")
     forms = [name for name in names if evidence.relation(name).kind != "finite"]
     refuse(forms and (generic or (blocks and not blocks == forms == names[-1:])), "forms stand in the order, or alone")
+    if gram["forms"]:
+        _independent_everywhere(evidence, gram, [f"{q}dot" for _, q in order])
     minor = evidence.accounts(evidence.minor(claim["minor"], names), names) if "minor" in claim else None
     free, rank = _free(evidence, order, minor and minor.point), len(minor.rows if minor else names)
     groups = [_coordinates(evidence, name, free) for name in blocks]
@@ -315,6 +322,21 @@ def everywhere(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     dof = bounds(evidence, {**claim, "about": "here"}, verified)
     refuse(dof != size - rank + len(forms) and not (whole and smooth), "another part may be larger")
     return dof
+
+
+def _independent_everywhere(evidence: CheckedEvidence, gram: Told, given: list[str]) -> None:
+    """`CheckError` unless det(J D J^T) is as it is told, and positive; D positive by itself (Cauchy and Binet)."""
+    forms, scales = gram["forms"], {q: evidence.text(text) for q, text in gram.get("scales", {}).items()}
+    relations = [evidence.relation(name) for name in forms]
+    own = all(form.kind == "velocity" and form.tree.symbols.isdisjoint(given) for form in relations)
+    refuse(not own or len(forms) > MOST_FORMS, "no form, one that holds a velocity that is given, or too many")
+    value, coordinates = evidence.text(gram["value"]), evidence.problem.coordinates
+    positive = all(evidence.is_nowhere_zero(tree, True) for tree in (value, *scales.values()))
+    refuse(not positive, "the determinant or a scale is not positive by itself")
+    rows = [[evidence.slope(name, q) for q in coordinates] for name in forms]
+    scaled = [[times(scales.get(q, ONE), slope) for q, slope in zip(coordinates, row, strict=True)] for row in rows]
+    matrix = [[dot(row, other) for other in scaled] for row in rows]
+    evidence.identity(determinant(matrix), value, "the determinant of the forms")
 
 
 def _is_analytic(evidence: CheckedEvidence, name: str, graphic: bool) -> bool:

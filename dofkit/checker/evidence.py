@@ -4,7 +4,8 @@ The points that can be reached along fields form an immersed manifold, whose tan
 there (Hermann 1960, Nagano 1966, Sussmann 1973). Fields that are tangent to relations never leave them.
 """
 
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from functools import cached_property
 from itertools import chain
 from typing import Any, NamedTuple
 
@@ -165,6 +166,15 @@ class CheckedEvidence(CheckedRelations):
         """A tree at the scene's configuration, parameters and functions left open."""
         return substituted(tree, {**self.problem.reference, "t": ZERO, "tdot": ONE})
 
+    @cached_property
+    def reference(self) -> Mapping[str, Tree]:
+        """The scene's configuration; nothing where a relation of numbers is certainly not 0 there."""
+        values = (self.at_reference(self.relation(name).tree) for name in self.finite) if self.problem.reference else ()
+        missed = (
+            not tree.symbols and not tree.applied and not_zero(evaluated(tree, {}, self.effort)) for tree in values
+        )
+        return {} if any(missed) else self.problem.reference
+
     def is_about(self, about: Any, point: CheckedPoint, exempt: Collection[tuple[str, ...]] = ()) -> Any:
         """The point's name, or ``reference``; `CheckError` unless it is one of those that a claim is about.
 
@@ -172,14 +182,14 @@ class CheckedEvidence(CheckedRelations):
         ``component``: any point, where no configuration is given; ``here``: whichever of both is so.
         Angles have to be a chart of poses there, but for those ``exempt``.
         """
-        fits = about in ("here", "reference" if self.problem.reference else "component")
+        fits = about in ("here", "reference" if self.reference else "component")
         refuse(not fits, "the claim has to be about the scene's configuration, if it has one")
         for tilt in (angles[1] for angles in self.problem.turns if angles not in exempt):
             upright = tilt in point.balls and not not_zero(point.value(call("sin", symbol(tilt))))
             refuse(upright, f"the angles are no chart of the poses around, as sin({tilt}) may be 0")
-        if not self.problem.reference:
+        if not self.reference:
             return point.name
-        for name, tree in {**self.problem.reference, **({"t": ZERO} if "t" in point.balls else {})}.items():
+        for name, tree in {**self.reference, **({"t": ZERO} if "t" in point.balls else {})}.items():
             told_here = name in point.exact and self.same(point.prepared(symbol(name)), point.prepared(tree))
             refuse(not told_here, f"`{name}` is not that of the scene's configuration")
         for equation in (self.relation(name).tree for name in self.finite):

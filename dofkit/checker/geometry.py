@@ -45,6 +45,19 @@ def length(a: Sequence[Tree]) -> Tree:
     return number(abs(only[0])) if len(only) == 1 and not isinstance(only[0], str) else call("sqrt", square(a))
 
 
+def determinant(rows: Sequence[Sequence[Tree]]) -> Tree:
+    """The determinant of a small matrix."""
+    if not rows:
+        return ONE
+    minors = (determinant([[*row[:j], *row[j + 1 :]] for row in rows[1:]]) for j in range(len(rows)))
+    return add(
+        *(
+            times(entry, negative(minor) if j % 2 else minor)
+            for j, (entry, minor) in enumerate(zip(rows[0], minors, strict=True))
+        )
+    )
+
+
 def product(a: Matrix, b: Matrix) -> Matrix:
     """The rows of a b."""
     return tuple(tuple(dot(row, column) for column in zip(*b, strict=True)) for row in a)

@@ -26,7 +26,6 @@ from dofkit.checker.trees import (
     evaluated,
     negative,
     not_zero,
-    number,
     power,
     put_in,
     refuse,
@@ -171,13 +170,12 @@ class CheckedRelations(CheckedTexts):
                 self.faults[name] = f"step `{name[:60]}`: {fault_text(error)}"
 
     def _implied(self, step: dict[str, Any]) -> tuple[Tree | None, Consequence | None]:
-        """h g^k + squares = sum c_i r_i: g is 0 where all r_i are and h is not; what has the rate g keeps its value.
+        """h g = sum c_i r_i: g is 0 where all r_i are and h is not; what has the rate g keeps its value.
 
-        ``g`` is a relation, or a new function. With squares h is positive, and k even (real Nullstellensatz). Where
-        finite relations give coordinates, and these are put in, the two sides need to be the same only then. Integrals:
-        along every motion near a point where h is not 0.
+        ``g`` is a relation, or a new function. Where finite relations give coordinates, and these are put in, the two
+        sides need to be the same only then. Integrals: along every motion near a point where h is not 0.
         """
-        leaf, k, squares = step["by"] == "integral", step.get("power", 1), self.squares(step.get("sos", []))
+        leaf = step["by"] == "integral"
         new = leaf or "function" in step
         tree = self.text(step["function"]) if new else self.relation(step["of"]).tree
         sources, substitutions = [self.relation(name) for name in step["c"]], step.get("put", [])
@@ -187,11 +185,9 @@ class CheckedRelations(CheckedTexts):
         )
         cofactors, h = [self.text(text) for text in step["c"].values()], self.text(step.get("h", "1"))
         refuse(self.met_by(h) or (leaf and self.met_by(tree)), "the factor or integral holds velocities")
-        definite = not step.get("sos") or (k % 2 == 0 and self.is_nowhere_zero(h, True))
-        refuse(type(k) is not int or not 1 <= k <= 64 or not definite, "a sum that is 0 where its terms are not")
         change = total_derivative(tree, self.variables) if leaf else tree
         combination = add(*(times(c, source.tree) for c, source in zip(cofactors, sources, strict=True)))
-        total = add(times(h, power(change, number(k))), squares, negative(combination))
+        total = add(times(h, change), negative(combination))
         for name, q in substitutions:
             source, (slope, total) = self.relation(name), put_in(total, q, self.relation(name).tree)
             refuse(

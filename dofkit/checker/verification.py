@@ -47,13 +47,17 @@ LOCAL = ("/singular", "/holonomic", "/scleronomic")
 
 
 class Verification(NamedTuple):
-    """What came of it: how many claims there are, how many were verified, which failed and why, what is uncovered."""
+    """What came of it: how many claims there are, how many were verified, which failed and why, what is uncovered.
+
+    ``trusted``: texts of the scene that were rewritten before they were read here, each with what stands for it.
+    """
 
     scene: str
     claims: int
     verified: int
     failed: list[dict[str, str]]
     uncovered: list[str]
+    trusted: dict[str, str]
 
 
 def verify(scene: Any, certificate: Mapping[str, Any] | str | bytes) -> Verification:
@@ -78,6 +82,9 @@ def certificate_of(content: Any) -> dict[str, Any]:
     form = isinstance(content, Mapping) and isinstance(content.get("scene"), Mapping) and content.get("certificate")
     refuse(type(form) is not int or form != 1, "a certificate is an object of version 1, with a scene")
     filled: dict[str, Any] = {**{name: [] for name in LISTS}, **content}
+    readings = filled["scene"].get("readings", {})
+    told = isinstance(readings, dict) and {*map(type, readings.values())} <= {str}
+    refuse(not told, "`readings` are texts, each with the text that stands for it")
     for name in filled.keys() - {"certificate", "scene"}:
         entries, kind = filled[name], LISTS.get(name, ())
         fine = kind and isinstance(entries, list) and len(entries) <= MOST_ENTRIES
@@ -119,7 +126,8 @@ class Verifier:
             seen.add(path)
         name = str(self.certificate["scene"].get("name", self.document.get("name")))[:200]
         uncovered = uncovered + [str(claim.get("path"))[:200] for claim in whole if unread]
-        return Verification(name, len(whole), len(claims) - len(failed), failed, uncovered)
+        trusted = self.certificate["scene"].get("readings", {})
+        return Verification(name, len(whole), len(claims) - len(failed), failed, uncovered, trusted)
 
     def check(self, claim: dict[str, Any]) -> None:
         """`CheckError` unless the claim is shown; what was verified before may be used."""

@@ -46,7 +46,7 @@ _OWN: dict[ArgumentKey, Argument] = {
         "ImplicitFunctions",
         "each equation determines a coordinate that occurs in it linearly with a constant coefficient, after "
         "the preceding ones are substituted",
-        "dofkit.configuration.components.explicit_relations",
+        "dofkit.relations.linear_relations.explicit_relations",
     ),
     "joints that close no loop": Argument(
         "each joint removes its number of conditions from the freedom, everywhere",
@@ -90,7 +90,7 @@ _OWN: dict[ArgumentKey, Argument] = {
         "no configuration satisfies the equations",
         "",
         "a rational combination of linear equations is a nonzero number",
-        "dofkit.relations.linear_relations.presolve",
+        "dofkit.relations.linear_relations.solve_linear",
     ),
     "no real solution": Argument(
         "no real configuration satisfies the equations",
@@ -232,13 +232,13 @@ _OWN: dict[ArgumentKey, Argument] = {
         "dimensions of brackets",
         "Witt1937",
         "they attain the largest possible ranks, and a number that is nonzero over GF(p) is nonzero",
-        "dofkit.integrability.growth_vector.is_free",
+        "dofkit.integrability.lie_algebra.is_free",
     ),
     "brackets at points": Argument(
         "dimensions of brackets",
         "SchwartzZippel",
         "ranks along random curves over GF(p)",
-        "dofkit.integrability.growth_vector.growth",
+        "dofkit.integrability.growth_vector.spanning_curves",
     ),
     "rows at a point": Argument(
         "dependences among the constraints",

@@ -19,7 +19,7 @@ from dofkit.classification.special import special_cases
 from dofkit.classification.study import Study, study
 from dofkit.exact.points.balls import precise_for
 from dofkit.exact.zero import BOTH, Engines
-from dofkit.integrability.growth_vector import is_free
+from dofkit.integrability.lie_algebra import is_free
 from dofkit.mobility.counts import without_drives
 from dofkit.relations.answer import BITS, DEFECTS
 from dofkit.relations.setting import ALL, Reductions, Setting
@@ -312,8 +312,8 @@ def _special(study: Study, values: Values) -> Values:
     """
     if study.system.reference is not None and not any(block.forms for block in study.outcome.blocks):
         return {}
-    again = partial(_generic, study.setting.reductions)
-    search = partial(special_cases, study.system, study.reduced, study.setting, study.outcome, Report(**values), again)
+    again = partial(_studied, study.setting.reductions)
+    search = partial(special_cases, study, Report(**values), again)
     late: Values = {"warnings": [*values["warnings"], NO_SPECIAL_CASES]}
     special = unless_late(search, late)
     branches = [case.where for case in special.get("special_cases", ()) if case.kind == "branch"]
@@ -342,9 +342,9 @@ def report_of(study: Study, passes: Sequence[Fill] = PASSES) -> Report:
     return Report(**agreed(values))
 
 
-def _generic(reductions: Reductions, system: System) -> Report:
-    """The generic answer for another system."""
-    return report_of(study(system, reductions=reductions), GENERIC)
+def _studied(reductions: Reductions, system: System) -> Study:
+    """The blocks of another system, answered."""
+    return study(system, reductions=reductions)
 
 
 class Examined(NamedTuple):

@@ -12,10 +12,10 @@ from dofkit.base.verdicts import OPEN, VERDICTS, About, Claim, least, together
 from dofkit.base.wording import many, verb
 from dofkit.classification.dependence import redundancy
 from dofkit.classification.dependence.implied_constraints import Conflict, conflict
-from dofkit.classification.freedom.branches import Outcome, solve
+from dofkit.classification.freedom.branches import AnsweredBlocks, Outcome, solve
 from dofkit.classification.freedom.preparation import prepared
-from dofkit.classification.labels.companions import AnsweredParts, Companionship, integrable_part
-from dofkit.classification.labels.entries import entries_of
+from dofkit.classification.labels.companions import Companionship
+from dofkit.classification.labels.entries import entries_of, integrable_part
 from dofkit.exact.zero import BOTH, Engines
 from dofkit.expressions.text import to_text
 from dofkit.mobility.counts import CountedFacts, count
@@ -78,7 +78,7 @@ class Study:
         conflicting = Conflict([])
         with part(DEPENDENCE):
             if self.outcome.consistent is False:
-                look = partial(conflict, self.system, self.reduced, self.setting, self.outcome)
+                look = partial(conflict, self.reduced, self.setting, self.outcome)
                 conflicting = unless_late(look, conflicting)
             dependent = unless_late(
                 partial(redundancy.redundancies, self.reduced, self.setting, self.outcome), [nothing]
@@ -90,9 +90,16 @@ class Study:
     @cached_property
     def company(self) -> Companionship:
         """The blocks, to be asked what a form integrates to together with which others."""
-        answered = AnsweredParts(self.setting)
-        answered.know(zip(self.outcome.blocks, self.outcome.answers, strict=True))
-        return Companionship(answered, self.names)
+        return Companionship(self.answered, self.names)
+
+    @cached_property
+    def answered(self) -> AnsweredBlocks:
+        """The blocks answered for their labels alone, at no drawing; those that were found so are not asked again."""
+        plain = replace(self.setting, pose={}, reference=None, grows=False, flag=False)
+        answered = AnsweredBlocks(plain)
+        if self.setting.reference is None and not self.setting.pose:
+            answered.know(self.outcome)
+        return answered
 
     @cached_property
     def entries(self) -> list[ConstraintEntry]:
@@ -101,7 +108,7 @@ class Study:
 
     def entries_beside(self, dependent: Sequence[Redundancies]) -> list[ConstraintEntry]:
         """The constraints' entries, where this is known of what depends on what."""
-        return entries_of(self.reduced, self.setting, self.outcome, dependent, lambda: self.company)
+        return entries_of(self.reduced, self.setting, self.outcome, dependent, self.company)
 
     def by_name(self, labels: Sequence[bool | None]) -> Mapping[str, bool | None]:
         """A label for each constraint, by its name."""
@@ -118,7 +125,7 @@ def study(
     """
     reduced, setting = prepared(system, reductions)
     setting = replace(setting, engines=engines, grows=grows, flag=flag)
-    return Study(system, reduced, setting, solve(system, reduced, setting))
+    return Study(system, reduced, setting, solve(reduced, setting))
 
 
 # fields of the report

@@ -9,8 +9,8 @@ Mechanisms, in the order in which they are tried
     1. `linear_blocks` eliminates what is linear, over the rationals. `distance_geometry` proves that lengths cannot be
        met [Menger1928].
     2. At a reference configuration, `at_reference` gives the instantaneous freedom by rank, and for dependent
-       equations the local dimension, after `fewer_coordinates` took away what is explicit. `local` decides it by the
-       table `CRITERIA` in the order of cost: independent equations [ImplicitFunctions], rigidity to first order
+       equations the local dimension, in coordinates that no linear equation gives. `local` decides it by the table
+       `CRITERIA` in the order of cost: independent equations [ImplicitFunctions], rigidity to first order
        [AsimowRoth1978], vanishing along a random curve [SchwartzZippel], second order, a branch continued to high
        precision.
     3. `measured` is the one numerical route for a scene with a tolerance: rank with its gap, second order,

@@ -25,11 +25,10 @@ from dofkit.base.errors import NoValueError
 from dofkit.base.libraries import nx
 from dofkit.base.verdicts import VERDICTS
 from dofkit.base.wording import gap_in_words
-from dofkit.configuration.fewer_coordinates import smaller
 from dofkit.configuration.local import conclusions, criteria
 from dofkit.configuration.local.manifold import LocalDimension, Manifold
 from dofkit.configuration.rigid_motions import rigid_fields, rigid_motions_real
-from dofkit.configuration.variety import chart_of_rows, field_jacobian, on_variety, pose_point
+from dofkit.configuration.variety import chart_of_rows, field_jacobian, on_variety, pose_point, smaller
 from dofkit.exact.matrices.certified import ball_part, dependencies
 from dofkit.exact.matrices.sparse import (
     Echelon,

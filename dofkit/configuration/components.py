@@ -18,24 +18,22 @@ from itertools import product as cartesian
 from math import prod
 from typing import NamedTuple
 
-from dofkit.base.deadline import check
 from dofkit.base.errors import NoValueError
 from dofkit.base.verdicts import ArgumentKey, weakest
 from dofkit.configuration import cases as all_cases
 from dofkit.configuration.variety import Variety, chart_of_relations, field_jacobian, on_variety
-from dofkit.exact.analyticity import is_analytic
 from dofkit.exact.matrices.sparse import components, rank_of_rows
 from dofkit.exact.ring.canonical import Canon, is_identically_zero
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import diff, substitute
+from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Chart
+from dofkit.relations.linear_relations import explicit_relations
 from dofkit.relations.normal.zero_set import never_vanishes
 
-#: Relations that are looked at; nodes of an expression past which no coordinate is put into it; cases of all parts
-#: together that are looked at, and that are listed.
-MAX_RELATIONS, MAX_NODES, MAX_TOGETHER, MAX_PRODUCTS = 200, 200, 16, 2000
+#: Relations that are looked at; cases of all parts together that are looked at, and that are listed.
+MAX_RELATIONS, MAX_TOGETHER, MAX_PRODUCTS = 200, 16, 2000
 LARGER = "over the complex numbers the set has a component of larger dimension, and its real points were not decided"
 NO_CASE = "no configuration satisfies all equations: each case leads to an equation without a solution"
 NEAR = (
@@ -52,13 +50,6 @@ class RelationPart(NamedTuple):
     unknowns: tuple[Expr, ...]
 
 
-class Explicit(NamedTuple):
-    """Relations that give a coordinate each as a function of others, and the others, with these put in."""
-
-    explicit: tuple[Expr, ...]
-    implicit: tuple[Expr, ...]
-
-
 def of_largest_part(chart: Chart, variety: Variety, look: Callable[[Chart], Variety], of_case: bool = False) -> Variety:
     """What is known of the set, for its largest part; ``look`` finds generic points of the set of another chart.
 
@@ -72,13 +63,13 @@ def of_largest_part(chart: Chart, variety: Variety, look: Callable[[Chart], Vari
     if len(chart.relations) < 2:
         least = chart.coordinates - len(chart.relations)
         return _by(variety, "one relation") if variety.dimension >= least else _near(variety)
-    explicit, implicit = explicit_relations(chart.relations)
-    groups = parts_of(implicit, [s for s in chart.symbols if s != ex.TIME])
+    solved = explicit_relations(chart.relations)
+    groups = parts_of(solved.implicit, [s for s in chart.symbols if s != ex.TIME])
     fibres = [_is_fibre(part, chart.positive) for part in groups]
     cases = [_cases(part, chart, fibre) for part, fibre in zip(groups, fibres, strict=True)]
     if None in cases or prod(len(c or ()) for c in cases) > MAX_PRODUCTS:
         return near(variety)
-    loose = chart.coordinates - len(explicit) - sum(len(part.unknowns) for part in groups)
+    loose = chart.coordinates - len(solved.explicit) - sum(len(part.unknowns) for part in groups)
     together = sorted(cartesian(*(c for c in cases if c is not None)), key=lambda choice: -_most(choice))
     best, open_, regular = variety, list[bool](), _is_regular(chart, variety)
     for number, choice in enumerate(together):
@@ -86,7 +77,7 @@ def of_largest_part(chart: Chart, variety: Variety, look: Callable[[Chart], Vari
             break
         if number == MAX_TOGETHER:
             return near(best) if best is variety else _near_its_point(best)
-        larger = _variety_of(chart, [*explicit, *(g for case in choice for g in case.relations)], look)
+        larger = _variety_of(chart, [*solved.explicit.values(), *(g for case in choice for g in case.relations)], look)
         if larger.consistent is False and larger.verdict == "proved":
             continue
         best, ended = _larger(chart, best, larger, loose + _most(choice))
@@ -140,17 +131,17 @@ def by_cases(chart: Chart, variety: Variety, look: Callable[[Chart], Variety]) -
     """What is known of a set on which no point was found: the first case with points, or that no case has any."""
     if not 0 < len(chart.relations) <= MAX_RELATIONS:
         return variety
-    explicit, implicit = explicit_relations(chart.relations)
-    groups = parts_of(implicit, [s for s in chart.symbols if s != ex.TIME])
+    solved = explicit_relations(chart.relations)
+    groups = parts_of(solved.implicit, [s for s in chart.symbols if s != ex.TIME])
     cases = [_cases(part, chart, _is_fibre(part, chart.positive)) for part in groups]
     if [] in cases:
-        parametric = [g for g in implicit if any(s.args[0] == "parameter" for s in g.symbols)]
+        parametric = [g for g in solved.implicit if any(s.args[0] == "parameter" for s in g.symbols)]
         return Variety(False, None, "probable" if parametric else "proved", reasons=[NO_CASE], argument="cases")
     if None in cases or prod(len(c or ()) for c in cases) > MAX_PRODUCTS:
         return variety
     together = sorted(cartesian(*(c for c in cases if c is not None)), key=lambda choice: -_most(choice))
     for choice in together[:MAX_TOGETHER] if len(together) > 1 or variety.parted else ():
-        seen = _variety_of(chart, [*explicit, *(g for case in choice for g in case.relations)], look)
+        seen = _variety_of(chart, [*solved.explicit.values(), *(g for case in choice for g in case.relations)], look)
         samples = [p for p in seen.samples if on_variety(chart, p)]
         if seen.consistent and samples:
             return replace(seen, samples=samples)
@@ -191,7 +182,7 @@ def _restricted(chart: Chart, relations: Sequence[Expr]) -> Chart:
     for var in chart.ring.vars:
         if var.kind == "symbol":
             ring.symbol(var.key)
-    return chart_of_relations(chart, relations, ["eliminations"] * len(relations), ring)
+    return chart_of_relations(chart, relations, ring)
 
 
 def is_graph(chart: Chart) -> bool:
@@ -235,65 +226,6 @@ def is_irreducible(chart: Chart) -> bool:
     return plain and sum(not {*canon.generators_in(f)}.isdisjoint(moving) for f, _ in factors) == 1
 
 
-def explicit_relations(relations: Sequence[Expr]) -> Explicit:
-    """Return the relations that give a coordinate: a number, or parameters, times it plus what does not hold it.
-
-    Those go first whose coordinate stands in no other; then it is put into the others.
-    """
-    explicit, implicit = list[Expr](), [g for g in relations if not g.is_zero]
-    while True:
-        check()
-        times = Counter(s for g in implicit for s in g.symbols)
-        solvable = [(g, s) for g in implicit for s in g.symbols if times[s] == 1 and _slope(g, s) is not None]
-        if solvable:
-            taken = dict(solvable)
-            explicit += taken
-            implicit = [g for g in implicit if g not in taken]
-            continue
-        pair = next(
-            ((g, s) for g in implicit for s in sorted(g.symbols, key=repr) if _may_be_put(g, s, implicit)), None
-        )
-        if pair is None:
-            return Explicit(tuple(explicit), tuple(implicit))
-        g, s = pair
-        value = {s: -substitute(g, {s: ex.ZERO}) / (_slope(g, s) or ex.ONE)}
-        explicit.append(g)
-        implicit = [h for e in implicit if e != g and not (h := substitute(e, value)).is_zero]
-
-
-def _slope(g: Expr, s: Expr) -> Expr | None:
-    """The coefficient of a coordinate in a sum where it stands once, times what holds no coordinate; else None."""
-    if s.args[0] != "coordinate":
-        return None
-    terms = [t for t in (g.args if g.op == "add" else (g,)) if s in t.symbols]
-    if len(terms) != 1:
-        return None
-    factors = terms[0].args if terms[0].op == "mul" else terms
-    cofactors = [f for f in factors if f != s]
-    plain = len(cofactors) == len(factors) - 1 and all(
-        f.op == "num" or _is_parameter(f) or _is_generic(f) for f in cofactors
-    )
-    return ex.mul(*cofactors) if plain and cofactors else ex.ONE if plain else None
-
-
-def _is_parameter(e: Expr) -> bool:
-    return e.op == "sym" and e.args[0] == "parameter"
-
-
-def _is_generic(e: Expr) -> bool:
-    """No coordinate in it, and 0 at single moments, or for special parameters, at most."""
-    constant = all(s.args[0] != "coordinate" for s in e.symbols)
-    return constant and is_identically_zero(e) is False and is_analytic(e, e.symbols)
-
-
-def _may_be_put(g: Expr, s: Expr, relations: Sequence[Expr]) -> bool:
-    """Return whether a coordinate can be solved for and put into the other relations, which stay small."""
-    if _slope(g, s) is None:
-        return False
-    size = sum(1 for _ in ex.nodes(g))
-    return all(s not in e.symbols or sum(1 for _ in ex.nodes(e)) + size <= MAX_NODES for e in relations if e != g)
-
-
 def parts_of(relations: Sequence[Expr], symbols: Sequence[Expr]) -> list[RelationPart]:
     """Return the relations by the coordinates that they share; the moment is any."""
     coordinates = frozenset(symbols)
@@ -318,5 +250,5 @@ def _cases(part: RelationPart, chart: Chart, fibre: bool) -> list[all_cases.Boun
 
 def _is_fibre(part: RelationPart, positive: frozenset[Expr]) -> bool:
     """Return whether each relation has a parameter of its own in which it is nowhere stationary [Sard1942]."""
-    times = Counter(s for g in part.relations for s in g.symbols if _is_parameter(s))
+    times = Counter(s for g in part.relations for s in g.symbols if s.args[0] == "parameter")
     return all(any(times[s] == 1 and never_vanishes(diff(g, s), positive) for s in g.symbols) for g in part.relations)

@@ -12,6 +12,7 @@ import random
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import partial
 from itertools import combinations, islice, pairwise
 from typing import Any
 
@@ -43,11 +44,12 @@ Node = tuple[str | None, str]
 
 @dataclass(frozen=True)
 class Side:
-    """A known distance, about ``length``; ``owner`` None where a body, or the ground, holds both points."""
+    """A known distance, about ``length``, or a bound from above; ``owner`` None where a body holds both points."""
 
     squared: Expr
     length: float
     owner: int | None
+    at_most: bool = False
 
 
 @dataclass(frozen=True)
@@ -77,20 +79,18 @@ def lengths_unmet(block: Block, setting: Setting) -> Answer | None:
 def unmet(distances: Sequence[tuple[int, Distance]], dimension: int, positive: frozenset[Expr]) -> Unmet | None:
     """A minimal set of distances, each with its constraint, that no points in so many dimensions have; or None."""
     web = _Web(distances, positive)
-    return web.twice or web.polygon() or web.simplex(dimension)
+    return web.polygon() or web.simplex(dimension)
 
 
 class _Web:
-    """Points and what is known of their distances: ``exact`` ones, and ``bounds`` from above."""
+    """A graph of points; each edge is a side, of which two points may have several."""
 
     def __init__(self, distances: Sequence[tuple[int, Distance]], positive: frozenset[Expr]) -> None:
         self.positive = positive
         draw = random.Random("dofkit lengths")
         symbols = sorted({s for _, d in distances for s in d.squared.symbols}, key=repr)
         self.values = {s: Fraction(draw.randrange(10**6, 10**7), 10**6) for s in symbols}
-        self.exact: dict[frozenset[Node], Side] = {}
-        self.bounds: dict[frozenset[Node], Side] = {}
-        self.twice: Unmet | None = None
+        self.graph: nx.MultiGraph[Node] = nx.MultiGraph()
         for owner, d in distances:
             self._add(_node(d.first), _node(d.second), d.squared, owner, d.at_most)
         for first, second in _carried(distances):
@@ -100,21 +100,12 @@ class _Web:
         about = interval_of(squared, self.values, BITS[0])
         if about is None or not about >= 0:
             about = arb(0) if squared.is_zero else None
-        if about is None or a == b:
-            return
-        side = Side(squared, float(about.sqrt().mid()), owner)
-        table = self.bounds if at_most else self.exact
-        earlier = table.setdefault(frozenset((a, b)), side)
-        if earlier is side:
-            return
-        if at_most and side.length < earlier.length:
-            table[frozenset((a, b))] = side
-        elif not at_most and self.twice is None and owner is not None and self._differ(earlier, side):
-            lengths = f"{_side_text(earlier)} and {_side_text(side)}"
-            self.twice = Unmet(_owners((earlier, side)), f"{a[1]} and {b[1]} cannot both be {lengths} apart.")
+        if about is not None and a != b:
+            self.graph.add_edge(a, b, side=Side(squared, float(about.sqrt().mid()), owner, at_most))
 
-    def _differ(self, a: Side, b: Side) -> bool:
-        return self._longer(a, [b]) or self._longer(b, [a])
+    def _exact(self) -> list[tuple[Node, Node, Side]]:
+        """Return the sides that are no bounds, with their ends."""
+        return [(a, b, side) for a, b, side in self.graph.edges(data="side") if not side.at_most]
 
     def _longer(self, longest: Side, others: Sequence[Side]) -> bool:
         """Return whether a length is certainly more than others together, whatever the positive parameters are."""
@@ -129,20 +120,15 @@ class _Web:
 
     def polygon(self) -> Unmet | None:
         """A distance longer than a way between its ends (each side of a polygon is at most the others together)."""
-        sides = {**self.bounds, **self.exact}
-        for pair, bound in self.bounds.items():
-            if pair in self.exact and bound.length < self.exact[pair].length:
-                sides[pair] = bound
-        web = nx.Graph()
-        web.add_edges_from((*sorted(pair, key=repr), {"side": side}) for pair, side in sides.items())
         visits = 0
-        for pair, side in sorted(self.exact.items(), key=lambda item: -item[1].length):
+        for a, b, side in sorted(self._exact(), key=lambda edge: -edge[2].length):
             check()
-            a, b = sorted(pair, key=repr)
-            far, ways = nx.single_source_dijkstra(web, a, cutoff=side.length * (1 + SLACK), weight=_lengths_but(side))
+            cutoff, weight = side.length * (1 + SLACK), partial(_length_but, side)
+            far, ways = nx.single_source_dijkstra(self.graph, a, cutoff=cutoff, weight=weight)
             visits += len(far)
             if b in ways:
-                others = [web[u][v]["side"] for u, v in pairwise(ways[b])]
+                shortest = (_shortest(side, self.graph[u][v]) for u, v in pairwise(ways[b]))
+                others = [other for other in shortest if other is not None]
                 if self._longer(side, others):
                     way, most = "-".join(node[1] for node in ways[b]), sum(o.length for o in others)
                     claim = (
@@ -155,33 +141,36 @@ class _Web:
 
     def simplex(self, dimension: int) -> Unmet | None:
         """Points all of whose distances are known, and that cannot lie in so many dimensions; the fewest first."""
-        measured = {pair for pair, side in self.exact.items() if not side.squared.symbols}
-        web = nx.Graph(sorted((sorted(pair, key=repr) for pair in measured), key=repr))
+        numeric = [edge for edge in self._exact() if not edge[2].squared.symbols]
+        web = nx.Graph(sorted((sorted(pair, key=repr) for *pair, _ in numeric), key=repr))
+        web.add_edges_from((a, b, {"side": side}) for a, b, side in reversed(numeric))
         for clique in islice(nx.enumerate_all_cliques(web), MAX_CLIQUES):
             check()
             if len(clique) > dimension + 3:
                 return None
             if len(clique) < 3:
                 continue
-            owners = _owners(self.exact[frozenset(pair)] for pair in combinations(clique, 2))
-            if owners and self._unembeddable(clique, dimension):
+            sides = {pair: web.edges[pair]["side"] for pair in combinations(clique, 2)}
+            owners = _owners(sides.values())
+            if owners and _unembeddable(clique, sides, dimension):
                 names = ", ".join(node[1] for node in clique)
                 claim = f"no {len(clique)} points in {dimension} dimension{'s' * (dimension > 1)} have the distances"
                 return Unmet(owners, f"{claim} given between {names} (Cayley-Menger determinant).")
         return None
 
-    def _unembeddable(self, clique: Sequence[Node], dimension: int) -> bool:
-        base, *corners = clique
-        exact = {p: self.exact[frozenset(p)].squared for p in combinations(clique, 2)}
-        squares = {p: interval_of(squared, None, BITS[1]) for p, squared in exact.items()}
 
-        def square(u: Node, v: Node) -> Any:
-            return arb(0) if u == v else squares.get((u, v), squares.get((v, u)))
+def _unembeddable(clique: Sequence[Node], sides: Mapping[tuple[Node, Node], Side], dimension: int) -> bool:
+    """Return whether points are proved not to lie in so many dimensions at these distances."""
+    base, *corners = clique
+    squares = {pair: interval_of(side.squared, None, BITS[1]) for pair, side in sides.items()}
 
-        with ctx.workprec(BITS[1]):
-            rows = [[(square(base, u) + square(base, v) - square(u, v)) / 2 for v in corners] for u in corners]
-            volume = arb_mat(rows).det()
-        return bool(volume < 0) or (len(corners) > dimension and not volume.contains(0))
+    def square(u: Node, v: Node) -> Any:
+        return arb(0) if u == v else squares.get((u, v), squares.get((v, u)))
+
+    with ctx.workprec(BITS[1]):
+        rows = [[(square(base, u) + square(base, v) - square(u, v)) / 2 for v in corners] for u in corners]
+        volume = arb_mat(rows).det()
+    return bool(volume < 0) or (len(corners) > dimension and not volume.contains(0))
 
 
 def _node(place: Place) -> Node:
@@ -204,13 +193,15 @@ def _length(side: Side) -> Expr:
     return ex.sqrt(side.squared)
 
 
-def _lengths_but(hidden: Side) -> Any:
-    """Return the lengths of all sides but one."""
+def _shortest(hidden: Side, edges: Mapping[int, Mapping[str, Side]]) -> Side | None:
+    """Return the shortest side between two points but one."""
+    others = (edge["side"] for edge in edges.values() if edge["side"] is not hidden)
+    return min(others, key=lambda side: side.length, default=None)
 
-    def weight(_u: Node, _v: Node, data: Mapping[str, Side]) -> float | None:
-        return None if data["side"] is hidden else data["side"].length
 
-    return weight
+def _length_but(hidden: Side, _u: Node, _v: Node, edges: Mapping[int, Mapping[str, Side]]) -> float | None:
+    side = _shortest(hidden, edges)
+    return None if side is None else side.length
 
 
 def _owners(sides: Iterable[Side]) -> tuple[int, ...]:

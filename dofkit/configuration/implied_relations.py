@@ -23,13 +23,12 @@ from operator import mul
 from dofkit.base.deadline import check
 from dofkit.base.errors import NoValueError
 from dofkit.configuration.at_reference import ball_point
-from dofkit.configuration.fewer_coordinates import smaller
 from dofkit.configuration.local.criteria import vanish_near
 from dofkit.configuration.local.germ import random_direction
 from dofkit.configuration.local.manifold import Manifold
 from dofkit.configuration.measured.dimension import measured_freedom
 from dofkit.configuration.rigid_motions import rigid_motions
-from dofkit.configuration.variety import chart_of_rows, field_jacobian, on_variety, pose_point
+from dofkit.configuration.variety import chart_of_rows, field_jacobian, on_variety, pose_point, smaller
 from dofkit.exact.matrices.dense import length
 from dofkit.exact.matrices.sparse import FactoredMatrix, Pivots, SparseRow, sparse_frame, transposed
 from dofkit.exact.points.balls import FloatPoint, jacobian

@@ -22,7 +22,7 @@ from dofkit.exact.points.field import prime_for
 from dofkit.exact.zero import BOTH, certainly_nonzero, zero_and_verdict
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
-from dofkit.expressions.terms import linear_terms, number_and_rest
+from dofkit.expressions.terms import linear_terms
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block
@@ -90,7 +90,7 @@ def _linear_row(piece: Piece, place: Mapping[Expr, int]) -> tuple[RationalRow, E
         return None
     row, function = RationalRow(), []
     for term in piece.expr.args if piece.expr.op == "add" else (piece.expr,):
-        factor, symbol = number_and_rest(term) if term.op != "num" else (term.args[0], ex.ONE)
+        factor, symbol = ex.number_and_rest(term)
         k = place.get(symbol)
         if k is not None:
             row[k] = row.get(k, fmpq(0)) + _number(factor)

@@ -16,7 +16,7 @@ from dataclasses import replace
 from functools import partial
 
 from dofkit.base.errors import NoValueError
-from dofkit.configuration.components import RelationPart, by_cases, explicit_relations, of_largest_part, parts_of
+from dofkit.configuration.components import RelationPart, by_cases, of_largest_part, parts_of
 from dofkit.configuration.generic_dimension import ALLOWING, near_real_point, real_point, variety_at
 from dofkit.configuration.variety import (
     Variety,
@@ -41,7 +41,7 @@ from dofkit.expressions.enclosures import differs_from_zero, interval_of
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Block, Chart, make_chart
-from dofkit.relations.linear_relations import presolve
+from dofkit.relations.linear_relations import Explicit, explicit_relations, linear, solve_linear
 from dofkit.relations.normal.no_solution import no_solution
 from dofkit.relations.normal.zero_set import candidates, is_analytic_in_coordinates
 from dofkit.relations.setting import Setting
@@ -99,15 +99,17 @@ def _variety(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> Variety:
         posed = pose_samples(chart, pose, seed)
         if posed:
             return variety_at(chart, posed, seed, chart.nodes)
-    linear = presolve(chart.relations if "eliminations" in chart.reductions else ())
-    if linear.contradiction:
+    eliminates = "eliminations" in chart.reductions
+    solved = solve_linear(chart.relations if eliminates else ())
+    if solved.contradictory:
         why = "the linear equations contradict each other"
         return Variety(False, None, "proved", reasons=[why], argument="linear contradiction")
     if "field" not in chart.engines:
         return near_real_point(chart, real_point(chart, seed, chart.nodes), chart.nodes)
-    core = [n for i, n in enumerate(chart.nodes) if i not in linear.superfluous]
-    others = [n for i, n in enumerate(chart.nodes) if i not in linear.linear]
-    solver = TriangularSolver(chart.ring, [*(chart.ring.node(e) for e in linear.reduced), *others], seed=seed)
+    core = [n for i, n in enumerate(chart.nodes) if i not in solved.implied]
+    others = [n for n, g in zip(chart.nodes, chart.relations, strict=True) if not eliminates or linear(g) is None]
+    reduced = [*(s - value for s, value in solved.by_others.items()), *solved.implicit]
+    solver = TriangularSolver(chart.ring, [*map(chart.ring.node, reduced), *others], seed=seed)
     refuted = _refuted(chart, solver)
     if refuted is not None:
         return refuted
@@ -172,11 +174,11 @@ def isolated(chart: Chart, variety: Variety) -> Variety | None:
         return None
     if not all(is_analytic_in_coordinates(g, poles=True) for g in chart.relations):
         return None
-    explicit, implicit = explicit_relations(chart.relations)
+    solved = explicit_relations(chart.relations)
     symbols = [s for s in chart.symbols if s != ex.TIME]
-    needed = [g for g in implicit if g.symbols or not is_proved_zero(g, frozenset())]
+    needed = [g for g in solved.implicit if g.symbols or not is_proved_zero(g, frozenset())]
     groups = parts_of(needed, symbols)
-    if len(explicit) == len(chart.relations) or any(not _of_one_coordinate(part) for part in groups):
+    if len(solved.explicit) == len(chart.relations) or any(not _of_one_coordinate(part) for part in groups):
         return None
     zeros: dict[Expr, Expr] = {}
     for part in groups:
@@ -184,10 +186,10 @@ def isolated(chart: Chart, variety: Variety) -> Variety | None:
         if zero is None:
             return None
         zeros[part.unknowns[0]] = zero
-    dimension = len(symbols) - len(explicit) - len(groups)
+    dimension = len(symbols) - len(solved.explicit) - len(groups)
     samples = [p for p in variety.samples if len(symbols) - rank_of_rows(field_jacobian(chart, p), p.p) == dimension]
     sure = Variety(True, dimension, "proved", samples, argument="isolated zeros")
-    return replace(sure, witness=_witness(symbols, explicit, zeros))
+    return replace(sure, witness=_witness(symbols, solved, zeros))
 
 
 def _of_one_coordinate(part: RelationPart) -> bool:
@@ -209,16 +211,11 @@ def _common_zeros(part: RelationPart) -> Iterator[Expr]:
             continue
 
 
-def _witness(symbols: Sequence[Expr], explicit: Sequence[Expr], zeros: dict[Expr, Expr]) -> dict[Expr, str] | None:
-    """Return a point of the set; None where a coordinate that is given by others is none of short form."""
-    point = {s: zeros.get(s, ex.ZERO) for s in symbols}
-    for g in reversed(explicit):
-        s = next((s for s in sorted(g.symbols, key=repr) if s not in zeros), None)
-        if s is None or any(other != s and other not in zeros for other in g.symbols):
-            return None
-        slope = substitute(g, {**point, s: ex.ONE}) - substitute(g, {**point, s: ex.ZERO})
-        point[s] = -substitute(g, {**point, s: ex.ZERO}) / slope
-    return {s: to_text(value) for s, value in point.items()}
+def _witness(symbols: Sequence[Expr], solved: Explicit, zeros: Mapping[Expr, Expr]) -> dict[Expr, str]:
+    """Return a point of the set, at which what nothing determines is 0."""
+    free = {s: zeros.get(s, ex.ZERO) for s in symbols if s not in solved.values}
+    given = {s: substitute(value, free) for s, value in solved.by_others.items()}
+    return {s: to_text(value) for s, value in {**free, **given}.items()}
 
 
 # Level bodies: at theta = 0 the Euler angles phi and psi turn alike, and distinguish no poses

@@ -25,7 +25,7 @@ from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import GAP
 from dofkit.relations.blocks import Chart
-from dofkit.relations.setting import ReductionName
+from dofkit.relations.linear_relations import explicit_relations, linear, number_coefficients
 
 
 @dataclass
@@ -216,23 +216,39 @@ def generators_of(chart: Chart) -> set[int]:
     return {code[i][1] for i in reachable(chart.ring, chart.nodes) if code[i][0] == VAR}
 
 
-def chart_of_relations(
-    chart: Chart, relations: Sequence[Expr], kinds: Sequence[ReductionName], ring: Ring | None = None
-) -> Chart:
+def chart_of_relations(chart: Chart, relations: Sequence[Expr], ring: Ring | None = None) -> Chart:
     """Return a chart of other relations on the columns that they mention; on all columns where it has a ``ring``."""
     mentioned = frozenset[Expr]().union(*(g.symbols for g in relations))
     symbols = chart.symbols if ring else tuple(s for s in chart.symbols if s in mentioned)
     ring = ring or Ring(relations, chart.positive)
     nodes = tuple(ring.node(g) for g in relations)
     columns = tuple(-1 if (i := ring.var_index(s)) is None else i for s in symbols)
-    return replace(
-        chart, ring=ring, nodes=nodes, symbols=symbols, columns=columns, relations=tuple(relations), kinds=tuple(kinds)
-    )
+    return replace(chart, ring=ring, nodes=nodes, symbols=symbols, columns=columns, relations=tuple(relations))
 
 
 def chart_of_rows(chart: Chart, rows: Sequence[int]) -> Chart:
     """Return some of the relations on the columns that they mention."""
-    return chart_of_relations(chart, [chart.relations[r] for r in rows], [chart.kinds[r] for r in rows])
+    return chart_of_relations(chart, [chart.relations[r] for r in rows])
+
+
+def smaller(chart: Chart) -> tuple[Chart, int]:
+    """Return the chart without coordinates that linear relations give, and how many of those that went were free.
+
+    The set is a graph over the other coordinates [ImplicitFunctions]. So go the angles of bodies that do not turn
+    (theta = 0), bodies welded to others (x_B = x_A, theta_B = theta_A), z = 0. Free are those that no relation mentions
+    any more: the set is a product with a line for each. The chart itself where none can go.
+    """
+    if len(chart.relations) != len(chart.nodes) or chart.time is not None or "eliminations" not in chart.reductions:
+        return chart, 0
+    solved = explicit_relations(chart.relations, _linear_coefficients)
+    if not solved.explicit:
+        return chart, 0
+    small = chart_of_relations(chart, solved.implicit)
+    return small, len(chart.symbols) - len(solved.explicit) - len(small.symbols)
+
+
+def _linear_coefficients(g: Expr) -> Mapping[Expr, Expr]:
+    return {} if linear(g) is None else number_coefficients(g)
 
 
 def frame_at(chart: Chart, point: FieldPoint) -> Pivots:

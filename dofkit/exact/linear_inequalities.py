@@ -6,7 +6,7 @@ Which of the two it is comes from a simplex method in exact arithmetic; what it 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Literal
 
 from flint import fmpq, fmpq_mat
@@ -42,56 +42,35 @@ def solution(conditions: Sequence[LinearCondition]) -> Vector | Literal[False] |
     """Return a point at which all conditions hold, False where there is none (proved), None where they are too many."""
     n = len(conditions[0].coefficients) if conditions else 0
     equations = [c for c in conditions if c.sense == "="]
-    if len(equations) * (n + 1) > MAX_EQUATIONS:
+    if max(len(equations), n) * (n + 1) > MAX_EQUATIONS:
         return None
-    graph = _graph(equations, n)
-    if graph is None:
+    solutions = _solutions(equations, n)
+    if solutions is None:
         return False
-    inequalities = [_restricted(c, graph) for c in conditions if c.sense != "="]
-    if (len(inequalities) + len(graph.free) + 2) * (len(graph.free) + 2) > MAX_TABLEAU:
+    free, inequalities = solutions.ncols() - 1, [c for c in conditions if c.sense != "="]
+    if (len(inequalities) + free + 2) * (free + 2) > MAX_TABLEAU:
         return None
-    free_point = _alternative(inequalities, len(graph.free))
+    restricted = []
+    for c in inequalities:
+        row = (fmpq_mat([list(c.coefficients)]) * solutions).entries() if n else [ZERO]
+        restricted.append(LinearCondition(tuple(row[:-1]), row[-1] + c.constant, c.sense))
+    free_point = _alternative(restricted, free)
     if free_point is None or free_point is False:
         return free_point
-    whole = graph.point(free_point)
-    return whole if all(c.holds(whole) for c in conditions) else None
+    point = tuple((solutions * fmpq_mat([[v] for v in (*free_point, ONE)])).entries())
+    return point if all(c.holds(point) for c in conditions) else None
 
 
-@dataclass(frozen=True)
-class _Graph:
-    """The solutions of equations: x_c = ``rows``[c] . (x_free, 1) for the pivots c; ``free``: the other numbers."""
-
-    free: tuple[int, ...]
-    rows: dict[int, Vector]
-    n: int
-
-    def point(self, at: Vector) -> Vector:
-        """Return all coordinates from the free ones."""
-        coordinates = dict(zip(self.free, at, strict=True))
-        coordinates |= {c: _dot(row[:-1], at) + row[-1] for c, row in self.rows.items()}
-        return tuple(coordinates[c] for c in range(self.n))
-
-
-def _graph(equations: Sequence[LinearCondition], n: int) -> _Graph | None:
-    """Return the solutions of the equations; None where there are none (Gauss)."""
-    if not equations:
-        return _Graph(tuple(range(n)), {}, n)
-    reduced, rank = fmpq_mat([[*e.coefficients, e.constant] for e in equations]).rref()
-    pivots = [next(c for c in range(n + 1) if reduced[r, c] != 0) for r in range(rank)]
-    if n in pivots:
+def _solutions(equations: Sequence[LinearCondition], n: int) -> fmpq_mat | None:
+    """Return the matrix M of the solutions x = M (z, 1) of equations, z free; None where there are none (Gauss)."""
+    reduced, rank = fmpq_mat([[*e.coefficients, e.constant] for e in equations] or [[ZERO] * (n + 1)]).rref()
+    line = {next(c for c in range(n + 1) if reduced[r, c] != 0): r for r in range(rank)}
+    if n in line:
         return None
-    free = tuple(c for c in range(n) if c not in set(pivots))
-    rows = {p: (*(-reduced[r, c] for c in free), -reduced[r, n]) for r, p in enumerate(pivots)}
-    return _Graph(free, rows, n)
-
-
-def _restricted(c: LinearCondition, graph: _Graph) -> LinearCondition:
-    """Return the condition in the free coordinates."""
-    total = [*(c.coefficients[j] for j in graph.free), c.constant]
-    for p, row in graph.rows.items():
-        if c.coefficients[p] != 0:
-            total = [a + c.coefficients[p] * b for a, b in zip(total, row, strict=True)]
-    return replace(c, coefficients=tuple(total[:-1]), constant=total[-1])
+    free = [c for c in range(n) if c not in line]
+    units = [[fmpq(int(c == f)) for f in (*free, n)] for c in range(n)]
+    rows = [[-reduced[line[c], f] for f in (*free, n)] if c in line else units[c] for c in range(n)]
+    return fmpq_mat(n, len(free) + 1, [v for row in rows for v in row])
 
 
 def _alternative(conditions: Sequence[LinearCondition], n: int) -> Vector | Literal[False] | None:

@@ -5,13 +5,15 @@ A root is an unknown with root^d = radicand, a basic angle an unknown point of t
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import Any, NamedTuple
 
 from dofkit.base.deadline import check
 from dofkit.base.errors import NoValueError, PoleError
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.residues import Residue, ResiduePolynomial, modulus, residue, residue_polynomial
-from dofkit.exact.ring.program import ADD, MUL, NUM, POW, VAR, raising_no_value, reachable
+from dofkit.exact.ring.program import ADD, VAR, Var, raising_no_value, reachable, value_of
 from dofkit.exact.ring.ring import Ring
 
 #: Denominators past this degree are reduced; quotients past this one are given up.
@@ -136,46 +138,30 @@ def univariate(ring: Ring, node: int, unit: Unit, point: FieldPoint) -> ResidueP
     return top
 
 
-@raising_no_value
 def value_along(ring: Ring, node: int, pair: dict[int, Rational], point: FieldPoint) -> Any:
     """Return the value of a relation where some generators are functions of one unknown. Raises NoValueError."""
-    values: dict[int, Any] = {}
-    for i in reversed(reachable(ring, [node], through_generators=False)):
-        values[i] = _step(ring, i, values, pair, point)
-    return values[node]
+    return value_of(ring, _PointAlong(ring, pair, point), node, through_generators=False)
 
 
-def _step(ring: Ring, i: int, values: dict[int, Any], pair: dict[int, Rational], point: FieldPoint) -> Any:
-    op, payload = ring.code[i]
-    if op == NUM:
-        return point.number(payload)
-    if op == ADD:
-        total = values[payload[0]]
-        for j in payload[1:]:
-            total = values[j] + total if isinstance(values[j], Rational) else total + values[j]
-        return total
-    if op == MUL:
-        total = values[payload[0]]
-        for j in payload[1:]:
-            total = values[j] * total if isinstance(values[j], Rational) else total * values[j]
-        return total
-    if op == POW:
-        base, n = values[payload[0]], payload[1]
-        return base**n if n > 0 else 1 / base**-n
-    if payload in pair:
-        return pair[payload]
-    return _independent(ring, payload, point)
+class _PointAlong(NamedTuple):
+    """A point of which some generators are functions of one unknown; the arguments of others are not looked at."""
 
+    ring: Ring
+    pair: dict[int, Rational]
+    point: FieldPoint
 
-def _independent(ring: Ring, index: int, point: FieldPoint) -> Any:
-    """Return a generator's value where its argument is not looked at."""
-    var = ring.vars[index]
-    value = point.values.get((var.kind, var.key))
-    if value is not None:
-        return value
-    if not stands_for_number(ring, index):
-        return point.whatever(var)
-    return point.generator(var, [value_along(ring, a, {}, point) for a in var.args])
+    def number(self, value: Fraction) -> Any:
+        return self.point.number(value)
+
+    def generator(self, var: Var, args: Sequence[Any]) -> Any:
+        if var.index in self.pair:
+            return self.pair[var.index]
+        value = self.point.values.get((var.kind, var.key))
+        if value is not None:
+            return value
+        if not stands_for_number(self.ring, var.index):
+            return self.point.whatever(var)
+        return self.point.generator(var, [value_along(self.ring, a, {}, self.point) for a in var.args])
 
 
 def is_linear(ring: Ring, node: int, index: int, point: FieldPoint) -> bool:

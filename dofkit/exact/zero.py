@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from itertools import combinations
 from typing import Literal
 
-from flint import ctx, fmpq_mat
+from flint import arb, ctx, fmpq_mat
 
 from dofkit.base.errors import NoValueError
 from dofkit.base.verdicts import Verdict
-from dofkit.exact.points.balls import BallPoint, fixed_bits, random_ball_point
+from dofkit.exact.points.balls import fixed_bits, random_ball_point
 from dofkit.exact.points.field import MOST_REDUCED, field_point
 from dofkit.exact.ring.canonical import Canon, divided
 from dofkit.exact.ring.program import Var, values
@@ -77,17 +78,18 @@ def zero_and_verdict(e: Expr, positive: frozenset[Expr], engines: Engines = BOTH
     return (True, "numeric") if _has_value(ring, node, positive) else (None, "undecided")
 
 
+def _balls(ring: Ring, node: int, positive: frozenset[Expr], precisions: Sequence[int] = PRECISIONS) -> Iterator[arb]:
+    """Yield the value of a node at random real points, at one precision after another."""
+    bits = fixed_bits()
+    for precision in precisions if bits is None else (bits,):
+        for seed in range(STARTS):
+            with ctx.workprec(precision), suppress(NoValueError):
+                yield values(ring, random_ball_point(ring, positive, seed))[node]
+
+
 def _has_value(ring: Ring, node: int, positive: frozenset[Expr]) -> bool:
     """Return whether the node has a value at one of the real points that are tried."""
-    with ctx.workprec(fixed_bits() or PRECISIONS[0]):
-        return any(_value_at(ring, node, random_ball_point(ring, positive, seed)) for seed in range(STARTS))
-
-
-def _value_at(ring: Ring, node: int, point: BallPoint) -> bool:
-    try:
-        return bool(values(ring, point)[node].is_finite())
-    except NoValueError:
-        return False
+    return any(ball.is_finite() for ball in _balls(ring, node, positive, PRECISIONS[:1]))
 
 
 def _by_one_engine(ring: Ring, node: int, positive: frozenset[Expr], engines: Engines) -> tuple[bool | None, Verdict]:
@@ -110,19 +112,7 @@ def certainly_nonzero(e: Expr, positive: frozenset[Expr]) -> bool:
 
 def excludes_zero(ring: Ring, node: int, positive: frozenset[Expr]) -> bool:
     """Return whether a ball at some real point excludes 0 as the value of a node."""
-    bits = fixed_bits()
-    for precision in PRECISIONS if bits is None else (bits,):
-        with ctx.workprec(precision):
-            if any(_excluded_at(ring, node, random_ball_point(ring, positive, seed)) for seed in range(STARTS)):
-                return True
-    return False
-
-
-def _excluded_at(ring: Ring, node: int, point: BallPoint) -> bool:
-    try:
-        return not values(ring, point)[node].contains(0)
-    except NoValueError:
-        return False
+    return any(not ball.contains(0) for ball in _balls(ring, node, positive))
 
 
 def _zero_at_points(ring: Ring, node: int, points: int = 3) -> bool | None:

@@ -286,27 +286,18 @@ MAX_EXPONENT = 64
 MAX_BITS = 2048
 
 
-class UndefinedError(Exception):
-    """A value that does not exist or is too large; carries the sentence and the hint."""
-
-    def __init__(self, message: str, hint: str) -> None:
-        super().__init__(message)
-        self.message = message
-        self.hint = hint
-
-
 def raised(base: Expr, exponent: Expr) -> Expr:
-    """Return ``base^exponent``. Raises UndefinedError."""
+    """Return ``base^exponent``. Raises TextError."""
     if exponent.op == "num":
         _check_power(base, exponent.args[0])
     elif base.op == "num" and base.args[0] <= 0:
         message = f"`{base.args[0]}` to a power that is no number has no real value for most exponents"
-        raise UndefinedError(message, "write a positive base, or `exp(...)`")
+        raise TextError(message, hint="write a positive base, or `exp(...)`")
     result = power(base, exponent)
     for part in result.args if result.op == "mul" else (result,):
         unfolded = part.op == "pow" and part.args[0].op == part.args[1].op == "num"
         if (unfolded and part.args[1].args[0].denominator == 1) or _bits(part) > MAX_BITS:
-            raise UndefinedError("this power is too large a number", "write it in other units")
+            raise TextError("this power is too large a number", hint="write it in other units")
     return result
 
 
@@ -318,17 +309,17 @@ def _bits(e: Expr) -> int:
 def _check_power(base: Expr, value: Fraction) -> None:
     if abs(value.numerator) > MAX_EXPONENT or value.denominator > MAX_EXPONENT:
         message = f"this exponent is too large; at most {MAX_EXPONENT} is read"
-        raise UndefinedError(message, "choose a smaller exponent")
+        raise TextError(message, hint="choose a smaller exponent")
     if base.op == "num":
         if base.is_zero and value == 0:
-            raise UndefinedError("`0^0` has no value", "write the number")
+            raise TextError("`0^0` has no value", hint="write the number")
         if base.is_zero and value < 0:
-            raise UndefinedError("this divides by zero", "check the denominator")
+            raise TextError("this divides by zero", hint="check the denominator")
         if base.args[0] < 0 and value.denominator != 1:
-            raise UndefinedError("a negative number has no real root", "write a real number")
+            raise TextError("a negative number has no real root", hint="write a real number")
     elif abs(value) > 1 and _degree(base, {}) * abs(value) > MAX_EXPONENT:
         message = f"these nested powers multiply to more than {MAX_EXPONENT}"
-        raise UndefinedError(message, "choose smaller exponents")
+        raise TextError(message, hint="choose smaller exponents")
 
 
 def _degree(e: Expr, memo: dict[Expr, Fraction]) -> Fraction:
@@ -341,14 +332,14 @@ def _degree(e: Expr, memo: dict[Expr, Fraction]) -> Fraction:
 
 
 def inverse(divisor: Expr) -> Expr:
-    """Return ``1/divisor``. Raises UndefinedError for zero."""
+    """Return ``1/divisor``. Raises TextError for zero."""
     if divisor.is_zero:
-        raise UndefinedError("this divides by zero", "check the denominator")
+        raise TextError("this divides by zero", hint="check the denominator")
     return power(divisor, MINUS_ONE)
 
 
 def applied(name: str, *arguments: Expr) -> Expr:
-    """Return the value of an elementary function. Raises UndefinedError where it does not exist."""
+    """Return the value of an elementary function. Raises TextError where it does not exist."""
     first = arguments[0]
     if name == "sqrt":
         return raised(first, num(Fraction(1, 2)))
@@ -362,16 +353,16 @@ def applied(name: str, *arguments: Expr) -> Expr:
         )
         if undefined:
             where = ", ".join(str(e.args[0]) if e.op == "num" else "..." for e in arguments)
-            raise UndefinedError(f"`{name}` has no real value at {where}", "check its argument")
+            raise TextError(f"`{name}` has no real value at {where}", hint="check its argument")
     return fn(name, *arguments)
 
 
 def bounded(e: Expr) -> Expr:
-    """Return ``e``. Raises UndefinedError where a number or a power in it has grown too large."""
+    """Return ``e``. Raises TextError where a number or a power in it has grown too large."""
     for node in nodes(e):
         if _bits(node) > MAX_BITS:
-            raise UndefinedError("the numbers in this text multiply to one too large", "choose other units")
+            raise TextError("the numbers in this text multiply to one too large", hint="choose other units")
         if node.op == "pow" and node.args[1].op == "num" and abs(node.args[1].args[0].numerator) > MAX_EXPONENT:
             message = f"the powers in this text multiply to more than {MAX_EXPONENT}"
-            raise UndefinedError(message, "choose smaller exponents")
+            raise TextError(message, hint="choose smaller exponents")
     return e

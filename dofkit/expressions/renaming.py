@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cached_property
 from typing import Any, NamedTuple, TypeVar, overload
 
-from dofkit.expressions.tree import Expr, children, nodes, sym
+from dofkit.expressions.tree import Expr, children, sym
 
 #: The kinds of symbols that are called by a coordinate.
 MOVING = frozenset({"coordinate", "velocity", "acceleration", "differential"})
@@ -152,6 +152,7 @@ class Renaming:
         else:
             renamed = tuple(map(self.of, args))
         made = Expr(op, renamed)
+        made._functions = e._functions
         if e.shape is not None:
             made.shape = e.shape._replace(names=tuple(self.names.get(n, n) for n in e.shape.names))
         self._renamed[id(e)] = e, made
@@ -164,70 +165,6 @@ class Renaming:
             other = self.names.get(name)
             renamed_symbol = self._symbols[symbol] = symbol if other is None else sym(kind, other)
         return renamed_symbol
-
-
-class _Step(NamedTuple):
-    """One node: its ``op``, what stands before its children, and where these are found; of one with a shape, that."""
-
-    op: str
-    before: tuple[Any, ...]
-    children: tuple[int, ...]
-    shape: ExpressionShape | None
-
-
-class Template:
-    """An expression, to be written in other names many times over.
-
-    ``symbols``: those that have such names, in the order in which they first occur; ``others``: all others.
-
-    >>> from dofkit.expressions.tree import coordinate
-    >>> product = Template(coordinate("x") * coordinate("y"))
-    >>> product.names, product.of(("u", "v")) == coordinate("u") * coordinate("v")
-    (('x', 'y'), True)
-    """
-
-    def __init__(self, e: Expr) -> None:
-        self.shape = shape_of(e)
-        self.names = self.shape.names
-        number = {name: k for k, name in enumerate(self.names)}
-        self.symbols = tuple([s for s in _symbols_in_order(e) if is_name(s)])
-        self.others = tuple(e.symbols - frozenset(self.symbols))
-        self.op, self.functions = e.op, e.functions
-        self._called = [(s.args[0], number[s.args[1]]) for s in self.symbols]
-        self._named = [next(i for i, s in enumerate(self.symbols) if s.args[1] == name) for name in self.names]
-        own_symbols = frozenset(self.symbols)
-        self._kept = [node for node in nodes(e) if own_symbols.isdisjoint(node.symbols)]
-        places = {node: k for k, node in enumerate((*self.symbols, *self._kept))}
-        self._steps: list[_Step] = []
-        for node in nodes(e):
-            if node not in places:
-                places[node] = len(places)
-                child_places = tuple([places[part] for part in children(node)])
-                before = node.args[:2] if node.op == "call" else node.args[:1] if node.op == "fn" else ()
-                shape = None if node is e else node.shape
-                self._steps.append(_Step(node.op, before, child_places, shape))
-        self._root = places[e]
-
-    def of(self, names: Sequence[str]) -> Expr:
-        """Return the expression in other names, all different, in the order of its own; its shape is known."""
-        return self.with_symbols([sym(kind, names[k]) for kind, k in self._called])
-
-    def with_symbols(self, symbols: Sequence[Expr]) -> Expr:
-        """Return the expression with other symbols, each of the kind of its own and in their order; see `of`."""
-        names = [symbols[k].args[1] for k in self._named]
-        rename = dict(zip(self.names, names, strict=True))
-        written = [*symbols, *self._kept]
-        for op, before, child_places, shape in self._steps:
-            below = tuple([written[k] for k in child_places])
-            node = Expr(op, (*before, below) if op == "call" else before + below)
-            if shape is not None:
-                node.shape = shape._replace(names=tuple([rename[n] for n in shape.names]))
-            written.append(node)
-        e = written[self._root]
-        if self._steps:
-            e.shape = self.shape._replace(names=tuple(names))
-            e._symbols, e._functions = frozenset((*self.others, *symbols)), self.functions
-        return e
 
 
 T = TypeVar("T")

@@ -42,7 +42,7 @@ def linear_terms(e: Expr) -> dict[Expr, Fraction]:
     terms: dict[Expr, Fraction] = {}
     cancels = False
     for term in total.args if total.op == "add" else (total,):
-        factor, base = (term.args[0], ex.ONE) if term.op == "num" else number_and_rest(term)
+        factor, base = ex.number_and_rest(term)
         if factor:
             base = sorted_product(base)
             if base in terms:
@@ -63,18 +63,10 @@ def without_cancelled(e: Expr) -> Expr:
     total: dict[Expr, Fraction] = {}
     keys = []
     for term in node.args:
-        factor, base = (Fraction(1), ex.ONE) if term.op == "num" else number_and_rest(term)
+        factor, base = ex.number_and_rest(term)
         keys.append(sorted_product(base))
         total[keys[-1]] = total.get(keys[-1], Fraction(0)) + factor
     return ex.add(*(t for t, key in zip(node.args, keys, strict=True) if total[key] or key.functions))
-
-
-def number_and_rest(term: Expr) -> tuple[Fraction, Expr]:
-    """Return a term as a number times the rest."""
-    if term.op == "mul" and term.args[0].op == "num":
-        factors = term.args[1:]
-        return term.args[0].args[0], factors[0] if len(factors) == 1 else Expr("mul", factors)
-    return Fraction(1), term
 
 
 def sorted_product(e: Expr) -> Expr:
@@ -89,7 +81,7 @@ def sorted_sum(e: Expr) -> tuple[tuple[str, Fraction], ...]:
 
 def content(e: Expr) -> tuple[Fraction, Expr]:
     """Return a sum as positive rational content times the rest."""
-    factors = [number_and_rest(t)[0] if t.op != "num" else t.args[0] for t in e.args]
+    factors = [ex.number_and_rest(t)[0] for t in e.args]
     top = gcd(*(abs(f.numerator) for f in factors))
     bottom = 1
     for f in factors:

@@ -198,8 +198,8 @@ TIME, DT = sym("time", "t"), sym("dt", "t")
 _ONCE: Fraction = ONE.args[0]
 
 
-def _split(term: Expr) -> tuple[Fraction, Expr]:
-    """Return ``term`` as number times rest."""
+def number_and_rest(term: Expr) -> tuple[Fraction, Expr]:
+    """Return ``term`` as a number times the rest."""
     if term.op == "num":
         return term.args[0], ONE
     if term.op == "mul" and term.args[0].op == "num":
@@ -210,25 +210,40 @@ def _split(term: Expr) -> tuple[Fraction, Expr]:
 
 def add(*terms: Expr) -> Expr:
     """Return the sum; numbers are folded and equal terms collected."""
-    collected: dict[Expr, Fraction] = {}
-    for term in terms:
-        for part in term.args if term.op == "add" else (term,):
-            factor, base = _split(part)
-            earlier = collected.get(base)
-            collected[base] = factor if earlier is None else earlier + factor
-    summands = []
-    for base, factor in collected.items():
-        if factor:
-            summands.append(num(factor) if base is ONE or base == ONE else _scaled(factor, base))
-    if not summands:
-        return ZERO
-    return summands[0] if len(summands) == 1 else Expr("add", tuple(summands))
+    return total([(1, term) for term in terms])
 
 
-def _scaled(factor: Fraction, base: Expr) -> Expr:
-    if factor == 1:
-        return base
-    return Expr("mul", (num(factor), *(base.args if base.op == "mul" else (base,))))
+def total(multiples: Iterable[tuple[int | Fraction, Expr]]) -> Expr:
+    """Return the sum of numbers times expressions, equal terms collected.
+
+    Whole numbers are kept as int while they are added, which is several times faster than Fraction.
+    """
+    collected: dict[Expr, int | Fraction] = {}
+    for factor, e in multiples:
+        for term in e.args if e.op == "add" else (e,):
+            number: int | Fraction = factor
+            if term.op == "num" or (term.op == "mul" and term.args[0].op == "num"):
+                own, term = number_and_rest(term)
+                number = factor * whole(own)
+            collected[term] = collected[term] + number if term in collected else number
+    terms = [_times(number, term) for term, number in collected.items() if number]
+    if len(terms) > 1:
+        return Expr("add", tuple(terms))
+    return terms[0] if terms else ZERO
+
+
+def whole(number: Fraction) -> int | Fraction:
+    """Return a whole number as int, and any other as it is."""
+    return number.numerator if number.denominator == 1 else number
+
+
+def _times(number: int | Fraction, term: Expr) -> Expr:
+    if number == 1:
+        return term
+    factor = num(number)
+    if term == ONE:
+        return factor
+    return Expr("mul", (factor, *term.args) if term.op == "mul" else (factor, term))
 
 
 def mul(*factors: Expr) -> Expr:
@@ -296,7 +311,7 @@ def fn(name: str, *arguments: Expr) -> Expr:
     if first.op == "num":
         value = value_at(name, first.args[0])
     else:
-        multiple, base = _split(first) if name in TURNING else (_ONCE, ONE)
+        multiple, base = number_and_rest(first) if name in TURNING else (_ONCE, ONE)
         value = value_at_turn(name, multiple) if base == PI else None
     return Expr("fn", (name, *arguments)) if value is None else num(value)
 

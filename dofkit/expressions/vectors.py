@@ -2,53 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from fractions import Fraction
 
-from dofkit.expressions.tree import MINUS_ONE, ONE, TWO, ZERO, Expr, mul, num, power, sqrt
+from dofkit.expressions.tree import MINUS_ONE, ONE, TWO, ZERO, Expr, mul, num, power, sqrt, total, whole
 
 Vec = tuple[Expr, ...]
-
-
 Matrix = tuple[Vec, ...]
-
-
-_Number = int | Fraction
-
-
-def total(multiples: Iterable[tuple[_Number, Expr]]) -> Expr:
-    """Return the sum of numbers times expressions, equal terms collected: `add` for many short sums.
-
-    Whole numbers are kept as int while they are added, which is several times faster than Fraction.
-    """
-    collected: dict[Expr, _Number] = {}
-    for factor, e in multiples:
-        for term in e.args if e.op == "add" else (e,):
-            number: _Number = factor
-            if term.op == "num":
-                number, term = factor * _whole(term.args[0]), ONE
-            elif term.op == "mul" and term.args[0].op == "num":
-                number = factor * _whole(term.args[0].args[0])
-                factors = term.args[1:]
-                term = factors[0] if len(factors) == 1 else Expr("mul", factors)
-            collected[term] = collected[term] + number if term in collected else number
-    terms = [_times(number, term) for term, number in collected.items() if number]
-    if len(terms) > 1:
-        return Expr("add", tuple(terms))
-    return terms[0] if terms else ZERO
-
-
-def _whole(number: Fraction) -> _Number:
-    return number.numerator if number.denominator == 1 else number
-
-
-def _times(number: _Number, term: Expr) -> Expr:
-    if number == 1:
-        return term
-    factor = MINUS_ONE if number == -1 else num(number)
-    if term is ONE:
-        return factor
-    return Expr("mul", (factor, *term.args) if term.op == "mul" else (factor, term))
 
 
 def plus(*vectors: Vec) -> Vec:
@@ -78,10 +37,10 @@ def dot(a: Vec, b: Vec) -> Expr:
     return total([_product(p, q) for p, q in zip(a, b, strict=True)])
 
 
-def _product(p: Expr, q: Expr) -> tuple[_Number, Expr]:
+def _product(p: Expr, q: Expr) -> tuple[int | Fraction, Expr]:
     if q.op == "num":
-        return _whole(q.args[0]), p
-    return (_whole(p.args[0]), q) if p.op == "num" else (1, mul(p, q))
+        return whole(q.args[0]), p
+    return (whole(p.args[0]), q) if p.op == "num" else (1, mul(p, q))
 
 
 def square(a: Vec) -> Expr:
@@ -92,7 +51,7 @@ def square(a: Vec) -> Expr:
 def square_between(a: Vec, b: Vec) -> Expr:
     """|b - a|^2, at once for numbers."""
     if all(part.op == "num" for part in (*a, *b)):
-        return num(sum((_whole(q.args[0]) - _whole(p.args[0])) ** 2 for p, q in zip(a, b, strict=True)))
+        return num(sum((whole(q.args[0]) - whole(p.args[0])) ** 2 for p, q in zip(a, b, strict=True)))
     return square(minus(b, a))
 
 

@@ -1,10 +1,11 @@
 """First integrals of a system of forms: functions f with df in the span I of its rows, found together.
 
 f is a combination of few products of the block's own functions (coordinates, sines, exponentials, parameters) with
-rational coefficients. X f = 0 for every X in D = ker I is linear in the coefficients; it is imposed at random points
-over GF(p) on the finite relations, and the solutions are read as rationals. An integral is returned only if it holds
-identically: the bordered minors of df under the rows vanish in the canonical ring (modulo a finite relation, if there
-is one), or, where that grows too large or several finite relations hold, at fresh points modulo fresh primes.
+rational coefficients. X f = 0 for every X in D = ker I is linear in the coefficients; it is imposed along one random
+curve over GF(p), or at random points on the finite relations, and the solutions are read as rationals. An integral is
+returned only if it holds identically: the bordered minors of df under the rows vanish in the canonical ring (modulo a
+finite relation, if there is one), or, where that grows too large or several finite relations hold, at fresh points
+modulo fresh primes.
 """
 
 from __future__ import annotations
@@ -18,10 +19,11 @@ from math import isqrt
 from dofkit.base.deadline import check
 from dofkit.base.errors import NoValueError
 from dofkit.configuration.variety import pose_point
-from dofkit.exact.matrices.sparse import rank_of
+from dofkit.exact.matrices.sparse import Pivots, rank_of
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import field_frame, kernel, pairing
-from dofkit.exact.residues import Residue, null_vectors, residue_matrix
+from dofkit.exact.points.series import Series, SeriesPoint
+from dofkit.exact.residues import Residue, null_vectors, residue_matrix, residue_polynomial
 from dofkit.exact.ring.canonical import Canon, Poly, determinant, polynomials, remainder
 from dofkit.exact.ring.program import Scalar, gradient, values
 from dofkit.exact.triangular import TriangularSolver
@@ -81,16 +83,17 @@ def is_first_integral(forms: Codistribution, f: Expr) -> bool:
 
 @dataclass(frozen=True)
 class FormSample:
-    """A point over GF(p): the functions' values there, their gradients by column, a basis of D, and the rows."""
+    """A point over GF(p), or a curve: the functions' values, their gradients by column, a basis of D, and the rows."""
 
     point: FieldPoint
-    at: list[Residue]
-    gradients: list[dict[int, Residue]]
-    basis: list[list[Residue]]
-    matrix: list[list[Residue]]
-    _products: dict[Monomial, tuple[Residue, list[Residue]]] = field(default_factory=dict)
+    frame: Pivots
+    at: list[Scalar]
+    gradients: list[dict[int, Scalar]]
+    basis: list[list[Scalar]]
+    matrix: list[list[Scalar]]
+    _products: dict[Monomial, tuple[Scalar, list[Scalar]]] = field(default_factory=dict)
 
-    def product(self, m: Monomial) -> tuple[Residue, list[Residue]]:
+    def product(self, m: Monomial) -> tuple[Scalar, list[Scalar]]:
         """Return a product of functions, and its rate along each vector of the basis: (f g)' = f' g + f g'."""
         value_and_rates = self._products.get(m)
         if value_and_rates is None:
@@ -140,8 +143,8 @@ class IntegralSearch:
         return sorted(monomials, key=lambda m: (len(m), sum(self.ring.vars[i].kind != "symbol" for i in m), m))
 
     def candidates(self, monomials: Sequence[Monomial]) -> Iterator[Expr]:
-        """Yield combinations of products that are constant along D at all points, the simplest first."""
-        equations: list[list[Residue]] = []
+        """Yield combinations of products that are constant along D, the simplest first."""
+        equations = self._along_curve(monomials) if self.solver is None else []
         number = 0
         while len(equations) < len(monomials) + SPARE:
             sample = self.sample(number)
@@ -155,6 +158,25 @@ class IntegralSearch:
             f = self._combination(monomials, weights, p)
             if f is not None:
                 yield f
+
+    def _along_curve(self, monomials: Sequence[Monomial]) -> list[list[Residue]]:
+        """Return the rates of the products along D as series on one random curve, a row for each coefficient.
+
+        No rows where a function has no series there.
+        """
+        sample = self.sample(0)
+        if sample is None:
+            return []
+        base, p, order = sample.point, sample.point.p, -(-(len(monomials) + SPARE) // len(sample.basis))
+        path = {}
+        for i in (v.index for v in self.ring.vars if v.kind == "symbol"):  # parameters vary too, as from point to point
+            others = [base.rng.randrange(p) for _ in range(1, order)]
+            path[i] = Series(residue_polynomial([int(sample.at[i]), *others], p), order)
+        curve = _sample_of(self.forms, base, sample.frame, SeriesPoint(base, path, order, residue_polynomial([0], p)))
+        if curve is None:
+            return []
+        rates = [curve.product(m)[1] for m in monomials]
+        return [[along[i].coefficient(k) for along in rates] for i in range(len(curve.basis)) for k in range(order)]
 
     def slope(self, f: Expr, sample: FormSample, v: Sequence[Residue]) -> Scalar:
         """Return df on a vector at a point."""
@@ -230,20 +252,31 @@ def _moves(e: Expr) -> bool:
 
 
 def _sample_at(forms: Codistribution, point: FieldPoint | None) -> FormSample | None:
+    """Return the forms at a point, or None where there is none or a function has no value at it."""
     if point is None:
         return None
-    ring, columns = forms.chart.ring, forms.chart.columns
-    unit = point.number(Fraction(1))
     try:
-        at = values(ring, point)
+        matrix = forms.rows.matrix(values(forms.chart.ring, point), point.number(Fraction(0)))
+    except NoValueError:
+        return None
+    return _sample_of(forms, point, field_frame(matrix, len(forms.chart.columns), point.p), point)
+
+
+def _sample_of(
+    forms: Codistribution, base: FieldPoint, frame: Pivots, place: FieldPoint | SeriesPoint
+) -> FormSample | None:
+    """Return the forms at a point or along a curve through it, or None where a function has no value or series."""
+    ring, columns = forms.chart.ring, forms.chart.columns
+    unit = place.number(Fraction(1))
+    try:
+        at = values(ring, place)
         matrix = forms.rows.matrix(at, unit * 0)
-        frame = field_frame(matrix, len(columns), point.p)
         basis = kernel(matrix, frame, unit * 0) if frame.free else []
         gradients = []
         for v, node in zip(ring.vars, ring.var_node, strict=True):
-            g = gradient(ring, at, point, [(node, unit)]) if _moves(ring.var_expr[v.index]) else {}
-            gradients.append({place: g[c] for place, c in enumerate(columns) if c in g})
-        return FormSample(point, [at[node] for node in ring.var_node], gradients, basis, matrix)
+            g = gradient(ring, at, place, [(node, unit)]) if _moves(ring.var_expr[v.index]) else {}
+            gradients.append({i: g[c] for i, c in enumerate(columns) if c in g})
+        return FormSample(base, frame, [at[node] for node in ring.var_node], gradients, basis, matrix)
     except NoValueError:
         return None
 

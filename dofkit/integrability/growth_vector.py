@@ -13,8 +13,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from flint import fmpz
-
 from dofkit.exact.matrices.sparse import Pivots
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import FormRows, rank_over
@@ -33,28 +31,6 @@ from dofkit.integrability.lie_algebra import (
 
 #: Curves tried before the flag is left open.
 MAX_CURVES = 24
-
-
-def is_free(growth: Sequence[int]) -> bool:
-    """Return whether it grows as fast as brackets of so many fields can, until the end [Witt1937].
-
-    Of brackets of length k in m fields (1/k) sum_(d | k) mu(d) m^(k/d) are independent at most.
-
-    >>> is_free([2, 3, 5]), is_free([2, 3, 4]), is_free([2, 3, 4, 5]), is_free([3, 6, 7])
-    (True, True, False, True)
-    """
-    most, longest = growth[0], growth[-1]
-    for k, dimension in enumerate(growth[1:], start=2):
-        most += sum(_moebius(d) * growth[0] ** (k // d) for d in range(1, k + 1) if k % d == 0) // k
-        if dimension != min(most, longest):
-            return False
-    return True
-
-
-def _moebius(n: int) -> int:
-    """mu(n): 0 where a square divides n, else (-1)^(number of primes)."""
-    factors = fmpz(n).factor()
-    return 0 if any(k > 1 for _, k in factors) else (-1) ** len(factors)
 
 
 class Dual:
@@ -223,18 +199,6 @@ def _slope(flow: AdmissibleCurve, direction: Matrix) -> Matrix:
         len(gradients), n, [g.get(c, zero) if c >= 0 else zero for g in gradients for c in rows.columns]
     )
     return flow.full(-(flow.inverse * right), None)
-
-
-def growth(rows: FormRows, frame: Pivots, base: Any, span: Span) -> tuple[int, ...] | None:
-    """dim D, dim D + [D, D], ... with D_k+1 = D_k + [D, D_k], at ``base`` over GF(p); None where it is not certain."""
-    free, terminal = len(frame.free), span.dimension
-    if not frame.rows or free == terminal or span.flow is None:
-        return (free,)
-    seen = span.dimensions[: span.dimensions.index(terminal) + 1]
-    largest_second = min(terminal, free + free * (free - 1) // 2)
-    if len(seen) <= 2 or (len(seen) == 3 and seen[1] == largest_second):
-        return seen
-    return spanning_curves(rows, frame, base, span)[1]
 
 
 def spanning_curves(

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from itertools import chain, pairwise
 from typing import Any
 
-from flint import arb, arb_mat, arb_poly
+from flint import arb, arb_mat, arb_poly, fmpz
 
 from dofkit.base.deadline import affordable, check
 from dofkit.base.errors import NoValueError
@@ -258,8 +258,40 @@ class Span:
     @property
     def grows_at_once(self) -> bool:
         """Return whether the dimension stops once only, as it does at a generic point."""
-        last = self.dimensions.index(self.dimension)
-        return all(a < b for a, b in pairwise(self.dimensions[: last + 1]))
+        return all(a < b for a, b in pairwise(self._until_last))
+
+    @property
+    def _until_last(self) -> tuple[int, ...]:
+        return self.dimensions[: self.dimensions.index(self.dimension) + 1]
+
+    @property
+    def growth(self) -> tuple[int, ...] | None:
+        """dim D, dim D + [D, D], ... at the point; None where one curve leaves it open."""
+        seen, free = self._until_last, self.dimensions[0]
+        largest_second = min(self.dimension, free + free * (free - 1) // 2)
+        return seen if len(seen) <= 2 or (len(seen) == 3 and seen[1] == largest_second) else None
+
+
+def is_free(growth: Sequence[int]) -> bool:
+    """Return whether it grows as fast as brackets of so many fields can, until the end [Witt1937].
+
+    Of brackets of length k in m fields (1/k) sum_(d | k) mu(d) m^(k/d) are independent at most.
+
+    >>> is_free([2, 3, 5]), is_free([2, 3, 4]), is_free([2, 3, 4, 5]), is_free([3, 6, 7])
+    (True, True, False, True)
+    """
+    most, longest = growth[0], growth[-1]
+    for k, dimension in enumerate(growth[1:], start=2):
+        most += sum(_moebius(d) * growth[0] ** (k // d) for d in range(1, k + 1) if k % d == 0) // k
+        if dimension != min(most, longest):
+            return False
+    return True
+
+
+def _moebius(n: int) -> int:
+    """mu(n): 0 where a square divides n, else (-1)^(number of primes)."""
+    factors = fmpz(n).factor()
+    return 0 if any(k > 1 for _, k in factors) else (-1) ** len(factors)
 
 
 @raising_no_value

@@ -26,10 +26,10 @@ from dofkit.exact.ring.canonical import error_bits
 from dofkit.exact.ring.program import Scalar, values
 from dofkit.exact.zero import independent_on_set
 from dofkit.expressions import tree as ex
-from dofkit.integrability.growth_vector import derived_flag, growth
+from dofkit.integrability.growth_vector import derived_flag, spanning_curves
 from dofkit.integrability.lie_algebra import SampledSpan, Span, ball_span
 from dofkit.integrability.pfaffian_system import Codistribution, is_nonzero, linear_rows
-from dofkit.integrability.traits import CurlAtPoint, proof
+from dofkit.integrability.traits import proof
 from dofkit.relations.answer import Answer, HolonomyLabel
 from dofkit.relations.blocks import Block
 from dofkit.relations.normal.pieces import Finite, Pfaffian
@@ -140,7 +140,9 @@ def _set_freedom(forms_at_points: SampledForms, result: Answer, setting: Setting
     result.velocity_dof = forms.n - forms_at_points.rank
     result.dof = forms.n - forms_at_points.integrable
     asked = setting.grows and sampled.span.grows_at_once
-    result.growth = growth(forms.rows, sampled.frame, point, sampled.span) if asked else None
+    if asked:
+        span = sampled.span
+        result.growth = span.growth or spanning_curves(forms.rows, sampled.frame, point, span)[1]
     result.derived = derived_flag(forms.rows, sampled.frame, point, sampled.span) if setting.flag else None
 
 
@@ -188,17 +190,9 @@ def _rank_verdict(forms_at_points: SampledForms, proof_of: Certificate | None, s
         return "proved"
     forms = [r.piece for r in forms_at_points.block.forms if isinstance(r.piece, Pfaffian)]
     wanted = n - sampled.span.dimension - (len(sampled.matrix) - len(forms))
-    flat = forms if wanted > len(forms) else _flat(forms_at_points, forms)
-    if wanted > len(flat):
+    if wanted > len(forms):
         return "probable"
-    return "proved" if sum(proof(f, setting.positive) is not None for f in flat) == wanted else "probable"
-
-
-def _flat(forms_at_points: SampledForms, forms: Sequence[Pfaffian]) -> list[Pfaffian]:
-    """The forms that may integrate by themselves: those with curvature at the point do not."""
-    rows, point = forms_at_points.forms.rows, forms_at_points.point
-    at, first = values(rows.ring, point), forms_at_points.forms.finite
-    return [form for i, form in enumerate(forms) if not CurlAtPoint(rows, first + i, at, point).is_curved]
+    return "proved" if sum(proof(f, setting.positive) is not None for f in forms) == wanted else "probable"
 
 
 def _label(place: int, forms_at_points: SampledForms, proof_of: Certificate | None) -> HolonomyLabel:

@@ -6,17 +6,14 @@ import random
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
 from itertools import combinations
-from typing import Any
 
 from dofkit.base.errors import NoValueError
 from dofkit.base.verdicts import VERDICTS, Verdict, weakest
 from dofkit.exact.analyticity import is_analytic
-from dofkit.exact.points.frames import FormRows
 from dofkit.exact.points.real_search import RealPoint, RealSearch, at_another_time
 from dofkit.exact.ring.canonical import Canon
-from dofkit.exact.ring.program import Scalar, gradient, values
+from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.triangular import TriangularSolver
 from dofkit.exact.zero import BOTH, Engines, independent_on_set, is_proved_zero, odd_constants, zero_and_verdict
@@ -315,34 +312,3 @@ def _frobenius(items: list[tuple[Expr, Expr]]) -> bool:
         if zero_and_verdict(total, frozenset()) != (True, "proved"):
             return False
     return True
-
-
-class CurlAtPoint:
-    """One form and its differential at a point: d(omega) has the components d_i a_j - d_j a_i."""
-
-    def __init__(self, rows: FormRows, row: int, at: Sequence[Scalar], point: Any) -> None:
-        unit, entries = point.number(ex.ONE.args[0]), rows.entries[row]
-        self.columns, self.zero = rows.columns, unit * 0
-        self.value = {c: at[node] for c, node in entries.items()}
-        self.slopes = {c: gradient(rows.ring, at, point, [(node, unit)]) for c, node in entries.items()}
-
-    def curl(self, i: int, j: int) -> Scalar:
-        """A component of d(omega)."""
-        columns, zero = self.columns, self.zero
-        return self.slopes.get(j, {}).get(columns[i], zero) - self.slopes.get(i, {}).get(columns[j], zero)
-
-    @cached_property
-    def is_curved(self) -> bool:
-        """Return whether d(omega) ^ omega is not 0, so that the form does not integrate by itself [Frobenius1877].
-
-        With a coefficient a_k that is not 0 that holds where a component (i, j, k) is not 0 for some i and j.
-        """
-        value, zero = self.value, self.zero
-        k = next((c for c, a in value.items() if a != 0), None)
-        if k is None:
-            return False
-        for i, j in combinations([c for c in range(len(self.columns)) if c != k], 2):
-            total = value[k] * self.curl(i, j) + value.get(i, zero) * self.curl(j, k)
-            if total + value.get(j, zero) * self.curl(k, i) != 0:
-                return True
-        return False

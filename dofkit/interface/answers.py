@@ -16,7 +16,6 @@ from dofkit.base.documents import Document
 from dofkit.base.errors import DofkitError, Fault, SceneError, TextError
 from dofkit.base.workers import Json
 from dofkit.checker import CheckError, Verification
-from dofkit.checker import verify as verify_independently
 from dofkit.classification.undecided import sketch, undecided
 from dofkit.interface.jobs import STDIN, Cut, Request
 from dofkit.interface.output import FAILED
@@ -223,7 +222,8 @@ def _faults_of_error(error: Exception) -> tuple[Fault, ...]:
 def verification_lines(request: Request) -> Json:
     """Return what is printed about a certificate, and the exit status as the outcome."""
     try:
-        checked = _verified(request)
+        alone = request.file == request.certificate
+        checked = dofkit.verify(None if alone else request.file, Path(str(request.certificate)))
     except OSError as error:
         fault = Fault(f"it cannot be read: {error.strerror or error}")
     except (CheckError, DofkitError, ValueError) as error:
@@ -235,20 +235,9 @@ def verification_lines(request: Request) -> Json:
     return _fault_streams(replace(request, file=str(request.certificate)), request.file, (fault,), None)
 
 
-def _verified(request: Request) -> Verification:
-    """Return the checker's own result; a scene that it cannot read may use synonyms, which are replaced first."""
-    certificate = Path(str(request.certificate)).read_bytes()
-    if request.file == request.certificate:
-        return verify_independently(None, certificate)
-    data = find(request.file).data
-    try:
-        return verify_independently(data if isinstance(data, str) else data.decode("utf-8"), certificate)
-    except (CheckError, UnicodeDecodeError):
-        return dofkit.verify(request.file, certificate)
-
-
 def _verification_text(checked: Verification) -> str:
     lines = [f"{checked.scene}: {checked.verified} of {checked.claims} claims verified"]
     lines += [f"  failed     {f['path']} by {f['rule']}: {f['why']}" for f in checked.failed]
     lines += [f"  uncovered  {path}" for path in checked.uncovered]
+    lines += [f"  trusted    `{written}` is read as `{plain}`" for written, plain in checked.trusted.items()]
     return "\n".join(lines) + "\n"

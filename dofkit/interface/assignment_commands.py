@@ -17,6 +17,13 @@ assignment_app = typer.Typer(
 )
 export_app = typer.Typer(help="Export assignments for course platforms.", no_args_is_help=True, rich_markup_mode="rich")
 
+Runtime = Annotated[
+    Path | None,
+    typer.Option(
+        "--runtime", metavar="FILE", help="The runtime.js of a bench, for pages with fields; by default of this clone."
+    ),
+]
+
 
 @assignment_app.command("new")
 def new(
@@ -33,55 +40,91 @@ def new(
 @assignment_app.command("handout")
 def handout(
     assignment: options.Assignment,
-    form: Annotated[str | None, typer.Option("--format", metavar="NAME", help="html (default) or md.")] = None,
+    form: Annotated[
+        str | None,
+        typer.Option("--format", metavar="NAME", help="html (default), md, or page: with a field for each answer."),
+    ] = None,
     out: Annotated[
         Path | None,
-        typer.Option("--out", metavar="PATH", help="The file, whose ending decides the format."),
+        typer.Option(
+            "--out", metavar="PATH", help="The file, whose ending decides the format; with --roster a folder."
+        ),
     ] = None,
     student: Annotated[
-        str | None, typer.Option("--student", metavar="NAME", help="The student whose variant is written.")
+        str | None, typer.Option("--student", metavar="NAME", help="The student whose sheet is written.")
     ] = None,
+    roster: Annotated[
+        Path | None, typer.Option("--roster", metavar="TABLE.csv", help="Write a sheet for everyone in the course.")
+    ] = None,
+    runtime: Runtime = None,
 ) -> None:
     """Write the handout for students, with pictures and notation.
 
-    It states the problems, the names and how answers are written, and gives no answer away.
+    It states the problems, the names and how answers are written, and gives no answer away. A `page` shows how each
+    answer is read as it is typed, and saves the file to submit; `runtime.js`, which does so, is put beside the pages.
     """
+    from dofkit.homework.answers.roster import load_roster
     from dofkit.homework.assignment import load_assignment
-    from dofkit.homework.handout.sheets import HANDOUTS, remarks, write_sheet, written_sheet
+    from dofkit.homework.handout.class_sheets import sheets_of, write_handout, write_sheets
+    from dofkit.homework.handout.sheets import remarks
     from dofkit.homework.variants import sheet_of
 
     with failures_of(assignment):
-        form = form or "html" if out is None else format_of_path(out, HANDOUTS, form)
         prepared = load_assignment(assignment)
-        target = Path(assignment).with_suffix(f".{form}") if out is None else out
-        if target.resolve() == Path(assignment).resolve():
-            raise typer.BadParameter("it would overwrite the assignment", param_hint="--out")
-        if student is not None:
-            prepared = sheet_of(prepared, student)
-        write_sheet(written_sheet(prepared, drawing(), student), form, target)
+        if roster is not None:
+            form, target = form or "html", out or Path(assignment).with_suffix("")
+            write_sheets(sheets_of(prepared, load_roster(roster)), form, drawing(), target)
+        else:
+            form, target = handout_file(Path(assignment), form, out)
+            prepared = prepared if student is None else sheet_of(prepared, student)
+            write_handout(prepared, form, drawing(), target, student)
     for remark in remarks(prepared):
         typer.echo(f"{assignment}: {remark}", err=True)
+    with_runtime(form, target if roster else target.parent, runtime)
     typer.echo(target)
+
+
+def handout_file(assignment: Path, form: str | None, out: Path | None) -> tuple[str, Path]:
+    """Return the format of one handout and its path; the ending of a path decides where no format is asked for."""
+    from dofkit.homework.handout.class_sheets import ENDINGS
+
+    ending = ENDINGS.get(form or "html", form or "html")
+    if out is not None:
+        ending = format_of_path(out, ("html", "md"), ending if form else None)
+    path = assignment.with_suffix(f".{ending}") if out is None else out
+    if path.resolve() == assignment.resolve():
+        raise typer.BadParameter("it would overwrite the assignment", param_hint="--out")
+    return form or ending, path
+
+
+def with_runtime(form: str, folder: Path, runtime: Path | None) -> None:
+    """Put what reads answers beside pages with fields, or say why it is missing: the pages work without it."""
+    from dofkit.homework.handout.page_sheets import BUILT, RuntimeMissingError, put_runtime
+
+    if form == "page":
+        try:
+            put_runtime(folder, runtime or BUILT)
+        except RuntimeMissingError as error:
+            typer.echo(error, err=True)
 
 
 @assignment_app.command("practice")
 def practice(
     assignment: options.Assignment,
     out: Annotated[Path, typer.Option("--out", metavar="FOLDER", callback=options.folder, help="The folder to write.")],
-    bench: Annotated[
-        Path | None,
-        typer.Option("--bench", metavar="FOLDER", help="A bench as the site has it; by default that of this clone."),
-    ] = None,
+    runtime: Runtime = None,
 ) -> None:
-    """Write a practice sheet: a static page that reads answers as they are typed, and judges them on request.
+    """Write a practice sheet: a page that reads answers as they are typed, and judges them on request.
 
     Nothing is handed in and nothing leaves the browser. Whoever reads the source of the page can find the key.
     """
     from dofkit.homework.assignment import load_assignment
-    from dofkit.homework.handout.page_sheets import BENCH, write_practice
+    from dofkit.homework.handout.page_sheets import BUILT, put_runtime, write_page
 
     with failures_of(assignment):
-        write_practice(load_assignment(assignment), drawing(), out, bench or BENCH)
+        prepared = load_assignment(assignment)
+        put_runtime(out, runtime or BUILT)
+        write_page(prepared, drawing(), out / "index.html", judges=True)
     typer.echo(out / "index.html")
 
 
@@ -112,8 +155,9 @@ def vary(
     seed: Annotated[str, typer.Option("--seed", metavar="TEXT", help="The seed of the variants: keep it.")],
     out: Annotated[Path, typer.Option("--out", metavar="FOLDER", callback=options.folder, help="The folder to write.")],
     form: Annotated[
-        str, typer.Option("--format", metavar="NAME", help="The format of the handouts: html or md.")
+        str, typer.Option("--format", metavar="NAME", help="The format of the handouts: html, md or page.")
     ] = "html",
+    runtime: Runtime = None,
 ) -> None:
     """Write a variant for every student.
 
@@ -123,13 +167,14 @@ def vary(
     roster changes.
     """
     from dofkit.homework.answers.roster import load_roster
-    from dofkit.homework.handout.class_sheets import class_sheets, write_class
+    from dofkit.homework.handout.class_sheets import SHEETS, class_sheets, write_class
 
     with failures_of(assignment):
         made = class_sheets(assignment, load_roster(roster), seed, out)
         write_class(made, form, drawing(), out)
     for remark in made.remarks():
         typer.echo(f"{assignment}: {remark}", err=True)
+    with_runtime(form, out / SHEETS, runtime)
     typer.echo(f"{out}: {len(made.variants.students)} sheets")
 
 

@@ -246,16 +246,12 @@ def schema(of: options.SchemaName = "scene") -> None:
 
         typer.echo(json.dumps(scene_schema(), indent=2))
         return
-    from dofkit.benchmark.record import ChartRun
     from dofkit.homework.schemas import SCHEMAS
-    from dofkit.scene.schema import identified
 
-    if of == "chart":
-        typer.echo(json.dumps(identified(ChartRun.model_json_schema(), of), indent=2))
-    elif of in SCHEMAS:
+    if of in SCHEMAS:
         typer.echo(json.dumps(SCHEMAS[of](), indent=2))
     else:
-        raise typer.BadParameter(f"'{of}' is none of scene, {', '.join(SCHEMAS)}, chart", param_hint="WHAT")
+        raise typer.BadParameter(f"'{of}' is none of scene, {', '.join(SCHEMAS)}", param_hint="WHAT")
 
 
 @app.command(rich_help_panel=MORE)

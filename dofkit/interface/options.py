@@ -182,7 +182,7 @@ _LOOP = "Move free coordinates round a closed loop, and show whether the others 
 Loop = Annotated[bool, flag("--loop", _LOOP)]
 _DRAWN_AS = "mechanism; graph: constraints and what they constrain; directions: those of a growth vector."
 DrawnAs = Annotated[str, Option("--as", metavar="KIND", callback=_one_of(DRAWN_AS), help=_DRAWN_AS)]
-_LINEARIZE = "Add the matrices M, C and K of small motions about an equilibrium."
+_LINEARIZE = "Add the matrices M, C and K about the reference configuration, or about zero."
 Linearize = Annotated[bool, flag("--linearize", _LINEARIZE)]
 
 # Of `grade`
@@ -208,7 +208,7 @@ _CATALOG = "Words that occur in a scene; or `show` and the name of a scene."
 CatalogWords = Annotated[
     list[str] | None, Argument(metavar="WORD", show_default=False, help=_CATALOG, autocompletion=_catalogued)
 ]
-SchemaName = Annotated[str, Argument(metavar="WHAT", help="scene, assignment, submission, result, report or chart.")]
+SchemaName = Annotated[str, Argument(metavar="WHAT", help="scene, assignment, submission, result or report.")]
 
 # Of `chart`
 

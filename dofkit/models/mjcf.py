@@ -18,7 +18,7 @@ from dofkit.base.runs import shared
 from dofkit.base.workers import Job
 from dofkit.models.markup import Element, read_markup
 from dofkit.models.model_document import (
-    OVER,
+    JointRange,
     JointSum,
     ModelDocument,
     ModelFile,
@@ -30,7 +30,6 @@ from dofkit.models.model_document import (
     relation,
     tolerance_of,
     vector,
-    whole_turns,
 )
 from dofkit.system import GROUND
 
@@ -200,32 +199,23 @@ class _MjcfScene:
 
     def _ranges(self) -> None:
         """Add ranges of joints and tendons: as inequalities where they are asked for, else as left out."""
-        ranged = {
-            name: self.content["joints"][i] for i, name in self.names.items() if self.content["joints"][i]["range"]
-        }
-        plain = {name: joint for name, joint in ranged.items() if joint["kind"] != "ball"}
-        tendons = [(i, t) for i, t in enumerate(self.content["tendons"]) if t["range"]]
-        if not self.limits:
-            ranges = [f"{name} from {j['range'][0]:.4g} to {j['range'][1]:.4g}" for name, j in ranged.items()]
-            if ranges:
-                self.draft.leave_out(
-                    f"the ranges of joints ({listed(ranges)}): with `--limits` they become inequalities"
-                )
-            if tendons:
-                self.draft.leave_out(f"the ranges of tendons ({listed(t['name'] or str(i) for i, t in tendons)})")
-            return
-        for name, joint in plain.items():
-            turns = whole_turns(joint["drawn"], joint["range"]) if joint["kind"] == "hinge" else 0.0
-            if turns is None:
-                self.draft.leave_out(f"the range of {name}: {OVER}")
-                continue
-            fields = bounds(JointSum(((name, 1.0),), joint["drawn"] + turns), joint["range"])
-            self.draft.constraint(f"{name} range", "coupling", self.line.get(("joint", joint["name"])), **fields)
-        balls = [name for name in ranged if name not in plain]
-        if balls:
+        joints = [(name, self.content["joints"][i]) for i, name in self.names.items()]
+        ranged = [(name, j) for name, j in joints if j["range"] and not (self.limits and j["kind"] == "ball")]
+        lines = [self.line.get(("joint", j["name"])) for _, j in ranged]
+        self.draft.ranges(
+            [
+                JointRange(name, j["kind"] == "hinge", j["drawn"], j["range"], line)
+                for (name, j), line in zip(ranged, lines, strict=True)
+            ],
+            self.limits,
+        )
+        if self.limits and (balls := [name for name, j in joints if j["range"] and j["kind"] == "ball"]):
             self.draft.leave_out(f"the ranges of {listed(balls)}: of ball joints")
-        for i, tendon in tendons:
-            total, name = self._fixed_tendon(i), tendon["name"] or f"tendon_{i}"
+        tendons = [(i, t["name"] or f"tendon_{i}", t) for i, t in enumerate(self.content["tendons"]) if t["range"]]
+        if tendons and not self.limits:
+            self.draft.leave_out(f"the ranges of tendons ({listed(name for _, name, _ in tendons)})")
+        for i, name, tendon in tendons if self.limits else ():
+            total = self._fixed_tendon(i)
             if total is None:
                 self.draft.leave_out(f"the range of the tendon {name}: it runs through space")
             else:

@@ -55,6 +55,16 @@ class ModelDocument:
     tolerance: float | None = None
 
 
+class JointRange(NamedTuple):
+    """The range of a joint's value: its constraint, whether that is an angle, and where it is drawn."""
+
+    joint: str
+    turns: bool
+    drawn: float
+    between: Sequence[float]
+    line: int | None
+
+
 @dataclass
 class SceneDraft:
     """A scene while it is written; names of the model are kept as far as a scene can have them."""
@@ -105,6 +115,20 @@ class SceneDraft:
         self._at(("constraints", len(self.constraints)), line)
         self.constraints.append({"name": unique_name, "type": kind, **fields})
         return unique_name
+
+    def ranges(self, ranged: Sequence[JointRange], limits: bool) -> None:
+        """Add the ranges of joints: as inequalities with ``limits``, else as what was left out."""
+        if ranged and not limits:
+            named = listed(f"{r.joint} from {r.between[0]:.4g} to {r.between[1]:.4g}" for r in ranged)
+            self.leave_out(f"the ranges of joints ({named}): with `--limits` they become inequalities")
+            return
+        for joint, turns_about, drawn, between, line in ranged:
+            turns = whole_turns(drawn, between) if turns_about else 0.0
+            if turns is None:
+                self.leave_out(f"the range of {joint}: {OVER}")
+            else:
+                fields = bounds(JointSum(((joint, 1.0),), drawn + turns), between)
+                self.constraint(f"{joint} range", "coupling", line, **fields)
 
     def leave_out(self, what: str, binding: bool = False) -> None:
         """Note once what was not read, and why. ``binding``: it is a constraint, and would reduce the freedom."""

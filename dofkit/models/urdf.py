@@ -16,19 +16,17 @@ import numpy as np
 from dofkit.base.errors import Fault, SceneError
 from dofkit.models.model_document import (
     FINEST,
-    OVER,
+    JointRange,
     JointSum,
     ModelDocument,
     ModelFile,
     SceneDraft,
-    bounds,
     inertia_of,
     listed,
     number,
     relation,
     tolerance_of,
     vector,
-    whole_turns,
 )
 from dofkit.models.urdf_elements import (
     FIXED,
@@ -49,9 +47,6 @@ _KINDS = {
     "revolute": "revolute", "continuous": "revolute", "prismatic": "prismatic", "fixed": "weld", "planar": "planar",
     "ball": "spherical", "spherical": "spherical", "cylindrical": "cylindrical",
 }  # fmt: skip
-#: An angle that differs by more than the first and less than the second from a multiple of pi/2 is taken as rounded.
-EXACT_ANGLE, ROUNDED_ANGLE = 1e-12, 1e-5
-
 #: What the joints of a chain may add up to, in tolerances.
 SLACK = 8.0
 #: Which of a joint's ends may turn about its axis, and move along it.
@@ -114,7 +109,8 @@ class _UrdfScene:
         for loop in robot.loops:
             self._loop(loop, poses.pose)
         self._mimics()
-        self._ranges()
+        ranged = [joint for joint in robot.joints if joint.range and joint.kind in SCALAR]
+        self.draft.ranges([self._range(joint) for joint in ranged], self.limits)
         self._remarks()
         loops = bool(robot.loops or poses.closing)
         return self.draft.document(tolerance, loops)
@@ -168,41 +164,15 @@ class _UrdfScene:
             fields = relation(JointSum(((self.names[joint.name], 1.0),)), right, [0.0, joint.mimic.factor])
             self.draft.constraint(f"{joint.name} mimics {joint.mimic.joint}", "coupling", joint.mimic.line, **fields)
 
-    def _ranges(self) -> None:
-        ranged = [joint for joint in self.robot.joints if joint.range and joint.kind in SCALAR]
-        if ranged and not self.limits:
-            ranges = [f"{j.name} from {j.range[0]:.4g} to {j.range[1]:.4g}" for j in ranged if j.range]
-            self.draft.leave_out(f"the ranges of joints ({listed(ranges)}): with `--limits` they become inequalities")
-            return
-        for joint in ranged:
-            stands, between = self.drawn.get(joint.name, 0.0), joint.range or ()
-            turns = 0.0 if joint.kind == "prismatic" else whole_turns(stands, between)
-            if turns is None:
-                self.draft.leave_out(f"the range of {joint.name}: {OVER}")
-                continue
-            fields = bounds(JointSum(((self.names[joint.name], 1.0),), stands + turns), between)
-            self.draft.constraint(f"{joint.name} range", "coupling", joint.line, **fields)
+    def _range(self, joint: RobotJoint) -> JointRange:
+        drawn, turns = self.drawn.get(joint.name, 0.0), joint.kind != "prismatic"
+        return JointRange(self.names[joint.name], turns, drawn, joint.range or (), joint.line)
 
     def _remarks(self) -> None:
         if any(body.get("mass") for body in self.draft.bodies):
             self.draft.forces.append({"type": "gravity", "acceleration": [0, 0, -9.81]})
-        for remark in (*self.robot.unread, *_rounded_angles(self.robot)):
+        for remark in self.robot.unread:
             self.draft.leave_out(remark)
-
-
-def _rounded_angles(robot: Robot) -> Iterator[str]:
-    """Yield a sentence about every angle that is nearly, but not exactly, a multiple of a right angle."""
-    for element in robot.root.every():
-        for text in element.get("rpy").split():
-            turns = round(float(text) / (math.pi / 2))
-            gap = abs(float(text) - turns * math.pi / 2)
-            if EXACT_ANGLE < gap < ROUNDED_ANGLE:
-                size = {0: "0", 1: "pi/2", 2: "pi"}.get(abs(turns), f"{abs(turns)} pi/2")
-                meant = f"-{size}" if turns < 0 else size
-                yield (
-                    f"line {element.line}: the angle {text} is not equal to {meant} but within 1e-5 of it, so it is "
-                    "probably rounded; it is used as written"
-                )
 
 
 def _written(robot: Robot) -> Iterator[str]:

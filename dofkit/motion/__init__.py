@@ -7,8 +7,8 @@ does a motion pass through? The results are a `MotionReport` and a list of confi
     1. `energies` reads T, V, D and the applied forces of a scene; `joint_motion` gives those of a tree of bodies in
        the angles and displacements of its joints.
     2. `elimination` solves finite relations in closed form; `model` has the energies and the constraints that are left.
-    3. `derivation` has Lagrange's equations of the second kind by SymPy, which `tidying` writes as on a board.
-    4. `small_motions` has equilibria and the linearization about one, `equations` cyclic coordinates and first
+    3. `derivation` has Lagrange's equations of the second kind, which `tidying` writes as on a board.
+    4. `small_motions` has the linearization about an equilibrium, `equations` cyclic coordinates and first
        integrals [Noether1918] and the entry point `dofkit.lagrange`, `report` its result.
     Every equation can be rechecked by `dofkit.checker`.
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from itertools import islice
 
 import numpy as np
@@ -16,8 +17,8 @@ from dofkit.exact.points.balls import precise_for
 from dofkit.exact.points.real_search import RealSearch
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.motion.continuation import STRAIGHT, Follower, Reached
-from dofkit.motion.poses import Pose, PoseRelations, number
+from dofkit.motion.continuation import STRAIGHT, Follower, Reached, Ways
+from dofkit.motion.poses import Array, Pose, PoseRelations, number
 from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian, Reduced
 from dofkit.relations.setting import Setting
@@ -70,8 +71,7 @@ def configurations(
     list of dict
         At most ``2 steps + 1`` mappings from the names of coordinates (and ``t``) to numbers: lengths in the scene's
         units, angles in radians. Each satisfies the holonomic equations g, hidden ones included, to 1e-12 |grad g|
-        times the size; a differential constraint is satisfied at the midpoint of every chord, a sixteenth of a step
-        long.
+        times the size; a differential constraint is satisfied at the midpoint of every chord, at most 1/100 long.
 
     Raises
     ------
@@ -93,22 +93,26 @@ def configurations(
     source = scene_or_system(scene)
     system = source if isinstance(source, System) else lower(source)
     try:
-        with limited(DEFAULT_SECONDS), precise_for(system.longest):
-            return MotionSampler(system, dict(values or {}), along).configurations(steps, step, both)
+        with sampling(system):
+            return MotionSampler(system, dict(values or {})).configurations(steps, step, along, both=both)
     except OutOfTimeError as error:
         raise NoMotionError(str(error)) from None
+
+
+@contextmanager
+def sampling(system: System, seconds: float = DEFAULT_SECONDS) -> Iterator[None]:
+    """Sample motions of a system within a time limit, as precisely as its numbers ask for. Raises OutOfTimeError."""
+    with limited(seconds), precise_for(system.longest):
+        yield
 
 
 class MotionSampler:
     """A system with its relations, a follower, and the first pose."""
 
-    def __init__(self, system: System, numbers: Mapping[str, float], along: str | None) -> None:
+    def __init__(self, system: System, numbers: Mapping[str, float]) -> None:
         reduced, setting = prepared(system)
-        outcome = solve(system, reduced, setting)
-        names = [c.name for c in system.coordinates]
-        if along is not None and along not in names:
-            raise NoMotionError(no_such(along, names, "coordinate"))
-        self.system, self.setting, self.along, self.names = system, setting, along, names
+        outcome = solve(reduced, setting)
+        self.system, self.setting, self.names = system, setting, [c.name for c in system.coordinates]
         self.numbers = _known_symbols(system, numbers)
         self.relations = _relations(system, outcome, setting, _limits(reduced, outcome))
         self.relations.constants |= {s: v for s, v in self.numbers.items() if s.args[0] == "parameter"}
@@ -143,28 +147,53 @@ class MotionSampler:
                 return first_pose
         raise NoMotionError("no regular configuration was found that satisfies the constraints")
 
-    def configurations(self, steps: int, step: float, both: bool) -> list[dict[str, float]]:
-        """Backward, the first, forward."""
-        target = None if self.along is None else self.relations.axis(self.along, self.start)
-        ahead, back = self.follower.begin(self.start, target, step)
-        if target is None and ahead is back is None:
+    def configurations(
+        self, steps: int, step: float, along: str | None = None, *, both: bool = True
+    ) -> list[dict[str, float]]:
+        """Return the configurations backward, the first, and those forward."""
+        if along is not None and along not in self.names:
+            raise NoMotionError(no_such(along, self.names, "coordinate"))
+        target = None if along is None else self.relations.axis(along, self.start)
+        ways = self.follower.begin(self.start, target, step)
+        if target is None and not any(ways):
             raise NoMotionError("no motion was found that leaves the first configuration")
-        if target is not None and not any(w and abs(float(w.direction @ target)) > STILL for w in (ahead, back)):
-            raise NoMotionError(f"'{self.along}' cannot move at the first configuration")
-        forward, closed = self._way(ahead, steps, step)
-        backward = self._way(back, steps, step)[0] if both and not closed else []
+        if target is not None and not any(w and abs(float(w.direction @ target)) > STILL for w in ways):
+            raise NoMotionError(f"'{along}' cannot move at the first configuration")
+        return self._followed(self.follower, ways, steps, step, both)
+
+    def free_motion(
+        self, rates: Mapping[Expr, float], held: Sequence[Expr], steps: int, step: float
+    ) -> list[dict[str, float]]:
+        """Return configurations along a motion that begins with some velocities, while the ``held`` symbols rest."""
+        rows = np.array([self.relations.step_of({symbol: 1.0}) for symbol in held])
+        follower = Follower(self.relations, 1, rows.reshape(-1, self.relations.columns))
+        ways = follower.begin(self.start, self.relations.step_of(rates), step)
+        return self._followed(follower, ways, steps, step)
+
+    def branches(self, steps: int, step: float) -> Iterator[tuple[Array, list[dict[str, float]]]]:
+        """Yield each motion that was found to leave a singular first configuration: its direction, configurations."""
+        for ways in self.follower.branches(self.start, step):
+            direction = next(way.direction for way in ways if way)
+            yield direction, self._followed(self.follower, ways, steps, step)
+
+    def _followed(
+        self, follower: Follower, ways: Ways, steps: int, step: float, both: bool = True
+    ) -> list[dict[str, float]]:
+        ahead, back = ways
+        forward, closed = self._way(follower, ahead, steps, step)
+        backward = self._way(follower, back, steps, step)[0] if both and not closed else []
         if steps and not forward and not backward:
             raise NoMotionError("no motion was followed that leaves the first configuration")
         middle = self.values(self.start, {})
         return [*reversed(self._values_along(backward, middle)), middle, *self._values_along(forward, middle)]
 
-    def _way(self, start: Reached | None, steps: int, step: float) -> tuple[list[Pose], bool]:
+    def _way(self, follower: Follower, start: Reached | None, steps: int, step: float) -> tuple[list[Pose], bool]:
         """The poses of one way, and whether it closes up."""
         poses: list[Pose] = []
         if start is None:
             return poses, False
-        closing = self.follower.freedom == 1 and not self.relations.timed and not self.relations.forms
-        for reached in islice(self.follower.path(start, step), steps):
+        closing = follower.freedom == 1 and follower.clock is None and not self.relations.forms
+        for reached in islice(follower.path(start, step), steps):
             if self._stopped(reached.pose):
                 break
             poses.append(reached.pose)
@@ -197,7 +226,7 @@ class MotionSampler:
 def _known_symbols(system: System, numbers: Mapping[str, float]) -> dict[Expr, float]:
     """Numbers for parameters and coordinates, by their symbols."""
     places = {c.name for c in system.coordinates}
-    names = places | set(system.parameters)
+    names = {*places, *system.parameters, *system.generic}
     wrong = sorted(set(numbers) - names)
     if wrong:
         message = f"'{wrong[0]}' is neither a coordinate nor a parameter without a value"
@@ -215,7 +244,7 @@ def _limits(reduced: Sequence[Reduced], outcome: Outcome) -> list[Expr]:
 
 def _relations(system: System, outcome: Outcome, setting: Setting, limits: Sequence[Expr]) -> PoseRelations:
     """What is to be held; raises where that is not possible."""
-    if system.functions:
+    if any("call" in r.expr.functions for c in system.constraints for r in c.relations):
         raise NoMotionError(f"'{next(iter(system.functions))}' is a function without a formula")
     if outcome.consistent is False:
         raise NoMotionError("nothing satisfies the constraints, or nothing through an interval of time")

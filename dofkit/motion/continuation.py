@@ -22,8 +22,8 @@ HELD, ROUNDS, EASY = 1e-12, 60, 8
 SMALL = 1e-7
 #: What a correction may add to a step, the least cosine between steps, and the least part of a step that is tried.
 SLACK, STRAIGHT, LEAST = 0.3, 0.9, 2.0**-12
-#: Parts of a step where forms are integrated.
-PARTS = 16
+#: The longest chord on which forms are integrated.
+CHORD = 1 / 100
 #: Directions in which a singular configuration is left, and how much of a step the first one is.
 TRIES, AWAY = 32, (1.0, 0.25, 0.0625, 0.015625)
 
@@ -41,11 +41,16 @@ Ways = tuple[Reached | None, Reached | None]
 
 
 class Follower:
-    """Motions on the relations; ``freedom``: the dimension of the admissible directions at a regular pose."""
+    """Motions on the relations; ``freedom``: the dimension of the admissible directions at a regular pose.
 
-    def __init__(self, relations: PoseRelations, freedom: int) -> None:
+    ``held``: directions, as rows, in which nothing moves besides; the freedom is what they leave.
+    """
+
+    def __init__(self, relations: PoseRelations, freedom: int, held: Array | None = None) -> None:
         self.relations, self.freedom = relations, freedom
-        self.clock = relations.time if relations.timed else None
+        self.held = np.zeros((0, relations.columns)) if held is None else held
+        runs = relations.timed and not np.any(self.held[:, relations.time])
+        self.clock = relations.time if runs else None
 
     def holds(self, pose: Pose) -> bool:
         """Return whether the finite relations are satisfied."""
@@ -71,7 +76,7 @@ class Follower:
     def null_space(self, pose: Pose) -> Array:
         """An orthonormal basis of the admissible directions to first order, as rows."""
         _, j = self.relations.at(pose)
-        rows = np.vstack([j, self.relations.forms_at(pose)])
+        rows = np.vstack([j, self.relations.forms_at(pose), self.held])
         if not rows.size:
             return np.eye(self.relations.columns)
         _, singular, right = np.linalg.svd(rows)
@@ -95,7 +100,7 @@ class Follower:
         """What is reached step by step, as long as the motion goes on."""
         current = start
         while True:
-            remaining, part = step, step / PARTS if self.relations.forms else step
+            remaining, part = step, min(step, CHORD) if self.relations.forms else step
             if self.clock is not None:
                 remaining -= abs(float(current.pose.plain[-1])) % step if current is start else 0.0
             while remaining > step * LEAST / 2:
@@ -118,7 +123,7 @@ class Follower:
                 along[0] = wanted / np.linalg.norm(wanted)
             else:
                 along[0, self.clock] = 1.0
-            pose = self.stepped(current.pose, wanted, along)
+            pose = self.stepped(current.pose, wanted, np.vstack([along, self.held]))
             if pose is None:
                 return None
             made = self.relations.between(current.pose, pose)
@@ -174,6 +179,9 @@ class Follower:
         return weights
 
     def _leave(self, pose: Pose, target: Array | None, step: float, basis: Array) -> Ways:
+        return self._both_ways(pose, self._departures(pose, step, basis), target)
+
+    def _departures(self, pose: Pose, step: float, basis: Array) -> list[Reached]:
         """At a singular pose: regular ones close to it, reached from random directions; else singular ones."""
         rng = np.random.default_rng(3)
         singular: list[Reached] = []
@@ -186,8 +194,17 @@ class Follower:
                     continue
                 (regular if len(self.null_space(reached.pose)) == self.freedom else singular).append(reached)
             if regular:
-                return self._both_ways(pose, regular, target)
-        return self._both_ways(pose, singular, target)
+                return regular
+        return singular
+
+    def branches(self, pose: Pose, step: float) -> list[Ways]:
+        """Return the motions that were found to leave a singular pose, each forward and backward."""
+        departures = self._departures(pose, step, self.null_space(pose))
+        branches: list[Reached] = []
+        for reached in departures:
+            if all(abs(float(reached.direction @ other.direction)) < STRAIGHT for other in branches):
+                branches.append(reached)
+        return [self._both_ways(pose, [reached], reached.direction) for reached in branches]
 
     def _reached(self, pose: Pose, step: Array) -> Reached | None:
         length = float(np.linalg.norm(step))

@@ -14,14 +14,13 @@ from itertools import combinations
 
 import numpy as np
 
-from dofkit.base.deadline import DEFAULT_SECONDS, OutOfTimeError, limited
-from dofkit.exact.points.balls import precise_for
-from dofkit.motion.configurations import MotionSampler, NoMotionError
+from dofkit.base.deadline import OutOfTimeError
+from dofkit.motion.configurations import MotionSampler, NoMotionError, sampling
 from dofkit.motion.poses import FAULTS, Array, Pose
 from dofkit.system import System
 
 #: Corners of a loop, the loops that are followed at most, and the steps of differences.
-CORNERS, MOST_LOOPS, OUTER, INNER = 72, 3, 1e-3, 1e-4
+CORNERS, MOST_LOOPS, OUTER, INNER = 72, 2, 1e-3, 1e-4
 #: The least part of the largest column that makes a column one of those that are moved.
 LEAST = 0.2
 ONE_FIELD = "a loop needs two free velocities: with one, every motion runs back along itself"
@@ -47,8 +46,8 @@ class LoopSampler:
     """The loops of a system about its first configuration. Raises NoMotionError if it has none."""
 
     def __init__(self, system: System, numbers: Mapping[str, float]) -> None:
-        with limited(DEFAULT_SECONDS), precise_for(system.longest):
-            self.sampler = MotionSampler(system, numbers, None)
+        with sampling(system):
+            self.sampler = MotionSampler(system, numbers)
         self.relations, self.follower, self.start = self.sampler.relations, self.sampler.follower, self.sampler.start
         if self.relations.timed:
             raise NoMotionError("a loop needs constraints without time")
@@ -72,7 +71,7 @@ class LoopSampler:
     def loops(self, size: float) -> list[Loop]:
         """Return a loop for each pair of chosen coordinates, as far as they can be followed, largest bracket first."""
         try:
-            with limited(DEFAULT_SECONDS), precise_for(self.sampler.system.longest):
+            with sampling(self.sampler.system):
                 loops = [self._loop(pair, size) for pair in self.pairs]
         except OutOfTimeError:
             return []

@@ -163,6 +163,12 @@ class PoseRelations:
                 step[len(self.plain) + 3 * k :][:3] = axes[r.names.index(name)]
         return step
 
+    def step_of(self, rates: Mapping[Expr, float]) -> Array:
+        """Return the step in scaled columns that changes symbols so fast, with rotations as in the reference."""
+        plain = np.array([rates.get(s, 0.0) for s in self.plain]) / self.scales
+        turns = [2 * rates.get(ex.coordinate(n), 0.0) for r in self.rotations for n in r.names]
+        return np.concatenate([plain, turns])
+
     def same(self, pose: Pose, near: Pose) -> Pose:
         """``pose`` with full turns added to the angles, so as to be near another."""
         turns = np.where(self.angles, np.round((near.plain - pose.plain) / (2 * math.pi)), 0.0)

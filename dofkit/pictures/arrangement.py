@@ -6,7 +6,7 @@ The positions are those of the reference configuration, or some that satisfy the
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import combinations, pairwise
@@ -59,16 +59,15 @@ class Arrangement:
             numbers = {**numbers, **_euler_values(self.system, poses, numbers)}
         return poses | {name: placement.pose(numbers) for name, placement in moving.items()}
 
-    def frames(self, path: Iterable[Mapping[str, float]]) -> list[dict[str, Displacement]]:
-        """Return where every carrier is at some configurations, which have the Euler angles of bodies in space."""
-        numbers = dict(self.numbers)
-        moved = ({TIME if n == TIME.args[1] else coordinate(n): v for n, v in q.items()} for q in path)
-        return [self.poses_at(numbers | symbols, gibbs=False) for symbols in moved]
+    def along(self, path: Iterable[Mapping[str, float]]) -> Iterator[dict[Expr, float]]:
+        """Yield the numbers at some configurations, which have the Euler angles of bodies in space."""
+        for q in path:
+            yield {**self.numbers, **{TIME if n == TIME.args[1] else coordinate(n): v for n, v in q.items()}}
 
     @property
     def first_values(self) -> dict[str, float]:
         """The values of parameters, and of coordinates without a reference, at which a motion begins."""
-        values = {p: self.numbers[parameter(p)] for p in self.system.parameters}
+        values = {p: self.numbers[parameter(p)] for p in (*self.system.parameters, *self.system.generic)}
         if self.system.reference is None:
             turning = {n for r in self.system.rotations for n in r.names}
             names = [c.name for c in self.system.coordinates if c.name not in turning]
@@ -273,9 +272,10 @@ def _from_gibbs(g: Array) -> Array:
 
 
 class FreeMotion(NamedTuple):
-    """A velocity that the constraints allow: ``rates`` of symbols; ``name`` of the coordinate that it moves alone."""
+    """A velocity that the constraints allow: ``rates`` of symbols; the ``symbol`` that it moves alone, and its name."""
 
     name: str
+    symbol: Expr
     rates: Mapping[Expr, float]
 
 
@@ -293,9 +293,16 @@ def free_motions(arrangement: Arrangement, chosen: Sequence[str] = (), freedom: 
     order += [names.index(n) for n in chosen if n in names]
     order += [k for k in range(len(names)) if k not in order]
     reduced, pivots = by_pivots(basis, order)
+    turning = {
+        name: f"{r.body} about {letter}"
+        for r in arrangement.system.rotations
+        if r.chart == "gibbs"
+        for name, letter in zip(r.names, "xyz", strict=True)
+    }
+    titles = {**turning, "t": "time"} if timed else turning
     return [
-        FreeMotion(names[pivot], dict(zip(columns, map(float, row), strict=True)))
-        for row, pivot in zip(reduced, pivots, strict=False)
+        FreeMotion(titles.get(names[k], names[k]), columns[k], dict(zip(columns, map(float, row), strict=True)))
+        for row, k in zip(reduced, pivots, strict=False)
     ]
 
 
@@ -341,5 +348,10 @@ def movers(arrangement: Arrangement, motions: Sequence[FreeMotion]) -> frozenset
 
 def displaced(arrangement: Arrangement, motion: FreeMotion, far: float) -> dict[str, Displacement]:
     """Return where every carrier is after a step along a motion."""
+    return arrangement.poses_at(moved_numbers(arrangement, motion, far), gibbs=True)
+
+
+def moved_numbers(arrangement: Arrangement, motion: FreeMotion, far: float) -> dict[Expr, float]:
+    """Return the numbers after a step along a motion."""
     moved = {s: arrangement.numbers.get(s, 0.0) + far * rate for s, rate in motion.rates.items()}
-    return arrangement.poses_at({**arrangement.numbers, **moved}, gibbs=True)
+    return {**arrangement.numbers, **moved}

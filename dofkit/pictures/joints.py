@@ -45,7 +45,7 @@ def joint_shapes(stage: StagedScene, number: int) -> Iterator[Shape]:
         yield Shape("line", ends, "guide", state, name)
     grounded = GROUND in connection.members or len(members) == 1
     if grounded and strokes and (stage.flat or not symbol.rails):
-        yield from _footing(stage, number, at, frame)
+        yield from (shape._replace(owner=name, state=state) for shape in _footing(stage, number, at, frame))
 
 
 def _frame(stage: StagedScene, connection: Connection) -> Array:

@@ -18,7 +18,7 @@ from dofkit.pictures.stage import StagedScene
 from dofkit.system import Connection, Relation
 
 #: Points of a grid in the plane, and in each slice of space; slices in each direction; points of a drawn line.
-GRID, SLICE_GRID, SLICES, DRAWN = 161, 41, 7, 60
+GRID, SLICE_GRID, SLICES, DRAWN = 161, 41, 7, 40
 #: Steps of a curve in space to either side.
 STEPS = 220
 

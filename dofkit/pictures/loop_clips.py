@@ -15,8 +15,8 @@ from dofkit.pictures.stage import StagedScene
 from dofkit.pictures.words import sure
 from dofkit.report import Report
 
-#: Radii of loops, in radians or parts of the scene's size; each such frame is kept; a smaller displacement is rounding.
-SIZES, EVERY, CLOSED = (0.25, 0.5, 0.8), 2, 1e-9
+#: Radii of loops, in radians or parts of the scene's size; one frame of so many is kept; less displacement is none.
+SIZES, EVERY, CLOSED = (0.25, 0.5, 0.8), 3, 1e-9
 
 
 def loop_clips(stage: StagedScene) -> list[Clip]:
@@ -30,8 +30,9 @@ def loop_clips(stage: StagedScene) -> list[Clip]:
 
 
 def _clip(stage: StagedScene, loop: Loop) -> Clip:
-    frames = tuple(stage.arrangement.frames(loop.configurations[::EVERY]))
-    return Clip(f"loop of {' and '.join(loop.coordinates)}", frames, size=loop.size, text=_words(loop), loop=True)
+    path = tuple(stage.arrangement.along(loop.configurations[::EVERY]))
+    frames = tuple(stage.arrangement.poses_at(numbers, gibbs=False) for numbers in path)
+    return Clip(f"loop of {' and '.join(loop.coordinates)}", frames, path, size=loop.size, text=_words(loop), loop=True)
 
 
 def _words(loop: Loop) -> str:

@@ -5,8 +5,9 @@
   const data = JSON.parse(document.getElementById("data").textContent);
   const canvas = document.querySelector("canvas");
   const pen = canvas.getContext("2d");
-  const solid = data.dimension === 3;
-  const state = { clip: 0, frame: 0, playing: false, azimuth: data.view[0], elevation: data.view[1] };
+  const program = data.program, solid = data.dimension === 3, planar = program && planarScene(program);
+  /* `free`: coordinates to which a point was dragged; `off`: the constraints that are left out. */
+  const state = { clip: 0, frame: 0, playing: false, azimuth: data.view[0], elevation: data.view[1], free: null, off: new Set() };
   const night = window.matchMedia("(prefers-color-scheme: dark)");
   let hatch = makeHatch();
 
@@ -37,27 +38,31 @@
 
   function dot(row, p) { return row[0] * p[0] + row[1] * p[1] + row[2] * p[2]; }
 
+  /* A pose as nine numbers of a rotation, by rows, and a shift: from the vector part of a unit quaternion. */
+  function posed(row) {
+    const [x, y, z] = row.length > 3 ? row.slice(3) : [0, 0, 0], w = Math.sqrt(Math.max(0, 1 - x * x - y * y - z * z));
+    return { turn: [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y), 2 * (x * y + w * z), 1 - 2 * (x * x + z * z),
+      2 * (y * z - w * x), 2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)], shift: row.slice(0, 3) };
+  }
+
   function moved(pose, p) {
-    if (pose.length === 3) { return [p[0] + pose[0], p[1] + pose[1], p[2] + pose[2]]; }
-    if (pose.length === 5) {
-      const c = pose[3], s = pose[4];
-      return [c * p[0] - s * p[1] + pose[0], s * p[0] + c * p[1] + pose[1], p[2] + pose[2]];
-    }
-    return [dot(pose.slice(3, 6), p) + pose[0], dot(pose.slice(6, 9), p) + pose[1], dot(pose.slice(9, 12), p) + pose[2]];
+    return [0, 1, 2].map(function (k) { return dot(pose.turn.slice(3 * k, 3 * k + 3), p) + pose.shift[k]; });
+  }
+
+  const still = planar ? planar.placed(program.start) : data.still.map(posed);
+
+  function posesOf(clip) {
+    clip.poses = clip.poses || clip.frames.map(planar ? planar.placed : function (frame) { return frame.map(posed); });
+    return clip.poses;
   }
 
   function poses() {
     const clip = data.clips[state.clip];
-    return clip ? clip.frames[state.frame] : data.still;
+    return state.free ? planar.placed(state.free) : clip ? posesOf(clip)[state.frame] : still;
   }
 
   /* A vertex on the panel: to the right, down, and how near. */
-  function seen(vertex, here, view) {
-    const p = moved(here[vertex[0]], [vertex[1], vertex[2], vertex[3]]);
-    const q = [p[0] - data.centre[0], p[1] - data.centre[1], p[2] - data.centre[2]];
-    return [data.shift[0] + data.scale * dot(view[0], q),
-      data.height - data.shift[1] - data.scale * dot(view[1], q), dot(view[2], q)];
-  }
+  function seen(vertex, here, view) { return onPanel(moved(here[vertex[0]], vertex.slice(1)), view); }
 
   function hullOf(points, pad) {
     const cloud = [];
@@ -110,14 +115,24 @@
     trace([a, b, [foot[0] + side[0], foot[1] + side[1]], b, [foot[0] - side[0], foot[1] - side[1]]], false);
   }
 
-  /* Paths of vertices: of a loop as far as it has gone, with the displacement at its end as an arrow. */
+  function onPanel(p, view) {
+    const q = [p[0] - data.centre[0], p[1] - data.centre[1], p[2] - data.centre[2]];
+    return [data.shift[0] + data.scale * dot(view[0], q),
+      data.height - data.shift[1] - data.scale * dot(view[1], q), dot(view[2], q)];
+  }
+
+  /* Paths of vertices: of a loop as far as it has gone, with the displacement at its end as an arrow; velocities. */
   function drawPaths(view) {
     const clip = data.clips[state.clip];
-    if (!clip || !(paths.checked || clip.loop)) { return; }
+    if (!clip || state.free) { return; }
+    for (const [from, to] of Math.abs(state.frame - clip.start) < 2 ? clip.arrows : []) {
+      arrow(onPanel(from, view), onPanel(to, view), 8);
+      paint(["#D55E00", 2, [], null], false);
+    }
     const until = clip.loop ? state.frame + 1 : clip.frames.length;
-    for (const vertex of data.traced) {
-      const path = clip.frames.slice(0, until).map(function (here) { return seen(vertex, here, view); });
-      trace(path, false);
+    for (const vertex of controls.paths.checked || clip.loop ? data.traced : []) {
+      const path = posesOf(clip).slice(0, until).map(function (here) { return seen(vertex, here, view); });
+      trace(path, Boolean(clip.closed));
       paint(["#CC79A7", 1.3, [], null], false);
       const end = path[path.length - 1];
       if (clip.loop && until === clip.frames.length && Math.hypot(end[0] - path[0][0], end[1] - path[0][1]) > 1) {
@@ -147,8 +162,7 @@
     pen.stroke();
   }
 
-  function drawShape(shape, points) {
-    const look = data.looks[shape.i];
+  function drawShape(shape, points, look) {
     if (shape.k === "ball") {
       pen.beginPath();
       pen.arc(points[0][0], points[0][1], shape.s * data.scale, 0, 2 * Math.PI);
@@ -209,6 +223,11 @@
     write(data.ruler[1], right - 0.5 * pen.measureText(data.ruler[1]).width, y + 10, "#6E6E6E", 7);
   }
 
+  /* How far two poses are apart. */
+  function gap(a, b) {
+    return Math.max(...[...a.turn, ...a.shift].map(function (x, k) { return Math.abs(x - [...b.turn, ...b.shift][k]); }));
+  }
+
   function draw() {
     const ratio = (window.devicePixelRatio || 1) * Math.max(1, canvas.clientWidth / data.width);
     const wide = Math.round(data.width * ratio), high = Math.round(data.height * ratio);
@@ -217,14 +236,20 @@
     pen.fillStyle = tone("#FFFFFF");
     pen.fillRect(0, 0, data.width, data.height);
     pen.lineJoin = "round";
-    const here = poses(), view = rows();
-    const parts = data.shapes.map(function (shape, order) {
+    const here = poses(), view = rows(), clip = data.clips[state.clip];
+    const parts = data.shapes.filter(function (shape) { return !state.off.has(shape.c); }).map(function (shape, order) {
       const points = shape.v.map(function (v) { return seen(v, here, view); });
       const near = points.reduce(function (sum, p) { return sum + p[2]; }, 0) / points.length;
       return { shape: shape, points: points, near: solid ? near : 0, layer: data.looks[shape.i][6], order: order };
     });
     parts.sort(function (a, b) { return a.layer - b.layer || a.near - b.near || a.order - b.order; });
-    for (const part of parts) { if (part.shape.k !== "words") { drawShape(part.shape, part.points); } }
+    for (const part of parts) {
+      const look = data.looks[part.shape.i], first = part.shape.v[0];
+      const fresh = clip && clip.dropped && !state.free && gap(here[first[0]], still[first[0]]) > 1e-4;
+      if (part.shape.k !== "words") {
+        drawShape(part.shape, part.points, fresh ? ["#D55E00", look[1], look[2], look[3] && "#F7CDB4", 0.6, false] : look);
+      }
+    }
     drawPaths(view);
     if (data.axes.length) { drawAxes(view); }
     if (data.ruler) { pen.font = "7px system-ui, sans-serif"; drawRuler(); }
@@ -236,31 +261,74 @@
     }
   }
 
-  const play = document.getElementById("play"), slider = document.getElementById("slider");
-  const chooser = document.getElementById("clip"), size = document.getElementById("size");
-  const paths = document.getElementById("paths"), speed = document.getElementById("speed");
-  const names = Array.from(new Set(data.clips.map(function (clip) { return clip.name; })));
-  let way = 1, last = 0, rest = 0;
+  /* Controls */
+
+  function make(tag, properties, ...children) {
+    const element = Object.assign(document.createElement(tag), properties);
+    element.append(...children);
+    return element;
+  }
+
+  const box = document.querySelector(".controls"), said = document.getElementById("seen");
+  const controls = {
+    play: make("button", { type: "button", id: "play", textContent: "Play" }),
+    slider: make("input", { type: "range", id: "slider", min: "0", value: "0", ariaLabel: "position along the motion" }),
+    clip: make("select", { id: "clip", ariaLabel: "motion" }),
+    size: make("input", { type: "range", id: "size", min: "0", value: "0" }),
+    speed: make("select", { id: "speed" }, new Option("0.5"), new Option("1", "1", true, true), new Option("2")),
+    paths: make("input", { type: "checkbox", id: "paths" })
+  };
+  const sizing = make("label", {}, "size ", controls.size);
+  const boxes = data.switches.map(function (item) {
+    return make("input", { type: "checkbox", checked: true, value: item.name });
+  });
+  let way = 0, last = 0, rest = 0;
 
   /* The clips of a name, which differ by their size. */
   function sizes(name) { return data.clips.filter(function (clip) { return clip.name === name; }); }
 
+  /* The frame that is nearest to the picture that stands still. */
+  function nearest(frames) {
+    const gaps = frames.map(function (here) { return here.reduce(function (sum, pose, k) { return sum + gap(pose, still[k]); }, 0); });
+    return gaps.indexOf(Math.min(...gaps));
+  }
+
+  /* The phase of a motion there and back at which it is at a frame. */
+  function wayTo(frame, count) { return Math.acos(1 - 2 * frame / Math.max(1, count - 1)); }
+
   function choose(clip) {
-    state.clip = data.clips.indexOf(clip);
-    state.frame = 0;
-    way = 1;
-    slider.max = String(clip.frames.length - 1);
-    slider.value = "0";
-    document.getElementById("seen").textContent = clip.text || "";
+    clip.start = clip.loop ? 0 : nearest(posesOf(clip));
+    Object.assign(state, { clip: data.clips.indexOf(clip), frame: clip.start, free: null });
+    way = wayTo(clip.start, clip.frames.length);
+    controls.slider.max = String(clip.frames.length - 1);
+    controls.slider.value = String(clip.start);
+    said.textContent = clip.text || "";
     draw();
   }
 
   function chooseName() {
-    const group = sizes(chooser.value);
-    size.max = String(group.length - 1);
-    size.value = size.max;
-    document.getElementById("sizing").hidden = group.length < 2;
-    choose(group[group.length - 1]);
+    const group = sizes(controls.clip.value), chosen = group[group.length - 1];
+    controls.size.max = String(group.length - 1);
+    controls.size.value = controls.size.max;
+    sizing.hidden = group.length < 2;
+    data.switches.forEach(function (item, k) { if (!item.free) { boxes[k].checked = item.name !== chosen.dropped; } });
+    state.off = new Set(boxes.filter(function (other) { return !other.checked; }).map(function (other) { return other.value; }));
+    choose(chosen);
+  }
+
+  /* Redundant constraints can be off together; any other one only on its own. */
+  function switchOff(item, input) {
+    const on = boxes.filter(function (other, k) { return other !== input && !(item.free && data.switches[k].free); });
+    if (!input.checked) { on.forEach(function (other) { other.checked = true; }); }
+    const fresh = data.clips.find(function (clip) { return !input.checked && clip.dropped === item.name; });
+    const now = data.clips[state.clip];
+    state.off = new Set(boxes.filter(function (other) { return !other.checked; }).map(function (other) { return other.value; }));
+    if (fresh || now && now.dropped && !state.off.has(now.dropped)) {
+      controls.clip.value = (fresh || data.clips[0]).name;
+      choose(fresh || data.clips[0]);
+    }
+    said.textContent = input.checked ? "" : item.text;
+    draw();
   }
 
   function advance() {
@@ -270,61 +338,140 @@
       if (!rest) { state.frame = 0; }
     } else if (clip.closed || clip.loop) {
       state.frame = (state.frame + 1) % count;
-    } else if (count > 1) {
-      if (state.frame + way < 0 || state.frame + way >= count) { way = -way; }
-      state.frame += way;
+    } else {
+      way = (way + Math.PI / count) % (2 * Math.PI);  /* there and back, slowest at the ends */
+      state.frame = Math.round((count - 1) * (1 - Math.cos(way)) / 2);
     }
-    slider.value = String(state.frame);
+    controls.slider.value = String(state.frame);
     draw();
   }
 
   function tick(time) {
     if (!state.playing) { return; }
-    if (time - last > 40 / Number(speed.value)) { last = time; advance(); }
+    if (time - last > 40 / Number(controls.speed.value)) { last = time; advance(); }
     window.requestAnimationFrame(tick);
   }
 
   function setPlaying(on) {
-    state.playing = on;
-    play.textContent = on ? "Pause" : "Play";
-    if (on) { window.requestAnimationFrame(tick); }
+    Object.assign(state, { playing: on, free: null });
+    controls.play.textContent = on ? "Pause" : "Play";
+    if (on) {
+      way = wayTo(state.frame, data.clips[state.clip].frames.length);
+      window.requestAnimationFrame(tick);
+    }
+  }
+
+  function setFrame() {
+    setPlaying(false);
+    state.frame = Number(controls.slider.value);
+    draw();
   }
 
   if (data.clips.length) {
-    document.querySelector(".controls").hidden = false;
-    names.forEach(function (name) { chooser.add(new Option(name)); });
-    chooser.hidden = names.length < 2;
-    document.getElementById("pathing").hidden = !data.traced.length || Boolean(data.clips[0].loop);
-    paths.addEventListener("change", draw);
-    size.addEventListener("input", function () { choose(sizes(chooser.value)[Number(size.value)]); });
-    play.addEventListener("click", function () { setPlaying(!state.playing); });
-    slider.addEventListener("input", function () { setPlaying(false); state.frame = Number(slider.value); draw(); });
-    chooser.addEventListener("change", chooseName);
+    box.hidden = false;
+    const names = Array.from(new Set(data.clips.map(function (clip) { return clip.name; })));
+    names.forEach(function (name) { controls.clip.add(new Option(name)); });
+    controls.clip.hidden = names.length < 2;
+    const pathing = make("label", { hidden: !data.traced.length || Boolean(data.clips[0].loop) }, controls.paths, " paths");
+    box.append(controls.play, controls.slider, controls.clip, sizing, make("label", {}, "speed ", controls.speed), pathing);
+    controls.paths.addEventListener("change", draw);
+    controls.size.addEventListener("input", function () { choose(sizes(controls.clip.value)[Number(controls.size.value)]); });
+    controls.play.addEventListener("click", function () { setPlaying(!state.playing); });
+    controls.slider.addEventListener("input", setFrame);
+    controls.clip.addEventListener("change", chooseName);
+    if (boxes.length) {
+      box.append(make("fieldset", { id: "switches" }, make("legend", { textContent: "constraints" }), ...boxes.map(function (input, k) {
+        input.addEventListener("change", function () { switchOff(data.switches[k], input); });
+        return make("label", {}, input, " " + input.value);
+      })));
+    }
     chooseName();
+  }
+
+  /* What the pointer and the arrow keys do: they turn a picture of space, and drag the points of one in the plane. */
+  function takesPointer(start, move) {
+    let from = null;
+    canvas.tabIndex = 0;
+    canvas.addEventListener("pointerdown", function (event) {
+      from = start(event);
+      if (from) { canvas.setPointerCapture(event.pointerId); }
+    });
+    canvas.addEventListener("pointermove", function (event) { if (from) { move(event, from); } });
+    canvas.addEventListener("pointerup", function () { from = null; });
+  }
+
+  function takesArrows(act) {
+    canvas.addEventListener("keydown", function (event) {
+      const arrow = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
+      if (arrow) { event.preventDefault(); act(arrow); }
+    });
+  }
+
+  function turned(azimuth, elevation) {
+    Object.assign(state, { azimuth: azimuth, elevation: Math.max(-89, Math.min(89, elevation)) });
+    draw();
+  }
+
+  const residual = make("span", { id: "residual" });
+
+  function drag(grip, target) {
+    const clip = data.clips[state.clip], from = state.free || (clip ? clip.frames[state.frame] : program.start);
+    setPlaying(false);
+    const now = planar.pulled(from, grip, target, state.off);
+    state.free = now.q;
+    residual.textContent = "largest residual of a constraint " + now.here.worst.toExponential(0);
+    canvas.dataset.residual = String(now.here.worst);
+    draw();
+  }
+
+  /* A place of the world under the pointer. */
+  function pointed(event) {
+    const size = data.width / canvas.clientWidth;
+    return [(event.offsetX * size - data.shift[0]) / data.scale + data.centre[0],
+      (data.height - event.offsetY * size - data.shift[1]) / data.scale + data.centre[1]];
+  }
+
+  function placeOf(grip) { return moved(poses()[grip[0]], grip.slice(1)); }
+
+  /* The point of a moving carrier that is nearest to a place: a vertex, or the place itself within a body. */
+  function gripAt(place) {
+    const here = poses(), view = rows(), spot = onPanel([...place, 0], view);
+    let nearest = null, least = 18;
+    for (const shape of data.shapes) {
+      const points = shape.v.map(function (v) { return seen(v, here, view); }), carrier = shape.v[0][0];
+      if (shape.k === "words" || !program.moves[carrier]) { continue; }
+      trace(shape.k === "hull" ? hullOf(points, shape.s * data.scale) : points, true);
+      const inside = (shape.k === "hull" || shape.k === "area") && pen.isPointInPath(spot[0], spot[1], "nonzero");
+      points.forEach(function (p, k) {
+        const far = Math.hypot(p[0] - spot[0], p[1] - spot[1]);
+        if (program.moves[shape.v[k][0]] && far < least) { least = far; nearest = shape.v[k]; }
+      });
+      if (inside && least > 6) {
+        const { turn, shift } = here[carrier], x = place[0] - shift[0], y = place[1] - shift[1];
+        least = 6;
+        nearest = [carrier, turn[0] * x + turn[3] * y, turn[1] * x + turn[4] * y, 0];
+      }
+    }
+    return nearest;
   }
 
   if (solid) {
     canvas.classList.add("turns");
-    canvas.tabIndex = 0;
-    let from = null;
-    canvas.addEventListener("pointerdown", function (event) {
-      from = [event.clientX, event.clientY, state.azimuth, state.elevation];
-      canvas.setPointerCapture(event.pointerId);
+    takesPointer(function (event) { return [event.clientX, event.clientY, state.azimuth, state.elevation]; },
+      function (event, from) { turned(from[2] - 0.5 * (event.clientX - from[0]), from[3] + 0.5 * (event.clientY - from[1])); });
+    takesArrows(function (arrow) { turned(state.azimuth - 5 * arrow[0], state.elevation + 5 * arrow[1]); });
+  } else if (program && program.drag) {
+    let grip = data.traced[0];
+    canvas.classList.add("turns");
+    box.hidden = false;
+    box.append(residual);
+    takesPointer(function (event) { return gripAt(pointed(event)); }, function (event, from) { grip = from; drag(from, pointed(event)); });
+    takesArrows(function (arrow) {
+      const place = placeOf(grip);
+      drag(grip, [place[0] + 6 * arrow[0] / data.scale, place[1] + 6 * arrow[1] / data.scale]);
     });
-    canvas.addEventListener("pointermove", function (event) {
-      if (!from) { return; }
-      state.azimuth = from[2] - 0.5 * (event.clientX - from[0]);
-      state.elevation = Math.max(-89, Math.min(89, from[3] + 0.5 * (event.clientY - from[1])));
-      draw();
-    });
-    canvas.addEventListener("pointerup", function () { from = null; });
     canvas.addEventListener("keydown", function (event) {
-      const turn = { ArrowLeft: [5, 0], ArrowRight: [-5, 0], ArrowUp: [0, 5], ArrowDown: [0, -5] }[event.key];
-      if (!turn) { return; }
-      event.preventDefault();
-      state.azimuth += turn[0];
-      state.elevation = Math.max(-89, Math.min(89, state.elevation + turn[1]));
-      draw();
+      if (event.key === "n") { grip = data.traced[(data.traced.indexOf(grip) + 1) % data.traced.length]; }
     });
   }
   window.addEventListener("resize", draw);

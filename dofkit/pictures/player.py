@@ -15,7 +15,21 @@ import numpy as np
 from dofkit.base.display import schemes
 from dofkit.pictures.files import CLASS, dark_style
 from dofkit.pictures.layout import MARGIN, WIDTH, Standpoint, margins_of, name_size, ruler_of, standpoint_of
-from dofkit.pictures.shapes import ON_DARK, Array, Clip, Displacement, Ink, Poses, Sketch, ink_of, keys_of
+from dofkit.pictures.planar_program import PlanarProgram
+from dofkit.pictures.shapes import (
+    AT_REST,
+    ON_DARK,
+    Array,
+    Clip,
+    Displacement,
+    Ink,
+    Poses,
+    Sketch,
+    Switch,
+    ink_of,
+    keys_of,
+    quaternion,
+)
 
 #: An inline page in pixels: how wide it is at most, its edge, and a line of its text.
 FRAME, EDGE, LINE = int(WIDTH * 1.5), 12.0, 22.0
@@ -24,10 +38,13 @@ FILL = 0.94
 DRAG = "Drag the picture, or use the arrow keys, to turn it."
 
 
-def page_html(sketch: Sketch, clips: Sequence[Clip]) -> str:
-    """Return a page with a sketch that can be played, and turned if it is spatial."""
+def page_html(
+    sketch: Sketch, clips: Sequence[Clip], program: PlanarProgram | None = None, switches: Sequence[Switch] = ()
+) -> str:
+    """Return a page with a sketch that can be played, and turned if it is spatial, or else dragged."""
     package = files("dofkit.pictures")
-    data = json.dumps(player_data(sketch, clips), separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
+    contents = player_data(sketch, clips, program, switches)
+    data = json.dumps(contents, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
     pieces = {
         "title": escape(sketch.title),
         "answer": escape(sketch.answer),
@@ -35,10 +52,16 @@ def page_html(sketch: Sketch, clips: Sequence[Clip]) -> str:
         "legend": _legend(sketch),
         "notes": "".join(f"<p>{escape(note)}</p>" for note in _notes(sketch)),
         "data": data,
-        "script": (package / "player.js").read_text(encoding="utf-8"),
+        "script": player_script(),
     }
     frame = (package / "player.html").read_text(encoding="utf-8")
     return re.sub("@([a-z]+)@", lambda match: pieces[match[1]], frame)
+
+
+def player_script() -> str:
+    """Return the script that plays, turns and drags pictures, without its indentation."""
+    texts = [(files("dofkit.pictures") / name).read_text(encoding="utf-8") for name in ("planar.js", "player.js")]
+    return "\n".join(line.strip() for text in texts for line in text.splitlines())
 
 
 def _notes(sketch: Sketch) -> tuple[str, ...]:
@@ -68,13 +91,16 @@ def page_height(sketch: Sketch, clips: Sequence[Clip]) -> float:
     return panel + LINE * sum(lines) + 4 * EDGE
 
 
-def player_data(sketch: Sketch, clips: Sequence[Clip]) -> dict[str, Any]:
-    """Return what the script needs: shapes on their carriers, poses frame by frame, and the view."""
+def player_data(
+    sketch: Sketch, clips: Sequence[Clip], program: PlanarProgram | None = None, switches: Sequence[Switch] = ()
+) -> dict[str, Any]:
+    """Return what the script needs: shapes on their carriers, poses frame by frame or as a program, and the view."""
     every = [frame for clip in clips for frame in clip.frames]
     standpoint = standpoint_of(sketch, every)
     carriers = list(dict.fromkeys(v.carrier for s in sketch.shapes for v in s.vertices))
     looks: dict[Ink, int] = {}
     offsets = iter(standpoint.offsets)
+    owners = {switch.name for switch in switches}
     shapes = []
     for shape in sketch.shapes:
         entry: dict[str, Any] = {
@@ -84,6 +110,8 @@ def player_data(sketch: Sketch, clips: Sequence[Clip]) -> dict[str, Any]:
         }
         if shape.size:
             entry["s"] = _number(shape.size)
+        if shape.owner in owners:
+            entry["c"] = shape.owner
         if shape.kind == "words":
             entry |= {"t": shape.text, "o": _rounded(next(offsets))}
         shapes.append(entry)
@@ -95,18 +123,23 @@ def player_data(sketch: Sketch, clips: Sequence[Clip]) -> dict[str, Any]:
         "looks": [[k.line, k.width, list(k.dash), k.fill, k.dense, k.hatch, k.layer] for k in looks],
         "names": name_size(sketch),
         "traced": [[carriers.index(v.carrier), *_rounded(v.at)] for v in sketch.traced if v.carrier in carriers],
-        "still": _pose_rows(sketch, carriers, sketch.poses),
-        "clips": [
-            {
-                "name": clip.name,
-                "closed": clip.closed,
-                **({"size": clip.size, "text": clip.text, "loop": True} if clip.loop else {}),
-                "frames": [_pose_rows(sketch, carriers, frame) for frame in clip.frames],
-            }
-            for clip in clips
-        ],
+        "still": [_pose_row(sketch.poses.get(c, AT_REST)) for c in carriers],
+        "clips": [_clip_data(clip, carriers, program) for clip in clips],
+        "switches": [switch._asdict() for switch in switches],
+        "program": None if program is None else program.data(carriers),
         **_panel(sketch, standpoint, every),
     }
+
+
+def _clip_data(clip: Clip, carriers: Sequence[str], program: PlanarProgram | None) -> dict[str, Any]:
+    """Return a clip, whose frames are values of the program's columns if there is one, else poses of all carriers."""
+    entry: dict[str, Any] = {"name": clip.name, "closed": clip.closed, "loop": clip.loop, "text": clip.text}
+    if program is not None:
+        frames: list[Any] = [_rounded(program.values(numbers)) for numbers in clip.path]
+    else:
+        frames = [[_pose_row(frame.get(c, AT_REST)) for c in carriers] for frame in clip.frames]
+    arrows = [[_rounded(a), _rounded(b)] for a, b in clip.arrows]
+    return entry | {"dropped": clip.dropped, "size": clip.size, "arrows": arrows, "frames": frames}
 
 
 def _panel(sketch: Sketch, standpoint: Standpoint, every: Iterable[Poses]) -> dict[str, Any]:
@@ -135,21 +168,15 @@ def _panel(sketch: Sketch, standpoint: Standpoint, every: Iterable[Poses]) -> di
     }
 
 
-def _pose_rows(sketch: Sketch, carriers: Sequence[str], poses: Poses) -> list[list[float]]:
-    """Return each carrier's shift, and its rotation if it rotates: cosine and sine, or three rows."""
-    return [_pose_row(sketch, poses[c]) if c in poses else [0.0, 0.0, 0.0] for c in carriers]
-
-
-def _pose_row(sketch: Sketch, pose: Displacement) -> list[float]:
+def _pose_row(pose: Displacement) -> list[float]:
+    """Return a carrier's shift and, if it rotates, the vector part of the unit quaternion of its rotation."""
     if np.allclose(pose.turn, np.eye(3), atol=1e-9):
         return _rounded(pose.shift)
-    if sketch.dimension < 3:
-        return [*_rounded(pose.shift), *_rounded(pose.turn[:2, 0])]
-    return [*_rounded(pose.shift), *_rounded(pose.turn.ravel())]
+    return [*_rounded(pose.shift), *_rounded(quaternion(pose.turn)[1:])]
 
 
 def _number(value: float) -> float:
-    return float(f"{value:.6g}") if np.isfinite(value) else 0.0
+    return float(f"{value:.5g}") if np.isfinite(value) else 0.0
 
 
 def _rounded(values: Array | Sequence[float]) -> list[float]:

@@ -12,6 +12,7 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
+from dofkit.expressions.tree import Expr
 from dofkit.system import GROUND
 
 Array = np.ndarray[Any, Any]
@@ -72,18 +73,30 @@ Poses = Mapping[str, Displacement]
 
 
 class Clip(NamedTuple):
-    """A motion: the poses of everything, frame by frame; ``closed`` if the first follows the last.
+    """A motion: the poses of everything, frame by frame, and the ``path`` of the symbols.
 
-    Clips of the same name differ by their ``size``. ``text`` says what is to be seen; ``loop``: the motion is a loop
-    of some coordinates, at whose end the others may be displaced.
+    ``closed``: the first frame follows the last. Clips of the same name differ by their ``size``. ``text`` says what is
+    to be seen; ``loop``: the motion is a loop of some coordinates, at whose end the others may be displaced. ``arrows``
+    show velocities; ``dropped`` is the constraint that is left out.
     """
 
     name: str
     frames: tuple[Poses, ...]
+    path: tuple[Mapping[Expr, float], ...]
     closed: bool = False
     size: float = 0.0
     text: str = ""
     loop: bool = False
+    arrows: tuple[tuple[Array, Array], ...] = ()
+    dropped: str = ""
+
+
+class Switch(NamedTuple):
+    """A constraint that can be left out, and what that changes; ``free``: all such together, without a change."""
+
+    name: str
+    text: str
+    free: bool = False
 
 
 @dataclass(frozen=True)
@@ -143,6 +156,17 @@ def about(axis: int, angle: float) -> Array:
     turn = np.eye(3)
     turn[i, i], turn[i, j], turn[j, i], turn[j, j] = c, -s, s, c
     return turn
+
+
+def quaternion(turn: Array) -> Array:
+    """Return the unit quaternion (w, x, y, z) of a rotation, with w at least 0."""
+    products = np.array([
+        [np.trace(turn), turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]],
+        *np.hstack([[[0.0]] * 3, turn + turn.T - np.trace(turn) * np.eye(3)]),
+    ])  # fmt: skip
+    values, vectors = np.linalg.eigh(products, UPLO="U")
+    largest = vectors[:, int(np.argmax(values))]
+    return np.asarray(largest if largest[0] >= 0 else -largest)
 
 
 # Looks

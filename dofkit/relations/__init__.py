@@ -17,7 +17,7 @@ Mechanisms, in the order in which an equation meets them
     3. `velocity_reductions` substitutes what linear equations determine into relations nonlinear in the velocities.
     4. `blocks` separates what shares no coordinate and gives every integrated form dC = 0 its constant as a
        coordinate; `normal.pieces` recognises equations that are equal up to names; a `Chart` has the program that the
-       engines run on a block. `linear_relations` solves linear equations over the rationals.
+       engines run on a block. `linear_relations` solves linear and explicit equations.
 
 Handed on: blocks, each with its program and its conditions. Nothing is dropped without a condition that says where.
 """

@@ -11,13 +11,12 @@ from dofkit.exact.matrices.sparse import components
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero import BOTH, Engines
 from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import substitute
 from dofkit.expressions.renaming import coordinates_in
-from dofkit.expressions.terms import linear_terms
 from dofkit.expressions.tree import Expr
+from dofkit.relations.linear_relations import explicit_relations, number_coefficients
 from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.pieces import Clause, Finite, JointEquation, Nonlinear, Pfaffian
-from dofkit.relations.setting import ALL, ReductionName, Reductions, Setting
+from dofkit.relations.setting import ALL, Reductions, Setting
 from dofkit.system import Coordinate
 
 
@@ -146,25 +145,6 @@ def is_measured(block: Block, setting: Setting) -> bool:
     return not placed.isdisjoint(block.coordinates)
 
 
-def given_by(relations: Iterable[Expr], wanted: Sequence[Expr] | None = None) -> dict[Expr, Expr]:
-    """Return the coordinates that relations give explicitly, as functions of others, each free of those solved for.
-
-    Such a coordinate stands in its relation once, with a number as coefficient; ``wanted``: those that are solved for,
-    the first that can be, by default any.
-    """
-    result: dict[Expr, Expr] = {}
-    for g in relations:
-        terms = linear_terms(substitute(g, result))
-        for s in terms if wanted is None else wanted:
-            if s.op != "sym" or s.args[0] != "coordinate" or any(s in u.symbols for u in terms if u != s):
-                continue
-            if s in terms:
-                value = ex.add(*(ex.mul(ex.num(-k / terms[s]), u) for u, k in terms.items() if u != s))
-                result = {k: substitute(v, {s: value}) for k, v in result.items()} | {s: value}
-                break
-    return result
-
-
 @dataclass(frozen=True)
 class Chart:
     """A block's ring, its finite relations and its columns: coordinates, then time where it occurs.
@@ -172,7 +152,7 @@ class Chart:
     ``columns`` are generator indices (-1: the symbol occurs nowhere); ``unknowns`` are the symbols that a
     real search moves: coordinates and generic geometry. ``relations`` are what the nodes compute; ``engines`` those
     that may look at it; ``size`` is the scale of lengths; ``reductions``: those in
-    use, and ``kinds`` which of them may use each relation. ``within``: they hang by joints on other bodies.
+    use. ``within``: they hang by joints on other bodies.
     """
 
     ring: Ring
@@ -186,7 +166,6 @@ class Chart:
     engines: Engines = BOTH
     size: float = 1.0
     reductions: Reductions = ALL
-    kinds: tuple[ReductionName, ...] = ()
     within: bool = False
 
     @property
@@ -211,7 +190,11 @@ def aliases(block: Block, finite: Sequence[Expr]) -> dict[Expr, Expr]:
     if not finite:
         return {}
     inside = {s for e in (*expressions(block), *finite) for s in _inside_functions(e)}
-    return given_by(finite, sorted(inside, key=repr))
+
+    def coefficients(g: Expr) -> dict[Expr, Expr]:
+        return {s: c for s, c in number_coefficients(g).items() if s in inside}
+
+    return explicit_relations(finite, coefficients).by_others
 
 
 def _inside_functions(e: Expr) -> frozenset[Expr]:
@@ -249,20 +232,5 @@ def make_chart(block: Block, setting: Setting, extra: Sequence[Expr] = (), more:
         setting.engines,
         setting.size,
         setting.reductions,
-        _kinds(block, setting, len(extra)),
         setting.within,
     )
-
-
-def _kinds(block: Block, setting: Setting, more: int) -> tuple[ReductionName, ...]:
-    """Which reduction may use each finite relation of the block, and so many more."""
-    angles = {ex.coordinate(c.name) for c in setting.roles if c.role in ("angle", "phi", "theta", "psi")}
-    other: ReductionName = "eliminations"
-    return (*(_kind(row, setting, angles) for row in block.finite), *(other,) * more)
-
-
-def _kind(row: Row, setting: Setting, angles: set[Expr]) -> ReductionName:
-    if row.constraint in setting.welds:
-        return "welds"
-    symbols = row.piece.expr.symbols if isinstance(row.piece, Finite) else frozenset[Expr]()
-    return "still" if symbols <= angles else "eliminations"

@@ -1,20 +1,21 @@
-"""Linear relations with rational coefficients, solved exactly: what is found is proved."""
+"""Relations that are solved exactly: linear ones over the rationals, and those that give a coordinate explicitly."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections import Counter
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from fractions import Fraction
+from typing import NamedTuple
 
-from flint import fmpq, fmpq_mat
-
-from dofkit.exact.points.frames import pivots
+from dofkit.base.deadline import check
+from dofkit.exact.analyticity import is_analytic
+from dofkit.exact.ring.canonical import is_identically_zero
 from dofkit.expressions import tree as ex
-from dofkit.expressions.terms import number_and_rest
+from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
 
-#: Entries of a matrix that is looked at; past that the relations are taken as they are.
-MAX_ENTRIES = 4_000_000
+#: A value of more terms than this is put only into relations that it leaves below so many nodes.
+SHORT, MAX_NODES = 4, 200
 
 Terms = dict[Expr, Fraction]
 
@@ -23,55 +24,136 @@ def linear(e: Expr) -> Terms | None:
     """``e`` as a sum of numbers times symbols (`ONE` for the constant); None where it is not one."""
     terms: Terms = {}
     for term in e.args if e.op == "add" else (e,):
-        factor, remainder = (term.args[0], ex.ONE) if term.op == "num" else number_and_rest(term)
+        factor, remainder = ex.number_and_rest(term)
         if remainder.op != "sym" and remainder != ex.ONE:
             return None
         terms[remainder] = terms.get(remainder, Fraction(0)) + factor
     return terms
 
 
-@dataclass(frozen=True)
-class Presolved:
-    """``reduced``: the linear relations in echelon form; ``superfluous`` numbers of those that earlier ones imply.
+# Relations that give a coordinate
 
-    ``contradiction``: no values of the unknowns satisfy them, for generic parameters.
+#: The coordinates that a relation may be solved for, with their coefficients.
+Coefficients = Callable[[Expr], Mapping[Expr, Expr]]
+
+
+class Explicit(NamedTuple):
+    """Relations that give a coordinate each as a function of others, and the others, with these put in.
+
+    ``explicit``: each coordinate with the relation that gives it, in the order in which they were solved;
+    ``values``: what it gives, free of the coordinates solved for before; ``implied``: numbers of relations that are
+    satisfied where the others are.
     """
 
-    reduced: tuple[Expr, ...]
-    linear: frozenset[int]
-    superfluous: frozenset[int]
-    contradiction: bool
+    explicit: dict[Expr, Expr]
+    values: dict[Expr, Expr]
+    implicit: tuple[Expr, ...]
+    implied: tuple[int, ...]
+
+    @property
+    def contradictory(self) -> bool:
+        """Whether a linear equation between parameters and numbers is left, which generic parameters do not satisfy."""
+        left = (g for g in self.implicit if all(s.args[0] == "parameter" for s in g.symbols))
+        return any(linear(g) is not None for g in left)
+
+    @property
+    def by_others(self) -> dict[Expr, Expr]:
+        """The coordinates as functions of those that are not solved for."""
+        result: dict[Expr, Expr] = {}
+        for s in reversed(self.values):
+            result[s] = substitute(self.values[s], result)
+        return result
+
+    def implies(self, e: Expr) -> bool | None:
+        """Return whether a linear relation is a sum of these; None where it may be by those that give no coordinate."""
+        return substitute(e, self.by_others).is_zero or (None if self.implicit else False)
 
 
-def presolve(relations: Sequence[Expr]) -> Presolved:
-    """The linear relations among some, solved exactly over the rationals: what is found is proved.
+def constant_coefficients(g: Expr) -> dict[Expr, Expr]:
+    """Return the coordinates that stand once in a sum, times what holds no coordinate and is generically not 0."""
+    terms = g.args if g.op == "add" else (g,)
+    times = Counter(s for t in terms for s in t.symbols)
+    result = {}
+    for t in terms:
+        factors = t.args if t.op == "mul" else (t,)
+        for s in (f for f in factors if f.op == "sym" and f.args[0] == "coordinate" and times[f] == 1):
+            cofactors = [f for f in factors if f != s]
+            if all(map(_is_generic, cofactors)):
+                result[s] = ex.mul(*cofactors)
+    return result
 
-    Coordinates and time are unknowns; parameters are generic constants, so x = a with x = b is a contradiction.
-    Unknowns that occur in linear relations only are solved for first.
+
+def number_coefficients(g: Expr) -> dict[Expr, Expr]:
+    """Return the coordinates that stand once in a sum, times a number."""
+    return {s: c for s, c in constant_coefficients(g).items() if c.op == "num"}
+
+
+def _is_generic(e: Expr) -> bool:
+    """No coordinate in it, and 0 at single moments, or for special parameters, at most."""
+    if any(s.args[0] == "coordinate" for s in e.symbols):
+        return False
+    return e.op in ("num", "sym") or (is_identically_zero(e) is False and is_analytic(e, e.symbols))
+
+
+def explicit_relations(relations: Iterable[Expr], coefficients: Coefficients = constant_coefficients) -> Explicit:
+    """Return the relations that give a coordinate, one after another, and what is left of the others.
+
+    Those go first whose coordinate stands in no other; then one that few mention is put into these.
     """
-    result = {i: t for i, e in enumerate(relations) if (t := linear(e)) is not None}
-    elsewhere = frozenset().union(*(e.symbols for i, e in enumerate(relations) if i not in result))
-    symbols = sorted({s for t in result.values() for s in t}, key=lambda s: (_place(s), s in elsewhere, repr(s)))
-    if len(result) < 2 or len(result) * len(symbols) > MAX_ENTRIES:
-        return Presolved((), frozenset(), frozenset(), False)
-    rows = [[fmpq(*t.get(s, Fraction(0)).as_integer_ratio()) for s in symbols] for t in result.values()]
-    reduced, rank = fmpq_mat(rows).rref()
-    unknown = sum(_place(s) < 2 for s in symbols)
-    leading = [next(c for c in range(len(symbols)) if reduced[r, c] != 0) for r in range(rank)]
-    kept = pivots(fmpq_mat([list(column) for column in zip(*rows, strict=True)]))
-    numbers = list(result)
-    superfluous = frozenset(numbers) - {numbers[c] for c in kept}
-    echelon = tuple(_expression(reduced, r, symbols) for r in range(rank))
-    return Presolved(echelon, frozenset(numbers), superfluous, any(c >= unknown for c in leading))
+    remaining = dict(enumerate(relations))
+    implied = [i for i, g in remaining.items() if g.is_zero]
+    users: dict[Expr, set[int]] = {}
+    for i, g in remaining.items():
+        for s in g.symbols:
+            users.setdefault(s, set()).add(i)
+    explicit, values = dict[Expr, Expr](), dict[Expr, Expr]()
+    private, shared = [*remaining][::-1], [*remaining][::-1]
+    while private or shared:
+        check()
+        alone = bool(private)
+        i = (private or shared).pop()
+        slopes = coefficients(remaining[i]) if i in remaining else {}
+        given = [(_value(remaining[i], s, slope), s) for s, slope in slopes.items() if len(users[s]) == 1 or not alone]
+        given = [(v, s) for v, s in given if alone or _fits(v, [remaining[k] for k in users[s] if k != i])]
+        if not given:
+            continue
+        value, s = min(given, key=lambda pair: (len(users[pair[1]]), repr(pair[1])))
+        values[s] = value
+        before = {k: remaining[k] for k in users[s]}
+        explicit[s] = remaining.pop(i)
+        for k, g in before.items():
+            if k != i:
+                remaining[k] = substitute(g, {s: value})
+            kept = remaining[k].symbols if k != i else frozenset[Expr]()
+            for symbol in kept:
+                users[symbol].add(k)
+            for symbol in g.symbols - kept:
+                users[symbol].discard(k)
+                private += users[symbol] if len(users[symbol]) == 1 else ()
+            if k != i and remaining[k].is_zero:
+                implied.append(k)
+        private, shared = [*private, *before], [*shared, *before]
+    left = tuple(g for g in remaining.values() if not g.is_zero)
+    return Explicit(explicit, values, left, tuple(implied))
 
 
-def _place(symbol: Expr) -> int:
-    """Coordinates, then time, then parameters and numbers."""
-    if symbol.op != "sym":
-        return 2
-    return {"coordinate": 0, "time": 1}.get(symbol.args[0], 2)
+def solve_linear(relations: Sequence[Expr]) -> Explicit:
+    """Return what the linear relations among some give, and what is left of these."""
+    numbers = [i for i, g in enumerate(relations) if linear(g) is not None]
+    solved = explicit_relations([relations[i] for i in numbers], number_coefficients)
+    return solved._replace(implied=tuple(numbers[k] for k in solved.implied))
 
 
-def _expression(matrix: fmpq_mat, r: int, symbols: Sequence[Expr]) -> Expr:
-    entries = ((s, matrix[r, c]) for c, s in enumerate(symbols) if matrix[r, c] != 0)
-    return ex.add(*(ex.mul(ex.num(Fraction(int(v.p), int(v.q))), s) for s, v in entries))
+def _value(g: Expr, s: Expr, slope: Expr) -> Expr:
+    """Return the value of a coordinate at which a relation vanishes that holds it in one term."""
+    others = (t for t in (g.args if g.op == "add" else (g,)) if s not in t.symbols)
+    return ex.add(*(ex.mul(ex.MINUS_ONE / slope, t) for t in others))
+
+
+def _fits(value: Expr, others: Sequence[Expr]) -> bool:
+    """Return whether a value is a short sum, or leaves the relations linear, or small, that it is put into."""
+    terms = linear(value)
+    if terms is not None and (len(terms) <= SHORT or all(linear(e) is not None for e in others)):
+        return True
+    size = sum(1 for _ in ex.nodes(value))
+    return all(sum(1 for _ in ex.nodes(e)) + size <= MAX_NODES for e in others)

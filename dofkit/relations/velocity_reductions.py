@@ -17,7 +17,8 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.terms import linear_terms
 from dofkit.expressions.tree import Expr
-from dofkit.relations.blocks import Row, coordinates_of, given_by
+from dofkit.relations.blocks import Row, coordinates_of
+from dofkit.relations.linear_relations import explicit_relations, number_coefficients
 from dofkit.relations.normal.domain import DomainCondition, conditions_of
 from dofkit.relations.normal.normal_form import linear_form, normalise, velocities_of
 from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian
@@ -144,7 +145,8 @@ def _ways(row: Row, rows: Sequence[Row], positive: frozenset[Expr]) -> _Rewritin
         return _Rewriting([(row,)])
     near = _rows_near(row, rows)
     try:
-        explicit = given_by([r.piece.expr for r in near if isinstance(r.piece, Finite)])
+        finite = (r.piece.expr for r in near if isinstance(r.piece, Finite))
+        explicit = explicit_relations(finite, number_coefficients).by_others
         there = substitute(row.piece.expr, explicit)
         changed, divisors = eliminated(there, [substitute(e, explicit) for e in _rates_of(near)])
     except NoValueError:

@@ -14,7 +14,7 @@ Mechanisms, in the order of reading
     3. `lowering` goes from what is written to a `System`: first `names`, then the `drawing` with its frames, then
        each constraint in the `world` of points and directions. `ledger` reads texts and records their faults.
 
-Further uses: `expectation` compares a report with the `expect` of a scene,
+Further uses: `expectation` compares a report with the `expect` of a scene, `plain` writes a scene in plain notation,
 `added_equations` reads a student's equations with the scene's names, `schema` is the JSON Schema for
 editors, `symbols` describes how each type is drawn, and `picture` the shapes that a scene draws itself.
 """

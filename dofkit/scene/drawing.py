@@ -44,6 +44,12 @@ from dofkit.system import GROUND
 Chart = Literal["fixed", "line", "plane", "gibbs", "euler"]
 
 
+def turn(angle: Expr) -> Matrix:
+    """Return the rotation of the plane by ``angle``."""
+    c, s = fn("cos", angle), fn("sin", angle)
+    return ((c, mul(MINUS_ONE, s)), (s, c))
+
+
 def turn_z(angle: Expr) -> Matrix:
     """Return the rotation by ``angle`` about the z axis of space."""
     c, s = fn("cos", angle), fn("sin", angle)
@@ -134,8 +140,7 @@ class Frame:
     def turn(self) -> Matrix | None:
         """w R; None for the identity."""
         if self.chart == "plane":
-            c, s = fn("cos", self.angle), fn("sin", self.angle)
-            return ((c, mul(MINUS_ONE, s)), (s, c))
+            return turn(self.angle)
         if self.chart == "gibbs" and self.gibbs:
             return gibbs_numerator(self.gibbs)
         if self.chart == "euler":

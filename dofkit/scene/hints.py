@@ -7,13 +7,10 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import Any
 
-from pydantic import ValidationError
-
-from dofkit.base.documents import on_one_line
 from dofkit.base.errors import Fault
 from dofkit.base.wording import nearest
 from dofkit.expressions.text.characters import LETTERS_OF_NAMES
-from dofkit.scene.constraints import TYPES
+from dofkit.scene.constraints import TYPES, ConstraintBase
 from dofkit.scene.constraints.base import Equation
 from dofkit.scene.fields import meant_key
 from dofkit.scene.synonyms import Path, dimension_of, other_keys
@@ -37,8 +34,6 @@ _ENOUGH = re.compile(
 _RATE = re.compile(rf"d((?:[a-zA-Z]|{'|'.join(LETTERS_OF_NAMES)})(?:_\w+)?)|(\w+?)d{{0,2}}dot")
 _SUGGESTED = re.compile(r"did you mean '(\w+)'\?")
 _MEANT_NAME = re.compile(r"did you mean `(.+)`\?")
-#: A longer line is not shown as what to write.
-LONGEST_LINE = 160
 _FORCES = ("spring", "damper", "force", "gravity")
 #: A line by the key that it gives; of some keys one for each dimension.
 LINES: dict[str, str | tuple[str, str, str]] = {
@@ -70,7 +65,7 @@ SECTIONS = (
 def without_echoes(faults: Iterable[Fault], value: Mapping[str, Any]) -> list[Fault]:
     """Return the faults without those that another one explains.
 
-    A misspelt key explains that the right one is missing, and one line that mends a constraint is shown once.
+    A misspelt key explains that the right one is missing.
     """
     faults = list(faults)
     meant = {
@@ -87,15 +82,7 @@ def without_echoes(faults: Iterable[Fault], value: Mapping[str, Any]) -> list[Fa
         _name_at(value, fault.where) for fault in kept if re.match("the name h|.* cannot be the name of", fault.message)
     )
     kept = [f for f in kept if not ((match := _MEANT_NAME.fullmatch(f.hint or "")) and match[1].endswith(refused))]
-    kept = _undeclared_at_once(kept, value)
-    first: dict[Path, Fault] = {}
-    for fault in sorted(kept, key=lambda fault: not fault.message.startswith(UNKNOWN_KEY)):
-        first.setdefault(fault.where[:2], fault)
-    return [
-        fault
-        for fault in kept
-        if fault.where[:1] != ("constraints",) or fault is first[fault.where[:2]] or not _mended(value, fault.where)
-    ]
+    return _undeclared_at_once(kept, value)
 
 
 def _name_at(value: Any, where: Path) -> str:
@@ -150,33 +137,20 @@ def type_advice(word: object, entry: Mapping[str, Any]) -> str | None:
     return f"did you mean '{meant}'? {listed}" if misspelt and kinds else listed
 
 
-def _mended(value: Mapping[str, Any], where: Path) -> str | None:
-    """Return the line that a faulty constraint should be, where every key of it has one meaning; else None."""
-    entry, d = (
-        _entry_at(value, where[1]) if where[:1] == ("constraints",) and len(where) > 1 else None,
-        dimension_of(value),
-    )
-    if not isinstance(entry, Mapping):
-        return None
-    word = entry.get("type")
-    kinds = [word] if isinstance(word, str) and word in TYPES else likely_types(word, entry)
-    able = (with_right_keys(kind, entry) for kind in kinds if d in TYPES[kind].dimensions)
-    right = next((candidate for candidate in able if candidate is not None), None)
-    if right is None or right == entry:
-        return None
-    line = on_one_line(right)
-    return line if len(line) <= LONGEST_LINE else None
-
-
 def likely_types(word: object, entry: Mapping[str, Any]) -> list[str]:
     """Return the type that a word means, or else the types with the keys of an entry, misspelt ones only if need be."""
     if word is None:
         word = next((part for key, part in entry.items() if str(key).lower() == "type"), None)
-    meant = meant_type(word, entry)
-    if meant or not entry.keys() - {"type", "name"}:
+    meant, keys = meant_type(word, entry), [str(key) for key in entry if str(key).lower() not in ("type", "name")]
+    if meant or not keys:
         return [meant] if meant else []
-    able = [kind for kind in TYPES if with_right_keys(kind, entry)]
-    return [kind for kind in able if entry.keys() - {"type"} <= TYPES[kind].model_fields.keys()] or able
+    fields = {kind: cls.model_fields.keys() for kind, cls in TYPES.items()}
+    having = [kind for kind, cls in TYPES.items() if _required(cls) <= {*keys} <= fields[kind]]
+    return having or [kind for kind in TYPES if all(meant_key(key, tuple(fields[kind])) for key in keys)]
+
+
+def _required(cls: type[ConstraintBase]) -> set[str]:
+    return {key for key, about in cls.model_fields.items() if about.is_required()} - {"type"}
 
 
 def meant_type(word: object, entry: Mapping[str, Any]) -> str | None:
@@ -187,34 +161,6 @@ def meant_type(word: object, entry: Mapping[str, Any]) -> str | None:
     near = next((part for part in re.split(r"\W+", text) if part in every_word), None) or nearest(text, every_word)
     fields = {kind: TYPES[kind].model_fields for kind, names in words.items() if near in names}
     return max(fields, key=lambda kind: sum(key in fields[kind] for key in entry), default=None)
-
-
-def with_right_keys(kind: str, entry: Mapping[str, Any]) -> dict[str, Any] | None:
-    """Return an entry as a constraint of a type, its keys and their form put right; None where that cannot be done."""
-    fields, restated = TYPES[kind].model_fields, TYPES[kind].restated(entry)
-    right: dict[str, Any] = {"type": kind}
-    for key, part in restated.items():
-        if str(key).lower() == "type":
-            continue
-        meant = key if key in fields else meant_key(key, tuple(field for field in fields if field not in restated))
-        if meant is None or meant in right:
-            return None
-        right[meant] = part
-    renamed = {key: part if key in entry else _in_form(key, part) for key, part in right.items()}
-    for attempt in (renamed, {key: _in_form(key, part) for key, part in right.items()}):
-        try:
-            TYPES[kind].model_validate(attempt)
-        except ValidationError:
-            continue
-        return attempt
-    return None
-
-
-def _in_form(key: str, part: Any) -> Any:
-    """Return what is given for a key as a list or as one name, as that key takes it."""
-    if key in ("between", "members", "along") and isinstance(part, str):
-        return [part]
-    return part[0] if key in ("point", "body") and isinstance(part, (list, tuple)) and len(part) == 1 else part
 
 
 def with_hint(fault: Fault, value: Mapping[str, Any] | None = None) -> Fault:
@@ -262,13 +208,10 @@ def _hint(fault: Fault, value: Mapping[str, Any]) -> str:
         return f"declare it: `coordinates: [{name}]`, or `parameters: [{name}]` for a constant; {hint}"
     if hint is not None and _ENOUGH.search(hint):
         return hint
-    mended = _mended(value, fault.where)
-    line = mended or _line(fault, hint or "", value)
+    line = _line(fault, hint or "", value)
     if line is None:
         return hint or "'dofkit schema' lists what can stand here"
-    if mended and (hint is None or not hint.startswith(("did you mean", "the types"))):
-        return f"write `{line}`"
-    example = f"write `{line}`" if mended and hint and hint.endswith("?") else f"for example `{line}`"
+    example = f"for example `{line}`"
     return example if hint is None else f"{hint}{'' if hint.endswith('?') else ';'} {example}"
 
 

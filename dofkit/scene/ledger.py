@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
+from collections.abc import Hashable, Iterable
 from fractions import Fraction
 
 from dofkit.base.errors import Fault, TextError
 from dofkit.expressions.calculus import in_velocities, refuse_accelerations
-from dofkit.expressions.renaming import Template
+from dofkit.expressions.renaming import Renaming, shape_of
 from dofkit.expressions.text import Names, parse_expression, parse_relations
 from dofkit.expressions.text.names import pattern_of
 from dofkit.expressions.tree import Expr, num, parameter
@@ -57,23 +57,6 @@ class Ledger:
         self.fault(f"there is no {what} '{name}'", *where, hint=hint)
 
 
-class _RelationTemplate:
-    """A relation that is written in other names many times."""
-
-    def __init__(self, relation: Relation) -> None:
-        self._expr, self._sense = Template(relation.expr), relation.sense
-        self._domain = [(Template(e), sense) for e, sense in relation.domain]
-
-    def of(self, names: Mapping[str, str]) -> Relation:
-        """Return the relation with each name replaced."""
-        domain = tuple([(_renamed(template, names), sense) for template, sense in self._domain])
-        return Relation(_renamed(self._expr, names), self._sense, domain=domain)
-
-
-def _renamed(template: Template, names: Mapping[str, str]) -> Expr:
-    return template.of([names[n] for n in template.names])
-
-
 class ParsedTexts:
     """Expressions of texts that are read with the same names, each parsed once however often it occurs.
 
@@ -84,8 +67,7 @@ class ParsedTexts:
     def __init__(self, names: Names) -> None:
         self.names = names
         self._parsed: dict[str, Expr | TextError] = {}
-        self._patterns: dict[Hashable, tuple[tuple[str, ...], list[_RelationTemplate]]] = {}
-        self._made: dict[Hashable, tuple[list[int], Template]] = {}
+        self._patterns: dict[Hashable, tuple[tuple[str, ...], list[Relation]]] = {}
 
     def equations(self, text: str) -> list[Relation]:
         """Return the relations of a text that may mention anything.
@@ -95,29 +77,20 @@ class ParsedTexts:
         pattern = pattern_of(text, self.names.lookup)
         earlier = None if pattern is None else self._patterns.get(pattern.key)
         if pattern is not None and earlier is not None:
-            names = dict(zip(earlier[0], pattern.names, strict=True))
-            return [template.of(names) for template in earlier[1]]
+            renamed = Renaming(dict(zip(earlier[0], pattern.names, strict=True))).of
+            return [
+                r._replace(expr=renamed(r.expr), domain=tuple([(renamed(e), sense) for e, sense in r.domain]))
+                for r in earlier[1]
+            ]
         relations = _equations(text, self.names)
         for relation in relations:
             refuse_accelerations(relation.expr)
             in_velocities(relation.expr)
         if pattern is not None:
-            self._patterns[pattern.key] = pattern.names, [_RelationTemplate(relation) for relation in relations]
+            for relation in relations:
+                shape_of(relation.expr)
+            self._patterns[pattern.key] = pattern.names, relations
         return relations
-
-    def in_names(self, kind: Hashable, symbols: Sequence[Expr], make: Callable[[], Expr]) -> Expr:
-        """Return what ``make`` makes of symbols with different names; it is made once for each ``kind``.
-
-        An expression that holds further symbols, as after a fault, is made each time.
-        """
-        if kind in self._made:
-            places, template = self._made[kind]
-            return template.with_symbols([symbols[k] for k in places])
-        expression = make()
-        template = Template(expression)
-        if set(template.symbols) <= set(symbols):
-            self._made[kind] = [symbols.index(s) for s in template.symbols], template
-        return expression
 
     def expression(self, text: str) -> Expr | TextError:
         """Return the expression of a text, or why it is none."""
@@ -194,10 +167,6 @@ class Texts(Ledger):
                     hint += f"; what moves is written as an equation, such as `{law}`"
                 self.fault(f"{_NAMES_OF_KINDS[kind].format(name)} cannot stand here", *where, hint=hint)
                 return
-
-    def in_names(self, kind: Hashable, symbols: Sequence[Expr], make: Callable[[], Expr]) -> Expr:
-        """Return what ``make`` makes of some symbols; see `ParsedTexts`."""
-        return self._reader.in_names(kind, symbols, make)
 
     def equations(self, text: str, *where: str | int) -> list[Relation]:
         """Return the relations of a text that may mention anything; see `ParsedTexts`."""

@@ -6,6 +6,8 @@ either is part of the wheel.
 
 from __future__ import annotations
 
+import base64
+import gzip
 import hashlib
 import json
 import re
@@ -13,12 +15,18 @@ import shutil
 from collections.abc import Sequence
 from pathlib import Path
 
+from dofkit.pictures.player import player_script
 from dofkit.scene.schema import scene_schema
 from dofkit.site.gallery import ShownScene
-from dofkit.site.runtime import PACKAGE, SOURCES, build_runtime, run
+from dofkit.site.runtime import SOURCES, build_runtime, run
 
 #: Files that are kept for a visit without a network only once they were used.
-SELDOM = ("runtime/symbols.zip", "runtime/sheets.zip", "practice.js")
+SELDOM = ("runtime/symbols.zip", "runtime/sheets.zip")
+#: All that reads answers in one script, for the pages of sheets; the files in it beside its worker.
+ONE_SCRIPT, WORKER = "runtime.js", "runtime-worker.js"
+IN_ONE_SCRIPT = (
+    "pyodide.asm.wasm", "python_stdlib.zip", "pyodide-lock.json", "core.bin", "graphs.zip", "sheets.zip",
+)  # fmt: skip
 #: What a scene of the catalog expects of its report: the bench is not for reading that.
 _EXPECTED = re.compile(r"^expect:.*\n(?:[ \t#].*\n|\n)*", re.MULTILINE)
 
@@ -28,7 +36,8 @@ def build_bench(out: Path, catalog: Sequence[ShownScene]) -> None:
     shutil.rmtree(out, ignore_errors=True)
     build_runtime(out / "runtime")
     run(["node", "bundle.mjs", str(out.resolve())], "the bundle")
-    shutil.copyfile(PACKAGE / "pictures" / "player.js", out / "player.js")
+    (out / "player.js").write_text(player_script(), encoding="utf-8")
+    _fill_script(out)
     for path in SOURCES.iterdir():
         if path.suffix in (".html", ".css", ".svg", ".webmanifest"):
             shutil.copyfile(path, out / path.name)
@@ -54,9 +63,20 @@ def _write_catalog(out: Path, catalog: Sequence[ShownScene]) -> None:
     (out / "catalog.json").write_text(json.dumps(fields, ensure_ascii=False), encoding="utf-8")
 
 
+def _fill_script(out: Path) -> None:
+    """Put the worker and its files into the script that needs no web server, compressed and in base64."""
+    sources = {"worker": out / WORKER} | {name: out / "runtime" / name for name in IN_ONE_SCRIPT}
+    packed = {
+        name: base64.b64encode(gzip.compress(path.read_bytes(), 9, mtime=0)).decode() for name, path in sources.items()
+    }
+    with (out / ONE_SCRIPT).open("a", encoding="utf-8") as script:
+        script.write(f"Object.assign(dofkitRuntime.files, {json.dumps(packed)});\n")
+    (out / WORKER).unlink()
+
+
 def _write_version(out: Path) -> None:
     """Write what the service worker keeps: the files of an ordinary visit, and a digest of all."""
-    files = sorted(path for path in out.rglob("*") if path.is_file())
+    files = sorted(path for path in out.rglob("*") if path.is_file() and path.name != ONE_SCRIPT)
     digest = hashlib.sha256()
     for path in files:
         digest.update(path.read_bytes())

@@ -16,7 +16,7 @@ from shared.documented import ROOT
 from shared.served import PageHandler, PageServer, Served
 
 from dofkit.homework.assignment import load_assignment
-from dofkit.homework.handout.page_sheets import write_practice
+from dofkit.homework.handout.page_sheets import put_runtime, write_page
 from dofkit.interface.assignment_commands import drawing
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
@@ -58,7 +58,8 @@ def served(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
         except BenchError as error:
             pytest.skip(f"the bench cannot be built: {error}")
     (folder / "screenshots").mkdir(exist_ok=True)
-    write_practice(load_assignment(GERMAN), drawing(), folder / "practice", folder / "bench")
+    put_runtime(folder / "practice", folder / "bench" / "runtime.js")
+    write_page(load_assignment(GERMAN), drawing(), folder / "practice" / "index.html", judges=True)
     server = PageServer(("127.0.0.1", 0), partial(PageHandler, directory=str(folder)))
     threading.Thread(target=server.serve_forever, daemon=True).start()
     yield Served(f"http://127.0.0.1:{server.server_port}", folder, server)

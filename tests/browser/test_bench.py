@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 import pytest
-from shared.documented import ROOT
+from shared.browsed import SOON, seen, shot, violations
 from shared.served import Served
 
 from dofkit.site.markdown import fragment
 
 pytestmark = [pytest.mark.browser, pytest.mark.xdist_group("browser"), pytest.mark.timeout(900)]
-AXE = ROOT / "dofkit" / "site" / "bench" / "node_modules" / "axe-core" / "axe.min.js"
-#: Milliseconds for an answer of a Python that has started, on a busy machine.
-SOON = 30_000
 KNIFE = """\
 coordinates: [x, y, theta]
 constraints:
@@ -34,22 +30,6 @@ def write(page: Any, text: str) -> None:
     page.locator(".cm-content").click()
     page.keyboard.press("Control+A")
     page.keyboard.insert_text(text)
-
-
-def seen(page: Any, selector: str, text: str) -> None:
-    """Wait until an element has a text."""
-    page.locator(selector).filter(has_text=text).first.wait_for(timeout=SOON)
-
-
-def shot(page: Any, served: Served, name: str) -> None:
-    """Keep screenshots at the width of a desk and of a telephone, to be looked at."""
-    folder = served.folder / "screenshots"
-    for device, width, height in (("desktop", 1280, 860), ("phone", 360, 740)):
-        page.set_viewport_size({"width": width, "height": height})
-        page.wait_for_timeout(200)
-        assert page.evaluate("document.documentElement.scrollWidth <= innerWidth"), f"{name} is too wide for {device}"
-        page.screenshot(path=folder / f"{name}-{device}.png", full_page=device == "phone")
-    page.set_viewport_size({"width": 1280, "height": 860})
 
 
 def test_a_fault_is_shown_while_typing_and_mended_by_a_click(served: Served, visit: Any) -> None:
@@ -134,7 +114,7 @@ def test_the_policy_refuses_inline_scripts(served: Served, visit: Any) -> None:
         "document.body.append(Object.assign(document.createElement('script'), {textContent: 'window.ran = 1'}))"
     )
     assert page.evaluate("window.ran") is None
-    for file in ("bench/index.html", "bench/player.html", "practice/index.html"):
+    for file in ("bench/index.html", "bench/player.html"):
         text = (served.folder / file).read_text(encoding="utf-8")
         assert "script-src 'self' 'wasm-unsafe-eval'" in text or "default-src 'self'\"" in text
         assert "unsafe-inline" not in text
@@ -188,13 +168,6 @@ def test_axe_finds_no_violation(served: Served, visit: Any, scheme: str) -> None
     assert violations(page) == []
 
 
-def violations(page: Any) -> list[str]:
-    """Return what axe-core finds."""
-    page.evaluate(Path(AXE).read_text(encoding="utf-8"))
-    violations = page.evaluate("axe.run({iframes: false})")["violations"]
-    return [f"{v['id']}: {v['nodes'][0]['html'][:200]} {v['nodes'][0]['failureSummary']}" for v in violations]
-
-
 def test_the_keyboard_alone_is_enough(served: Served, visit: Any) -> None:
     page = visit.opened(f"{served.url}/bench/")
     order = []
@@ -213,29 +186,3 @@ def test_the_keyboard_alone_is_enough(served: Served, visit: Any) -> None:
     page.keyboard.press("Enter")
     page.wait_for_url(lambda url: "#example=" in url and "disc-rolling-on-plane" not in url)
     page.locator("#report h2").filter(has_not_text="Upright disc").wait_for(timeout=SOON)
-
-
-def test_a_practice_sheet_in_german(served: Served, visit: Any) -> None:
-    page = visit.page
-    page.goto(f"{served.url}/practice/")
-    fields = page.locator("textarea")
-    assert fields.count() == 3
-    seen(page, ".note", "Dieses Blatt dient der Übung")
-    fields.nth(0).fill("f = 2")
-    fields.nth(1).fill("dx + R sin(theta dphi = 0")
-    fields.nth(2).fill("nicht-holonom, skleronom")
-    page.locator(".read").nth(2).filter(has_text="Gelesen als: nicht").wait_for(timeout=4 * SOON)
-    page.locator(".read pre").filter(has_text="^").wait_for(timeout=SOON)
-    shot(page, served, "practice-unread")
-    fields.nth(1).fill("dx + R sin(theta) dphi = 0")
-    page.locator(".read math").wait_for(timeout=SOON)
-    page.get_by_role("button", name="Alle Antworten prüfen").click()
-    page.locator(".judged").nth(2).filter(has_text="richtig").wait_for(timeout=4 * SOON)
-    assert "falsch (0 von 2)" in page.locator(".judged").nth(0).inner_text()
-    assert "richtig" in page.locator(".judged").nth(1).inner_text()
-    assert page.locator("h1").bounding_box()["x"] == page.locator("h2").last.bounding_box()["x"]
-    shot(page, served, "practice-judged")
-    assert violations(page) == []
-    page.reload()
-    assert page.locator("textarea").nth(0).input_value() == "f = 2"
-    assert visit.errors == []

@@ -22,6 +22,7 @@ from shared.known_scenes import CATALOG, SCENES, report_of, scene_of, stem, swep
 from shared.tampering import edited, renewed, tampered
 
 from dofkit.checker import CheckError, verify
+from dofkit.checker.problem import sha256_of
 from dofkit.methods.certificates.certificate import made
 from dofkit.methods.certificates.lowering import document_of_scene
 
@@ -99,6 +100,20 @@ def test_the_checkers_agree_on_certificates_and_on_changed_ones(path: Path) -> N
             assert {one, other} != {"accepted", "refused"}, (claim, one, other)
     if path in CATALOG:
         assert set(verdicts[0]) == {"accepted"}
+
+
+@needs_node
+def test_a_zero_in_a_large_box_is_as_small_as_the_test_shows() -> None:
+    """4 x - 3 is 0 at x = 3/4 alone in a box of any size; there the form's derivative is 1 - 3 x, which is not 0."""
+    document = {
+        "coordinates": ["x", "y", "z"],
+        "constraints": ["4 x = 3", "(x - 1/2) (y dx - x dy) + (x - 1/2) dz = 0"],
+    }
+    box = {"id": "P", "values": {"x": "3/4", "y": "0", "z": "0"}, "rows": ["c1"], "columns": ["x"], "radius": "1e30"}
+    claim = {"path": "/constraints/c2/exact", "value": False, "rule": "not exact", "at": "P", "pair": ["x", "y"]}
+    scene = {"name": "scene", "sha256": sha256_of(document)}
+    case = document, {"certificate": 1, "scene": scene, "points": [box], "claims": [claim]}
+    assert first(case) == second([case])[0] == ["accepted"]
 
 
 @needs_node

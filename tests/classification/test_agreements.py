@@ -49,6 +49,8 @@ def test_a_broken_law_is_logged_and_its_fields_are_withheld(law: str, caplog: py
     assert any("defect" in record.getMessage() for record in caplog.records)
     assert left["verdict"] == "undecided"
     assert all(left[name] in (None, []) for name in row.fields)
+    withheld = [entry.independent for entry in left["constraints"]] == [None] * 3
+    assert withheld == ("redundancies" in row.fields)
     assert any(row.law in line for line in left["warnings"])
 
 

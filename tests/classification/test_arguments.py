@@ -93,3 +93,15 @@ def test_the_argument_that_is_told_is_the_one_that_decided() -> None:
     scene = {"coordinates": ["x", "y"], "constraints": ["x^2 + y^2 = 1", "(x - 3)^2 + y^2 = 4"]}
     report = dofkit.classify(scene)
     assert (report.dof, report.verdicts["dof"].argument) == (0, "isolated zero of one variable")
+
+
+@pytest.mark.parametrize(
+    ("constraints", "dof"),
+    [
+        (["x^2 + y^2 + z^2 = 1", "z = 1/2"], 1),  # a circle
+        (["xdot = y", "y = 2", "z = 0"], 0),  # x = 2 t + C
+    ],
+)
+def test_everyday_answers_are_proved(constraints: list[str], dof: int) -> None:
+    report = dofkit.classify({"coordinates": ["x", "y", "z"], "constraints": constraints})
+    assert (report.dof, report.verdict) == (dof, "proved")

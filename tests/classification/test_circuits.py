@@ -52,3 +52,20 @@ def test_a_coupling_of_a_joint_with_itself_says_nothing() -> None:
     assert (report.dof, report.redundant) == (1, ["j1", "c"])
     assert [e.independent for e in report.constraints] == [5, 0, 0]
     assert report.constraints[2].circuit == []
+
+
+def test_of_many_hinges_on_one_line_all_but_the_first_can_go() -> None:
+    door = [{**hinge(f"h{k}", "ground", "door", [0, 0, 0]), "at": [0, 0, k]} for k in range(16)]
+    report = dofkit.classify({"bodies": ["door"], "constraints": door})
+    assert report.redundant == [f"h{k}" for k in range(1, 16)]
+
+
+def test_creases_through_one_vertex_are_three_too_many_where_they_are_flat() -> None:
+    """All axes meet, so that three of the four creases keep the vertex in its place and the fourth does so again."""
+    axes = [[1, 0, 0], [3, 4, 0], [-1, 0, 0], [3, -4, 0]]
+    panels = ["ground", "p1", "p2", "p3", "ground"]
+    creases = [
+        {"type": "revolute", "between": panels[k : k + 2], "at": axis, "axis": axis} for k, axis in enumerate(axes)
+    ]
+    report = dofkit.classify({"bodies": panels[1:4], "constraints": creases})
+    assert [group.nullity for group in report.redundancies] == [3]

@@ -85,3 +85,15 @@ def test_a_product_with_a_factor_that_is_zero_everywhere() -> None:
     """tanh w = 1 - 2 / (e^(2 w) + 1), so that nothing is said of x."""
     product = "(tanh(w) - 1 + 2/(exp(2*w) + 1))*(x - 1) = 0"
     assert dofkit.classify({"coordinates": ["x", "y", "z", "w"], "constraints": [product]}).dof == 4
+
+
+def test_what_integrates_together_with_another_says_to_what() -> None:
+    """dz = y dx alone does not integrate; with y constant z - y x is constant too."""
+    together = dofkit.classify({"coordinates": ["x", "y", "z"], "constraints": ["dz = y dx", "dy = 0"]})
+    assert "together with 'c2' it integrates to x*y - z = C" in together.constraints[0].reason
+
+
+def test_a_proof_by_counting_needs_no_warning() -> None:
+    links = [{"type": "link", "between": [*pair]} for pair in ("AB", "BC")]
+    report = dofkit.classify({"dimension": 1, "particles": [*"ABC"], "constraints": links})
+    assert (report.verdict, report.warnings) == ("proved", [])

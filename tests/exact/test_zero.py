@@ -7,6 +7,7 @@ from fractions import Fraction
 import pytest
 
 import dofkit
+from dofkit.exact.ring.radicals import prime_powers
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero import doubt, independent_generators, is_proved_zero, zero_and_verdict
 from dofkit.expressions import tree as ex
@@ -105,3 +106,7 @@ def test_what_has_a_value_nowhere_that_was_tried_is_not_taken_for_zero() -> None
     narrow = ex.sqrt(1 - 10**6 * (x - ex.num(Fraction(1, 3))) ** 2)
     for e in (ex.fn("log", -1 - x * x), ex.fn("log", narrow) + 1):
         assert zero_and_verdict(e, frozenset()) == (None, "undecided")
+
+
+def test_the_prime_powers_of_a_large_number() -> None:
+    assert prime_powers(2**200 * 3 * 41**30) == [(2, 200), (3, 1), (41**30, 1)]

@@ -8,7 +8,7 @@ import random
 import pytest
 
 from dofkit.base.errors import TextError
-from dofkit.expressions.renaming import Renaming, Template, shape_of
+from dofkit.expressions.renaming import Renaming, shape_of
 from dofkit.expressions.text import Names, parse_relations
 from dofkit.expressions.text.names import pattern_of
 from dofkit.expressions.tree import Expr, coordinate, fn, parameter, velocity
@@ -32,19 +32,20 @@ def test_a_coordinate_that_occurs_twice_is_no_two_coordinates() -> None:
     assert twice != once
 
 
-def test_a_template_tells_what_is_asked_before_it_is_looked_into() -> None:
-    """Symbols, functions, shape, and then all else as of what is written at once: as a key, in a sum, in a file."""
+def test_a_renamed_expression_is_as_if_it_had_been_written_so() -> None:
+    """Symbols, functions and shape, and as a key, in a sum, in a file."""
     x, y, u, v, r = coordinate("x"), velocity("y"), coordinate("u"), velocity("v"), parameter("R")
-    template = Template(r * fn("sin", x) + y**2 + x)
-    made, written = template.of(("u", "v")), r * fn("sin", u) + v**2 + u
+    e, written = r * fn("sin", x) + y**2 + x, r * fn("sin", u) + v**2 + u
+    assert shape_of(e).names == ("x", "y")
+    made = Renaming({"x": "u", "y": "v"}).of(e)
     assert (made.op, made.symbols, made.functions) == ("add", {u, v, r}, {"sin"})
     assert (made.shape.names, made.shape.kept) == (("u", "v"), ("R",))
     assert shape_of(made) == shape_of(written)
     assert {made: 1}[written] == 1
     assert made.args == written.args
-    assert made - written == template.with_symbols([u, v]) * 0
-    assert pickle.loads(pickle.dumps(template.of(("u", "v")))) == written
-    assert template.of(("v", "u")) != written
+    assert (made - written).is_zero
+    assert pickle.loads(pickle.dumps(made)) == written
+    assert Renaming({"x": "v", "y": "u"}).of(e) != written
 
 
 #: Texts that are the same up to names.

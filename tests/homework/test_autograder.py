@@ -20,7 +20,7 @@ from typer.testing import CliRunner
 from dofkit.homework.assignment import AssignmentError, load_assignment
 from dofkit.homework.autograder import SITES, grade_at, main
 from dofkit.homework.export import ExportError, export_gradescope
-from dofkit.homework.handout.class_sheets import standing_alone
+from dofkit.homework.handout.portable import standing_alone
 from dofkit.interface.cli import app
 
 MEMORY = 2 << 30

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from pathlib import Path
 from typing import Any
@@ -11,8 +12,10 @@ import pytest
 
 import dofkit
 from dofkit.homework.assignment import AssignmentError, Prepared, load_assignment
+from dofkit.homework.handout.class_sheets import write_handout
 from dofkit.homework.handout.markup import FigureError, formula
-from dofkit.homework.handout.sheets import HANDOUTS, remarks, write_sheet, written_sheet
+from dofkit.homework.handout.reading import declared_of, read_answer
+from dofkit.homework.handout.sheets import remarks, written_sheet
 from dofkit.homework.questions import KINDS
 from dofkit.interface import cli
 from dofkit.interface.assignment_commands import drawing
@@ -158,13 +161,28 @@ def test_the_page_needs_no_network_and_runs_nothing(tmp_path: Path) -> None:
     with pytest.raises(FigureError):
         written_sheet(sheet(pendulum(text=text)), drawing())
     text = "See <script>alert(1)</script> and [this](javascript:alert(1))."
-    write_sheet(written_sheet(sheet(pendulum(text=text)), drawing()), "html", out)
+    write_handout(sheet(pendulum(text=text)), "html", drawing(), out)
     page = out.read_text(encoding="utf-8")
     assert "<script" not in page
     assert "&lt;script&gt;" in page
     assert not re.search(r'(src|href)="(?!data:)', page)
     assert page.count("<math") == 3
     assert "prefers-color-scheme: dark" in page
+
+
+def test_an_answer_is_read_by_the_names_of_the_sheet_as_grading_reads_it() -> None:
+    more = [{"id": "q", "ask": "coordinates"}, {"id": "l", "ask": "label", "constraint": "rod"}]
+    asked = [*pendulum()["questions"], *more]
+    prepared = sheet(pendulum(questions=asked, names={"x_A": ["u"], "rod": "bar"}, also={"phi": "atan2(x_A, -y_A)"}))
+    (problem,) = prepared.assignment.problems
+    declared = json.dumps(declared_of(problem, prepared.keys["pendulum"].scene))
+    given = {"f": "f = 1", "rod": "u² + y_A² = l²", "q": "phi", "l": "holonom, skleronom"}
+    result = dofkit.grade(prepared, {"student": "ada", "answers": {"pendulum": given}})
+    for item in result.items:
+        assert read_answer(declared, item.question, given[item.question], "en")["read_as"] == item.read_as
+        assert item.status == "right"
+    unread = read_answer(declared, "rod", "u + zz = (1", "de")
+    assert (unread["column"], "geschlossen" in unread["fault"]) == (10, True)
 
 
 def test_a_figure_of_a_file(tmp_path: Path) -> None:
@@ -179,15 +197,10 @@ def test_a_figure_of_a_file(tmp_path: Path) -> None:
 
 
 def test_markdown_has_latex_for_other_readers(tmp_path: Path) -> None:
-    write_sheet(
-        written_sheet(sheet(pendulum(text="angle $theta$, typed `$theta$`")), drawing()), "md", tmp_path / "s.md"
-    )
+    write_handout(sheet(pendulum(text="angle $theta$, typed `$theta$`")), "md", drawing(), tmp_path / "s.md")
     told = (tmp_path / "s.md").read_text(encoding="utf-8")
     assert "angle $\\theta$, typed `$theta$`" in told
     assert (tmp_path / "figures" / "pendulum.svg").exists()
-
-
-FORMATS = [*HANDOUTS]
 
 
 def test_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -196,10 +209,18 @@ def test_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None
         "title: One\nproblems:\n- {id: p, scene: simple-pendulum-link, questions: [{id: f, ask: dof}]}\n",
         encoding="utf-8",
     )
-    for form in FORMATS:
-        cli.app(["assignment", "handout", str(made), "--format", form], standalone_mode=False)
-        assert made.with_suffix(f".{form}").exists()
-    assert capsys.readouterr().out.splitlines() == [str(made.with_suffix(f".{form}")) for form in FORMATS]
+    (tmp_path / "runtime.js").touch()
+    page = ["--format", "page", "--out", str(tmp_path / "to" / "p.html"), "--runtime", str(tmp_path / "runtime.js")]
+    for options in ([], ["--format", "md"], page):
+        cli.app(["assignment", "handout", str(made), *options], standalone_mode=False)
+    written = [made.with_suffix(".html"), made.with_suffix(".md"), tmp_path / "to" / "p.html"]
+    assert capsys.readouterr().out.splitlines() == [str(path) for path in written]
+    assert all(path.exists() for path in (*written, tmp_path / "to" / "runtime.js"))
+    (tmp_path / "roster.csv").write_text("name,email\nAda,ada@x\nGrace,grace@x\n", encoding="utf-8")
+    everyone = ["--roster", str(tmp_path / "roster.csv"), "--out", str(tmp_path / "all"), "--runtime", "nothing.js"]
+    cli.app(["assignment", "handout", str(made), "--format", "page", *everyone], standalone_mode=False)
+    assert {path.name for path in (tmp_path / "all").iterdir()} == {"ada@x.html", "grace@x.html"}
+    assert "--runtime" in capsys.readouterr().err
     with pytest.raises(SystemExit):
         cli.app(["assignment", "handout", str(made), "--format", "docx"])
     for wrong in (["--out", "sheet.pdf", "--format", "html"], ["--out", "sheet.docx"], ["--out", "sheet"]):

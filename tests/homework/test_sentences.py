@@ -25,12 +25,13 @@ TOLD = [
     *(ROOM / "answers").glob("*.py"),
     ROOM / "grading.py",
     ROOM / "handout" / "composition.py",
+    ROOM / "handout" / "page_sheets.py",
     ROOM / "judgement.py",
 ]
 #: Whose sentences stand among other texts.
 SHOWN = [
     *(ROOM / "formats").glob("*.py"),
-    *(ROOM / name for name in ("autograder.py", "grading.py", "runs/batch.py", "handout/page_sheets.py")),
+    *(ROOM / name for name in ("autograder.py", "grading.py", "runs/batch.py")),
 ]
 STUDENT_PAGE = ROOM / "formats" / "templates" / "student.html"
 #: Calls whose texts are for lecturers, or are no sentences.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+import re
 from pathlib import Path
 from typing import Any
 
@@ -15,8 +16,9 @@ from dofkit.homework.answers.roster import Participant, Roster
 from dofkit.homework.answers.submission import of_value
 from dofkit.homework.assignment import AssignmentError, Prepared, load_assignment
 from dofkit.homework.grading import Grader
-from dofkit.homework.handout.class_sheets import ASSIGNMENT, TABLE
+from dofkit.homework.handout.class_sheets import ASSIGNMENT, TABLE, sheets_of, write_sheets
 from dofkit.homework.variants import NobodysVariantError, VaryError, differing_share, drawn, picked, sheet_of
+from dofkit.interface.assignment_commands import drawing
 from dofkit.interface.cli import app
 
 #: f = 2 n - (n - 1) = n + 1 for a chain of n particles in a line; the support at rest is scleronomic, moved rheonomic.
@@ -140,6 +142,35 @@ def test_a_class_keeps_its_variants(tmp_path: Path) -> None:
         plain = {"id": "p", "scene": "four-bar-linkage", "questions": [{"id": "f", "ask": "dof"}]}
         (tmp_path / "plain.yaml").write_text(yaml.safe_dump({**SHEET, "problems": [plain]}))
         assert "nothing varies" in runner.invoke(app, [*command[:2], "plain.yaml", *command[3:]]).output
+
+
+def test_a_page_with_fields_has_only_names_of_its_own_sheet(tmp_path: Path) -> None:
+    """Nothing of the key, of the scene's constraints, of another variant or of another student is in a page."""
+    questions = CHAIN["questions"][:1] + CHAIN["questions"][2:]
+    scene = {**CHAIN["scene"], "energies": {"kinetic": "777 xdot^2"}, "expect": {"dof": 1}, "notes": "secret"}
+    written = {**SHEET, "problems": [{**CHAIN, "questions": questions, "scene": scene}]}
+    members = roster(*(f"student{i}" for i in range(10, 19)))
+    variants = drawn(load_assignment(written), members, "seed-of-mine")
+    prepared = load_assignment({**written, "variants": variants.model_dump()})
+    write_sheets(sheets_of(prepared, members), "page", drawing(), tmp_path)
+    for student in variants.students:
+        page = (tmp_path / f"{student.student}.html").read_text(encoding="utf-8")
+        picked_l, picked_support = student.picks["chain"]["l"], student.picks["chain"]["support"]
+        hidden = {"y^2", "y^{2}", "777", "secret", "seed-of-mine", "expect", "vary", "picks"}
+        hidden |= {other.student for other in variants.students if other is not student}
+        assert [text for text in hidden if text in page] == []
+        assert ("the support moves." in page, "the support is at rest." in page) == (
+            picked_support == 1,
+            picked_support == 0,
+        )
+        assert re.findall(r"<mn>(\d)</mn>", page) == [str((2, 3, 5)[picked_l])]
+        data = json.loads(re.search(r'id="data">(.*?)</script>', page)[1])  # type: ignore[index]
+        assert data["assignment"] is None
+        assert {key: value for key, value in data["declared"]["chain"].items() if key != "questions"} == {
+            "scene": {"dimension": 3, "coordinates": ["x", "y"]}, "constraints": ["rod"], "also": {}, "others": {}
+        }  # fmt: skip
+    with pytest.raises(VaryError, match="the sheet varies"):
+        write_sheets(sheets_of(load_assignment(written), members), "page", drawing(), tmp_path)
 
 
 def test_a_roster_of_nobody() -> None:

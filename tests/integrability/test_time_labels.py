@@ -16,6 +16,7 @@ TABLE: list[tuple[str, list[str], bool | None, bool | None, str]] = [
     ("x y", ["exp(t) (x^2 + y^2 - 1) = 0"], True, None, "exp(t) never vanishes"),
     ("x y", ["(t - 3) (x - y) = 0"], True, None, "t - 3 is analytic in t alone: 0 at one instant"),
     ("x y", ["sin(t) (x - y) = 0"], True, None, "analytic in t alone"),
+    ("x y", ["(sqrt(t) + t) (x - y) = 0"], True, None, "analytic in t alone where it has a value, but for its end"),
     ("x y", ["(2 + x^2 + t^2) (x - y) = 0"], True, None, "2 at least"),
     ("x y", ["f(t) (x - y) = 0"], True, None, "a declared function"),
     ("x y", ["h(x, t) (x - y) = 0"], True, None, "a declared function of x and t"),

@@ -223,22 +223,6 @@ def test_ranges_beyond_half_a_turn_are_counted_less_whole_turns(limits: str, tex
     assert any("beyond half a turn" in told for told in scene.left_out) is not bool(text)
 
 
-def test_a_rounded_right_angle_is_a_warning_and_used_as_written() -> None:
-    parts = [link("a"), link("b"), link("c"), link("d")]
-    parts += [
-        joint("j", "prismatic", "a", "b", f"<origin rpy='3.14159 0 -1.5708'/>{Z}"),
-        joint("k", "prismatic", "b", "c", f"<origin rpy='{math.pi / 2} 0.5 0'/>{Z}"),
-        joint("l", "prismatic", "c", "d", f"<origin rpy='0 0 0.000001'/>{Z}"),
-    ]
-    scene = load(robot(*parts))
-    told = [line for line in scene.left_out if "rounded" in line]
-    assert len(told) == 3
-    assert "the angle 3.14159 is not equal to pi but within 1e-5 of it" in told[0]
-    assert "the angle -1.5708 is not equal to -pi/2 but" in told[1]
-    assert "the angle 0.000001 is not equal to 0 but" in told[2]
-    assert "0.99999999" not in scene.constraints[0].in_words
-
-
 FAULTS: dict[str, tuple[str, ...]] = {
     "line 3, column 1: there is no joint type 'revolut' (did you mean 'revolute'?)": (
         link("a") + link("b"), joint("j", "revolut", "a", "b")),

@@ -468,4 +468,3 @@ def test_an_unstable_equilibrium_has_no_frequencies() -> None:
     assert small.stiffness == [["-m*g*l"]]
     assert small.frequencies == []
     assert small.unstable
-    assert small.others[0] == {"theta": "pi"}

@@ -71,5 +71,5 @@ def test_only_what_moves_is_said_to_move() -> None:
 def test_what_is_driven_moves_with_time() -> None:
     found = arrangement_of(lower(dofkit.load("four-bar-driven-crank")))
     (motion,) = free_motions(found)
-    assert motion.name == "t"
+    assert motion.name == "time"
     assert movers(found, [motion]) == {"crank", "coupler", "rocker"}

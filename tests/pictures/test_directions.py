@@ -85,9 +85,13 @@ def test_what_is_not_linear_in_velocities_has_no_directions(text: str) -> None:
     assert not any("infinitesimal" in clip.name for clip in dofkit.animate(scene).clips)
 
 
-def test_the_picture_of_the_start_page_is_of_today() -> None:
-    kept = (Path(dofkit.__file__).parent / "site" / "pages" / "loop.svg").read_text(encoding="utf-8")
-    drawn = svg_of(dofkit.animate("disc-rolling-on-plane", loop=True).last_page)
+@pytest.mark.parametrize("name", ["loop", "four-bar"])
+def test_the_pictures_of_the_first_pages_are_of_today(name: str) -> None:
+    kept = (Path(dofkit.__file__).parent / "site" / "pages" / f"{name}.svg").read_text(encoding="utf-8")
+    loop = name == "loop"
+    drawn = svg_of(
+        dofkit.animate("disc-rolling-on-plane", loop=True).last_page if loop else dofkit.draw("four-bar-linkage").page
+    )
     for part in (r"<desc>.*?</desc>", r"<style>.*?</style>", r">[^<>]+</text>"):
         assert re.findall(part, kept) == re.findall(part, drawn)
 

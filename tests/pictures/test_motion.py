@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import re
 import shutil
-from itertools import combinations
+from itertools import combinations, pairwise
 from pathlib import Path
 from typing import Any
 
@@ -14,8 +14,14 @@ import pytest
 
 import dofkit
 from dofkit.base.errors import ArgumentError
+from dofkit.expressions.tree import Expr, coordinate
 from dofkit.pictures.animation import STILL, Animation
+from dofkit.pictures.arrangement import finite_relations
+from dofkit.pictures.evaluation import derivatives, values_at
 from dofkit.pictures.files import ExtraMissingError
+from dofkit.pictures.motion_clips import GOES_ON
+from dofkit.pictures.shapes import quaternion
+from dofkit.scene.lowering import lower
 
 #: Of the truss with corners (0, 0), (4, 0), (1, 3): AB, AC, BC.
 LENGTHS = [4, 10**0.5, 18**0.5]
@@ -52,12 +58,62 @@ def test_bars_keep_their_lengths() -> None:
 
 
 def test_each_of_several_freedoms_is_shown_by_itself() -> None:
-    names = [clip.name for clip in dofkit.animate("planetary-gear-bodies").clips]
-    assert names == [
-        "a finite motion that uses all freedoms",
-        "infinitesimal motion 1 of 2: theta_arm",
-        "infinitesimal motion 2 of 2: theta_sun",
+    arm, sun = dofkit.animate("planetary-gear-bodies").clips
+    assert (arm.name, sun.name) == ("free velocity 1 of 2: theta_arm", "free velocity 2 of 2: theta_sun")
+    values = {name: [q[coordinate(name)] for q in arm.path] for name in ("theta_arm", "theta_sun")}
+    assert np.ptp(values["theta_arm"]) > 1
+    assert np.ptp(values["theta_sun"]) < 1e-9
+
+
+def test_both_motions_leave_a_flat_parallelogram() -> None:
+    """Crank and rocker 1, coupler and ground 2. If the crank is at a and the rocker at c, both small, the coupler is at
+    (c - a)/2, and the second order of the ends' distance gives (c - a)(c + 3a) = 0."""
+    places = [[0, 0], [1, 0], [3, 0], [2, 0]]
+    members = ["ground", "crank", "coupler", "rocker", "ground"]
+    joints = [
+        {"type": "revolute", "between": [*pair], "at": p} for pair, p in zip(pairwise(members), places, strict=True)
     ]
+    clips = dofkit.animate({"dimension": 2, "bodies": members[1:4], "constraints": joints}).clips
+    assert [clip.name for clip in clips] == ["finite motion 1", "finite motion 2"]
+    ratios = []
+    for clip in clips:
+        assert all(clip.text == GOES_ON and abs(b[0] - a[0]) < 1e-3 for a, b in clip.arrows)
+        up = {round(float(a[0])): b[1] - a[1] for a, b in clip.arrows}
+        ratios.append(up[3] / up[1])
+    assert sorted(ratios) == pytest.approx([-3, 1], abs=0.2)
+
+
+def test_a_switch_leaves_out_a_constraint() -> None:
+    door = {"bodies": ["door"], "constraints": [_hinge("lower", 0), _hinge("upper", 2)]}
+    moving = dofkit.animate(door)
+    assert [(s.name, s.free) for s in moving.switches] == [("lower", False), ("upper", True)]
+    assert "as long as upper is in use" in moving.switches[0].text
+    assert [clip.name for clip in moving.clips] == ["a finite motion"]
+
+
+def test_without_a_constraint_that_is_needed_the_others_hold() -> None:
+    """P hangs on three bars, one of them redundant, and Q on P: without that bar Q is free, and P rests."""
+    bars = {"a": [[0, 0], "P"], "b": [[2, 0], "P"], "c": [[1, -1], "P"], "d": ["P", "Q"]}
+    scene = {
+        "dimension": 2,
+        "particles": [{"name": "P", "at": [1, 1]}, {"name": "Q", "at": [2, 2]}],
+        "constraints": [{"name": n, "type": "link", "between": ends} for n, ends in bars.items()],
+    }
+    moving = dofkit.animate(scene)
+    assert [(s.name, s.free) for s in moving.switches] == [("a", False), ("b", False), ("c", True), ("d", False)]
+    (clip,) = (clip for clip in moving.clips if clip.dropped)
+    assert clip.dropped == "d"
+    assert all(frame["P"].shift == pytest.approx([1, 1, 0], abs=1e-9) for frame in clip.frames)
+    assert np.ptp([float(np.linalg.norm(f["Q"].shift - f["P"].shift)) for f in clip.frames]) > 0.3
+
+
+def _hinge(name: str, height: float) -> dict[str, Any]:
+    return {"name": name, "type": "revolute", "between": ["ground", "door"], "at": [0, 0, height], "axis": [0, 0, 1]}
+
+
+def test_a_function_in_forces_alone_stops_no_motion() -> None:
+    names = [clip.name for clip in dofkit.animate("cart-spring-hinged-rod").clips]
+    assert names == ["free velocity 1 of 2: x", "free velocity 2 of 2: theta"]
 
 
 def test_a_motion_of_first_order_only_is_shown() -> None:
@@ -72,6 +128,7 @@ def test_a_motion_of_first_order_only_is_shown() -> None:
     found = dofkit.animate(scene)
     assert [clip.name for clip in found.clips] == ["infinitesimal motion: y_C"]
     assert "instantaneous freedom 1 at this singular configuration" in found.alternative
+    assert "no finite motion is possible" in found.clips[0].text
     heights = [f["C"].shift[1] for f in found.clips[0].frames]
     assert max(heights) > 0.1
     assert min(heights) < -0.1
@@ -95,6 +152,32 @@ def test_a_graph_does_not_move() -> None:
     free = dofkit.animate({"coordinates": ["a", "b", "c", "d"]})
     assert free.clips == ()
     assert "`picture`" in free.sketch.notes[0]
+
+
+def _worst(found: Animation, scene: str) -> float:
+    """The largest residual of a finite relation, by its gradient and the size of the coordinates, in finite motions."""
+    system = lower(dofkit.load(scene))
+    relations, symbols = finite_relations(system), [coordinate(c.name) for c in system.coordinates]
+    worst = 0.0
+    for clip in found.clips:
+        for frame, path in zip(clip.frames, clip.path, strict=True):
+            numbers: dict[Expr, float] = dict(path)
+            turns = [quaternion(frame[r.body].turn) for r in system.rotations if r.chart == "gibbs"]
+            gibbs = [r for r in system.rotations if r.chart == "gibbs"]
+            if clip.dropped or clip.name.startswith("infinitesimal") or any(q[0] < 0.05 for q in turns):
+                continue
+            for r, q in zip(gibbs, turns, strict=True):
+                numbers |= dict(zip(map(coordinate, r.names), map(float, q[1:] / q[0]), strict=True))
+            slopes = np.linalg.norm(derivatives(relations, symbols, numbers), axis=1)
+            reach = max(1.0, *(abs(numbers[s]) for s in symbols)) if symbols else 1.0
+            gaps = np.abs(values_at(relations, numbers).reshape(len(relations))) / np.maximum(slopes, 1.0) / reach
+            worst = max([worst, *map(float, gaps)])
+    return worst
+
+
+@pytest.mark.parametrize("name", ["slider-crank", "double-pendulum-links"])
+def test_constraints_hold_in_every_frame(name: str) -> None:
+    assert _worst(dofkit.animate(name), name) < 1e-9
 
 
 # -- files -----------------------------------------------------------------------------------------
@@ -142,4 +225,6 @@ def test_the_whole_catalog_is_animated(name: str) -> None:
     report = dofkit.classify(name)
     moves = bool(report.velocity_dof) or report.scleronomic is False
     assert bool(found.clips) == moves
+    assert _worst(found, name) < 1e-9
     data_of(found)
+    assert len(found.html()) < 60_000

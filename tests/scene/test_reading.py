@@ -217,10 +217,6 @@ WITH_ECHOES = {
         "coordinates: ['{x}']\nconstraints: ['{x} = 1', 'x = 2']\n", 1, "write `x`",
     ),
     "a particle's name that cannot be read": ("particles: [A B]\nconstraints: [x_A = 1]\n", 1, "write `A_B`"),
-    "two keys of one constraint": (
-        "particles: [A, B]\nconstraints: [{type: link, betwen: [A, B], lenght: 2}]\n", 2,
-        "between: [A, B], length: 2}`",
-    ),
 }  # fmt: skip
 
 

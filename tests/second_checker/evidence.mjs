@@ -137,17 +137,12 @@ export class Evidence {
   identity(step) {
     return this.once(`identity ${step.id}`, () => {
       const c = entries(step.c).map(([id, text]) => [this.relation(id, step), this.text(text)]);
-      const sized = [...(step.put ?? []), ...(step.sos ?? [])].every((pair) => Array.isArray(pair) && pair.length === 2);
-      refuse(!sized, "put and sos are lists of pairs");
+      refuse(!(step.put ?? []).every((pair) => Array.isArray(pair) && pair.length === 2), "put is a list of pairs");
       const puts = (step.put ?? []).map(([id, q]) => [this.relation(id, step), q]);
       const h = this.text(step.h ?? "1");
-      const power = step.power ?? 1;
-      refuse(!Number.isInteger(power) || power < 1 || power > 64, "a power is a positive whole number");
       refuse(h.hasAny(this.scene.rates), "h holds no velocities");
-      const squares = (step.sos ?? []).map(([w, a]) => [this.text(w), this.text(a)]);
       let target;
       if (step.by === "integral") {
-        refuse(power !== 1 || squares.length, "an integral has no power and no squares");
         target = this.rateOf(this.relation(step.id));
       } else {
         refuse(step.by !== "implied", `there is no step by ${step.by}`);
@@ -158,15 +153,7 @@ export class Evidence {
         refuse(finite && c.some(([, text]) => text.hasAny(this.scene.rates)), "a cofactor holds velocities");
         target = goal.tree;
       }
-      if (squares.length) {
-        refuse(power % 2 === 1, "with squares a power is even");
-        refuse(!nowhereZero(h, this.scene.signs, true), "with squares h is positive by itself");
-        refuse(!squares.every(([w, a]) => nowhereZero(w, this.scene.signs, true) && isTotal(a)), "a square is not one");
-      }
-      let difference = sub(
-        add(mul(h, pow(target, power)), ...squares.map(([w, a]) => mul(w, pow(a, 2)))),
-        add(...c.map(([r, text]) => mul(text, r.tree))),
-      );
+      let difference = sub(mul(h, target), add(...c.map(([r, text]) => mul(text, r.tree))));
       for (const [r, q] of puts) {
         refuse(r.kind !== "finite" || r.leaf || !this.scene.coordinates.includes(q), "what is put in is finite");
         const value = this.solved(r, q);
@@ -177,7 +164,7 @@ export class Evidence {
         if (r.step && r.step !== step && ["implied", "integral"].includes(r.step.by)) this.identity(r.step);
       });
       refuse(!isZero(difference), `the identity of ${step.id} is not one`);
-      return { from: [...c.map(([r]) => r.id), ...puts.map(([r]) => r.id)], h, texts: [...c.map(([, t]) => t), ...squares.flat()] };
+      return { from: [...c.map(([r]) => r.id), ...puts.map(([r]) => r.id)], h, texts: c.map(([, t]) => t) };
     });
   }
 
@@ -305,7 +292,7 @@ export class Evidence {
     const slopes = (p) => rows.map((r) => columns.map((q) => this.at(derivative(r.tree, q), p)));
     const inverse = approximateInverse(slopes(middle));
     const wide = slopes(point);
-    columns.forEach((q, i) => {
+    const images = columns.map((q, i) => {
       let moved = ZERO;
       inverse[i].forEach((y, k) => (moved = moved.sub(y.mul(values[k]))));
       columns.forEach((p, j) => {
@@ -313,8 +300,13 @@ export class Evidence {
         inverse[i].forEach((y, k) => (entry = entry.sub(y.mul(wide[k][j]))));
         moved = moved.add(entry.mul(point.balls.get(p).sub(middle.balls.get(p))));
       });
-      refuse(!point.balls.get(q).contains(middle.balls.get(q).add(moved)), "no zero is certain in the box");
+      const image = middle.balls.get(q).add(moved);
+      refuse(!point.balls.get(q).contains(image), "no zero is certain in the box");
+      return image;
     });
+    // the zero lies in its image, which is smaller than the box
+    columns.forEach((q, i) => point.balls.set(q, images[i]));
+    point.done = new Map();
     point.rows = given.rows;
   }
 

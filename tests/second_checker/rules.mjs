@@ -34,12 +34,16 @@ export class Rules {
 
   // -- what is asked of points -------------------------------------------------------------------------
 
-  /** The reference configuration at t = 0; null where none is given. It meets the relations for all parameters. */
+  /** The reference configuration at t = 0; null where none is given, or one that a relation of numbers excludes. It
+   *  meets the relations for all parameters. */
   get reference() {
     return this.e.once("reference", () => {
       if (!this.s.reference) return null;
       const values = new Map([...this.s.reference, ["t", number(0)]]);
       const open = (r) => r.kind === "finite" && (r.tree.functions.size || r.tree.hasAny(new Set(this.s.signs.keys())));
+      const excluded = this.e.relations.filter((r) => r.kind === "finite").map((r) => substitute(r.tree, values));
+      const plain = excluded.filter((tree) => !tree.symbols.size && !tree.functions.size);
+      if (plain.some((tree) => tr.evaluate(tree, new Map()).nonzero)) return null;
       const missed = this.e.relations.filter(open).some((r) => !isZero(substitute(r.tree, values)));
       refuse(missed, "the reference configuration does not meet the relations");
       return values;
@@ -306,7 +310,8 @@ export class Rules {
     const order = pairs(claim.order ?? []).map(([id, q]) => [inScene(id), q]);
     const blocks = list(claim.blocks ?? []).map(inScene);
     const generic = pairs(claim.generic ?? []).map(([id, g]) => [inScene(id), g]);
-    const placed = [...order.map(([r]) => r), ...blocks, ...generic.map(([r]) => r)];
+    const bound = list(claim.gram?.forms ?? []).map(inScene);
+    const placed = [...order.map(([r]) => r), ...bound, ...blocks, ...generic.map(([r]) => r)];
     refuse(new Set(placed).size < placed.length, "a relation is in two places");
     const all = this.e.closure(ids(placed), null);
     const left = wanted.find((r) => !all.has(r.id));
@@ -317,6 +322,7 @@ export class Rules {
     const lone = placed.filter((r) => r.kind === "velocity");
     const formBlock = blocks.length === 1 && same(ids(blocks), ids(lone)) && !generic.length;
     refuse(lone.length && (generic.length || (blocks.length && !formBlock)), "forms stand in the order, or alone");
+    if (bound.length) this.gram(claim.gram, bound, order);
     const minor = claim.minor === undefined ? null : this.e.minor(claim.minor);
     if (minor) this.e.account(minor, placed, claim.covers);
     const uses = (r, q) => r.tree.has(q) || r.tree.has(`${q}dot`);
@@ -377,6 +383,21 @@ export class Rules {
     }
     refuse(this.e.n - rank !== claim.value, "the number is another one");
     return { place: minor && this.place(minor.point) };
+  }
+
+  /** Forms are independent everywhere: det(J D J^T) is as told, and positive by itself. */
+  gram(told, forms, order) {
+    refuse(forms.some((r) => r.kind !== "velocity"), "a relation is no form");
+    refuse(forms.some((r) => order.some(([, q]) => r.tree.has(`${q}dot`))), "a form holds a velocity that is given");
+    refuse(forms.length > 6, "there are too many forms");
+    const scales = new Map(Object.entries(told.scales ?? {}).map(([q, text]) => [q, this.e.text(text)]));
+    const value = this.e.text(told.value);
+    refuse(![value, ...scales.values()].every((tree) => nowhereZero(tree, this.s.signs, true)), "it is not positive by itself");
+    const rows = forms.map((r) => this.s.coordinates.map((q) => this.e.slope(r, q)));
+    const entry = (a, b) => add(...this.s.coordinates.map((q, k) => mul(scales.get(q) ?? number(1), a[k], b[k])));
+    const determinant = (m) =>
+      m.length ? add(...m[0].map((x, j) => mul(number(j % 2 ? -1 : 1), x, determinant(m.slice(1).map((row) => row.filter((_, k) => k !== j)))))) : number(1);
+    refuse(!isZero(sub(determinant(rows.map((a) => rows.map((b) => entry(a, b)))), value)), "the determinant is another one");
   }
 
   instantaneous(claim) {
@@ -689,7 +710,6 @@ export class Rules {
       const names = field === "catastatic" ? ["tdot"] : alone?.value === false ? ["t"] : ["t", "tdot"];
       for (const r of ones) {
         if (r.kind === "velocity" && !this.e.form(r)) uncovered("velocities that are not linear");
-        refuse(r.kind === "inequality" && r.tree.hasAny(this.s.rates), "an inequality of velocities");
         refuse(names.some((t) => !isZero(derivative(r.tree, t))), "time occurs");
       }
       return {};

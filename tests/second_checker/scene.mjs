@@ -177,6 +177,7 @@ export function nowhereZero(tree, signs, positive = false) {
     return positive ? value.positive : value.nonzero;
   }
   if (tree.head === "product") return tree.args.every((a) => nowhereZero(a, signs, positive));
+  if (tree.head === "sum") return tree.args.every((a) => nowhereZero(a, signs, true));
   if (tree.head === "power") return nowhereZero(tree.args[0], signs, positive) && tree.args[1].symbols.size === 0;
   if (tree.head === "symbol") return signs.get(tree.value) === "positive" || (!positive && signs.get(tree.value) === "nonzero");
   return tree.head === "call" && tree.value === "exp";

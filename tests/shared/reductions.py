@@ -39,6 +39,7 @@ class SceneFamily(NamedTuple):
 
     scene: Callable[[int], Mapped]
     size: int
+    reduction: ReductionName
 
 
 def study_of(source: Mapped | str, reductions: Reductions) -> Examined:
@@ -199,16 +200,16 @@ def _cheapest(n: int) -> Mapped:
     return _links([f"p{i}" for i in range(n + 2)], _strip_bars(n + 2))
 
 
-SCENES: Mapping[ReductionName, SceneFamily] = {
-    "untouched": SceneFamily(_untouched, 32),
-    "blocks": SceneFamily(_blocks, 8),
-    "twins": SceneFamily(_twins, 32),
-    "copies": SceneFamily(_copies, 6),
-    "still": SceneFamily(_still, 6),
-    "welds": SceneFamily(_welds, 8),
-    "eliminations": SceneFamily(_eliminations, 8),
-    "bridges": SceneFamily(_bridges, 6),
-    "classes": SceneFamily(_classes, 8),
-    "closed": SceneFamily(_closed, 6),
-    "cheapest": SceneFamily(_cheapest, 16),
+SCENES: Mapping[str, SceneFamily] = {
+    "untouched": SceneFamily(_untouched, 32, "untouched"),
+    "blocks": SceneFamily(_blocks, 8, "blocks"),
+    "twins": SceneFamily(_twins, 32, "twins"),
+    "copies": SceneFamily(_copies, 6, "copies"),
+    "still": SceneFamily(_still, 6, "eliminations"),
+    "welds": SceneFamily(_welds, 8, "eliminations"),
+    "eliminations": SceneFamily(_eliminations, 8, "eliminations"),
+    "bridges": SceneFamily(_bridges, 6, "bridges"),
+    "classes": SceneFamily(_classes, 8, "classes"),
+    "closed": SceneFamily(_closed, 6, "closed"),
+    "cheapest": SceneFamily(_cheapest, 16, "cheapest"),
 }

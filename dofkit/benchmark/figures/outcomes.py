@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 from matplotlib import colormaps
@@ -74,7 +75,7 @@ def together(scores: Sequence[Score]) -> dict[tuple[str, str], Score]:
         for family in (ALL, score.family):
             other = cells.get((family, score.method))
             counts = {name: getattr(score, name) + (getattr(other, name) if other else 0) for name in _COUNTS}
-            cells[family, score.method] = score.model_copy(update={"question": ALL, "family": family, **counts})
+            cells[family, score.method] = replace(score, question=ALL, family=family, **counts)
     return cells
 
 

@@ -11,8 +11,6 @@ from typing import Any
 
 from flint import fmpq, fmpq_mat
 
-from dofkit.mobility.graph.linkage import redundant_links
-
 Position = tuple[Fraction, ...]
 #: A name of a free joint, or the number of a joint on the ground.
 End = str | int
@@ -56,12 +54,6 @@ class Framework:
     @property
     def coordinates(self) -> int:
         return self.dimension * len(self.joints)
-
-    def by_graph(self) -> int:
-        """The freedom in general position: bars less those that are redundant there."""
-        fixed = list(combinations(range(len(self.ground)), 2))
-        redundant = redundant_links([*fixed, *self.bars], self.dimension)
-        return self.coordinates - len(self.bars) + sum(link not in fixed for link in redundant)
 
     def by_rank(self) -> int:
         """Velocities allowed at the positions, exactly."""

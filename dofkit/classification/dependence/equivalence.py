@@ -201,7 +201,7 @@ class Equivalence:
             return unless_late(lambda: self._solved([*self._context, *self._submitted]).consistent is not False, True)
 
     def _solved(self, reduced: Sequence[Reduced]) -> Outcome:
-        return solve(self.system, reduced, self.setting)
+        return solve(reduced, self.setting)
 
     def _too_strong(self) -> Sameness:
         """The answer implies what was asked for, and more."""

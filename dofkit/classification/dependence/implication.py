@@ -32,7 +32,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, Row, coordinates_of, make_chart, split
-from dofkit.relations.linear_relations import linear, presolve
+from dofkit.relations.linear_relations import linear, solve_linear
 from dofkit.relations.normal.domain import DomainCondition, conditions_of
 from dofkit.relations.normal.no_solution import hold_nowhere, no_solution
 from dofkit.relations.normal.pieces import Finite, Nonlinear, Normal, Pfaffian, Piece
@@ -250,7 +250,7 @@ class BlockImplication:
         """Return whether a linear relation is a combination of others over Q; None if not all are linear."""
         pieces = [self.block.rows[i].piece for i in (*others, row)]
         relations = [p.expr for p in pieces if isinstance(p, Finite) and linear(p.expr) is not None]
-        return len(others) in presolve(relations).superfluous if len(relations) == len(pieces) else None
+        return solve_linear(relations[:-1]).implies(relations[-1]) if len(relations) == len(pieces) else None
 
 
 class NearDrawing(BlockImplication):

@@ -16,10 +16,9 @@ from dofkit.classification.freedom.preparation import all_of
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Redundancies, undecided_dependence
-from dofkit.relations.linear_relations import linear, presolve
+from dofkit.relations.linear_relations import linear, solve_linear
 from dofkit.relations.normal.pieces import Finite, Normal, Reduced
 from dofkit.relations.setting import Setting
-from dofkit.system import System
 
 #: Constraints of one set that are tried one by one, and seconds spent on leaving constraints out.
 MAX_CHOICES, LEAVING_SECONDS = 40, 5.0
@@ -137,7 +136,7 @@ class Conflict(NamedTuple):
     minimal: bool = False
 
 
-def conflict(system: System, reduced: Sequence[Reduced], setting: Setting, outcome: Outcome) -> Conflict:
+def conflict(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome) -> Conflict:
     """Constraints that cannot hold together, none of which can be left out: a deletion filter, the last written first.
 
     What is left out must leave the others proved to be inconsistent, so the set conflicts also where some of the
@@ -151,13 +150,11 @@ def conflict(system: System, reduced: Sequence[Reduced], setting: Setting, outco
     members = next(a.conflict for a in outcome.answers if a.consistent is False)
     if members and set(members) <= set(kept):
         return Conflict(list(members), True)
-    sets = ConstraintSets(system, reduced, plain)
+    sets = ConstraintSets(reduced, plain)
     if not sets.inconsistent(kept):
         kept = [i for i, r in enumerate(reduced) if r.normals]
     with limited(CONFLICT_SECONDS):
-        kept = minimal_set(
-            kept, lambda some: some and unless_late(partial(sets.inconsistent, some), False), len(kept) // 2 or 1
-        )
+        kept = minimal_set(kept, sets.inconsistent_in_time, len(kept) // 2 or 1)
     return Conflict(kept, all(sets.consistent(kept[:k] + kept[k + 1 :]) for k in range(len(kept))))
 
 
@@ -174,8 +171,8 @@ def _linear(some: Sequence[Reduced]) -> list[Expr] | None:
 class ConstraintSets:
     """Sets of a system's constraints, with what was found of each."""
 
-    def __init__(self, system: System, reduced: Sequence[Reduced], setting: Setting) -> None:
-        self.system, self.reduced, self.setting = system, reduced, setting
+    def __init__(self, reduced: Sequence[Reduced], setting: Setting) -> None:
+        self.reduced, self.setting = reduced, setting
         self._answers: dict[tuple[int, ...], tuple[bool | None, bool]] = {(): (True, True)}
 
     def inconsistent(self, numbers: Sequence[int]) -> bool:
@@ -197,7 +194,7 @@ class ConstraintSets:
         """(consistent, proved); linear ones alone are simply solved."""
         straight = _linear([self.reduced[i] for i in numbers])
         if straight is not None:
-            return not presolve(straight).contradiction, True
+            return not solve_linear(straight).contradictory, True
         some = [r if i in set(numbers) else Reduced(r.constraint, (), ()) for i, r in enumerate(self.reduced)]
-        result = solve(self.system, some, self.setting)
+        result = solve(some, self.setting)
         return result.consistent, all(a.exists or a.verdict == "proved" for a in result.answers)

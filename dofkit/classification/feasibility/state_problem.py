@@ -28,7 +28,7 @@ from dofkit.expressions.enclosures import has_call
 from dofkit.expressions.terms import linear_terms
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Row, coordinates_of
-from dofkit.relations.linear_relations import presolve
+from dofkit.relations.linear_relations import solve_linear
 from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.no_solution import no_solution
 from dofkit.relations.normal.normal_form import velocities_of
@@ -249,9 +249,9 @@ def _boundaries(conditions: Sequence[DomainCondition]) -> tuple[list[Expr], tupl
 
 
 def _independent(finite: Sequence[Expr]) -> list[Expr]:
-    """The equations without those that linear ones before them imply."""
-    superfluous = presolve(finite).superfluous
-    return [e for i, e in enumerate(finite) if i not in superfluous]
+    """The equations without linear ones that other linear ones imply."""
+    implied = solve_linear(finite).implied
+    return [e for i, e in enumerate(finite) if i not in implied]
 
 
 #: Choices of branches that are looked at.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from dofkit.base.verdicts import weakest
@@ -11,7 +11,7 @@ from dofkit.configuration import distance_geometry
 from dofkit.configuration.at_reference import at_reference
 from dofkit.configuration.components import is_graph, is_irreducible
 from dofkit.configuration.finite_blocks import finite_answer
-from dofkit.configuration.linear_blocks import confirmed, eliminated
+from dofkit.configuration.linear_blocks import eliminated
 from dofkit.configuration.search import LEVEL, find, level_angle
 from dofkit.configuration.variety import Variety, of_real_point, of_reference
 from dofkit.exact.matrices.sparse import echelon
@@ -33,7 +33,7 @@ from dofkit.integrability.regular_reference import reference_points, regular_ref
 from dofkit.integrability.row_labels import ball_labels, field_labels
 from dofkit.mobility.general_position import framework_answer
 from dofkit.relations.answer import Answer, Size
-from dofkit.relations.blocks import Block, Row, is_measured, split
+from dofkit.relations.blocks import Block, is_measured
 from dofkit.relations.setting import Setting
 
 RELATED = "the functions or numbers that occur may satisfy an identity that arithmetic modulo primes does not detect"
@@ -265,28 +265,3 @@ def _spans(forms: Codistribution, points: Variety) -> list[tuple[FieldPoint, Sam
         if whole and not forms.finite and independent_generators(forms.chart.ring):
             break
     return good
-
-
-def alone(
-    rows: Sequence[Row], setting: Setting, coordinates: Sequence[str], answered: Callable[[Block], Answer]
-) -> Answer:
-    """A constraint's own rows with the others forgotten; ``answered`` answers a part at no drawing."""
-    blocks, untouched = split(coordinates, rows)
-    answers = [
-        confirmed(b, a, setting, len(rows) == 1) if a.verdict == "probable" else a
-        for b, a in zip(blocks, map(answered, blocks), strict=True)
-    ]
-    merged = Answer(dof=_total(untouched, [a.dof for a in answers]))
-    merged.velocity_dof = _total(untouched, [a.velocity_dof for a in answers])
-    for a in answers:
-        merged.verdict = weakest(merged.verdict, a.verdict)
-        merged.curved = merged.curved or a.curved
-        merged.labels |= {len(merged.labels) + i: label for i, label in a.labels.items()}
-        if a.consistent is not True:
-            merged.consistent = a.consistent
-    return merged
-
-
-def _total(untouched: Sequence[str], numbers: Sequence[int | None]) -> int | None:
-    decided = [n for n in numbers if n is not None]
-    return len(untouched) + sum(decided) if len(decided) == len(numbers) else None

@@ -28,7 +28,6 @@ from dofkit.relations.normal.no_solution import holds_somewhere
 from dofkit.relations.normal.pieces import JointEquation, Nonlinear, Reduced
 from dofkit.relations.setting import Setting
 from dofkit.relations.velocity_reductions import MAX_WAYS, RewrittenRow, Way, ways_of, with_boundaries
-from dofkit.system import System
 
 #: Choices of branches that are looked at.
 MAX_CHOICES = 16
@@ -132,17 +131,17 @@ def _bound(block: Block, a: Answer) -> int:
     return bound if a.most is None else min(bound, a.most)
 
 
-def solve(system: System, reduced: Sequence[Reduced], setting: Setting) -> Outcome:
-    """The largest of the branches, answered block by block."""
+def solve(reduced: Sequence[Reduced], setting: Setting, answered: AnsweredBlocks | None = None) -> Outcome:
+    """The largest of the branches, answered block by block; ``answered``: blocks that were answered before."""
     normals = [(i, branches_at_reference(normal, setting)) for i, r in enumerate(reduced) for normal in r.normals]
     options = [range(len(normal.branches)) or (None,) for _, normal in normals]
     positive = setting.positive
     never, unsettled = _one_sided(reduced, positive)
     copied = copies(reduced) if "copies" in setting.reductions else {}
     outcomes, why = list[Outcome](), None
-    answered = AnsweredBlocks(system)
+    answered = answered or AnsweredBlocks(setting)
     domain = [(i, c) for i, r in enumerate(reduced) for c in r.domain if c.expr.op != "num"]
-    names = [c.name for c in system.coordinates]
+    names = [c.name for c in setting.roles]
     for number, choice in enumerate(cartesian(*options)):
         if number == MAX_CHOICES:
             why = _LEFT_OUT
@@ -157,7 +156,7 @@ def solve(system: System, reduced: Sequence[Reduced], setting: Setting) -> Outco
         ways = [Way(rows)] if plain else ways_of(with_boundaries(rows), positive)
         why = _LEFT_OUT if len(ways) >= MAX_WAYS else why
         for way in reductions_at_reference(ways, setting):
-            outcome = _answered(names, way.rows, impossible, domain, setting, answered)
+            outcome = _answered(names, way.rows, impossible, domain, answered)
             outcome.reduced, outcome.divided = way.reduced, way.divided
             outcomes.append(outcome)
     best = _largest(outcomes, why, setting) if outcomes else Outcome([], [], [], names)
@@ -224,11 +223,11 @@ def _answered(
     rows: list[Row],
     impossible: list[int],
     domain: Sequence[tuple[int, DomainCondition]],
-    setting: Setting,
     answered: AnsweredBlocks,
 ) -> Outcome:
+    setting = answered.setting
     blocks, untouched = blocks_of(names, rows, setting.reductions)
-    result = CommonPoint(list(blocks), answered.answers(blocks, setting))
+    result = CommonPoint(list(blocks), answered.answers(blocks))
     if domain or len(blocks) > 1:
         result = at_one_point(*result[:2], domain, setting, partial(in_time, setting=setting))
     never = [*impossible, *result.nowhere]
@@ -243,37 +242,49 @@ class AnsweredBlocks:
     The blocks are kept, because their pieces' identities are keys.
     """
 
-    def __init__(self, system: System) -> None:
-        self._roles = {c.name: (c.owner, c.role) for c in system.coordinates}
-        self._answers: dict[tuple[int, ...], tuple[Block, Answer]] = {}
+    def __init__(self, setting: Setting) -> None:
+        self.setting = setting
+        self._answers: dict[Hashable, tuple[Block, Answer]] = {}
         self._alike: dict[Hashable, AnsweredBlock] = {}
         self._shapes: set[Hashable] = set()
 
-    def answers(self, blocks: Sequence[Block], setting: Setting) -> list[Answer]:
-        """The blocks' answers; those that may be twins are looked through for one that was answered."""
-        shapes = Counter(map(_shape, blocks)) if len(blocks) > 1 and "twins" in setting.reductions else Counter()
-        self._shapes |= {shape for shape, times in shapes.items() if times > 1}
-        likenesses = Likenesses(setting, self._roles) if self._shapes else None
-        return [self._answer(block, setting, likenesses) for block in blocks]
+    def know(self, outcome: Outcome) -> None:
+        """Keep the answers of an outcome that are decided."""
+        answered = zip(outcome.blocks, outcome.answers, strict=True)
+        self._answers |= {_identity(block): (block, a) for block, a in answered if a.dof is not None}
 
-    def _answer(self, block: Block, setting: Setting, likenesses: Likenesses | None) -> Answer:
-        same = tuple([id(row.piece) for row in block.rows] + [id(c) for c in block.conditions])
+    def answers(self, blocks: Sequence[Block]) -> list[Answer]:
+        """The blocks' answers; those that may be twins are looked through for one that was answered."""
+        twins = len(blocks) > 1 and "twins" in self.setting.reductions
+        shapes = Counter(map(_shape, blocks)) if twins else Counter()
+        self._shapes |= {shape for shape, times in shapes.items() if times > 1}
+        likenesses = Likenesses(self.setting) if self._shapes else None
+        return [self.of(block, likenesses) for block in blocks]
+
+    def of(self, block: Block, likenesses: Likenesses | None = None) -> Answer:
+        """The answer of one block; ``likenesses``: what it is compared by with others."""
+        same = _identity(block)
         if same not in self._answers:
             twins = _shape(block) in self._shapes and not any(isinstance(r.piece, JointEquation) for r in block.rows)
-            result = self._twin(block, setting, likenesses) if twins and likenesses else in_time(block, setting)
+            result = self._twin(block, likenesses) if twins and likenesses else in_time(block, self.setting)
             self._answers[same] = block, result
         return self._answers[same][1]
 
-    def _twin(self, block: Block, setting: Setting, likenesses: Likenesses) -> Answer:
+    def _twin(self, block: Block, likenesses: Likenesses) -> Answer:
         key, names = likenesses.of(block)
         twin = self._alike.get(key)
         if twin is not None:
             return twin.answer_of_twin(block, names)
-        result = in_time(block, setting)
+        result = in_time(block, self.setting)
         if result.answered_parts is None:
             result.kind = len(self._alike)
             self._alike[key] = AnsweredBlock(block, names, result)
         return result
+
+
+def _identity(block: Block) -> Hashable:
+    """Equal for blocks of the same coordinates with the same pieces."""
+    return block.coordinates, tuple([id(row.piece) for row in block.rows]), tuple([id(c) for c in block.conditions])
 
 
 def _shape(block: Block) -> Hashable:

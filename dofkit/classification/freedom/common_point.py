@@ -16,7 +16,6 @@ from flint import arb
 
 from dofkit.base.errors import NoValueError, TextError
 from dofkit.base.verdicts import weakest
-from dofkit.configuration.components import explicit_relations
 from dofkit.configuration.generic_dimension import BALL_COLUMNS
 from dofkit.configuration.variety import Witness, of_real_point
 from dofkit.exact.analyticity import is_analytic
@@ -29,7 +28,8 @@ from dofkit.expressions.renaming import coordinates_in
 from dofkit.expressions.text import Names, parse_expression, to_text
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Answer
-from dofkit.relations.blocks import Block, Chart, Row, expressions, given_by, make_chart, uses_time
+from dofkit.relations.blocks import Block, Chart, Row, expressions, make_chart, uses_time
+from dofkit.relations.linear_relations import explicit_relations, number_coefficients
 from dofkit.relations.normal.domain import DomainCondition, holds_at
 from dofkit.relations.normal.no_solution import hold_nowhere
 from dofkit.relations.normal.pieces import Finite, JointEquation
@@ -60,7 +60,8 @@ def restricted_to_domain(block: Block, result: Answer, setting: Setting) -> Answ
 def _without_satisfied_conditions(block: Block) -> Block:
     """Return the block without conditions u >= 0 where its equations give coordinates such that u is 0."""
     weak = any(c.sense == ">=" for c in block.conditions)
-    explicit = given_by(r.piece.expr for r in block.finite if isinstance(r.piece, Finite)) if weak else {}
+    finite = (r.piece.expr for r in block.finite if isinstance(r.piece, Finite) and weak)
+    explicit = explicit_relations(finite, number_coefficients).by_others
     conditions = (c for c in block.conditions if c.sense != ">=" or not substitute(c.expr, explicit).is_zero)
     return replace(block, conditions=tuple(conditions)) if explicit else block
 

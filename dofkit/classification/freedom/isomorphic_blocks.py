@@ -34,8 +34,8 @@ class Likenesses:
     drawing, values and roles. Of names only who owns which coordinate counts, and which is the same as which.
     """
 
-    def __init__(self, setting: Setting, roles: Mapping[str, tuple[str | None, str]]) -> None:
-        self._setting, self._roles = setting, roles
+    def __init__(self, setting: Setting) -> None:
+        self._setting, self._roles = setting, {c.name: (c.owner, c.role) for c in setting.roles}
         self._generic = {str(p.args[1]): k for k, p in enumerate(setting.generic)}
         self._positive = frozenset(str(p.args[1]) for p in setting.positive)
         self._pose = _by_name(setting.pose)

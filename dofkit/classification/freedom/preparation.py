@@ -17,7 +17,7 @@ from dofkit.exact.analyticity import is_analytic
 from dofkit.exact.zero import is_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
-from dofkit.expressions.renaming import Unwritten, kinds_in, shape_of
+from dofkit.expressions.renaming import Renaming, Unwritten, kinds_in, shape_of
 from dofkit.expressions.tree import Expr
 from dofkit.mobility.joint_tree import Bridges, bridges
 from dofkit.mobility.placement import RowsAtReference
@@ -30,10 +30,10 @@ from dofkit.relations.normal.pieces import (
     Inequality,
     JointEquation,
     Normal,
-    NormalTemplate,
     Pfaffian,
     Piece,
     Reduced,
+    in_names,
     unwritten,
 )
 from dofkit.relations.normal.polynomial_zeros import PRODUCT_NOTE
@@ -118,7 +118,7 @@ class _Normals:
 
     def __init__(self, positive: frozenset[Expr]) -> None:
         self._positive = positive
-        self._templates: dict[Hashable, NormalTemplate] = {}
+        self._normals: dict[Hashable, tuple[Normal, tuple[str, ...]]] = {}
 
     def normal(self, e: Expr, written: bool) -> Normal:
         """What ``e = 0`` says. Raises TextError where it can be no relation."""
@@ -128,10 +128,11 @@ class _Normals:
             return without_instants(normalise(e, self._positive, written), self._positive)
         shape = shape_of(e)
         key = (shape.skeleton, shape.order)
-        if key in self._templates:
-            return self._templates[key].of(shape.names)
+        if key in self._normals:
+            earlier, names = self._normals[key]
+            return in_names(earlier, Renaming(dict(zip(names, shape.names, strict=True))))
         result = without_instants(normalise(e, self._positive, written), self._positive)
-        self._templates[key] = NormalTemplate(result, shape.names)
+        self._normals[key] = result, shape.names
         return result
 
 
@@ -174,9 +175,11 @@ def has_kink_at_reference(normal: Normal, setting: Setting) -> bool:
     """
     if setting.reference is None:
         return False
-    configuration = {**setting.reference, ex.TIME: ex.ZERO}
     written = (p for p in normal.pieces if isinstance(p, Finite) and not isinstance(p, JointEquation))
-    pieces = (p for p in written if "abs" in p.expr.functions or "pow" in p.expr.functions)
+    pieces = [p for p in written if "abs" in p.expr.functions or "pow" in p.expr.functions]
+    if not pieces:
+        return False
+    configuration = {**setting.reference, ex.TIME: ex.ZERO}
     try:
         arguments = [substitute(u, configuration) for p in pieces for u in arguments_of(p.expr)]
         return any(is_zero(u, setting.positive) for u in arguments)

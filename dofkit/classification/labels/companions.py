@@ -2,142 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from functools import cached_property
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from itertools import chain, count, islice
-from itertools import product as cartesian
 
 from dofkit.base.deadline import OutOfTimeError, check
-from dofkit.classification.freedom.block import alone, answer
-from dofkit.classification.freedom.branches import MAX_CHOICES, Outcome
-from dofkit.classification.freedom.common_point import restricted_to_domain
-from dofkit.classification.freedom.preparation import branches_at_reference
-from dofkit.classification.labels.entry import LabelledRow
+from dofkit.classification.freedom.branches import AnsweredBlocks
 from dofkit.classification.labels.reasons import Others
-from dofkit.exact.matrices.sparse import rank_of_rows
 from dofkit.expressions.text import to_text
-from dofkit.expressions.tree import TIME, Expr
+from dofkit.expressions.tree import TIME
 from dofkit.integrability import first_integrals
 from dofkit.integrability.first_integrals import FirstIntegral
-from dofkit.integrability.pfaffian_system import Codistribution, codistribution
+from dofkit.integrability.pfaffian_system import codistribution
 from dofkit.relations.answer import Answer
-from dofkit.relations.blocks import Block, Row, coordinates_of, split, uses_time
-from dofkit.relations.normal.pieces import Nonlinear, Pfaffian, Reduced
-from dofkit.relations.setting import Setting
-from dofkit.report import ConstraintEntry, IntegrablePart
-
-#: A part by its coordinates and by which pieces its rows and conditions are.
-_Key = tuple[tuple[str, ...], tuple[int, ...]]
-
-
-@dataclass
-class AnsweredParts:
-    """The answers to parts of the blocks of a system. What was answered is kept: identities of its pieces are keys."""
-
-    setting: Setting
-    _answers: dict[_Key, tuple[Block, Answer]] = field(default_factory=dict)
-    _forms: dict[tuple[int, ...], tuple[Block, Codistribution]] = field(default_factory=dict)
-
-    @cached_property
-    def plain(self) -> Setting:
-        """What may be assumed where no drawing is looked at, and nothing but the labels is asked."""
-        return replace(self.setting, pose={}, reference=None, grows=False, flag=False)
-
-    def know(self, blocks: Iterable[tuple[Block, Answer]]) -> None:
-        """Take the answers of whole blocks; those that were found at no drawing either are not asked again."""
-        if self.setting.reference is None and not self.setting.pose:
-            self._answers |= {_key(b): (b, a) for b, a in blocks if a.dof is not None}
-
-    def of(self, part: Block) -> Answer:
-        """The answer to a part. Raises OutOfTimeError, and ArithmeticError where an expression has no value."""
-        key = _key(part)
-        if key not in self._answers:
-            self._answers[key] = part, answer(part, self.plain)
-        return self._answers[key][1]
-
-    def forms(self, part: Block, hidden: Sequence[Expr] = ()) -> Codistribution:
-        """The rows of a part as one-forms, with hidden relations; written down once."""
-        key = _key(part)[1]
-        if hidden:
-            return codistribution(part, self.plain, hidden)
-        if key not in self._forms:
-            self._forms[key] = part, codistribution(part, self.plain, ())
-        return self._forms[key][1]
-
-
-def _key(part: Block) -> _Key:
-    return part.coordinates, tuple(id(p) for p in (*(row.piece for row in part.rows), *part.conditions))
-
-
-#: Up to this many coordinates, those of one constraint are listed in the scene's order.
-LISTED = 2000
-
-
-def by_itself(i: int, r: Reduced, labelled: Sequence[LabelledRow], answered: AnsweredParts) -> Answer | None:
-    """The answer of a constraint's own rows; None where they are finite. ``labelled``: its rows in the system."""
-    written = [Row(i, p) for normal in r.normals for p in normal.pieces]
-    if any(isinstance(row.piece, Nonlinear) for row in written):
-        return _curved(labelled) or _in_time(written, answered)
-    if not any(isinstance(row.piece, Pfaffian) for row in written):
-        return None
-    linear = any(isinstance(t.row.piece, Pfaffian) for t in labelled)
-    inherited = _inherited(labelled) if linear else None
-    if inherited is not None:
-        return inherited
-    if any(len(normal.branches) > 1 for normal in r.normals):
-        return _largest(i, r, answered)
-    return _in_time([t.row for t in labelled], answered) if linear else None
-
-
-def _largest(i: int, r: Reduced, answers: AnsweredParts) -> Answer | None:
-    """The answer of the largest branch; None where that is finite, undecided where it is not known which is."""
-    mentioned = {name for n in r.normals for b in n.branches for p in b for name in coordinates_of(p)}
-    normals = [branches_at_reference(normal, answers.setting) for normal in r.normals]
-    best: tuple[tuple[int, int, int], Answer, bool] | None = None
-    seen_all = True
-    for number, choice in enumerate(islice(cartesian(*(n.branches for n in normals)), MAX_CHOICES + 1)):
-        rows = [Row(i, p) for branch in choice for p in branch]
-        if number == MAX_CHOICES:
-            seen_all = False
-            break
-        result = _in_time(rows, answers, mentioned)
-        seen_all = seen_all and (result.consistent is False or result.dof is not None)
-        size = int(result.consistent is not False), result.dof or 0, result.velocity_dof or 0
-        if best is None or size > best[0]:
-            best = size, result, any(isinstance(row.piece, Pfaffian) for row in rows)
-    if not seen_all and (best is None or best[1].dof != len(mentioned)):
-        return Answer(None, verdict="undecided")
-    return best[1] if best is not None and best[2] else None
-
-
-def _in_time(rows: Sequence[Row], answers: AnsweredParts, others: set[str] | None = None) -> Answer:
-    mentioned = {name for row in rows for name in coordinates_of(row.piece)} | (others or set())
-    roles = answers.setting.roles
-    coordinates = [c.name for c in roles if c.name in mentioned] if len(roles) < LISTED else []
-    coordinates += sorted(mentioned - set(coordinates))
-
-    def answered(part: Block) -> Answer:
-        return restricted_to_domain(part, answers.of(part), answers.plain)
-
-    try:
-        check()
-        return alone(rows, answers.setting, coordinates, answers.of if others is None else answered)
-    except (OutOfTimeError, ArithmeticError):
-        return Answer(None, verdict="undecided")
-
-
-def _curved(labelled: Sequence[LabelledRow]) -> Answer | None:
-    """Velocities that bend under the other constraints bend without them."""
-    return next((t.answer for t in labelled if isinstance(t.row.piece, Nonlinear) and t.answer.curved), None)
-
-
-def _inherited(labelled: Sequence[LabelledRow]) -> Answer | None:
-    """A single form that is non-holonomic in the system is so alone: what integrates alone integrates in any system."""
-    if len(labelled) != 1 or labelled[0].label is None or labelled[0].label.holonomic is not False:
-        return None
-    return Answer(labels={0: labelled[0].label})
-
+from dofkit.relations.blocks import Block, Row, split, uses_time
+from dofkit.relations.normal.pieces import Pfaffian
 
 #: Blocks up to this many constraints and coordinates are searched for companions and integrals.
 MAX_CONSTRAINTS, MAX_COORDINATES = 10, 12
@@ -155,10 +34,10 @@ class CompanionIntegrals:
 class Companionship:
     """The blocks of a system, asked one constraint at a time; what was found for a block is kept.
 
-    ``names``: those of the constraints, by number.
+    ``answered``: their parts, at no drawing; ``names``: those of the constraints, by number.
     """
 
-    answered: AnsweredParts
+    answered: AnsweredBlocks
     names: Sequence[str]
     _integrals: dict[tuple[int, ...], CompanionIntegrals] = field(default_factory=dict)
 
@@ -214,7 +93,8 @@ class Companionship:
         What some of its rows integrate to need not be: where y = 0, dx = y dz says nothing of z, though it makes z
         constant beside x = 0 alone.
         """
-        return first_integrals.is_first_integral(codistribution(block, self.answered.plain, a.hidden, [f.expr]), f.expr)
+        forms = codistribution(block, self.answered.setting, a.hidden, [f.expr])
+        return first_integrals.is_first_integral(forms, f.expr)
 
     def _holonomic(self, constraint: int, rows: Sequence[Row], block: Block) -> bool:
         for part in split(block.coordinates, rows)[0]:
@@ -256,7 +136,7 @@ class Companionship:
         whole = self.answered.of(part)
         if whole.dof is None:
             return CompanionIntegrals({}, [])
-        forms = self.answered.forms(part, whole.hidden)
+        forms = codistribution(part, self.answered.setting, whole.hidden)
         sought = len(part.coordinates) - whole.dof - len(part.finite) - len(whole.hidden)
         integrals = first_integrals.first_integrals(forms, sought)
         shift = forms.finite - len(part.finite)
@@ -311,40 +191,3 @@ def equation(f: FirstIntegral, block: Block, number: int | None = None) -> str:
     names = (f"C{i}" for i in count(1))
     free = (name for name in (names if number is not None else chain(("C",), names)) if name not in taken)
     return f"{to_text(f.expr)} = {next(islice(free, number or 0, None))}"
-
-
-def integrable_part(
-    outcome: Outcome, entries: Sequence[ConstraintEntry], company: Companionship
-) -> IntegrablePart | None:
-    """What the differential constraints say in finite relations; None where there are none or it is undecided.
-
-    The rank of I^(inf), the bottom of the derived flag, over all coordinates; its basis beyond the finite relations
-    that were written: hidden ones, and integrals of which each block's are independent.
-    """
-    blocks = [(b, a) for b, a in zip(outcome.blocks, outcome.answers, strict=True) if b.forms]
-    if not blocks or outcome.dof is None:
-        return None
-    coordinates = len(outcome.untouched) + sum(len(b.coordinates) for b in outcome.blocks)
-    basis: list[str] | None = []
-    for block, a in blocks:
-        number_finite = len(block.finite) + len(a.hidden)
-        finite = rank_of_rows(a.matrix[:number_finite], a.modulus) if a.matrix else number_finite
-        remaining = len(block.coordinates) - (a.dof or 0) - finite
-        result = _integrals(block, remaining, entries, company) if remaining > 0 else []
-        if result is None or basis is None:
-            basis = None
-        else:
-            basis += [f"{to_text(g)} = 0" for g in a.hidden] + result
-    return IntegrablePart(rank=coordinates - outcome.dof, basis=basis)
-
-
-def _integrals(
-    block: Block, number: int, entries: Sequence[ConstraintEntry], company: Companionship
-) -> list[str] | None:
-    """So many independent integrals of a block; None where fewer were found."""
-    owners = {r.constraint for r in block.rows if isinstance(r.piece, Pfaffian)}
-    alone = [entries[i].integral for i in owners]
-    if number == len(alone) == 1 and alone[0] is not None:
-        return [alone[0]]
-    result = company.basis(block)
-    return result if len(result) == number else None

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Hashable, Mapping, Sequence
+from collections.abc import Hashable, Mapping, Sequence
+from dataclasses import replace
 from functools import partial
 from typing import NamedTuple
 
@@ -11,18 +12,20 @@ from dofkit.base.deadline import OutOfTimeError, check
 from dofkit.base.verdicts import OPEN as UNDECIDED
 from dofkit.base.verdicts import Claim, Verdict, weakest
 from dofkit.base.wording import verb
-from dofkit.classification.freedom.branches import Outcome
-from dofkit.classification.labels.companions import Companionship, by_itself
+from dofkit.classification.freedom.branches import AnsweredBlocks, Outcome, solve
+from dofkit.classification.labels.companions import Companionship
 from dofkit.classification.labels.entry import Evidence, LabelledRow, entry, label_in_system, unfinished
 from dofkit.classification.labels.reasons import Others, in_words
+from dofkit.exact.matrices.sparse import rank_of_rows
+from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import TIME
 from dofkit.integrability.nonlinear_velocities import label_modulo_others
 from dofkit.integrability.traits import Traits, traits
-from dofkit.relations.answer import GAP, Redundancies
-from dofkit.relations.blocks import Row, coordinates_of
-from dofkit.relations.normal.pieces import Clause, Finite, JointEquation, Nonlinear, Pfaffian, Reduced, piece_shape
+from dofkit.relations.answer import GAP, Answer, Redundancies
+from dofkit.relations.blocks import Block, Row, coordinates_of
+from dofkit.relations.normal.pieces import Clause, JointEquation, Nonlinear, Pfaffian, Reduced, piece_shape
 from dofkit.relations.setting import Setting
-from dofkit.report import ConstraintEntry, FieldVerdict
+from dofkit.report import ConstraintEntry, FieldVerdict, IntegrablePart
 
 #: What is said of dependence that is open, or not on what was written before.
 OPEN = "Whether it is implied by the others was not decided."
@@ -37,11 +40,11 @@ def entries_of(
     setting: Setting,
     outcome: Outcome,
     dependent: Sequence[Redundancies],
-    companionship: Callable[[], Companionship],
+    company: Companionship,
 ) -> list[ConstraintEntry]:
     """An entry for every constraint, in order; one that there is no time for says so.
 
-    ``companionship``: what a differential constraint is together with others, where there is one.
+    ``company``: what a differential constraint is together with others.
     """
     names = [r.constraint.name for r in reduced]
     dependence = _dependence(dependent, outcome)
@@ -60,9 +63,8 @@ def entries_of(
                 named = {"name": r.constraint.name, "text": r.constraint.text}
                 entries.append(by_kind[kind].model_copy(update=named))
                 continue
-            companions_of = partial(_with_others, i, answer[i], companionship)
-            finite = all(isinstance(p, Finite) for n in r.normals for p in n.pieces)
-            alone = None if finite else by_itself(i, r, answer[i], companionship().answered)
+            companions_of = partial(_with_others, i, answer[i], company)
+            alone = by_itself(r, answer[i], company.answered)
             evidence = Evidence(answer[i], alone, number, circuit, traits_of, companions_of, copied)
             entries.append(_with_dependence(entry(r, evidence, setting, consistent), i, r, dependence))
             if kind is not None and _is_nameless(entries[-1]):
@@ -214,15 +216,12 @@ def _unmeasured(outcome: Outcome) -> set[int]:
     return {r.constraint for block, a in outcome.answered_parts if a.velocity_dof is None for r in block.rows}
 
 
-def _with_others(
-    i: int, rows: Sequence[LabelledRow], companionship: Callable[[], Companionship], in_system: bool
-) -> Others:
+def _with_others(i: int, rows: Sequence[LabelledRow], company: Companionship, in_system: bool) -> Others:
     """What the constraints of its block do for a form; nothing where it stands alone there or in several blocks."""
     blocks = {id(t.block): t for t in rows if t.block is not None}
     only = next(iter(blocks.values())) if len(blocks) == 1 else None
     if only is None or only.block is None or not (in_system or any(t.label and t.label.modulo for t in rows)):
         return Others()
-    company = companionship()
     return (company.of if in_system else company.modulo)(i, only.block, only.answer)
 
 
@@ -247,3 +246,73 @@ def _labelled_rows(number: int, outcome: Outcome, setting: Setting) -> list[list
     for i, original in outcome.copies.items():
         answer[i] = [LabelledRow(Row(i, t.row.piece), t.label, t.answer, t.block, t.reduced) for t in answer[original]]
     return answer
+
+
+def by_itself(r: Reduced, labelled: Sequence[LabelledRow], answered: AnsweredBlocks) -> Answer | None:
+    """Return the answer of a constraint's own rows, the others forgotten; None where its largest branch is finite.
+
+    ``labelled``: its rows in the system. What integrates alone, or does not bend, is so in any system.
+    """
+    pieces = {type(p) for n in r.normals for p in n.pieces}
+    if pieces.isdisjoint({Pfaffian, Nonlinear}):
+        return None
+    if Nonlinear in pieces:
+        bent = next((t.answer for t in labelled if isinstance(t.row.piece, Nonlinear) and t.answer.curved), None)
+        if bent is not None:
+            return bent
+    elif not any(isinstance(t.row.piece, Pfaffian) for t in labelled):
+        return None
+    elif len(labelled) == 1 and labelled[0].label is not None and labelled[0].label.holonomic is False:
+        return Answer(labels={0: labelled[0].label})
+    mentioned = {name for n in r.normals for b in n.branches for p in b for name in coordinates_of(p)}
+    setting = replace(answered.setting, roles=tuple(c for c in answered.setting.roles if c.name in mentioned))
+    try:
+        alone = solve([r], setting, answered)
+    except (OutOfTimeError, ArithmeticError):
+        return Answer(None, verdict="undecided")
+    if not any(isinstance(row.piece, Pfaffian | Nonlinear) for row in alone.rows):
+        return None if alone.consistent is not None else Answer(None, verdict="undecided")
+    labels = [label for a in alone.answers for label in a.labels.values()]
+    return Answer(
+        alone.consistent,
+        verdict=weakest(*(a.verdict for a in alone.answers)),
+        labels=dict(enumerate(labels)),
+        curved=any(a.curved for a in alone.answers),
+    )
+
+
+def integrable_part(
+    outcome: Outcome, entries: Sequence[ConstraintEntry], company: Companionship
+) -> IntegrablePart | None:
+    """What the differential constraints say in finite relations; None where there are none or it is undecided.
+
+    The rank of I^(inf), the bottom of the derived flag, over all coordinates; its basis beyond the finite relations
+    that were written: hidden ones, and integrals of which each block's are independent.
+    """
+    blocks = [(b, a) for b, a in zip(outcome.blocks, outcome.answers, strict=True) if b.forms]
+    if not blocks or outcome.dof is None:
+        return None
+    coordinates = len(outcome.untouched) + sum(len(b.coordinates) for b in outcome.blocks)
+    basis: list[str] | None = []
+    for block, a in blocks:
+        number_finite = len(block.finite) + len(a.hidden)
+        finite = rank_of_rows(a.matrix[:number_finite], a.modulus) if a.matrix else number_finite
+        remaining = len(block.coordinates) - (a.dof or 0) - finite
+        result = _integrals(block, remaining, entries, company) if remaining > 0 else []
+        if result is None or basis is None:
+            basis = None
+        else:
+            basis += [f"{to_text(g)} = 0" for g in a.hidden] + result
+    return IntegrablePart(rank=coordinates - outcome.dof, basis=basis)
+
+
+def _integrals(
+    block: Block, number: int, entries: Sequence[ConstraintEntry], company: Companionship
+) -> list[str] | None:
+    """So many independent integrals of a block; None where fewer were found."""
+    owners = {r.constraint for r in block.rows if isinstance(r.piece, Pfaffian)}
+    alone = [entries[i].integral for i in owners]
+    if number == len(alone) == 1 and alone[0] is not None:
+        return [alone[0]]
+    result = company.basis(block)
+    return result if len(result) == number else None

@@ -1,13 +1,14 @@
-"""A block's rows as polynomials: candidates for where their rank drops, or curvature on their kernel vanishes.
+"""Candidates for where a block's rank drops, or the curvature on the kernel of its rows: loci, as equations.
 
 Rows are the differentials of the finite relations and the Pfaffian forms, each times its denominators. Rows with
-a coefficient that never vanishes are eliminated first: the rank drops where that of the rest does. The kernel is
-spanned by Cramer's vectors, so the curvature d(omega)(u, v) of every form on every two of them is a polynomial too.
+a coefficient that never vanishes are eliminated first: the rank drops where that of the rest does. Where nothing is
+left, the curvature d(omega)(u, v) of every form on every two vectors of the kernel is a polynomial as well. Both are
+matrices, whose largest minors vanish on the loci.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain, combinations
@@ -16,84 +17,192 @@ from typing import NamedTuple
 
 from dofkit.base.deadline import check
 from dofkit.base.errors import NoValueError
-from dofkit.classification.special.common_zeros import MAX_READ, Leaf, Reals, common_zeros
-from dofkit.exact.ring.canonical import Canon, Poly, Quotient, cleared, determinant, lowest_terms
+from dofkit.exact.ring.canonical import Canon, Poly, cleared, determinant, is_identically_zero, lowest_terms
 from dofkit.exact.ring.program import TooLargeError, raising_no_value
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import diff
+from dofkit.expressions.calculus import diff, replace_nodes, substitute
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Block
+from dofkit.relations.linear_relations import explicit_relations, number_coefficients
 from dofkit.relations.normal.pieces import Finite, Pfaffian
+from dofkit.relations.normal.zero_set import zero_set
 from dofkit.relations.setting import Setting
 
-#: Minors, and vectors of the kernel, of which there may be so many; their size.
-MAX_MINORS, MAX_VECTORS, MAX_SIZE = 20, 8, 4
-#: Entries of larger minors have at most so many terms, those of minors up to 2 x 2 so many.
-MAX_TERMS, MAX_SHORT = 12, 60
+#: Minors of which there may be so many, their size, and the terms of what they are expanded from.
+MAX_MINORS, MAX_SIZE, MAX_TERMS = 20, 4, 60
+#: Sets of equations that are followed before the search is given up; terms of an equation that a person can read.
+MAX_STEPS, MAX_READ = 120, 4
 
 
 @dataclass(frozen=True)
-class MinorTable:
-    """``relations`` are the finite relations; ``rows`` over ``symbols`` (coordinates, then time where it enters).
+class Locus:
+    """Expressions that vanish together, whatever the parameters."""
 
-    The first rows are the relations' differentials. ``curls_of`` returns d(omega) of every form;
-    ``below`` has every row's denominator, as written.
-    """
-
-    canon: Canon
-    reals: Reals
-    symbols: tuple[Expr, ...]
-    relations: list[Poly]
-    rows: list[list[Poly]]
-    curls_of: Callable[[], list[dict[tuple[int, int], Poly]]]
-    below: list[Poly]
+    equations: tuple[Expr, ...] = ()
 
     @cached_property
-    def curls(self) -> list[dict[tuple[int, int], Poly]]:
-        """The coefficients of d(omega) by pairs of columns, of every form. Raises NoValueError."""
-        return [{pair: p for pair, p in curl.items() if p != 0} for curl in self.curls_of()]
+    def given(self) -> dict[Expr, Expr]:
+        """The coordinates that the equations give explicitly."""
+        return explicit_relations(self.equations, number_coefficients).by_others
+
+    @cached_property
+    def others(self) -> tuple[Expr, ...]:
+        """The equations that give none."""
+        return tuple(e for e in (substitute(e, self.given) for e in self.equations) if not is_identically_zero(e))
+
+    def on(self, e: Expr) -> Expr:
+        """Return an expression on the locus, as far as that is solved."""
+        return replace_nodes(substitute(e, self.given), {g: ex.ZERO for g in self.others if g.op == "fn"})
 
     @property
-    def n(self) -> int:
-        """The number of coordinates."""
-        return sum(s != ex.TIME for s in self.symbols)
+    def is_short(self) -> bool:
+        """Return whether a person can read it, and at most one equation gives no coordinate."""
+        terms = (len(e.args) if e.op == "add" else 1 for e in (*self.given.values(), *self.others))
+        return len(self.others) < 2 and max(terms, default=0) <= MAX_READ
+
+    @property
+    def is_of_coordinates(self) -> bool:
+        """Return whether every equation is one between coordinates, without unknown functions."""
+        return all(
+            "call" not in e.functions and any(s.args[0] == "coordinate" for s in e.symbols) for e in self.equations
+        )
 
 
-@raising_no_value
-def table_of(block: Block, hidden: Sequence[Expr], setting: Setting, nonzero: frozenset[Expr]) -> MinorTable:
-    """Return the polynomials of a block without nonlinear rows. Raises TooLargeError."""
-    finite = [r.piece.expr for r in block.finite if isinstance(r.piece, Finite)] + list(hidden)
-    forms = [dict(r.piece.items()) for r in block.forms if isinstance(r.piece, Pfaffian)]
-    timed = any(ex.TIME in form or any(ex.TIME in e.symbols for e in form.values()) for form in forms)
-    timed = timed or any(ex.TIME in g.symbols for g in finite)
-    symbols = tuple(ex.coordinate(c) for c in block.coordinates) + ((ex.TIME,) if timed else ())
-    rows = [[diff(g, s) for s in symbols] for g in finite] + [[form.get(s, ex.ZERO) for s in symbols] for form in forms]
-    curls = [_curl(form, symbols) for form in forms]
-    everything = [*finite, *chain(*rows), *chain(*(curl.values() for curl in curls))]
-    ring = Ring(everything, setting.positive)
-    nodes = {e: ring.node(e) for e in everything}
-    canon = Canon(ring)
+@dataclass(frozen=True)
+class CommonZeros:
+    """Real zeros in some ``variables``; other symbols are generic constants, and ``positive`` ones are > 0."""
 
-    def cleared_row(row: Iterable[Expr]) -> tuple[list[Poly], Poly]:
-        return cleared(canon, [in_lowest_terms(canon.quotient(nodes[e])) for e in row])
+    variables: frozenset[Expr]
+    positive: frozenset[Expr]
 
-    clear = [cleared_row(row) for row in rows]
-    return MinorTable(
-        canon,
-        Reals(canon, setting.positive, nonzero),
-        symbols,
-        [canon.quotient(nodes[g])[0] for g in finite],
-        [tops for tops, _ in clear],
-        lambda: [dict(zip(curl, cleared_row(curl.values())[0], strict=True)) for curl in curls],
-        [whole for _, whole in clear],
-    )
+    def branches(self, e: Expr) -> tuple[tuple[Expr, ...], ...]:
+        """Return what vanishes together on each branch of the zeros of an expression."""
+        return zero_set(e, self.positive, self.variables)[0]
+
+    def holds_on(self, locus: Locus, e: Expr) -> bool:
+        """Return whether an expression is shown to vanish on a locus."""
+        return any({*locus.equations} >= {*branch} for branch in self.branches(locus.on(e)))
+
+    def within(self, locus: Locus, larger: Locus) -> bool:
+        """Return whether one locus is shown to lie in another."""
+        return all(self.holds_on(locus, e) for e in larger.equations)
+
+    def loci(self, expressions: Sequence[Expr]) -> list[Locus]:
+        """Return the loci that a person can read on which all of some expressions vanish. Raises TooLargeError."""
+        open_, found = [(Locus(), [*expressions])], list[Locus]()
+        for _ in range(MAX_STEPS):
+            check()
+            if not open_:
+                kept = [a for a in found if a.is_of_coordinates and not any(_is_part(a, b) for b in found)]
+                return list(dict.fromkeys(kept))
+            locus, remaining = open_.pop()
+            if not remaining:
+                found.append(locus)
+                continue
+            first, *others = sorted(map(locus.on, remaining), key=_size)
+            branches = self.branches(first)
+            if any({*locus.equations} >= {*branch} for branch in branches):
+                open_.append((locus, others))
+                continue
+            narrower = (Locus(tuple(dict.fromkeys((*locus.equations, *branch)))) for branch in reversed(branches))
+            open_ += [(narrow, others) for narrow in narrower if narrow.is_short]
+        raise TooLargeError
 
 
-def in_lowest_terms(quotient: Quotient) -> Quotient:
-    """Return a quotient without common factors, its denominator 1 where it is a number."""
-    top, bottom = quotient if quotient[1].is_constant() else lowest_terms(*quotient)
-    return (top / bottom.leading_coefficient(), bottom**0) if bottom.is_constant() else (top, bottom)
+def _is_part(locus: Locus, larger: Locus) -> bool:
+    return {*locus.equations} > {*larger.equations}
+
+
+def _size(e: Expr) -> int:
+    return sum(1 for _ in ex.nodes(e))
+
+
+class RowPolynomials:
+    """The rows of a block without nonlinear ones, over ``symbols``, eliminated with pivots that never vanish.
+
+    ``pivots``: (row, column), with 0 in that column of all other rows; ``relations`` the finite ones. Raises
+    NoValueError.
+    """
+
+    def __init__(self, block: Block, hidden: Sequence[Expr], setting: Setting) -> None:
+        self.relations = [r.piece.expr for r in block.finite if isinstance(r.piece, Finite)] + list(hidden)
+        forms = [dict(r.piece.items()) for r in block.forms if isinstance(r.piece, Pfaffian)]
+        mentioned = frozenset(chain.from_iterable(e.symbols for form in forms for e in (*form, *form.values())))
+        timed = ex.TIME in mentioned.union(*(g.symbols for g in self.relations))
+        self.symbols = tuple(ex.coordinate(c) for c in block.coordinates) + ((ex.TIME,) if timed else ())
+        self.zeros = CommonZeros(frozenset(self.symbols), setting.positive)
+        gradients = [[diff(g, s) for s in self.symbols] for g in self.relations]
+        rows = [*gradients, *([form.get(s, ex.ZERO) for s in self.symbols] for form in forms)]
+        curls = [_curl(form, self.symbols) for form in forms]
+        ring = Ring([*chain(*rows), *chain(*(curl.values() for curl in curls))], setting.positive)
+        nodes = {e: ring.node(e) for e in chain(*rows, *(curl.values() for curl in curls))}
+        self.canon = Canon(ring)
+        self.rows = [self._cleared(row, nodes) for row in rows]
+        self.curls = [dict(zip(curl, self._cleared([*curl.values()], nodes), strict=True)) for curl in curls]
+        self.pivots: list[tuple[int, int]] = []
+        while (pivot := self._pivot()) is not None:
+            self._eliminate(*pivot)
+            self.pivots.append(pivot)
+
+    def _cleared(self, row: Sequence[Expr], nodes: Mapping[Expr, int]) -> list[Poly]:
+        return cleared(self.canon, [lowest_terms(*self.canon.quotient(nodes[e])) for e in row])[0]
+
+    def _pivot(self) -> tuple[int, int] | None:
+        """Return the place of a coefficient of a coordinate that never vanishes; a number where there is one."""
+        done, columns = {r for r, _ in self.pivots}, {c for _, c in self.pivots}
+        coordinates = [c for c, s in enumerate(self.symbols) if s != ex.TIME and c not in columns]
+        open_ = [(r, c) for r, row in enumerate(self.rows) if r not in done for c in coordinates if row[c] != 0]
+        numbers = ((r, c) for r, c in open_ if self.rows[r][c].is_constant())
+        never = ((r, c) for r, c in open_ if not self.zeros.branches(self.canon.to_expr(self.rows[r][c])))
+        return next(chain(numbers, never), None)
+
+    def _eliminate(self, r: int, c: int) -> None:
+        check()
+        pivot = self.rows[r]
+        for k, row in enumerate(self.rows):
+            if k != r and row[c] != 0:
+                if max(map(len, row)) > MAX_TERMS:
+                    raise TooLargeError
+                pairs = zip(row, pivot, strict=True)
+                self.rows[k] = [self.canon.reduce(pivot[c] * a - row[c] * b) for a, b in pairs]
+
+    @property
+    def free(self) -> list[int]:
+        """The columns without a pivot."""
+        return [c for c in range(len(self.symbols)) if c not in {column for _, column in self.pivots}]
+
+    def rest(self) -> list[list[Poly]]:
+        """Return the other rows in the free columns of coordinates."""
+        done = {r for r, _ in self.pivots}
+        columns = [c for c in self.free if self.symbols[c] != ex.TIME]
+        return [[row[c] for c in columns] for r, row in enumerate(self.rows) if r not in done]
+
+    def curvature(self) -> list[list[Poly]]:
+        """Return d(omega)(u, v) of every form, for all pairs of vectors that span the kernel where all have a pivot."""
+        result = []
+        for curl in self.curls:
+            values = []
+            for u, v in combinations(map(self._kernel_vector, self.free), 2) if curl else ():
+                check()
+                total = self.canon.unit * 0
+                for (i, j), coefficient in curl.items():
+                    if max(map(len, (*u, *v))) * len(coefficient) > MAX_TERMS:
+                        raise TooLargeError
+                    total = total + coefficient * (u[i] * v[j] - u[j] * v[i])
+                values.append(self.canon.reduce(total))
+            result.append(values)
+        return [row for row in result if any(entry != 0 for entry in row)]
+
+    def _kernel_vector(self, column: int) -> list[Poly]:
+        """Return the vector with a free column, times all pivots."""
+        vector = [self.canon.unit * 0 for _ in self.symbols]
+        vector[column] = self.canon.unit
+        for r, c in self.pivots:
+            vector[column] = vector[column] * self.rows[r][c]
+        for r, c in self.pivots:
+            vector[c] = self.canon.reduce(-self.rows[r][column] * (vector[column] / self.rows[r][c]))
+        return vector
 
 
 def _curl(form: Mapping[Expr, Expr], symbols: Sequence[Expr]) -> dict[tuple[int, int], Expr]:
@@ -104,200 +213,46 @@ def _curl(form: Mapping[Expr, Expr], symbols: Sequence[Expr]) -> dict[tuple[int,
     return {pair: e for pair, e in curl.items() if not e.is_zero}
 
 
-class EliminatedTable:
-    """The rows after elimination with pivots that never vanish.
-
-    ``solved``: (pivot column, row) with the pivot 1 and 0 in the other pivot columns, up to the factors in
-    ``scales``; ``remaining_rows``: what is left of the other rows, over the ``free`` columns.
-    """
-
-    def __init__(self, table: MinorTable) -> None:
-        self.table, self.canon = table, table.canon
-        work = [row[:] for row in table.rows]
-        self.solved: list[tuple[int, int]] = []
-        while (pivot := self._pivot(work)) is not None:
-            check()
-            r, c = pivot
-            entry = work[r][c]
-            for other in range(len(work)):
-                if other != r and work[other][c] != 0:
-                    if max(map(len, work[other])) > MAX_SHORT:
-                        raise TooLargeError
-                    work[other] = self._combined(work[other], work[r], c, entry)
-            self.solved.append(pivot)
-        self.work = work
-        done, columns = {r for r, _ in self.solved}, {c for _, c in self.solved}
-        self.free = [c for c in range(len(table.symbols)) if c not in columns]
-        self.remaining_rows = [r for r in range(len(work)) if r not in done]
-
-    def _pivot(self, work: list[list[Poly]]) -> tuple[int, int] | None:
-        """(row, coordinate column) of a coefficient that never vanishes; a number where there is one."""
-        done, columns = {r for r, _ in self.solved}, {c for _, c in self.solved}
-        places = [(r, c) for r in range(len(work)) if r not in done for c in range(self.table.n) if c not in columns]
-        entries = [(r, c) for r, c in places if work[r][c] != 0]
-        constant = next(((r, c) for r, c in entries if work[r][c].is_constant()), None)
-        if constant is not None:
-            return constant
-        return next(((r, c) for r, c in entries if self.table.reals.never_zero(work[r][c])), None)
-
-    def _combined(self, row: list[Poly], pivot: list[Poly], c: int, entry: Poly) -> list[Poly]:
-        factor = row[c]
-        if entry.is_constant():
-            factor = factor / entry.leading_coefficient()
-            return [self.canon.reduce(a - factor * b) if b != 0 else a for a, b in zip(row, pivot, strict=True)]
-        return [self.canon.reduce(entry * a - factor * b) for a, b in zip(row, pivot, strict=True)]
-
-    def minors(self, size: int) -> list[Poly]:
-        """All minors of a size of what is left, in the coordinates' columns. Raises TooLargeError."""
-        columns = [c for c in self.free if c < self.table.n]
-        if comb(len(columns), size) * comb(len(self.remaining_rows), size) > MAX_MINORS:
-            raise TooLargeError
-        return [self._minor(r, c) for r in combinations(self.remaining_rows, size) for c in combinations(columns, size)]
-
-    def _minor(self, rows: Sequence[int], columns: Sequence[int]) -> Poly:
-        check()
-        longest = max(len(self.work[r][c]) for r in rows for c in columns)
-        if len(rows) > MAX_SIZE or longest > (MAX_SHORT if len(rows) < 3 else MAX_TERMS):
-            raise TooLargeError
-        return determinant(self.canon, [[self.work[r][c] for c in columns] for r in rows])
-
-    def kernel(self, size: int) -> list[list[Poly]]:
-        """Vectors that span the kernel wherever the rank is not smaller (Cramer). Raises TooLargeError."""
-        if comb(len(self.free), size + 1) * comb(len(self.remaining_rows), size) > MAX_VECTORS:
-            raise TooLargeError
-        zero, result = self.canon.unit * 0, []
-        for rows in combinations(self.remaining_rows, size):
-            for columns in combinations(self.free, size + 1):
-                vector = [zero] * len(self.table.symbols)
-                for k, c in enumerate(columns):
-                    others = [d for d in columns if d != c]
-                    value = self._minor(rows, others) if size else self.canon.unit
-                    vector[c] = value if k % 2 == 0 else -value
-                result.append(self._lifted(vector))
-        return result
-
-    def _lifted(self, vector: list[Poly]) -> list[Poly]:
-        """With the pivots' components, all times the pivots that are no numbers."""
-        below: Poly = self.canon.unit
-        for r, c in self.solved:
-            if not self.work[r][c].is_constant():
-                below = below * self.work[r][c]
-        lifted = [below * v if v != 0 else v for v in vector]
-        for r, c in self.solved:
-            total = self.canon.unit * 0
-            for f in self.free:
-                if vector[f] != 0 and self.work[r][f] != 0:
-                    total = total - self.work[r][f] * lifted[f]
-            pivot = self.work[r][c]
-            lifted[c] = self.canon.reduce(total / pivot.leading_coefficient() if pivot.is_constant() else total / pivot)
-        return lifted
-
-
-def curvatures(table: MinorTable, vectors: Sequence[Sequence[Poly]]) -> list[list[Poly]]:
-    """Of every form d(omega)(u, v) for all pairs of vectors; no pairs where it is closed."""
-    canon, result = table.canon, []
-    for curl in table.curls:
-        values = []
-        for u, v in combinations(vectors, 2) if curl else ():
-            check()
-            total = canon.unit * 0
-            for (i, j), coefficient in curl.items():
-                if max(map(len, (*u, *v))) * len(coefficient) > MAX_SHORT:
-                    raise TooLargeError
-                area = u[i] * v[j] - u[j] * v[i]
-                if area != 0:
-                    total = total + coefficient * area
-            values.append(canon.reduce(total))
-        result.append(values)
-    return result
-
-
-# candidates
-
-
 class Candidates(NamedTuple):
-    """Conditions on coordinates under which all largest minors vanish, and all curvature or a minor of it."""
+    """Loci on which the rank of the rows may be smaller, and that of the curvature; ``zeros`` compares them."""
 
-    ranks: list[Leaf]
-    bends: list[Leaf]
+    ranks: list[Locus]
+    bends: list[Locus]
+    zeros: CommonZeros
+    relations: Sequence[Expr]
 
 
-def candidates(table: MinorTable, rank: int, curvature: int, curved: bool) -> Candidates:
+def candidates(block: Block, hidden: Sequence[Expr], setting: Setting, rank: int, curvature: int) -> Candidates:
     """Return the candidates; ``rank``: of the rows in the columns of the coordinates.
 
-    ``curvature``: the number of independent directions that [D, D] adds to D at a generic point, 0 where not known.
-    Where nothing is ``curved`` curvature has nothing to tell. What is too large has no candidates.
+    ``curvature``: how many independent directions [D, D] adds to D at a generic point, 0 where all forms integrate.
+    What is too large has no candidates. Raises NoValueError.
     """
-    reduction = EliminatedTable(table)
-    size = rank - len(reduction.solved)
-    ranks = _attempt(lambda: _loci(table, reduction.minors(size) if size > 0 else ()))
-    bends = _attempt(lambda: _bends(table, reduction, size, curvature)) if curved and size >= 0 else []
-    return Candidates(ranks, bends)
+    rows = raising_no_value(RowPolynomials)(block, hidden, setting)
+    size = rank - len(rows.pivots)
+    ranks = _loci(rows, rows.rest, size) if size > 0 else []
+    bends = _loci(rows, rows.curvature, curvature) if size == 0 and curvature else []
+    return Candidates(ranks, bends, rows.zeros, rows.relations)
 
 
-def _attempt(search: Callable[[], Iterable[Leaf]]) -> list[Leaf]:
+def _loci(rows: RowPolynomials, matrix: Callable[[], list[list[Poly]]], size: int) -> list[Locus]:
+    """Return the loci on which all minors of a size vanish; none where they are too large or have no value."""
     try:
-        return raising_no_value(lambda: list(search()))()
+        minors = raising_no_value(lambda: list(_minors(rows.canon, matrix(), size)))()
+        return rows.zeros.loci(minors) if minors else []
     except NoValueError:
         return []
 
 
-def _bends(table: MinorTable, reduction: EliminatedTable, size: int, independent: int) -> Iterator[Leaf]:
-    """Yield the loci on which all curvature vanishes, and those on which less of it is independent."""
-    if not any(table.curls):
-        return
-    matrix = curvatures(table, reduction.kernel(size))
-    yield from _loci(table, [c for row in matrix for c in row])
-    bent = [row for row in matrix if any(c != 0 for c in row)]
-    if independent > 1 and comb(len(bent), independent) * comb(len(bent[0]), independent) <= MAX_MINORS:
-        columns = range(len(bent[0]))
-        picked = [(r, c) for r in combinations(bent, independent) for c in combinations(columns, independent)]
-        yield from _loci(table, [determinant(table.canon, [[row[i] for i in c] for row in r]) for r, c in picked])
-
-
-def _loci(table: MinorTable, polynomials: Iterable[Poly]) -> Iterator[Leaf]:
-    """Yield conditions on coordinates under which polynomials vanish and the finite relations can hold for a while."""
-    present = [p for p in polynomials if p != 0]
-    for leaf in common_zeros(table.reals, present, short=True) if present else ():
-        conditions = leaf.conditions(table.canon)
-        short = all(len(p) <= MAX_READ for p in (*leaf.others, *(v for _, v in leaf.solved)))
-        alone = any(_is_instant(table, c) or table.reals.of_parameters(c) for c in conditions)
-        if not short or alone or not _is_of_coordinates(table, conditions) or not _is_defined(table, leaf):
-            continue
-        if _can_hold(table, leaf):
-            yield leaf
-
-
-def _can_hold(table: MinorTable, leaf: Leaf) -> bool:
-    """Return whether the finite relations may hold on a leaf for an interval of time and all parameters."""
-    relations = [table.reals.on(leaf, g) for g in table.relations]
-    if any(table.reals.never_zero(g) for g in relations):
-        return False
-    try:
-        ways = [way.conditions(table.canon) for way in common_zeros(table.reals, relations)]
-    except NoValueError:
-        return True
-    return any(not any(_is_instant(table, c) or table.reals.of_parameters(c) for c in way) for way in ways)
-
-
-def _is_instant(table: MinorTable, condition: Poly) -> bool:
-    """Return whether a condition is one on time alone."""
-    symbols = _symbols(table, [condition])
-    return ex.TIME in symbols and all(s.args[0] in ("time", "parameter") for s in symbols)
-
-
-def _symbols(table: MinorTable, conditions: Iterable[Poly]) -> frozenset[Expr]:
-    present = {i for poly in conditions for i in table.canon.generators_in(poly)}
-    return frozenset[Expr]().union(*(table.canon.ring.var_expr[i].symbols for i in present))
-
-
-def _is_defined(table: MinorTable, leaf: Leaf) -> bool:
-    """Return whether the denominators of the rows do not vanish on a leaf."""
-    below = [table.reals.on(leaf, p) for p in table.below]
-    return all(p != 0 and not any(divmod(p, c)[1] == 0 for c in leaf.others) for p in below)
-
-
-def _is_of_coordinates(table: MinorTable, conditions: Sequence[Poly]) -> bool:
-    """Return whether coordinates occur, and no unknown functions."""
-    kinds = {table.canon.ring.vars[i].kind for poly in conditions for i in table.canon.generators_in(poly)}
-    return "call" not in kinds and any(s.args[0] == "coordinate" for s in _symbols(table, conditions))
+def _minors(canon: Canon, matrix: list[list[Poly]], size: int) -> Iterator[Expr]:
+    """Yield the minors of a size, other than 0. Raises TooLargeError."""
+    columns = range(len(matrix[0]) if matrix else 0)
+    longest = max((len(entry) for row in matrix for entry in row), default=0)
+    if comb(len(matrix), size) * comb(len(columns), size) > MAX_MINORS or size > MAX_SIZE or longest > MAX_TERMS:
+        raise TooLargeError
+    for some in combinations(matrix, size):
+        for chosen in combinations(columns, size):
+            check()
+            minor = determinant(canon, [[row[c] for c in chosen] for row in some])
+            if minor != 0:
+                yield canon.to_expr(minor)

@@ -120,7 +120,10 @@ def pivoted(matrix: Matrix, least: float = 0.0, most: int | None = None) -> Pivo
     """
     residual, chosen = list(map(list, matrix)), Pivoting([], [], [])
     rank = min(len(residual), len(residual[0])) if residual else 0
-    for _ in range(rank if most is None else min(rank, most)):
+    most = rank if most is None else min(rank, most)
+    if rank and len(matrix) * len(matrix[0]) > SMALL:
+        return _array_pivoted(np.array(matrix, float), least, most)
+    for _ in range(most):
         sizes = [length(row) for row in residual]
         best = max(range(len(sizes)), key=sizes.__getitem__)
         if not sizes[best] > least:
@@ -141,6 +144,26 @@ def pivoted(matrix: Matrix, least: float = 0.0, most: int | None = None) -> Pivo
     return chosen
 
 
+def _array_pivoted(residual: np.ndarray, least: float, most: int) -> Pivoting:
+    """Return the same for an array of numpy, which is overwritten."""
+    order, sizes, basis = list[int](), list[float](), np.empty((most, residual.shape[1]))
+    for k in range(most):
+        lengths = np.linalg.norm(residual, axis=1)
+        best = int(np.argmax(lengths))
+        if not lengths[best] > least:
+            break
+        direction = residual[best].copy()
+        for _ in range(2):
+            direction -= basis[:k].T @ (basis[:k] @ direction)
+            direction /= np.linalg.norm(direction)
+        order.append(best)
+        sizes.append(float(lengths[best]))
+        basis[k] = direction
+        residual -= np.outer(residual @ direction, direction)
+        residual[best] = 0.0
+    return Pivoting(order, sizes, basis[: len(order)].tolist())
+
+
 def rank(matrix: Matrix, least: float) -> int:
     """Return how many remainders of rows are above ``least``."""
     return len(pivoted(matrix, least).order)
@@ -148,6 +171,9 @@ def rank(matrix: Matrix, least: float) -> int:
 
 def complement(basis: Matrix, n: int) -> list[list[float]]:
     """Return an orthonormal basis of what is orthogonal to an orthonormal one in n dimensions."""
+    if basis and n * n > SMALL:
+        columns: list[list[float]] = np.linalg.qr(np.array(basis).T, mode="complete")[0].T.tolist()
+        return columns[len(basis) :]
     rows = []
     for i in range(n):
         row = [float(i == c) for c in range(n)]

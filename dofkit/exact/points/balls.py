@@ -19,6 +19,7 @@ from flint import arb, ctx, fmpq, fmpq_mat
 from dofkit.base.errors import NoValueError
 from dofkit.exact.ring.program import NoPointError, OutsideDomainError, Scalar, Var, gradient, values
 from dofkit.exact.ring.ring import Ring
+from dofkit.expressions.rational_values import exact_root, value_at
 from dofkit.expressions.tree import Expr
 
 #: Sines in a function.
@@ -230,8 +231,6 @@ def jacobian(
 
 #: Entries of a matrix that is eliminated over the rationals.
 MAX_ENTRIES = 20_000
-#: Functions that have a rational value at 0.
-AT_ZERO = {"cos": 1, "sin": 0, "exp": 1, "asin": 0, "atan": 0}
 
 
 class ExactPoint:
@@ -246,20 +245,13 @@ class ExactPoint:
     def generator(self, var: Var, args: Sequence[Scalar]) -> fmpq:
         if var.kind == "symbol" and var.key in self.symbols:
             return self.number(self.symbols[var.key])
-        if var.kind in AT_ZERO and args and args[0] == 0:
-            return fmpq(AT_ZERO[var.kind])
-        if var.kind == "root":
-            return _root(args[0], var.degree)
+        if args and args[0] == 0 and (at_zero := value_at(var.kind, Fraction(0))) is not None:
+            return self.number(at_zero)
+        if var.kind == "root" and args[0] >= 0:
+            root = exact_root(Fraction(int(args[0].p), int(args[0].q)), var.degree)
+            if root is not None:
+                return self.number(root)
         raise NoPointError(f"{var.kind} has no rational value there")
-
-
-def _root(value: fmpq, degree: int) -> fmpq:
-    """Return the root of a power of a rational that is not negative. Raises NoPointError."""
-    if value >= 0:
-        top, bottom = (n.root(degree) for n in (value.p, value.q))
-        if top**degree == value.p and bottom**degree == value.q:
-            return fmpq(top, bottom)
-    raise NoPointError("a root that is no rational")
 
 
 def rational_values(pose: Mapping[Expr, Expr]) -> dict[Expr, Fraction]:

@@ -11,7 +11,7 @@ from flint import arb, arb_mat, fmpq_mat
 from dofkit.base.deadline import check
 from dofkit.base.errors import PoleError
 from dofkit.exact.matrices.certified import ball_part
-from dofkit.exact.matrices.sparse import Pivots, rank_of
+from dofkit.exact.matrices.sparse import Pivots, rank_of, sparse, sparse_frame
 from dofkit.exact.points.series import Series
 from dofkit.exact.residues import Residue, ResidueMatrix, modulus, residue_matrix
 from dofkit.exact.ring.program import Scalar, raising_no_value
@@ -38,12 +38,7 @@ class FormRows:
 
 def field_frame(matrix: list[list[Residue]], n: int, p: int) -> Pivots:
     """Return the first independent rows in order, and columns solved for (the last ones where there is a choice)."""
-    if not matrix or not n:
-        return Pivots((), (), tuple(range(n)))
-    rows = pivots(residue_matrix([[int(v) for v in column] for column in zip(*matrix, strict=True)], p))
-    chosen = [[int(v) for v in reversed(matrix[r])] for r in rows]
-    dependent = sorted(n - 1 - c for c in pivots(residue_matrix(chosen, p))) if chosen else []
-    return Pivots(tuple(rows), tuple(dependent), tuple(c for c in range(n) if c not in set(dependent)))
+    return sparse_frame(sparse(matrix), n, p)
 
 
 def pivots(matrix: ResidueMatrix | fmpq_mat) -> list[int]:

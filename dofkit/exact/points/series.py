@@ -84,7 +84,7 @@ class Series:
 
     def truncated(self, order: int) -> Series:
         """Modulo s^order."""
-        return Series(_truncate(self.poly, order), order)
+        return Series(self.poly.truncate(order), order)
 
     def derivative(self) -> Series:
         return Series(self.poly.derivative(), self.order)
@@ -92,18 +92,11 @@ class Series:
     def integral(self, constant: Scalar) -> Series:
         """Return the antiderivative with the given constant term, to the same order."""
         poly = self.poly.integral()
-        return Series(_truncate(poly, self.order) + constant, self.order)
+        return Series(poly.truncate(self.order) + constant, self.order)
 
 
 def _mul_low(a: Any, b: Any, order: int) -> Any:
-    return a.mul_low(b, order) if isinstance(a, ResiduePolynomial) else _truncate(a * b, order)
-
-
-def _truncate(poly: Any, order: int) -> Any:
-    if isinstance(poly, ResiduePolynomial):
-        return poly.truncate(order) if poly.length() > order else poly
-    coefficients = poly.coeffs()
-    return poly if len(coefficients) <= order else arb_poly(coefficients[:order])
+    return a.mul_low(b, order) if isinstance(a, ResiduePolynomial) else (a * b).truncate(order)
 
 
 class SeriesPoint:
@@ -141,13 +134,13 @@ class SeriesPoint:
     def _transcendental(self, var: Var, args: Sequence[Series], head: Scalar) -> Series:
         u = args[0]
         if var.kind == "exp":
-            return self._recurrence(u, head)
+            return self._exponential(u.derivative(), head)
         if var.kind in ("cos", "sin"):
             return self._circle(var, u, head)
         if var.kind == "log":
             return (u.derivative() / u).integral(head)
         if var.kind == "root":
-            return self._root(u, head, var.degree)
+            return self._exponential(u.derivative() / (u * self.base.number(Fraction(var.degree))), head)
         if var.kind == "atan":
             return (u.derivative() / (u * u + 1)).integral(head)
         if var.kind == "asin":
@@ -157,11 +150,11 @@ class SeriesPoint:
             return ((x * u.derivative() - u * x.derivative()) / (x * x + u * u)).integral(head)
         return self._call(var, args)
 
-    def _recurrence(self, u: Series, head: Scalar) -> Series:
-        """e' = u' e."""
-        slope, coefficients = u.derivative().poly, [head]
+    def _exponential(self, slope: Series, head: Scalar) -> Series:
+        """Return the y with y' = slope y that begins with ``head``."""
+        coefficients = [head]
         for k in range(1, self.order):
-            total = sum((slope[j] * coefficients[k - 1 - j] for j in range(k)), head * 0)
+            total = sum((slope.poly[j] * coefficients[k - 1 - j] for j in range(k)), head * 0)
             coefficients.append(total / k)
         return self._series(coefficients)
 
@@ -182,16 +175,6 @@ class SeriesPoint:
             coefficients.append(a * sign / k)
             other.append(-b * sign / k)
         self._circles[kind, var.key] = self._series(other)
-        return self._series(coefficients)
-
-    def _root(self, u: Series, head: Scalar, degree: int) -> Series:
-        """r' u degree = u' r, solved coefficient by coefficient."""
-        coefficients, first = [head], u.coefficient(0)
-        for k in range(1, self.order):
-            total = head * 0
-            for j in range(1, k + 1):
-                total = total + u.coefficient(j) * coefficients[k - j] * (j - degree * (k - j))
-            coefficients.append(total / (first * (degree * k)))
         return self._series(coefficients)
 
     def _call(self, var: Var, args: Sequence[Series]) -> Series:

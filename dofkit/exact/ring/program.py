@@ -11,7 +11,6 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, reduce, wraps
 from hashlib import sha256
-from math import prod
 from operator import add, mul
 from typing import Any, ParamSpec, Protocol, TypeVar
 
@@ -212,23 +211,24 @@ def reachable(program: Instructions, roots: Iterable[int], through_generators: b
 
 
 @raising_no_value
-def value_of(ring: Instructions, point: Point, node: int) -> Scalar:
-    """Return the value of one instruction, from those only that it needs; raises PoleError at a pole."""
+def value_of(ring: Instructions, point: Point, node: int, through_generators: bool = True) -> Scalar:
+    """Return the value of one instruction, from those only that it needs; raises PoleError at a pole.
+
+    Without ``through_generators`` the point is given no arguments of generators.
+    """
     out: dict[int, Scalar] = {}
-    for i in reversed(reachable(ring, [node])):
+    for i in reversed(reachable(ring, [node], through_generators)):
         op, payload = ring.code[i]
-        if op == MUL:
-            out[i] = prod(out[j] for j in payload)
-        elif op == ADD:
-            out[i] = sum(out[j] for j in payload)
+        if op == NUM:
+            out[i] = point.number(payload)
         elif op == VAR:
             var = ring.vars[payload]
-            out[i] = point.generator(var, [out[j] for j in var.args])
-        elif op == NUM:
-            out[i] = point.number(payload)
-        else:
+            out[i] = point.generator(var, [out[j] for j in var.args] if through_generators else ())
+        elif op == POW:
             base, n = payload
             out[i] = integer_power(out[base], n) if n > 0 else 1 / integer_power(out[base], -n)
+        else:
+            out[i] = reduce(mul if op == MUL else add, [out[j] for j in payload])
     return out[node]
 
 
@@ -243,11 +243,9 @@ def values(ring: Instructions, point: Point, upto: int | None = None) -> list[Sc
     push = out.append
     for op, payload in ring.code[:upto]:
         if op == MUL:
-            total = out[payload[0]] * out[payload[1]] if len(payload) == 2 else _folded(mul, payload, out)
-            push(total)
+            push(out[payload[0]] * out[payload[1]] if len(payload) == 2 else reduce(mul, [out[i] for i in payload]))
         elif op == ADD:
-            total = out[payload[0]] + out[payload[1]] if len(payload) == 2 else _folded(add, payload, out)
-            push(total)
+            push(out[payload[0]] + out[payload[1]] if len(payload) == 2 else reduce(add, [out[i] for i in payload]))
         elif op == VAR:
             var = ring.vars[payload]
             push(point.generator(var, [out[i] for i in var.args]))
@@ -257,11 +255,6 @@ def values(ring: Instructions, point: Point, upto: int | None = None) -> list[Sc
             base, exponent = payload
             push(integer_power(out[base], exponent) if exponent > 0 else 1 / integer_power(out[base], -exponent))
     return out
-
-
-def _folded(operation: Callable[[Scalar, Scalar], Scalar], payload: Sequence[int], out: Sequence[Scalar]) -> Scalar:
-    """Return the values of some instructions put together, from the first to the last."""
-    return reduce(operation, [out[i] for i in payload])
 
 
 def integer_power(value: Scalar, n: int) -> Scalar:

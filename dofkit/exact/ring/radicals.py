@@ -14,6 +14,8 @@ from dofkit.expressions.terms import content, sorted_sum
 from dofkit.expressions.tree import Expr
 
 Key = tuple[Any, int]
+#: Primes by which a long number is divided.
+TRIAL_PRIMES = 12
 
 
 def root(ring: Instructions, radicand: Expr, degree: int) -> int:
@@ -111,19 +113,11 @@ def root_of_number(ring: Instructions, value: Fraction, degree: int) -> int:
 
 
 def prime_powers(value: int) -> list[tuple[int, int]]:
-    """Prime powers of a positive integer; a part without small factors beyond 64 bits counts as one."""
+    """Prime powers of a positive integer; of one of more than 128 bits what small primes leave counts as one."""
     if value == 1:
         return []
-    if value.bit_length() <= 128:
-        return [(int(p), int(k)) for p, k in fmpz(value).factor()]
-    powers, cofactor = [], value
-    for prime in (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37):
-        k = 0
-        while cofactor % prime == 0:
-            cofactor, k = cofactor // prime, k + 1
-        if k:
-            powers.append((prime, k))
-    return [*powers, (cofactor, 1)] if cofactor > 1 else powers
+    few = None if value.bit_length() <= 128 else TRIAL_PRIMES
+    return [(int(p), int(k)) for p, k in fmpz(value).factor(trial_limit=few)]
 
 
 def sign(ring: Instructions, e: Expr) -> int:

@@ -21,7 +21,6 @@ from dofkit.expressions.calculus import (
     Comparison,
     RelationSign,
     Requirement,
-    UndefinedError,
     bounded,
     inverse,
     is_differential,
@@ -73,7 +72,7 @@ class TextReader:
         """Return what the person wrote there."""
         return self.text[start:end].strip()
 
-    def fail(self, message: str, token: Token, hint: str) -> NoReturn:
+    def fail(self, message: str, token: Token, hint: str | None) -> NoReturn:
         """Raise a TextError at ``token``."""
         raise TextError(message, self.columns[token.start], hint)
 
@@ -91,7 +90,7 @@ class TextReader:
         self.domain |= dict.fromkeys(needs)
         try:
             return operation(*arguments)
-        except UndefinedError as fault:
+        except TextError as fault:
             self.fail(fault.message, token, fault.hint)
 
     def check_allowed(self, e: Expr, token: Token) -> None:

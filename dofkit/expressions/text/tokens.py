@@ -68,7 +68,7 @@ class Tokens(NamedTuple):
 
 WORD = rf"[A-Za-z{GREEK_LETTERS}][A-Za-z0-9_{GREEK_LETTERS}{DOT}{TWO_DOTS}]*"
 NUMBER = r"(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?"
-_TOKEN = re.compile(
+TOKEN = re.compile(
     rf"""[ \t]*(?:(?P<word>{WORD})
     |(?P<number>{NUMBER})
     |(?P<wrong>!=|=>|=<|<>|===|<<|>>|//|->|=!|:=|\*\*\*)
@@ -143,7 +143,7 @@ def without_latex(text: str) -> str | None:
 def _scan(text: str, columns: Sequence[int], lookup: Lookup) -> list[Token]:
     tokens: list[Token] = []
     position = len(text) - len(text.lstrip())
-    match_at = _TOKEN.match
+    match_at = TOKEN.match
     while True:
         match = match_at(text, position)
         if match is None:

@@ -25,14 +25,8 @@ from dofkit.expressions.text.characters import (
     unlatex,
 )
 from dofkit.expressions.text.names import ELEMENTARY
-from dofkit.expressions.text.tokens import NUMBER, WORD
+from dofkit.expressions.text.tokens import TOKEN
 
-_TOKEN = re.compile(
-    rf"[ \t]*(?:(?P<word>{WORD})|(?P<number>{NUMBER})|(?P<relation><=|>=|==?|[<>])"
-    rf"|(?P<sign>\*\*|[-+*/^(),\[\]])|(?P<prime>'+)|(?P<superscript>[{''.join(SUPERSCRIPTS)}]+)"
-    rf"|(?P<fraction>[{''.join(FRACTIONS)}])|(?P<end>$))",
-    re.ASCII,
-)
 _RATE = re.compile(rf"(?P<base>.+?)(?:(?P<two>ddot|{TWO_DOTS})|(?P<one>dot|{DOT}))(?P<below>_\w+)?")
 _INDEXED = re.compile(rf"(?P<letter>[A-Za-z]+?|[{GREEK_LETTERS}])_?(?P<below>\d[A-Za-z0-9_]*|(?<=_)[A-Za-z0-9_]+)?")
 _RELATIONS = {"and": r"\text{ and }", "<=": r"\le", ">=": r"\ge", "==": "="}
@@ -87,7 +81,7 @@ def _pieces(text: str) -> list[_Piece]:
     pieces: list[_Piece] = []
     position = 0
     while True:
-        match = _TOKEN.match(text, position)
+        match = TOKEN.match(text, position)
         if match is None:
             raise _NoFormulaError
         group = match.lastgroup or ""

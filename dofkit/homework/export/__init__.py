@@ -16,7 +16,7 @@ from dofkit.homework.autograder import undecided
 from dofkit.homework.formats.base import text
 from dofkit.homework.formats.gradescope import document, visibility_of
 from dofkit.homework.formats.review import TABLE, RunReview
-from dofkit.homework.handout.class_sheets import standing_alone
+from dofkit.homework.handout.portable import standing_alone
 from dofkit.scene.catalog import catalog_folder
 
 SCRIPTS = Path(__file__).parent / "scripts"

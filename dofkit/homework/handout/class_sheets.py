@@ -3,27 +3,36 @@
 from __future__ import annotations
 
 import csv
-import os
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import yaml
 
-from dofkit.base.documents import read_document
+from dofkit.base.errors import ArgumentError
+from dofkit.base.wording import no_such
 from dofkit.homework.answers.roster import Roster
 from dofkit.homework.assignment import Prepared, load_assignment
 from dofkit.homework.formats.base import cell
 from dofkit.homework.formats.wording import FileNames
-from dofkit.homework.handout.markup import Draw, pictures_of
-from dofkit.homework.handout.sheets import write_sheet, written_sheet
-from dofkit.homework.problem import DRAWN, UNDRAWN, Problem, Variants
-from dofkit.homework.variants import VaryError, differing_share, drawn, picked, rows_of
+from dofkit.homework.handout.markup import Draw
+from dofkit.homework.handout.page_sheets import write_page
+from dofkit.homework.handout.portable import standing_alone
+from dofkit.homework.handout.sheets import write_html, write_markdown
+from dofkit.homework.problem import Variants
+from dofkit.homework.variants import VaryError, differing_share, drawn, picked, rows_of, sheet_of
 
 #: What the folder contains.
 ASSIGNMENT, TABLE, SHEETS = "assignment.yaml", "variants.csv", "sheets"
+#: How a sheet is written, by the name of the format, and the endings of files that differ from it.
+HANDOUTS: Mapping[str, Callable[[Prepared, Draw, Path, str | None], None]] = {
+    "html": write_html,
+    "md": write_markdown,
+    "page": write_page,
+}
+ENDINGS = {"page": "html"}
 #: The least share of the points whose right answers should differ between two students.
 LEAST_DIFFERING = 0.5
 
@@ -59,42 +68,6 @@ def class_sheets(source: str, roster: Roster, seed: str, out: Path) -> ClassShee
     return ClassSheets(prepared, standing_alone(prepared, out), drawn(prepared, roster, seed))
 
 
-def standing_alone(prepared: Prepared, out: Path) -> dict[str, Any]:
-    """Return the assignment as it may be written in another folder: scenes in place, paths of pictures from there."""
-    value = prepared.assignment.model_dump(mode="json", exclude_none=True, exclude_defaults=True)
-    value["problems"] = [
-        problem.model_dump(mode="json", exclude_none=True)
-        | {"scene": _scene(problem, prepared)}
-        | _moved(problem, prepared.base, out)
-        for problem in prepared.assignment.problems
-    ]
-    return value
-
-
-def _scene(problem: Problem, prepared: Prepared) -> Any:
-    """Return the scene in place: one that varies with its places, any other as it was read."""
-    if isinstance(problem.scene, dict):
-        return problem.scene
-    if problem.vary:
-        path = prepared.base / problem.scene
-        return read_document(path.read_bytes(), str(path)).value
-    scene = prepared.keys[problem.id].scene.model_dump(mode="json", exclude_none=True)
-    return {key: value for key, value in scene.items() if value not in ([], {}) and key != "expect"}
-
-
-def _moved(problem: Problem, base: Path, out: Path) -> dict[str, str]:
-    """Return the problem's paths, from another folder."""
-    moved: dict[str, str] = {}
-    if problem.figure not in (None, DRAWN, UNDRAWN):
-        moved["figure"] = os.path.relpath(base / str(problem.figure), out)
-    if problem.text is not None and (pictures := pictures_of(problem.text)):
-        text = problem.text
-        for source in dict.fromkeys(pictures):
-            text = text.replace(f"]({source}", f"]({os.path.relpath(base / source, out)}")
-        moved["text"] = text
-    return moved
-
-
 def write_class(made: ClassSheets, form: str, draw: Draw, out: Path) -> None:
     """Write the assignment that grades the class, the table of variants, and every handout."""
     out.mkdir(parents=True, exist_ok=True)
@@ -108,7 +81,33 @@ def write_class(made: ClassSheets, form: str, draw: Draw, out: Path) -> None:
         table.writerow(["student", "problem", "variant", "students with it", "right answers"])
         for student, problem, variant, right in rows:
             table.writerow(map(cell, (student, problem, variant, str(counts[problem, variant]), right)))
+    sheets = ((member.student, picked(made.prepared, member.picks)) for member in made.variants.students)
+    write_sheets(sheets, form, draw, out / SHEETS)
+
+
+def sheets_of(prepared: Prepared, roster: Roster) -> Iterator[tuple[str, Prepared]]:
+    """Yield everyone in a roster with their sheet. Raises VaryError where it varies, and nobody has a variant yet."""
+    if prepared.combinations and prepared.assignment.variants is None:
+        raise VaryError(
+            "the sheet varies: `dofkit assignment vary` picks a variant for everyone, and writes the sheets"
+        )
+    for member in roster.members:
+        yield member.student, sheet_of(prepared, (member.student, *member.called()))
+
+
+def write_sheets(sheets: Iterable[tuple[str, Prepared]], form: str, draw: Draw, folder: Path) -> None:
+    """Write the sheet of every student into a folder, called after the student. Raises as `write_handout`."""
     names = FileNames()
-    for member in made.variants.students:
-        sheet = written_sheet(picked(made.prepared, member.picks), draw, member.student)
-        write_sheet(sheet, form, out / SHEETS / f"{names.of(member.student)}.{form}")
+    for student, sheet in sheets:
+        write_handout(sheet, form, draw, folder / f"{names.of(student)}.{ENDINGS.get(form, form)}", student)
+
+
+def write_handout(prepared: Prepared, form: str, draw: Draw, out: Path, student: str | None = None) -> None:
+    """Write a sheet; the folder of ``out`` is made.
+
+    Raises ArgumentError for an unknown format, FigureError, and OSError.
+    """
+    if form not in HANDOUTS:
+        raise ArgumentError(no_such(form, list(HANDOUTS), "format"))
+    out.parent.mkdir(parents=True, exist_ok=True)
+    HANDOUTS[form](prepared, draw, out, student)

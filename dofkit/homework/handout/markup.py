@@ -7,6 +7,7 @@ import re
 from base64 import b64encode
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cache, lru_cache
+from hashlib import sha256
 from html import escape
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -124,19 +125,23 @@ def with_latex(markdown: str) -> str:
 
 
 def page_of(
-    markdown: str,
-    title: str,
-    language: str,
-    figures: Mapping[str, SheetFigure],
-    template: str = "sheet.html",
-    data: Any = None,
+    markdown: str, title: str, language: str, figures: Mapping[str, SheetFigure], data: Mapping[str, Any] | None = None
 ) -> str:
-    """Return the page of a text; ``figures`` by their paths in it, ``data`` for a script of the page."""
-    page = (_TEMPLATES / template).read_text(encoding="utf-8")
-    body = reader().render(markdown, dict(figures))
-    packed = json.dumps(data, ensure_ascii=False).replace("<", "\\u003c")
-    fields = {"language": language, "title": escape(line(title)), "body": body, "data": packed}
-    return re.sub(r"\{\{(language|title|body|data)\}\}", lambda place: fields[place[1]], page)
+    """Return the page of a text; ``figures`` by their paths in it, ``data`` for the script of a page with fields."""
+    page, style, script = (
+        (_TEMPLATES / name).read_text(encoding="utf-8")
+        for name in ("sheet.html" if data is None else "page.html", "sheet.css", "page.js")
+    )
+    fields = {
+        "language": language,
+        "title": escape(line(title)),
+        "body": reader().render(markdown, dict(figures)),
+        "style": style,
+        "script": script,
+        "digest": f"sha256-{b64encode(sha256(script.encode()).digest()).decode()}",
+        "data": json.dumps(data, ensure_ascii=False).replace("<", "\\u003c"),
+    }
+    return re.sub(rf"\{{\{{({'|'.join(fields)})\}}\}}", lambda place: fields[place[1]], page)
 
 
 #: Draws a scene, under a title, as SVG; None for a scene that has no places. Its report is known.

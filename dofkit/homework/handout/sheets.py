@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
-from dofkit.base.errors import ArgumentError
-from dofkit.base.wording import no_such
 from dofkit.homework.assignment import Prepared
 from dofkit.homework.formats.wording import stem
 from dofkit.homework.handout.composition import SheetComposer
@@ -67,35 +65,20 @@ def _path(problem: Problem, whose: str | None) -> str:
     return "/".join(["figures", *([] if whose is None else [stem(whose)]), stem(problem.id)])
 
 
-def _html(sheet: WrittenSheet, out: Path) -> None:
+def write_html(prepared: Prepared, draw: Draw, out: Path, whose: str | None = None) -> None:
+    """Write a sheet as one page that runs nothing. Raises FigureError and OSError."""
+    sheet = written_sheet(prepared, draw, whose)
     out.write_text(page_of(sheet.markdown, sheet.title, sheet.language, sheet.figures), encoding="utf-8")
 
 
-def _markdown(sheet: WrittenSheet, out: Path) -> None:
+def write_markdown(prepared: Prepared, draw: Draw, out: Path, whose: str | None = None) -> None:
+    """Write a sheet as Markdown, its pictures beside it. Raises FigureError and OSError."""
+    sheet = written_sheet(prepared, draw, whose)
     out.write_text(with_latex(sheet.markdown), encoding="utf-8")
     for path, figure in sheet.figures.items():
-        _write_figure(out, path, figure.data)
-
-
-def _write_figure(out: Path, path: str, data: bytes) -> None:
-    target = out.parent / path
-    target.parent.mkdir(parents=True, exist_ok=True)
-    target.write_bytes(data)
-
-
-#: How a sheet is written, by the name of the format.
-HANDOUTS: dict[str, Callable[[WrittenSheet, Path], None]] = {"html": _html, "md": _markdown}
-
-
-def write_sheet(sheet: WrittenSheet, form: str, out: Path) -> None:
-    """Write a sheet; the folder of ``out`` is made.
-
-    Raises ArgumentError for an unknown format, and OSError.
-    """
-    if form not in HANDOUTS:
-        raise ArgumentError(no_such(form, list(HANDOUTS), "format"))
-    out.parent.mkdir(parents=True, exist_ok=True)
-    HANDOUTS[form](sheet, out)
+        target = out.parent / path
+        target.parent.mkdir(parents=True, exist_ok=True)
+        target.write_bytes(figure.data)
 
 
 def remarks(prepared: Prepared) -> Iterator[str]:

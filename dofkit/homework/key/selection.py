@@ -63,7 +63,7 @@ def _outcome(
     system = _at_one_time(lower(whole))
     reduced, setting = prepared(system)
     finite = [r._replace(normals=_finite(r.normals)) if r.constraint.name in constraint_names else r for r in reduced]
-    return solve(system, finite, setting)
+    return solve(finite, setting)
 
 
 def _at_one_time(system: System) -> System:

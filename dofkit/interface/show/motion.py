@@ -95,7 +95,6 @@ def _small_motions(small: Linearized) -> SheetSection:
     remarks += [Remark("angular frequency", _formula(frequency)) for frequency in small.frequencies]
     if small.unstable:
         remarks.append(Remark("unstable", "the square of a frequency is negative, and deviations grow"))
-    remarks += [Remark("another equilibrium", _place(other)) for other in small.others]
     return SheetSection(f"Linearized at {_place(small.equilibrium)}", remarks)
 
 

@@ -60,9 +60,9 @@ def made(document: Mapping[str, Any], report: Report) -> tuple[dict[str, Any], l
 class Certifying:
     """A certificate while it is made; ``contradictions``: claims whose evidence gives another value, and why."""
 
-    def __init__(self, document: Mapping[str, Any], report: Report) -> None:
+    def __init__(self, document: Mapping[str, Any], report: Report, readings: Mapping[str, str] | None = None) -> None:
         self.document, self.report = document, report
-        self.certificate = empty_certificate(report.scene, document)
+        self.certificate = empty_certificate(report.scene, document, readings or {})
         self.rooms: list[Room] = []
         self.trial: ClaimTrial | None = None
         self.contradictions: dict[str, str] = {}
@@ -106,12 +106,12 @@ class Certifying:
     def _is_of_same_points(self, room: Room, claim: Told) -> bool:
         """Whether evidence is of the configuration, of all points as the report is, or of no point.
 
-        Numbers at a point that was looked for may be those of another component of the set. What is reduced (squares),
-        or vanishes at the configuration, may be stated of what it was reduced to.
+        Numbers at a point that was looked for may be those of another component of the set. What vanishes at the
+        configuration may be stated of what it was reduced to.
         """
         field = claim["path"][1:]
         verdict = self.report.verdicts.get(field)
-        if room.scenery.reduced_from or (field == "instantaneous_dof" and _has_stationary_row(room)):
+        if field == "instantaneous_dof" and _has_stationary_row(room):
             return False
         whole = verdict is not None and claim.get("about") == "everywhere" == verdict.about
         return whole or room.at_reference or not any(key in claim for key in ("minor", "at", "most"))

@@ -11,12 +11,13 @@ from itertools import combinations
 from flint import arb
 
 from dofkit.checker.evidence import HIGHEST_ORDER, along_curve
-from dofkit.checker.trees import CheckError
-from dofkit.methods.certificates.fields import backing, kept_motions, orbit
+from dofkit.checker.geometry import determinant, dot
+from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, number, power, symbol, times
+from dofkit.methods.certificates.fields import LARGEST_CRAMER, backing, kept_motions, orbit
 from dofkit.methods.certificates.numerics import NoEstimateError, echelon, solved
 from dofkit.methods.certificates.room import Room, Standing, Told
-from dofkit.methods.certificates.scenery import FAR, number_text
-from dofkit.methods.certificates.steps import Order, accounted, given_in_order
+from dofkit.methods.certificates.scenery import FAR, number_text, text_of
+from dofkit.methods.certificates.steps import Order, accounted, given_in_order, operands
 
 #: The size of a step along a motion, of what is added by chance, and the largest denominator of a coefficient.
 STEP, NOISE, DENOMINATOR = 0.25, 0.05, 60
@@ -140,10 +141,37 @@ def _of_forms(room: Room) -> Iterator[Told]:
     moving = _needed(standing, evidence.moving)
     if not unordered:
         yield {**claim, "order": order}
-    elif len(moving) == 1:
+        return
+    if {*unordered} <= {*moving} and (gram := _gram(room, unordered)):
+        yield {**claim, "order": order, "gram": gram}
+    if len(moving) == 1:
         order, unordered = graph_order(room, _needed(standing, evidence.finite))
         if not unordered:
             yield {**claim, "order": order, "blocks": moving}
+
+
+def _gram(room: Room, forms: list[str]) -> Told | None:
+    """Return the Gram determinant of forms, where it is one of parameters alone, each column divided by its own."""
+    evidence, coordinates = room.scenery.evidence, room.problem.coordinates
+    if len(forms) > LARGEST_CRAMER:
+        return None
+    rows = [[evidence.slope(name, q) for q in coordinates] for name in forms]
+    scales: dict[str, Tree] = {}
+    for q, column in zip(coordinates, zip(*rows, strict=True), strict=True):
+        shared = [{*operands(entry, "product")} for entry in column if entry != ZERO]
+        letters = [symbol(name) for name, sign in room.problem.world.signs.items() if sign == "positive"]
+        common = [power(letter, number(-2)) for letter in letters if shared and all(letter in one for one in shared)]
+        scales |= {q: times(*common)} if common else {}
+    scaled = [[times(scales.get(q, ONE), slope) for q, slope in zip(coordinates, row, strict=True)] for row in rows]
+    try:
+        value = evidence.ring.read(determinant([[dot(row, other) for other in scaled] for row in rows]))
+    except CheckError:
+        return None
+    parts = [evidence.ring.text_of(part) for part in value]
+    told = f"({parts[0]})/({parts[1]})"
+    if None in parts or not evidence.is_nowhere_zero(evidence.text(told), True):
+        return None
+    return {"forms": forms, "scales": {q: text_of(tree) for q, tree in scales.items()}, "value": told}
 
 
 def _needed(standing: Standing, names: Sequence[str]) -> list[str]:

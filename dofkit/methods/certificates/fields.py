@@ -10,7 +10,8 @@ from typing import Any
 from networkx.utils import UnionFind
 
 from dofkit.checker.evidence import CheckedEvidence, VelocityField, bracket, field_named, on_row
-from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, add, negative, times
+from dofkit.checker.geometry import determinant
+from dofkit.checker.trees import ZERO, CheckError, Tree, negative
 from dofkit.methods.certificates.numerics import Estimates, NoEstimateError, echelon
 from dofkit.methods.certificates.points import FoundPoint
 from dofkit.methods.certificates.room import Room, Standing, Told
@@ -331,14 +332,3 @@ def pairing(room: Room, name: str, point: FoundPoint, vector: dict[str, float]) 
     """The value of a form in a direction."""
     rates = {f"{q}dot": vector.get(q, 0.0) for q in (*room.problem.coordinates, "t")}
     return Estimates({**point.floats, **rates}).value(room.scenery.tree(name))
-
-
-def determinant(rows: list[list[Tree]]) -> Tree:
-    """A small determinant."""
-    if not rows:
-        return ONE
-    terms = []
-    for j, entry in enumerate(rows[0]):
-        minor = determinant([[*row[:j], *row[j + 1 :]] for row in rows[1:]])
-        terms.append(times(entry, minor) if j % 2 == 0 else negative(times(entry, minor)))
-    return add(*terms)

@@ -10,7 +10,8 @@ from dofkit.methods.certificates.dimension import everywhere, families, stationa
 from dofkit.methods.certificates.emptiness import inconsistent
 from dofkit.methods.certificates.fields import backing, integrable_names, involutive_rows, orbit
 from dofkit.methods.certificates.labels import integral_of_text
-from dofkit.methods.certificates.room import Room, Told
+from dofkit.methods.certificates.points import FoundPoint
+from dofkit.methods.certificates.room import Room, Told, states_of
 from dofkit.report import ConstraintEntry
 
 
@@ -32,11 +33,19 @@ def _inequalities(room: Room) -> dict[str, str] | None:
     places: dict[str, str] = {}
     for relation in room.problem.relations:
         if relation.kind == "inequality":
-            point = room.search.meeting([relation.name]) or room.search.touching(relation.name, 70)
+            point = _meeting(room, [relation.name]) or room.search.touching(relation.name, 70)
             if point is None:
                 return None
             places[relation.name] = room.add_point(point)
     return places
+
+
+def _meeting(room: Room, inequalities: list[str], seed: int = 100) -> FoundPoint | None:
+    """Return a point at which inequalities hold, and the finite relations; if they hold velocities, all relations."""
+    evidence = room.scenery.evidence
+    moving = any(evidence.met_by(evidence.relation(name).tree) for name in inequalities)
+    names, unknowns = states_of(room) if moving else (evidence.finite, room.problem.coordinates)
+    return room.search.meeting(inequalities, names, unknowns, seed)
 
 
 def dof(room: Room) -> Iterator[Told]:
@@ -176,13 +185,13 @@ def circuit(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
 
 def feasible(room: Room) -> Iterator[Told]:
     """A point at which everything holds."""
-    standing = room.standing
-    if not room.report.feasible or standing is None:
-        return
-    yield {"rule": "point", "at": room.add_point(standing.point)}
     inequalities = [relation.name for relation in room.problem.relations if relation.kind == "inequality"]
-    if (point := room.search.meeting(inequalities, 200)) is not None:
-        yield {"rule": "point", "at": room.add_point(point)}
+    for point in (room.point, _meeting(room, inequalities, 200)) if room.report.feasible else ():
+        standing = None if point is None else room.standing_of(room.equations, point=point)
+        if standing is not None:
+            minor = {"minor": room.minor(standing)}
+            yield {"rule": "point", "at": room.add_point(standing.point), **minor}
+            yield {"rule": "regular", **minor}
 
 
 def integrable_part(room: Room) -> Iterator[Told]:

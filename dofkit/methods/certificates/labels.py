@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import combinations
 
+from dofkit.checker.geometry import determinant
 from dofkit.checker.label_rules import exterior_part, form_of
 from dofkit.checker.trees import ZERO, CheckError, Tree, add, derivative, negative, number, symbol, times
 from dofkit.methods.certificates.fields import (
     LARGEST_CRAMER,
-    determinant,
     integrable_names,
     involutive_rows,
     pairing,

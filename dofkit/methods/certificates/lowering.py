@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Collection, Iterator, Mapping
-from functools import partial
+from collections.abc import Collection, Iterator, Mapping
 from typing import Any, TypeVar
 
 from dofkit.base.verdicts import weakest
-from dofkit.expressions.text.characters import DEGREE, GREEK_LETTERS
+from dofkit.checker.grammar import KnownNames, parse_relations
+from dofkit.checker.trees import CheckError, symbol
+from dofkit.expressions.text import Names
 from dofkit.methods.certificates.certificate import Certifying
 from dofkit.report import ConstraintEntry, FieldVerdict, Report
-from dofkit.scene.lowering import survey_of
+from dofkit.scene.plain import PlainScene, plain_scene
 from dofkit.scene.scene import Scene
-from dofkit.scene.synonyms import SAID, with_plain_subscripts
 
 UNDECIDED = FieldVerdict(verdict="undecided", checked=False)
 Model = TypeVar("Model", Report, ConstraintEntry)
@@ -21,32 +20,22 @@ Model = TypeVar("Model", Report, ConstraintEntry)
 _OPEN: Mapping[str, Any] = {"redundancies": [], "conflicting": [], "infeasible": []}
 
 
-#: A number of degrees; `deg` where that is no declared name.
-_DEGREES = re.compile(
-    rf"(?<![\w.{GREEK_LETTERS}])((?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)[ \t]*(?:{DEGREE}|(deg(?:rees?)?)(?!\w))",
-    re.ASCII,
-)
-
-
 def document_of_scene(scene: Scene) -> dict[str, Any]:
-    """The document of a scene as JSON has it: what was written, in standard words, its angles in radians."""
-    document: dict[str, Any] = scene.model_dump(mode="json", by_alias=True, exclude_unset=True)
-    unit = partial(_unit, scene)
-    return {"name": scene.name, **{key: part if key in SAID else _plain(part, unit) for key, part in document.items()}}
+    """The document of a scene as the checker reads it."""
+    return scene_of_checker(scene).document
 
 
-def _unit(scene: Scene, match: re.Match[str]) -> str:
-    """A number of degrees in radians; ``deg`` that is a declared name stays."""
-    declared = match[2] and survey_of(scene).names.lookup.meaning(match[2]) is not None
-    return match[0] if declared else f"({match[1]}*pi/180)"
+def scene_of_checker(scene: Scene) -> PlainScene:
+    """A scene in standard words; a text that the checker's grammar does not read stands in plain notation."""
 
+    def reads(text: str, names: Names) -> bool:
+        values = {name: symbol(name) for name in names.parameters}
+        try:
+            return bool(parse_relations(text, KnownNames(names.coordinates, values, names.arguments)))
+        except CheckError:
+            return False
 
-def _plain(value: Any, unit: Callable[[re.Match[str]], str]) -> Any:
-    if isinstance(value, str):
-        return _DEGREES.sub(unit, with_plain_subscripts(value)) if "deg" in value or not value.isascii() else value
-    if isinstance(value, dict):
-        return {key: _plain(part, unit) for key, part in value.items()}
-    return [_plain(part, unit) for part in value] if isinstance(value, list) else value
+    return plain_scene(scene, reads)
 
 
 def with_certificate(scene: Scene, report: Report) -> Report:
@@ -54,7 +43,8 @@ def with_certificate(scene: Scene, report: Report) -> Report:
 
     A claim whose evidence gives another value is undecided, with a warning.
     """
-    making = Certifying(document_of_scene(scene), report)
+    document, readings = scene_of_checker(scene)
+    making = Certifying(document, report, readings)
     certificate = making.written()
     confirmed = {claim["path"] for claim in certificate["claims"]}
     confirmed -= {path.removeprefix("/verdicts").removesuffix("/about") for path in certificate["uncovered"]}

@@ -11,7 +11,7 @@ from dofkit.checker.problem import CheckedProblem as Problem
 from dofkit.checker.problem import read_problem
 from dofkit.checker.trees import MINUS, ONE, Tree, along, number, power, substituted, symbol, times
 from dofkit.methods.certificates.certificate import HINDRANCES, without_spare_parts
-from dofkit.methods.certificates.lowering import document_of_scene
+from dofkit.methods.certificates.lowering import scene_of_checker
 from dofkit.methods.certificates.numerics import Estimates
 from dofkit.methods.certificates.points import FoundPoint
 from dofkit.methods.certificates.room import ClaimTrial, Room, Told, empty_certificate
@@ -29,8 +29,8 @@ def certificate_of_motion(scene: Scene, motion: Mapping[str, Any], report: Repor
 
     ``report``: what the equations rest on.
     """
-    document = document_of_scene(scene)
-    certificate = empty_certificate(report.scene, document) | {"uncovered": [PATH]}
+    document, readings = scene_of_checker(scene)
+    certificate = empty_certificate(report.scene, document, readings) | {"uncovered": [PATH]}
     try:
         problem = read_problem(document)
         room = Room(report, document, Scenery(problem, False, certificate))

@@ -142,11 +142,12 @@ class PointSearch:
             best.name = "P" if seed == 0 else f"P{seed}"
         return best
 
-    def meeting(self, inequalities: Sequence[str], seed: int = 100) -> FoundPoint | None:
-        """Return a point at which inequalities hold, and the finite relations."""
-        finite = self.scenery.evidence.finite
+    def meeting(
+        self, inequalities: Sequence[str], names: Sequence[str], unknowns: Sequence[str], seed: int
+    ) -> FoundPoint | None:
+        """Return a point at which inequalities hold, and the relations ``names``."""
         for attempt in range(seed, seed + AFAR + 6):
-            point = self.somewhere(finite, self.problem.coordinates, attempt)
+            point = self.somewhere(names, unknowns, attempt)
             if point is None:
                 return None
             if all(self._is_positive(point, name) for name in inequalities):
@@ -176,7 +177,7 @@ class PointSearch:
             values |= {name: self.witness[name].limit_denominator(64) for name in values if name in self.witness}
         if self.scenery.timed:
             witnessed = attempt == 0 and "t" in self.witness
-            values["t"] = self.witness["t"].limit_denominator(64) if witnessed else Fraction(drawn.randint(1, 8), 8)
+            values["t"] = self.witness["t"].limit_denominator(64) if witnessed else Fraction(drawn.randint(1, 8), 4)
         for name in (*self.problem.coordinates, *self.problem.world.generic, *unknowns):
             if name not in values:
                 values[name] = Fraction(drawn.choice([-1, 1]) * drawn.randint(3, 24), 8)

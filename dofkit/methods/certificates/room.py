@@ -15,15 +15,16 @@ from dofkit.checker.verification import PARTS, Verifier
 from dofkit.methods.certificates.numerics import Estimates, NoEstimateError, echelon
 from dofkit.methods.certificates.points import FoundPoint, PointSearch
 from dofkit.methods.certificates.scenery import MOST_ROWS, Scenery
-from dofkit.methods.certificates.steps import accounted, rate_of, reduced
+from dofkit.methods.certificates.steps import accounted, rate_of
 from dofkit.report import Report
 
 Outcome = Literal["shown", "contradicted", "open"]
 
 
-def empty_certificate(name: str, document: Mapping[str, Any]) -> dict[str, Any]:
+def empty_certificate(name: str, document: Mapping[str, Any], readings: Mapping[str, str]) -> dict[str, Any]:
     """Return a certificate of a scene without parts, claims, or what is uncovered."""
     scene = {"name": name, "sha256": sha256_of(document), "document": canonical(document)}
+    scene |= {"readings": dict(readings)} if readings else {}
     lists: dict[str, list[dict[str, Any]]] = {part: [] for part in PARTS}
     return {"certificate": 1, "scene": scene, "cayley": [], **lists, "claims": [], "uncovered": []}
 
@@ -126,11 +127,6 @@ class Room:
         return not all(self.scenery.linear(name) for name in self.equations)
 
     @cached_property
-    def _squared(self) -> bool:
-        """Whether a relation that is not linear in the velocities was reduced to such that are."""
-        return not self.nonlinear and not all(map(self.scenery.linear, self.scenery.evidence.moving))
-
-    @cached_property
     def at_reference(self) -> bool:
         """Whether the main point is the scene's own configuration."""
         return self._reference is not None
@@ -150,8 +146,6 @@ class Room:
         if not self.small:
             return None
         place = self._reference or self._searched()
-        if place is not None and self._squared and not self.scenery.timed:
-            place.values |= dict.fromkeys((f"{q}dot" for q in self.problem.coordinates), "0")
         if place is not None:
             place.name = f"{self.scenery.label}{place.name}"
             self.scenery.entries["points"].append(place.entry())
@@ -160,26 +154,21 @@ class Room:
     def _searched(self) -> FoundPoint | None:
         problem = self.problem
         unknowns = [*problem.coordinates, *problem.world.generic]
-        names = reduced(self.scenery, self.scenery.evidence.finite)
+        names = list(self.scenery.evidence.finite)
         if self.nonlinear:
-            names += [name for name in self.equations if name not in names]
-            names += [step for name in self.scenery.evidence.finite if (step := rate_of(self.scenery, name))]
-            unknowns += [f"{q}dot" for q in problem.coordinates]
+            names, unknowns = states_of(self)
         finite = not self.scenery.evidence.moving and self.report.dof is not None
         rank = len(problem.coordinates) - (self.report.dof or 0) if finite else None
         return self.search.somewhere(names, unknowns, rank=rank)
 
     @cached_property
     def equations(self) -> list[str]:
-        """All finite and velocity relations in their order, or what they were reduced to."""
-        return reduced(
-            self.scenery, [relation.name for relation in self.problem.relations if relation.kind != "inequality"]
-        )
+        """All finite and velocity relations in their order."""
+        return [relation.name for relation in self.problem.relations if relation.kind != "inequality"]
 
     def owner(self, name: str) -> str:
-        """The constraint of a relation, or of what it was reduced from."""
-        owners = {relation.name: relation.owner for relation in self.problem.relations}
-        return owners.get(name) or owners[self.scenery.reduced_from[name]]
+        """The constraint of a relation."""
+        return self.scenery.evidence.relation(name).owner
 
     def standing_of(
         self, names: Sequence[str], columns: Sequence[str] | None = None, point: FoundPoint | None = None
@@ -236,3 +225,10 @@ class Room:
                 accounted(self.scenery, name, standing.rows, standing.point) for name in standing.dependent
             )
         return standing
+
+
+def states_of(room: Room) -> tuple[list[str], list[str]]:
+    """The relations that hold of a configuration with its velocities, and the symbols of both."""
+    rates = [step for name in room.scenery.evidence.finite if (step := rate_of(room.scenery, name))]
+    symbols = [*room.problem.coordinates, *room.problem.world.generic]
+    return [*room.finite_first, *rates], [*symbols, *(f"{q}dot" for q in room.problem.coordinates)]

@@ -73,7 +73,6 @@ class Scenery:
         self._view = dict(lists)
         self.evidence = CheckedEvidence(problem, self._view, self.effort)
         self._prepared: dict[str, Tree] = {}
-        self.reduced_from: dict[str, str] = {}
         self.steps: set[str] = set()
 
     @property

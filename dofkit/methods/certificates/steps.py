@@ -1,4 +1,4 @@
-"""Steps of a certificate: relations made simpler, coordinates put in, and relations that follow from others."""
+"""Steps of a certificate: coordinates put in, and relations that follow from others; sums of squares."""
 
 from __future__ import annotations
 
@@ -30,24 +30,6 @@ from dofkit.methods.certificates.scenery import Scenery, number_text, text_of
 Step = dict[str, object]
 
 
-def reduced(scenery: Scenery, names: Sequence[str]) -> list[str]:
-    """Relations, each one that is a power or a sum of squares replaced by its bases."""
-    return [base for name in names for base in _reduced(scenery, name)]
-
-
-def _reduced(scenery: Scenery, name: str) -> list[str]:
-    bases = [base for base, source in scenery.reduced_from.items() if source == name]
-    if bases:
-        return bases
-    tree = scenery.evidence.relation(name).tree
-    steps = _steps(scenery.label, name, tree)
-    if not steps or not _stand(scenery, *steps):
-        return [name]
-    ids = [str(step["id"]) for step in steps if "function" in step]
-    scenery.reduced_from |= dict.fromkeys(ids, name)
-    return ids
-
-
 def _stand(scenery: Scenery, *steps: Step) -> bool:
     """Return whether steps stand up, one after the other; those that are there already do."""
     try:
@@ -59,28 +41,9 @@ def _stand(scenery: Scenery, *steps: Step) -> bool:
     return True
 
 
-def _steps(label: str, name: str, tree: Tree) -> list[Step]:
-    """Steps to the bases of a power or a sum of squares, and back; none where it is no such thing."""
-    squares = [_square(term) for term in _operands(tree, "sum")]
-    pairs = [pair for pair in squares if pair is not None]
-    signs = {coefficient > 0 for coefficient, *_ in pairs}
-    if len(pairs) < len(squares) or len(signs) > 1 or (len(pairs) > 1 and any(k != 2 for *_, k in pairs)):
-        return []
-    sign, made = "1" if signs == {True} else "-1", list[Step]()
-    ids = [f"{label}root {i} of {name}" for i in range(1, len(pairs) + 1)]
-    for i, (coefficient, base, exponent) in enumerate(pairs):
-        others = [[number_text(abs(c)), text_of(a)] for j, (c, a, _) in enumerate(pairs) if j != i]
-        root = {"function": text_of(base), "power": exponent, "h": number_text(abs(coefficient)), "c": {name: sign}}
-        made.append({"id": ids[i], "by": "implied", **root, **({"sos": others} if others else {})})
-    cofactors = {
-        step: text_of(times(number(c), power(a, number(k - 1)))) for step, (c, a, k) in zip(ids, pairs, strict=True)
-    }
-    return [*made, {"id": f"{label}{name} from its roots", "by": "implied", "of": name, "c": cofactors}]
-
-
 def _square(term: Tree) -> tuple[Fraction, Tree, int] | None:
     """A term as a number times an even power of what is no number."""
-    factors = _operands(term, "product")
+    factors = operands(term, "product")
     coefficient, base, exponent = Fraction(1), None, 0
     for factor in factors:
         if isinstance(factor.value, Fraction):
@@ -94,16 +57,16 @@ def _square(term: Tree) -> tuple[Fraction, Tree, int] | None:
     return None if base is None or not base.symbols else (coefficient, base, exponent)
 
 
-def _operands(tree: Tree, head: str) -> list[Tree]:
+def operands(tree: Tree, head: str) -> list[Tree]:
     """Return the terms of a sum or the factors of a product, those of sums in sums and products in products too."""
-    return [operand for part in tree.below for operand in _operands(part, head)] if tree.head == head else [tree]
+    return [operand for part in tree.below for operand in operands(part, head)] if tree.head == head else [tree]
 
 
 def positive_sum(tree: Tree, sign: Fraction = Fraction(1)) -> tuple[str, list[tuple[str, Tree]]] | None:
     """Return a sum (times a number) as a positive number and squares of bases with positive coefficients."""
     if tree.head == "product" and isinstance(tree.below[0].value, Fraction) and len(tree.below) == 2:
         return positive_sum(tree.below[1], sign * tree.below[0].value)
-    terms = _operands(tree, "sum")
+    terms = operands(tree, "sum")
     constant = sum((sign * term.value for term in terms if isinstance(term.value, Fraction)), Fraction(0))
     squares = [_square(term) for term in terms if not isinstance(term.value, Fraction)]
     positive = [

@@ -3,22 +3,21 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from dofkit.base.documents import read_document
 from dofkit.base.errors import ArgumentError
 from dofkit.base.wording import description_of
-from dofkit.checker import Verification
+from dofkit.checker import CheckError, Verification
 from dofkit.checker import verify as rechecked
-from dofkit.expressions.text.characters import SUBSCRIPTS
+from dofkit.checker.problem import document_of, sha256_of
+from dofkit.checker.verification import certificate_of
 from dofkit.methods.certificates.lowering import document_of_scene
-from dofkit.models.formats import is_model
 from dofkit.scene.catalog import find
 from dofkit.scene.reading import SceneLike, load
 from dofkit.scene.scene import Scene
-from dofkit.scene.synonyms import SAID, standard_words
 
 Given = Mapping[str, Any] | str | bytes | os.PathLike[str]
 
@@ -54,39 +53,20 @@ def verify(scene: SceneLike | None, certificate: Given) -> Verification:
     >>> dofkit.verify("four-bar-linkage", report.certificate).failed
     []
     """
-    return rechecked(_written(scene), _text_of(certificate))
+    read = certificate_of(_text_of(certificate))
+    return rechecked(None if scene is None else _document(scene, read), read)
 
 
-def _written(scene: SceneLike | None) -> Mapping[str, Any] | str | None:
-    if scene is None:
-        return None
-    if isinstance(scene, Scene):
-        return document_of_scene(scene)
-    if isinstance(scene, Mapping):
-        return document_of_scene(load(scene)) if _in_other_words(scene) else scene
-    source = find(scene)
-    if is_model(source.data):
-        return document_of_scene(load(scene))
-    text = source.data if isinstance(source.data, str) else source.data.decode("utf-8")
-    value = read_document(source.data, source.name).value
-    return document_of_scene(load(scene)) if _in_other_words(value) else text
-
-
-def _in_other_words(value: object) -> bool:
-    """Whether a document is written in words that the checker does not know: it is given the standard ones then."""
-    if not isinstance(value, Mapping):
-        return False
-    odd = ("°", "deg", *SUBSCRIPTS)
-    return standard_words(value).value != value or any(sign in text for text in _texts(value) for sign in odd)
-
-
-def _texts(value: object) -> Iterator[str]:
-    if isinstance(value, str):
-        yield value
-    elif isinstance(value, Mapping):
-        yield from (text for key, part in value.items() if key not in SAID for text in _texts(part))
-    elif isinstance(value, list | tuple):
-        yield from (text for part in value for text in _texts(part))
+def _document(scene: SceneLike, certificate: Mapping[str, Any]) -> Mapping[str, Any]:
+    """The scene's document as it is written where the certificate is of that, else as the checker reads it."""
+    with suppress(CheckError, ValueError):
+        written: Any = None if isinstance(scene, Scene) else scene
+        if written is not None and not isinstance(written, Mapping):
+            data = find(written).data
+            written = document_of(data if isinstance(data, str) else data.decode("utf-8"))
+        if written is not None and sha256_of(written) == certificate["scene"].get("sha256"):
+            return dict(written)
+    return document_of_scene(load(scene))
 
 
 def _text_of(certificate: Given) -> Mapping[str, Any] | str | bytes:

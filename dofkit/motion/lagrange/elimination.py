@@ -6,7 +6,7 @@ two branches, of which one is taken: that through the reference configuration, e
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import NamedTuple
@@ -99,12 +99,13 @@ class Candidate(NamedTuple):
 class Eliminator:
     """Solves relations one after another, the plainest first.
 
-    ``choose``: of the two roots for a coordinate, the one to take and why.
+    Of two roots for a coordinate the one through the ``reference`` is taken, else that of lower ``potential`` energy.
     """
 
     positive: frozenset[Expr]
-    choose: Callable[[str, Expr, Expr, Mapping[str, Expr]], tuple[Expr, str]]
-    care: Care = ELIMINATIONS[0]
+    potential: Expr
+    reference: Mapping[Expr, Expr] | None
+    care: Care
 
     @raising_no_value
     def eliminated(
@@ -142,7 +143,7 @@ class Eliminator:
             value = ordered(candidate.value)
             if candidate.other is not None:
                 roots += 1
-                value, why = self.choose(candidate.name, value, ordered(candidate.other), solved)
+                value, why = self._chosen(candidate.name, value, ordered(candidate.other), solved)
                 notes.append(why)
             elif not _never_zero(candidate.over, self.positive):
                 notes.append(
@@ -217,6 +218,24 @@ class Eliminator:
                 return False
         return True
 
+    def _chosen(self, name: str, first: Expr, second: Expr, solved: Mapping[str, Expr]) -> tuple[Expr, str]:
+        """Return the root that is taken, and a note on the other branch; the first where nothing distinguishes them."""
+        q, start = ex.coordinate(name), {**(self.reference or {}), ex.TIME: ZERO}
+        figures: list[float | None] = [None, None]
+        why = "the branch through the reference configuration"
+        if q in start:
+            distances = (_figure(_sampled(substitute(v, start) - start[q])) for v in (first, second))
+            figures = [None if d is None else abs(d) for d in distances]
+        if None in figures or figures[0] == figures[1]:
+            why = "the branch of lower potential energy"
+            figures = [_figure(_sampled(substitute(self.potential, _all(name, v, solved)))) for v in (first, second)]
+        if None in figures or figures[0] == figures[1]:
+            why = "the other root is the other branch"
+            figures = [0.0, 1.0]
+        taken, other = (first, second) if (figures[0] or 0) < (figures[1] or 0) else (second, first)
+        note = f"{name} = {to_text(taken)} on the chosen branch ({why}); "
+        return taken, f"{note}on the other branch, {name} = {to_text(other)}."
+
 
 def _unsigned(e: Expr) -> Expr:
     """Without a number in front."""
@@ -232,34 +251,6 @@ def _never_zero(e: Expr, positive: frozenset[Expr]) -> bool:
     """A number, or a product of positive parameters and numbers."""
     factors = e.args if e.op == "mul" else (e,)
     return all(p.op in ("num", "const") or (p.args[0] if p.op == "pow" else p) in positive for p in factors)
-
-
-def by_potential(
-    potential: Expr, reference: Mapping[Expr, Expr] | None
-) -> Callable[[str, Expr, Expr, Mapping[str, Expr]], tuple[Expr, str]]:
-    """Return a choice of the root through the reference configuration, else of lower potential energy, else the first.
-
-    The choice is of (name, first root, second root, what is solved), and comes with a note.
-    """
-
-    def choose(name: str, first: Expr, second: Expr, solved: Mapping[str, Expr]) -> tuple[Expr, str]:
-        q, start = ex.coordinate(name), {**(reference or {}), ex.TIME: ZERO}
-        figures: list[float | None] = [None, None]
-        why = "the branch through the reference configuration"
-        if q in start:
-            distances = (_figure(_sampled(substitute(v, start) - start[q])) for v in (first, second))
-            figures = [None if d is None else abs(d) for d in distances]
-        if None in figures or figures[0] == figures[1]:
-            why = "the branch of lower potential energy"
-            figures = [_figure(_sampled(substitute(potential, _all(name, v, solved)))) for v in (first, second)]
-        if None in figures or figures[0] == figures[1]:
-            why = "the other root is the other branch"
-            figures = [0.0, 1.0]
-        taken, other = (first, second) if (figures[0] or 0) < (figures[1] or 0) else (second, first)
-        note = f"{name} = {to_text(taken)} on the chosen branch ({why}); "
-        return taken, f"{note}on the other branch, {name} = {to_text(other)}."
-
-    return choose
 
 
 def _all(name: str, value: Expr, solved: Mapping[str, Expr]) -> dict[Expr, Expr]:

@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Literal
 
 from dofkit.base.errors import Fault
 from dofkit.expressions import tree as ex
@@ -46,6 +45,12 @@ def energy_of(scene: Scene, drawing: Drawing) -> tuple[Energy, tuple[Fault, ...]
     return EnergyReader(scene, worlds).energy(), worlds.faults
 
 
+#: What forces of a type enter.
+_PART = {"spring": "potential", "gravity": "potential", "damper": "dissipation", "force": "applied"}
+#: A force and its place among those of the scene.
+Numbered = tuple[int, Force]
+
+
 @dataclass
 class EnergyReader:
     """Reads the energies of a scene, each entry in its world; ``notes`` say what was taken for granted."""
@@ -66,20 +71,23 @@ class EnergyReader:
         if kinetic is None:
             kinetic = ex.add(*self._kinetic())
             self._assumed_centres()
-        reader = ForceReader(self.scene, self.worlds, self.notes)
-        springs, dampers, applied = map(reader.entering, PARTS)
+        springs, dampers, applied = (
+            [(i, force) for i, force in enumerate(self.scene.forces) if _PART[force.type] == part]
+            for part in ("potential", "dissipation", "applied")
+        )
         if potential is None:
-            potential = reader.potential(springs)
+            terms = {"gravity": self._gravity, "spring": self._spring}
+            potential = ex.add(*(terms[force.type](self.worlds.at("forces", i), force) for i, force in springs))
         elif springs:
             self._as_written("the potential energy", springs)
         if dissipation is None:
-            dissipation = reader.dissipation(dampers)
+            dissipation = ex.add(*(_damper(self.worlds.at("forces", i), force) for i, force in dampers))
         elif dampers:
             self._as_written("the dissipation function", dampers)
         if forces and applied:
             self._as_written("the generalized forces", applied)
         elif applied:
-            forces = reader.applied(applied)
+            forces = self._applied(applied)
         return Energy(kinetic, potential, dissipation, forces, tuple(self.notes))
 
     def _as_written(self, what: str, entries: Sequence[Numbered]) -> None:
@@ -98,6 +106,55 @@ class EnergyReader:
             yield HALF * m * _speed_squared(names)
             if body is not None and world.dimension > 1:
                 yield _turning(world, body.inertia, world.frames[body.name])
+
+    def _applied(self, entries: Sequence[Numbered]) -> dict[str, Expr]:
+        """Q by coordinate, where it is not 0."""
+        work: dict[str, Expr] = {}
+        for i, force in entries:
+            world = self.worlds.at("forces", i)
+            if force.point is not None:
+                place = _place(world.point(force.point, "point"))
+            elif force.body is not None:
+                place = world.frame(force.body, "body").position
+            else:
+                hint = "name its `point` or `body`, or give `energies: {forces: ...}`"
+                world.fault("the point at which the force acts is missing", hint=hint)
+                continue
+            vector = _vector(world, force.value, force.direction, "value", downward=False)
+            for q in world.table.coordinates:
+                symbol = ex.coordinate(q.name)
+                power = ex.add(*(f * diff(part, symbol) for f, part in zip(vector, place, strict=True)))
+                if not power.is_zero:
+                    work[q.name] = work.get(q.name, ZERO) + power
+        return work
+
+    def _gravity(self, world: World, force: Force) -> Expr:
+        pull = _pull(world, force)
+        return -ex.add(*(
+            mass * dot(pull, tuple(map(ex.coordinate, names))) for _, mass, names in masses(self.scene, self.worlds)
+        ))  # fmt: skip
+
+    def _spring(self, world: World, force: Force) -> Expr:
+        stiffness = needed(world, force.stiffness, "stiffness", "of a spring")
+        turned = _turned(world, force)
+        if turned is not None:
+            unstretched = ZERO if force.rest_length is None else moving(world, force.rest_length, "rest_length")
+            return HALF * stiffness * (turned - unstretched) ** 2
+        ends = _ends(world, force)
+        if ends is None:
+            return ZERO
+        gap = minus(_place(ends[1]), _place(ends[0]))
+        if force.rest_length is not None:
+            unstretched = moving(world, force.rest_length, "rest_length")
+        elif ends[0].reference is not None and ends[1].reference is not None:
+            unstretched = length(minus(ends[1].reference, ends[0].reference))
+            self.notes.append("A spring without `rest_length` is unstretched in the reference configuration.")
+        else:
+            world.fault("a spring needs its `rest_length` here", hint="write its length without load, perhaps 0")
+            return ZERO
+        if unstretched.is_zero:
+            return HALF * stiffness * square(gap)
+        return HALF * stiffness * (ex.sqrt(square(gap)) - unstretched) ** 2
 
 
 def _text(world: World, text: object, key: str) -> Expr | None:
@@ -148,90 +205,6 @@ def body_spin(frame: Frame) -> Vec:
 
 def _speed_squared(names: tuple[str, ...]) -> Expr:
     return ex.add(*(ex.velocity(name) ** 2 for name in names))
-
-
-Part = Literal["potential", "dissipation", "applied"]
-PARTS: tuple[Part, ...] = ("potential", "dissipation", "applied")
-#: What a force enters.
-_PART: dict[str, Part] = {
-    "spring": "potential",
-    "gravity": "potential",
-    "damper": "dissipation",
-    "force": "applied",
-}
-#: A force and its place among those of the scene.
-Numbered = tuple[int, Force]
-
-
-@dataclass
-class ForceReader:
-    """Reads the forces of a scene, each in its world; ``notes`` say what was taken for granted."""
-
-    scene: Scene
-    worlds: EntryWorlds
-    notes: list[str] = field(default_factory=list)
-
-    def entering(self, part: Part) -> list[Numbered]:
-        """The forces that enter the potential energy, the dissipation function, or none of them."""
-        return [(i, force) for i, force in enumerate(self.scene.forces) if _PART[force.type] == part]
-
-    def potential(self, entries: Sequence[Numbered]) -> Expr:
-        """V of springs and gravity."""
-        terms = {"gravity": self._gravity, "spring": self._spring}
-        return ex.add(*(terms[force.type](self.worlds.at("forces", i), force) for i, force in entries))
-
-    def dissipation(self, entries: Sequence[Numbered]) -> Expr:
-        """D of dampers."""
-        return ex.add(*(_damper(self.worlds.at("forces", i), force) for i, force in entries))
-
-    def applied(self, entries: Sequence[Numbered]) -> dict[str, Expr]:
-        """Q by coordinate, where it is not 0."""
-        work: dict[str, Expr] = {}
-        for i, force in entries:
-            world = self.worlds.at("forces", i)
-            if force.point is not None:
-                place = _place(world.point(force.point, "point"))
-            elif force.body is not None:
-                place = world.frame(force.body, "body").position
-            else:
-                hint = "name its `point` or `body`, or give `energies: {forces: ...}`"
-                world.fault("the point at which the force acts is missing", hint=hint)
-                continue
-            vector = _vector(world, force.value, force.direction, "value", downward=False)
-            for q in world.table.coordinates:
-                symbol = ex.coordinate(q.name)
-                power = ex.add(*(f * diff(part, symbol) for f, part in zip(vector, place, strict=True)))
-                if not power.is_zero:
-                    work[q.name] = work.get(q.name, ZERO) + power
-        return work
-
-    def _gravity(self, world: World, force: Force) -> Expr:
-        pull = _pull(world, force)
-        return -ex.add(*(
-            mass * dot(pull, tuple(map(ex.coordinate, names))) for _, mass, names in masses(self.scene, self.worlds)
-        ))  # fmt: skip
-
-    def _spring(self, world: World, force: Force) -> Expr:
-        stiffness = needed(world, force.stiffness, "stiffness", "of a spring")
-        turned = _turned(world, force)
-        if turned is not None:
-            unstretched = ZERO if force.rest_length is None else moving(world, force.rest_length, "rest_length")
-            return HALF * stiffness * (turned - unstretched) ** 2
-        ends = _ends(world, force)
-        if ends is None:
-            return ZERO
-        gap = minus(_place(ends[1]), _place(ends[0]))
-        if force.rest_length is not None:
-            unstretched = moving(world, force.rest_length, "rest_length")
-        elif ends[0].reference is not None and ends[1].reference is not None:
-            unstretched = length(minus(ends[1].reference, ends[0].reference))
-            self.notes.append("A spring without `rest_length` is unstretched in the reference configuration.")
-        else:
-            world.fault("a spring needs its `rest_length` here", hint="write its length without load, perhaps 0")
-            return ZERO
-        if unstretched.is_zero:
-            return HALF * stiffness * square(gap)
-        return HALF * stiffness * (ex.sqrt(square(gap)) - unstretched) ** 2
 
 
 def gravity_of(scene: Scene, worlds: EntryWorlds) -> Vec:

@@ -60,7 +60,7 @@ LENGTHY = f"Some of these formulas have more than {MAX_CHARACTERS} characters, m
 
 
 def lagrange(scene: SceneLike, linearize: bool = False, budget: float | None = None) -> MotionReport:
-    """Return Lagrange's equations d/dt dL/dqdot - dL/dq = Q + sum lambda a of a scene.
+    """Return Lagrange's equations d/dt dL/dqdot - dL/dq + sum lambda a = Q of a scene.
 
     Here L = T - V, Q are the non-conservative generalized forces, a the coefficients of the constraints that are not
     eliminated, and lambda their multipliers.
@@ -275,7 +275,7 @@ def _report(derived: Derived, small: Linearized | None, more: tuple[str, ...]) -
         multipliers=list(derived.multipliers),
         eliminated={n: to_text(e) for n, e in model.elimination.solved.items()},
         left_out=list(model.left_out),
-        non_conservative=[n for n, force in zip(model.names, derived.handover.forces, strict=True) if force != 0],
+        non_conservative=[n for n in model.names if not _zero(derived, model.applied(n))],
         cyclic=cyclic(derived),
         conserved=list(conserved(derived)),
         linearized=small,
@@ -298,7 +298,7 @@ def cyclic(derived: Derived) -> list[str]:
 def conserved(derived: Derived) -> Iterator[Conserved]:
     """Momenta on which no force acts, and the energy function h = sum qdot p - L.
 
-    dp/dt = dL/dq + Q + sum lam a; dh/dt = -dL/dt + sum Q qdot + sum lam a qdot, where a qdot = 0 if a constraint
+    dp/dt = dL/dq + Q - sum lam a; dh/dt = -dL/dt + sum Q qdot - sum lam a qdot, where a qdot = 0 if a constraint
     has no term free of velocities.
     """
     model = derived.model

@@ -23,7 +23,6 @@ from dofkit.motion.lagrange.elimination import (
     Elimination,
     Eliminator,
     Remaining,
-    by_potential,
     in_velocities,
     inserted,
     motions,
@@ -81,6 +80,16 @@ class LagrangeModel:
         """The relations between velocities that keep a multiplier."""
         return [in_velocities(c) for c in self.constraints if not isinstance(c, Finite)]
 
+    @cached_property
+    def slopes(self) -> list[dict[str, Expr]]:
+        """The coefficients a of each multiplier, by coordinate: dg/dq of g = 0, and dr/dqdot of r(q, qdot, t) = 0."""
+        finite = [{n: diff(g, ex.coordinate(n)) for n in self.names} for g in self.holonomic]
+        return finite + [{n: diff(r, ex.velocity(n)) for n in self.names} for r in self.nonholonomic]
+
+    def applied(self, name: str) -> Expr:
+        """Return the non-conservative generalized force along a coordinate."""
+        return self.energy.forces.get(name, ZERO) - diff(self.energy.dissipation, ex.velocity(name))
+
 
 def modelled(study: Examined, energy: Energy, names: Names, care: Care = ELIMINATIONS[0]) -> LagrangeModel:
     """The system with as much eliminated as is possible in closed form, and as ``care`` allows.
@@ -95,7 +104,7 @@ def modelled(study: Examined, energy: Energy, names: Names, care: Care = ELIMINA
     finite = [EliminatedRelation(r.piece.expr) for r in outcome.rows if isinstance(r.piece, Finite)]
     finite += [EliminatedRelation(g) for a in outcome.answers for g in a.hidden]
     integrals = list(_integrals(study, names))
-    eliminator = Eliminator(study.setting.positive, by_potential(energy.potential, study.system.reference), care)
+    eliminator = Eliminator(study.setting.positive, energy.potential, study.system.reference, care)
     for relations in ([*finite, *integrals], finite, []):
         elimination = _agreeing(eliminator, relations, coordinates, free)
         model = _built_somehow(study, energy, elimination, coordinates)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from pydantic import Field, PrivateAttr
 
@@ -11,7 +11,7 @@ from dofkit.base.verdicts import Verdict
 from dofkit.report import Companion, Report, ReportModel
 
 if TYPE_CHECKING:
-    from dofkit.motion.lagrange.derivation import Derived, Handover
+    from dofkit.motion.lagrange.derivation import Derived
 
 #: T, V and L are energies, so that every q p has the dimension of energy times time.
 QP = "action, M L^2 T^-1: each product q*p has the dimension of energy times time, whatever q is"
@@ -30,7 +30,7 @@ class Linearized(ReportModel):
 
     ``characteristic``: det(M s^2 + C s + K), empty for large systems; ``frequencies``: the angular ones where C is 0,
     as text; empty where no formula is given, and where one is not real. ``unstable``: deviations grow, which a negative
-    square of a frequency shows; false where that is not known. ``others``: equilibria found beside this one.
+    square of a frequency shows; false where that is not known.
     """
 
     coordinates: list[str]
@@ -41,7 +41,6 @@ class Linearized(ReportModel):
     characteristic: str
     frequencies: list[str]
     unstable: bool = False
-    others: list[dict[str, str]] = Field(default_factory=list)
 
 
 class MotionReport(DisplayedFormulas, ReportModel):
@@ -91,9 +90,9 @@ class MotionReport(DisplayedFormulas, ReportModel):
             raise ValueError("this report was read back as text: derive it again by dofkit.lagrange(scene)")
         return self._derived
 
-    def to_sympy(self) -> Handover:
-        """Coordinates, speeds, Lagrangian, forces and constraint lists, ready for LagrangesMethod and KanesMethod.
+    def to_sympy(self) -> Any:
+        """Return SymPy's LagrangesMethod for the coordinates kept, its equations not yet formed.
 
         Raises ValueError for a report that was read back and not derived here.
         """
-        return self._derivation.handover
+        return self._derivation.sympys_method()

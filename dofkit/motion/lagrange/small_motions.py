@@ -1,50 +1,34 @@
 """Small motions M qddot + C qdot + K q = 0 about an equilibrium, with its characteristic equation and frequencies.
 
-Equilibria are proposed (the reference configuration, 0, what SymPy solves the forces for, quarter turns of angles) and
-each is checked exactly against the equations and the constraints. Constraints that keep a multiplier restrict the
-deviations to those that they allow.
+The equilibrium is the reference configuration, or else where all coordinates are 0. It is checked exactly against the
+equations and the constraints. Constraints that keep a multiplier restrict the deviations to those that they allow.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from itertools import combinations, islice, product
+from collections.abc import Mapping, Sequence
+from itertools import combinations, islice
 from typing import Any, NamedTuple
 
-from dofkit.base.deadline import OutOfTimeError, by_processor, check, remaining_seconds
 from dofkit.base.errors import NoValueError
 from dofkit.exact.ring.canonical import is_identically_zero
 from dofkit.exact.ring.program import raising_no_value
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
-from dofkit.expressions.sympy_bridge import Bridge, UntranslatableError
+from dofkit.expressions.sympy_bridge import Bridge
 from dofkit.expressions.text.printing import to_text
-from dofkit.expressions.tree import HALF, MINUS_ONE, PI, ZERO, Expr
+from dofkit.expressions.tree import ZERO, Expr
 from dofkit.motion.lagrange.derivation import Derived
-from dofkit.motion.lagrange.elimination import Care, EliminatedRelation, Elimination, Eliminator, by_potential
 from dofkit.motion.lagrange.model import NoEquationsError
 from dofkit.motion.lagrange.report import Linearized
 from dofkit.motion.lagrange.tidying import Tidier
 
 Place = Mapping[Expr, Expr]
 
-#: Values of angles that are tried, and for how many angles at once.
-TURNS, MOST_ANGLES = (ZERO, PI, HALF * PI, MINUS_ONE * HALF * PI), 2
-#: Relations are solved for a place by as many roots as they need.
-ALL_ROOTS = Care(400, 12)
-#: Equilibria that are reported, candidates that are tried, and seconds for SymPy to propose some.
-MOST, CANDIDATES, SOLVING = 8, 72, 2.0
 #: Frequencies are given where the characteristic polynomial has factors of so small degree in s^2, for so many rows.
 MOST_BY_FORMULA, MOST_ROWS = 2, 6
 #: Choices of dependent coordinates that are tried.
 CHOICES = 40
-
-
-class Equilibrium(NamedTuple):
-    """The values of the coordinates kept, and of the multipliers, at rest."""
-
-    place: Place
-    multipliers: Place
 
 
 class Matrices(NamedTuple):
@@ -57,26 +41,26 @@ class Matrices(NamedTuple):
 
 
 def linearized(derived: Derived) -> Linearized:
-    """Return M, C and K at the reference configuration if that is an equilibrium, else at 0, else at another one.
+    """Return M, C and K at the reference configuration if that is an equilibrium, else at 0.
 
     With E(q, qdot, qddot, lam) = 0 the equations: M = dE/dqddot, C = dE/dqdot, K = dE/dq there. Raises NoEquationsError
-    where time enters or no equilibrium is known.
+    where time enters or neither is an equilibrium.
     """
-    if any(ex.TIME in e.symbols for e in (*derived.model.holonomic, *derived.model.nonholonomic)):
+    model = derived.model
+    if any(ex.TIME in e.symbols for e in (*model.holonomic, *model.nonholonomic)):
         raise NoEquationsError("the constraints depend on time, so there is no equilibrium")
-    equilibria = list(islice(_Equilibria(derived).equilibria(), MOST))
-    if not equilibria:
-        if any(ex.TIME in e.symbols for e in derived.equations.values()):
-            raise NoEquationsError("the equations depend on time, and no equilibrium is known")
-        hint = "give one as the scene's `configuration`"
-        raise NoEquationsError(f"no equilibrium was found; neither the reference configuration nor 0 is one: {hint}")
+    names = [ex.coordinate(n) for n in model.names]
+    reference = model.study.system.reference
     work = _Linearization(derived)
-    for equilibrium in equilibria:
-        matrices = work.matrices(equilibrium)
-        if matrices is not None:
-            others = [work.texts(e) for e in equilibria if e is not equilibrium]
-            return work.linearized(equilibrium, matrices, others)
-    raise NoEquationsError("the constraints are singular at the equilibrium")
+    places = [] if reference is None else [{q: work.plain(reference[q]) for q in names}]
+    for place in (*places, dict.fromkeys(names, ZERO)):
+        multipliers = work.balancing(place)
+        if multipliers is not None:
+            return work.linearized(place, work.matrices(place, multipliers))
+    if any(ex.TIME in e.symbols for e in derived.equations.values()):
+        raise NoEquationsError("the equations depend on time, and no equilibrium is known")
+    hint = "give one as the scene's `configuration`"
+    raise NoEquationsError(f"neither the reference configuration nor 0 is an equilibrium: {hint}")
 
 
 def _at_rest(e: Expr, place: Place) -> Expr:
@@ -85,12 +69,11 @@ def _at_rest(e: Expr, place: Place) -> Expr:
     return substitute(e, {**rates, **place})
 
 
-class _Translated:
-    """The equations of a system with a bridge to SymPy."""
+class _Linearization:
+    """The equations of a system at an equilibrium, with a bridge to SymPy."""
 
     def __init__(self, derived: Derived) -> None:
         self.derived, self.model = derived, derived.model
-        self.names = [ex.coordinate(n) for n in self.model.names]
         self.bridge = Bridge(self.model.names, self.model.positive)
         self.tidy = Tidier(self.bridge, self.model.positive)
 
@@ -108,85 +91,8 @@ class _Translated:
         """Return whether a determinant is not proved to be other than 0."""
         return is_identically_zero(self.bridge.expr(det.expand()), self.model.positive) is not False
 
-
-class _Equilibria(_Translated):
-    """The search for equilibria."""
-
-    def equilibria(self) -> Iterator[Equilibrium]:
-        """Yield the candidates at which the constraints are satisfied at rest and all forces balance."""
-        seen: set[tuple[Expr, ...]] = set()
-        for written in islice(self._candidates(), CANDIDATES):
-            place = {q: self.plain(written[q]) for q in self.names}
-            key = tuple(place.values())
-            if key not in seen:
-                seen.add(key)
-                equilibrium = self._balanced(place)
-                if equilibrium is not None:
-                    yield equilibrium
-
-    def _candidates(self) -> Iterator[Place]:
-        reference = self.model.study.system.reference
-        if reference is not None:
-            yield {q: reference[q] for q in self.names}
-        yield dict.fromkeys(self.names, ZERO)
-        for branch in self._branches():
-            free = [q for q in self.names if str(q.args[1]) not in branch.solved]
-            for chosen in self._quarter_turns(free):
-                tied = {ex.coordinate(n): substitute(e, chosen) for n, e in branch.solved.items()}
-                yield {**chosen, **tied}
-        if not self.derived.multipliers:
-            yield from self._solved()
-
-    def _solved(self) -> Iterator[Place]:
-        """Yield what SymPy finds for the forces alone, in bounded time."""
-        import sympy
-
-        marks = {q: ex.parameter(f"_{q.args[1]} ") for q in self.names}
-        forces = [self.bridge.sympy(_at_rest(e, marks)) for e in self.derived.equations.values()]
-        unknowns = [self.bridge.sympy(mark) for mark in marks.values()]
-        try:
-            with by_processor(min(SOLVING, remaining_seconds())):
-                solutions = sympy.solve(forces, unknowns, dict=True)
-        except OutOfTimeError:
-            check()
-            return
-        except (ArithmeticError, AttributeError, NotImplementedError, TypeError, ValueError):
-            return
-        for solution in solutions:
-            if len(solution) == len(unknowns) and not any(v.free_symbols & set(unknowns) for v in solution.values()):
-                try:
-                    yield {q: self.tidy(solution[u]) for q, u in zip(self.names, unknowns, strict=True)}
-                except (UntranslatableError, NoValueError):
-                    continue
-
-    def _branches(self) -> Iterator[Elimination]:
-        """Yield what the finite constraints give of the coordinates, on one branch each."""
-        if not self.model.holonomic:
-            yield Elimination()
-            return
-        choose = by_potential(self.model.energy.potential, self.model.study.system.reference)
-        relations = [EliminatedRelation(g) for g in self.model.holonomic]
-        for names in (self.model.names, self.model.names[::-1]):
-            try:
-                branch = Eliminator(self.model.positive, choose, ALL_ROOTS).eliminated(relations, names, ())
-            except NoValueError:
-                continue
-            if len(branch.solved) == len(relations):
-                yield branch
-
-    def _quarter_turns(self, free: Sequence[Expr]) -> Iterator[Place]:
-        """Yield all at 0, and angles at quarters of a turn."""
-        zeros = dict.fromkeys(free, ZERO)
-        yield zeros
-        every = (*self.derived.equations.values(), *self.model.holonomic)
-        waves = [n for e in every for n in ex.nodes(e) if n.op == "fn" and n.args[0] in ("sin", "cos")]
-        angles = [q for q in free if any(q in n.symbols for n in waves)]
-        if len(angles) <= MOST_ANGLES:
-            for turns in product(TURNS, repeat=len(angles)):
-                yield {**zeros, **dict(zip(angles, turns, strict=True))}
-
-    def _balanced(self, place: Place) -> Equilibrium | None:
-        """Return the place with its multipliers if it is an equilibrium, proved."""
+    def balancing(self, place: Place) -> Place | None:
+        """Return the multipliers that balance the forces at a place if it is an equilibrium, proved; else None."""
         try:
             if not all(self._vanishes(_at_rest(e, place)) for e in (*self.model.holonomic, *self.model.nonholonomic)):
                 return None
@@ -196,7 +102,7 @@ class _Equilibria(_Translated):
                 return None
         except NoValueError:
             return None
-        return Equilibrium(place, multipliers)
+        return multipliers
 
     @raising_no_value
     def _vanishes(self, e: Expr) -> bool:
@@ -221,18 +127,14 @@ class _Equilibria(_Translated):
         solution = -(normal.adjugate() * matrix.T * constant) / det
         return {s: self.tidy(sympy.cancel(v)) for s, v in zip(names, solution, strict=True)}
 
-
-class _Linearization(_Translated):
-    """The matrices about an equilibrium, and the report's entry."""
-
-    def matrices(self, at: Equilibrium) -> Matrices | None:
-        """Return M, C and K there, or None where the constraints are singular."""
-        place = {**at.place, **at.multipliers}
+    def matrices(self, place: Place, multipliers: Place) -> Matrices:
+        """Return M, C and K there. Raises NoEquationsError where the constraints are singular."""
+        values = {**place, **multipliers}
         kinds: tuple[ex.Kind, ...] = ("acceleration", "velocity", "coordinate")
         every = []
         for kind in kinds:
             rows = [
-                [_at_rest(diff(e, ex.sym(kind, n)), place) for n in self.model.names]
+                [_at_rest(diff(e, ex.sym(kind, n)), values) for n in self.model.names]
                 for e in self.derived.equations.values()
             ]
             if any(ex.TIME in e.symbols for row in rows for e in row):
@@ -240,23 +142,21 @@ class _Linearization(_Translated):
             every.append(self.matrix(rows))
         if not self.derived.multipliers:
             return Matrices(self.model.names, *every)
-        free, basis = self._allowed(at)
-        if basis is None:
-            return None
+        free, basis = self._allowed(place)
         return Matrices(tuple(self.model.names[i] for i in free), *(basis.T * m * basis for m in every))
 
-    def _allowed(self, at: Equilibrium) -> tuple[list[int], Any]:
-        """Return the places of free deviations, and all deviations as combinations of them, or no basis."""
+    def _allowed(self, place: Place) -> tuple[list[int], Any]:
+        """Return the indices of free deviations, and all deviations as combinations of them."""
         import sympy
 
         names, model = self.model.names, self.model
-        rows = [[_at_rest(diff(g, ex.coordinate(n)), at.place) for n in names] for g in model.holonomic]
+        rows = [[_at_rest(diff(g, ex.coordinate(n)), place) for n in names] for g in model.holonomic]
         for r in model.nonholonomic:
-            if any(not _at_rest(diff(r, ex.coordinate(n)), at.place).is_zero for n in names):
+            if any(not _at_rest(diff(r, ex.coordinate(n)), place).is_zero for n in names):
                 raise NoEquationsError(
                     "a velocity constraint has a term without velocities that depends on the configuration"
                 )
-            rows.append([_at_rest(diff(r, ex.velocity(n)), at.place) for n in names])
+            rows.append([_at_rest(diff(r, ex.velocity(n)), place) for n in names])
         matrix, every = self.matrix(rows), list(range(len(rows)))
         for tied in islice(combinations(range(len(names) - 1, -1, -1), len(rows)), CHOICES):
             part = matrix.extract(every, list(tied))
@@ -271,19 +171,19 @@ class _Linearization(_Translated):
                 for j, t in enumerate(tied):
                     basis[t, k] = sympy.cancel(others[j, k])
             return free, basis
-        return [], None
+        raise NoEquationsError("the constraints are singular at the equilibrium")
 
-    def texts(self, at: Equilibrium) -> dict[str, str]:
+    def texts(self, place: Place) -> dict[str, str]:
         """Return the coordinates at rest, those that were eliminated too."""
-        values = {str(q.args[1]): to_text(v) for q, v in at.place.items()}
+        values = {str(q.args[1]): to_text(v) for q, v in place.items()}
         for name, value in self.model.elimination.solved.items():
             try:
-                values[name] = to_text(self.plain(substitute(value, at.place)))
+                values[name] = to_text(self.plain(substitute(value, place)))
             except NoValueError:
                 continue
         return values
 
-    def linearized(self, at: Equilibrium, matrices: Matrices, others: list[dict[str, str]]) -> Linearized:
+    def linearized(self, place: Place, matrices: Matrices) -> Linearized:
         """Return the report's entry."""
         import sympy
 
@@ -298,14 +198,13 @@ class _Linearization(_Translated):
         )
         return Linearized(
             coordinates=list(matrices.names),
-            equilibrium=self.texts(at),
+            equilibrium=self.texts(place),
             mass=mass,
             damping=damping,
             stiffness=stiffness,
             characteristic="" if polynomial is None else self._by_powers(polynomial, s),
             frequencies=[] if any(w.is_negative for w in squares) else [self._frequency(w) for w in squares],
             unstable=any(bool(w.is_negative) for w in squares),
-            others=others,
         )
 
     def _by_powers(self, polynomial: Any, s: Any) -> str:

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
-from dofkit.expressions.renaming import Template, Unwritten, shape_of
+from dofkit.expressions.renaming import Renaming, Unwritten, shape_of
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.domain import DomainCondition
 from dofkit.system import Constraint, Relation
@@ -186,41 +186,18 @@ def _coefficients(form: Pfaffian) -> Iterator[tuple[str | None, Expr]]:
     yield None, form.dt
 
 
-class NormalTemplate:
-    """What a relation with some names says, to be told of others of its shape."""
-
-    def __init__(self, normal: Normal, names: Sequence[str]) -> None:
-        self._normal = normal
-        self._branches = [[_PieceTemplate(piece, names) for piece in branch] for branch in normal.branches]
-
-    def of(self, names: Sequence[str]) -> Normal:
-        """The same in other names."""
-        branches = tuple([tuple([piece.of(names) for piece in branch]) for branch in self._branches])
-        return self._normal._replace(branches=branches)
+def in_names(normal: Normal, renaming: Renaming) -> Normal:
+    """Return what a relation says in other names."""
+    branches = [tuple([_renamed(piece, renaming) for piece in branch]) for branch in normal.branches]
+    return normal._replace(branches=tuple(branches))
 
 
-class _PieceTemplate:
-    """A piece, its expressions as templates with the numbers of their names, and its shape."""
-
-    def __init__(self, piece: Piece, names: Sequence[str]) -> None:
-        number = {name: k for k, name in enumerate(names)}
-        self._piece, self._shape = piece, piece_shape(piece)
-        self._numbers = [number[n] for n in self._shape.names]
-        coefficients = list(_coefficients(piece)) if isinstance(piece, Pfaffian) else [(None, piece.expr)]
-        self._templates = []
-        for name, e in coefficients:
-            template = Template(e)
-            self._templates.append((number.get(name or "", -1), template, [number[n] for n in template.names]))
-
-    def of(self, names: Sequence[str]) -> Piece:
-        """The piece in other names."""
-        result = [(k, template.of([names[i] for i in numbers])) for k, template, numbers in self._templates]
-        made: Piece
-        if isinstance(self._piece, Pfaffian):
-            made = Pfaffian({names[k]: e for k, e in result[:-1]}, result[-1][1])
-        elif isinstance(self._piece, Finite):
-            made = Finite(result[0][1])
-        else:
-            made = replace(self._piece, expr=result[0][1])
-        vars(made)[_SHAPE] = PieceShape(self._shape.key, tuple([names[k] for k in self._numbers]))
-        return made
+def _renamed(piece: Piece, renaming: Renaming) -> Piece:
+    names, shape, renamed = renaming.names, piece_shape(piece), renaming.of
+    made: Piece
+    if isinstance(piece, Pfaffian):
+        made = Pfaffian({names.get(n, n): renamed(e) for n, e in piece.coefficients.items()}, renamed(piece.dt))
+    else:
+        made = replace(piece, expr=renamed(piece.expr))
+    vars(made)[_SHAPE] = PieceShape(shape.key, tuple([names.get(n, n) for n in shape.names]))
+    return made

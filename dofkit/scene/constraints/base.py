@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from functools import cache
-from typing import Annotated, Any, ClassVar, Literal, get_args
+from typing import Annotated, ClassVar, Literal, get_args
 
 from pydantic import BeforeValidator, Field
 
@@ -73,11 +73,6 @@ class ConstraintBase(WrittenModel):
     def texts(self) -> Iterator[str]:
         """Yield its texts that may mention coordinates."""
         yield from ()
-
-    @classmethod
-    def restated(cls, entry: Mapping[str, Any]) -> dict[str, Any]:
-        """Return a faulty entry with what several wrong keys state together under the right one."""
-        return dict(entry)
 
     @property
     def in_words(self) -> str:

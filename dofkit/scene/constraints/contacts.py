@@ -12,12 +12,12 @@ from dofkit.base.errors import NoValueError
 from dofkit.exact.matrices.sparse import combined
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.enclosures import approximate, differs_from_zero, has_call
-from dofkit.expressions.tree import MINUS_ONE, TIME, ZERO, Expr, add, coordinate, fn, mul, velocity
-from dofkit.expressions.vectors import Matrix, Vec, apply, difference, minus, square, transposed
+from dofkit.expressions.tree import MINUS_ONE, TIME, ZERO, Expr, add, coordinate, mul, velocity
+from dofkit.expressions.vectors import Vec, apply, difference, minus, square, transposed
 from dofkit.scene.constraints.base import ConstraintBase, figures, root
 from dofkit.scene.constraints.joints import Joint
 from dofkit.scene.constraints.places import across_a_line
-from dofkit.scene.drawing import Frame, Placed
+from dofkit.scene.drawing import Frame, Placed, turn
 from dofkit.scene.fields import Text, Value, as_written
 from dofkit.scene.ledger import FINITE, symbols_of
 from dofkit.scene.names import within_member
@@ -109,17 +109,11 @@ class Cam(ConstraintBase):
         return f"cam {show_point(self.point)} on {self.body}: {self.curve}"
 
 
-def _rotation(angle: Expr) -> Matrix:
-    """R(angle)."""
-    c, s = fn("cos", angle), fn("sin", angle)
-    return ((c, mul(MINUS_ONE, s)), (s, c))
-
-
 def _body_coordinates(frame: Frame, point: Placed) -> dict[Expr, Expr]:
     """x and y of the point in the body's own coordinates."""
     arm = minus(point.over, frame.position)
     if not frame.fixed:
-        arm = apply(transposed(_rotation(coordinate(frame.angles[0]))), arm)
+        arm = apply(transposed(turn(coordinate(frame.angles[0]))), arm)
     return dict(zip((X, Y), arm, strict=True))
 
 
@@ -140,9 +134,9 @@ class DrawnContact(NamedTuple):
 
 def _drawn(profile: Expr, frame: Frame, place: Vec) -> DrawnContact:
     """Return the profile where a point is drawn."""
-    turn = _rotation(frame.initial[0]) if frame.initial else None
+    turned = turn(frame.initial[0]) if frame.initial else None
     arm = minus(place, frame.start)
-    coordinates = arm if turn is None else apply(transposed(turn), arm)
+    coordinates = arm if turned is None else apply(transposed(turned), arm)
     at = {**dict(zip((X, Y), coordinates, strict=True)), TIME: ZERO}
     try:
         gap = substitute(profile, at)
@@ -152,7 +146,7 @@ def _drawn(profile: Expr, frame: Frame, place: Vec) -> DrawnContact:
         slope = tuple(substitute(diff(profile, letter), at) for letter in (X, Y))
     except NoValueError:
         slope = (ZERO, ZERO)
-    return DrawnContact(gap, slope if turn is None else apply(turn, slope))
+    return DrawnContact(gap, slope if turned is None else apply(turned, slope))
 
 
 class Roll(ConstraintBase):

@@ -12,9 +12,8 @@ from dofkit.base.wording import many, verb
 from dofkit.exact.matrices.sparse import along, less
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.enclosures import approximate
-from dofkit.expressions.renaming import is_name
 from dofkit.expressions.tree import ONE, TIME, TWO, ZERO, Expr, add, fn, mul, power, sqrt
-from dofkit.expressions.vectors import Vec, difference, minus, square, square_between
+from dofkit.expressions.vectors import Vec, difference, square, square_between
 from dofkit.scene.constraints.base import ConstraintBase, root
 from dofkit.scene.drawing import Placed, between
 from dofkit.scene.fields import Value, as_written
@@ -99,20 +98,8 @@ def distance(world: World, first: Placed, second: Placed, length: Expr | None) -
     world.apart(first, second, squared)
     if drawn is not None and first.frame is not None and first.frame == second.frame:
         return difference(drawn, squared)
-    if first.frame is None and second.frame is None and first.over[0].op == second.over[0].op == "sym":
-        return _between_particles(world, first, second, squared)
     arm, under = between(first, second)
     return difference(square(arm), squared if under is ONE else mul(squared, power(under, TWO)))
-
-
-def _between_particles(world: World, first: Placed, second: Placed, squared: Expr) -> Expr:
-    """|A - B|^2 - length^2 of declared particles: names apart the same, where the length is the same or generic."""
-    generic = squared.op == "sym" and is_name(squared)
-    return world.in_names(
-        (Link, world.dimension, "" if generic else squared),
-        [*first.over, *second.over, *([squared] if generic else [])],
-        lambda: difference(square(minus(second.over, first.over)), squared),
-    )
 
 
 def _check_length(world: World, first: Placed, second: Placed, length: Expr, *where: str | int) -> None:
@@ -227,16 +214,6 @@ class String(ConstraintBase):
     def texts(self) -> Iterator[str]:
         if isinstance(self.length, str):
             yield self.length
-
-    @classmethod
-    def restated(cls, entry: Mapping[str, Any]) -> dict[str, Any]:
-        """Return a faulty entry with pulleys that are given by `over` between the two ends."""
-        over, keys = entry.get("over"), ("along", "members", "points", "over")
-        ends: Any = next((entry[key] for key in keys[:-1] if key in entry), ())
-        over = [over] if isinstance(over, str) else over
-        if not isinstance(ends, (list, tuple)) or not isinstance(over, (list, tuple)):
-            return dict(entry)
-        return {k: part for k, part in entry.items() if k not in keys} | {"along": [*ends[:1], *over, *ends[1:]]}
 
     @property
     def in_words(self) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Any, ClassVar, Literal
+from typing import ClassVar, Literal
 
 from pydantic import Field
 
@@ -149,14 +149,6 @@ class Slot(ConstraintBase):
         _check_on_line(world, point, place, axis)
         for u in axis.across:
             yield Relation(along(frame, point, place, u), part="across", vector=u)
-
-    @classmethod
-    def restated(cls, entry: Mapping[str, Any]) -> dict[str, Any]:
-        """Return a faulty entry with `between: [point, body]` as the two fields."""
-        fields = dict(entry)
-        if isinstance(fields.get("between"), (list, tuple)) and len(fields["between"]) == 2:
-            fields["point"], fields["body"] = fields.pop("between")
-        return fields
 
     @property
     def in_words(self) -> str:

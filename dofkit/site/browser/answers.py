@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from dofkit.homework.handout.page_sheets import judge_answers, read_answer
+from dofkit.homework.handout.page_sheets import judge_answers
+from dofkit.homework.handout.reading import read_answer
 from dofkit.homework.sentences import Language
 from dofkit.interface.show.sheet import Formula
 from dofkit.site.browser.shown import json_of_content

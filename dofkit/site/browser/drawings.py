@@ -20,4 +20,5 @@ def motion(text: str) -> dict[str, Any]:
     """Return what the player shows of a scene."""
     moving = animate(loads(text))
     sketch = moving.sketch
-    return {"data": player_data(sketch, moving.clips), "alternative": sketch.alternative, "notes": list(sketch.notes)}
+    data = player_data(sketch, moving.clips, moving.program, moving.switches)
+    return {"data": data, "alternative": sketch.alternative, "notes": list(sketch.notes)}

@@ -1,0 +1,229 @@
+"""The motions of a scene as clips: sampled finite ones, infinitesimal ones, and those without a constraint."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from dofkit.base.errors import DofkitError
+from dofkit.expressions.tree import Expr
+from dofkit.motion.configurations import MotionSampler, sampling
+from dofkit.pictures.arrangement import MOVES, FreeMotion, displaced, free_motions, moved_numbers
+from dofkit.pictures.evaluation import by_pivots, kernel
+from dofkit.pictures.shapes import Array, Clip, Poses, Sketch, Switch, place
+from dofkit.pictures.stage import StagedScene
+from dofkit.pictures.words import can_hold, sure
+from dofkit.scene.lowering import lower
+from dofkit.scene.scene import without
+from dofkit.system import GROUND
+
+#: Steps of a sampled motion to either side, their length, and the most frames that are kept.
+STEPS, STEP, FRAMES = 160, 0.1, 96
+#: The same if there are several motions.
+SHORT, FEW = 25, 40
+#: How far beyond the picture a motion is shown, by the picture's size; a closed one returns to within this part of it.
+FAR, BACK = 0.5, 0.05
+#: The number of points of a sketch by which two poses are compared.
+MOST_SEEN = 60
+#: With many coordinates fewer steps are made: this many coordinates times steps, but not fewer steps than this.
+MANY, LEAST = 3000, 10
+#: The time limit of the finite motions.
+SECONDS = 12.0
+#: Frames of an infinitesimal motion to both sides, its extent by the picture's size, and its largest rotation.
+SWING, REACH, TURN = 32, 0.22, 0.6
+#: The number of motions, and of constraints with a switch, that are shown.
+MOST_MOTIONS, MOST_SWITCHES = 12, 8
+GOES_ON = "This infinitesimal motion goes on: it was followed as a finite motion."
+ENDS = "This infinitesimal motion does not go on: "
+NONE_FOUND, NO_MOTION = "no finite motion in its direction was found.", "no finite motion is possible{}."
+UNCHANGED = "{} is redundant{}: without it the motion goes on unchanged."
+IMPLIED = "{} is implied by the others as long as {} in use: without it the motion goes on unchanged."
+NEEDED = "{} is needed: without it this motion is possible too."
+
+
+class ClipMaker:
+    """The clips of a scene whose motions are seen by the points of a sketch."""
+
+    def __init__(self, stage: StagedScene, sketch: Sketch) -> None:
+        every = dict.fromkeys(v for s in sketch.shapes if s.kind != "words" for v in s.vertices if v.carrier != GROUND)
+        vertices = list(every)
+        self.stage, self.sketch, self.motions = stage, sketch, stage.motions[:MOST_MOTIONS]
+        self.vertices = vertices[:: max(1, len(vertices) // MOST_SEEN)]
+        self.moves = can_hold(stage.report) and bool(vertices)
+
+    def clips(self) -> list[Clip]:
+        """Return the finite motions, where they could be followed, and infinitesimal ones in the place of others."""
+        if not self.moves:
+            return []
+        with sampling(self.stage.system, SECONDS):
+            try:
+                sampler = MotionSampler(self.stage.system, self.stage.arrangement.first_values)
+                if self.stage.report.singular:
+                    return list(self._at_singularity(sampler))
+                if len(self.motions) > 1 or (self.motions and sampler.relations.forms):
+                    return list(self._in_turn(sampler))
+                path = sampler.configurations(self._steps(STEPS), STEP)
+                return [*self._sampled("a finite motion", path)] or self._swings(self.motions)
+            except DofkitError:
+                return self._swings(self.motions)
+
+    def _steps(self, most: int) -> int:
+        return min(most, max(LEAST, MANY // max(1, len(self.stage.system.coordinates))))
+
+    def _in_turn(self, sampler: MotionSampler) -> Iterator[Clip]:
+        """Yield a motion of each free velocity, while the others rest."""
+        count = len(self.stage.motions)
+        name = "free velocity {} of {}: {}" if count > 1 else "a finite motion"
+        for k, motion in enumerate(self.motions):
+            held = [other.symbol for other in self.stage.motions if other is not motion]
+            clips: list[Clip] = []
+            try:
+                path = self._free_motion(sampler, motion, held)
+                clips += self._sampled(name.format(k + 1, count, motion.name), path, FEW)
+            except DofkitError:
+                pass
+            yield from clips or self._swings([motion])
+
+    def _free_motion(self, sampler: MotionSampler, motion: FreeMotion, held: Sequence[Expr]) -> list[dict[str, float]]:
+        """Return a motion in steps that reach the edge of the picture in half of `SHORT`, and then go on."""
+        speed = float(np.linalg.norm(sampler.relations.step_of(motion.rates)))
+        step = float(np.clip(2 * FAR / REACH * self._reach(motion) * speed / SHORT, STEP / 10, 2 * STEP))
+        return sampler.free_motion(
+            motion.rates, held, self._steps(SHORT if sampler.relations.forms else 2 * SHORT), step
+        )
+
+    def _at_singularity(self, sampler: MotionSampler) -> Iterator[Clip]:
+        """Yield the finite motions that leave a singular configuration, and infinitesimal ones that do not go on."""
+        rows = np.array([sampler.relations.step_of({m.symbol: 1.0}) for m in self.motions])
+        coefficients: list[Array] = []
+        for direction, path in sampler.branches(self._steps(SHORT), STEP):
+            coefficients.append(rows @ direction / np.sum(rows**2, axis=1))
+            arrows = self._arrows(_combined(self.motions, coefficients[-1]))
+            for clip in self._sampled(f"finite motion {len(coefficients)}", path, FEW):
+                yield clip._replace(text=GOES_ON, arrows=arrows)
+        others, pivots = by_pivots(kernel(np.array(coefficients), len(self.motions)), range(len(self.motions)))
+        yield from self._swings([
+            _combined(self.motions, part)._replace(name=self.motions[k].name)
+            for part, k in zip(others, pivots, strict=False)
+        ])  # fmt: skip
+
+    def _sampled(self, name: str, path: Iterable[Mapping[str, float]], most: int = FRAMES) -> Iterator[Clip]:
+        """Yield a sampled motion, cut where it leaves the picture; nothing if it has one frame only."""
+        numbers = [*self.stage.arrangement.along(path)]
+        frames = [self.stage.arrangement.poses_at(n, gibbs=False) for n in numbers]
+        size = self.stage.size
+        start = min(range(len(frames)), key=lambda k: self._gap(frames[k], self.stage.arrangement.poses))
+        turn = self._turn(frames, start)
+        low, high = turn or self._near(frames, start, FAR * size)
+        kept = np.unique(np.linspace(low, high, most).astype(int))[: -1 if turn else None]
+        if len(kept) > 1:
+            yield Clip(name, tuple(frames[k] for k in kept), tuple(numbers[k] for k in kept), bool(turn))
+
+    def _gap(self, first: Poses, last: Poses) -> float:
+        """Return the largest distance between the positions of a point in two poses."""
+        pairs = ((self.sketch.at(v, first), self.sketch.at(v, last)) for v in self.vertices)
+        return max((float(np.linalg.norm(a - b)) for a, b in pairs), default=0.0)
+
+    def _turn(self, frames: Sequence[Poses], start: int) -> tuple[int, int] | None:
+        """Return the first and last frame of a motion that comes back to where it began, once around."""
+        gone, back = False, BACK * self.stage.size
+        for k in range(start + 1, len(frames)):
+            far = self._gap(frames[start], frames[k])
+            gone = gone or far > 10 * back
+            if gone and far < back and (k + 1 == len(frames) or self._gap(frames[start], frames[k + 1]) >= far):
+                return start, k
+        whole = self._gap(frames[0], frames[-1]) < back and len(frames) > 8
+        return (0, len(frames) - 1) if whole else None
+
+    def _near(self, frames: Sequence[Poses], start: int, far: float) -> tuple[int, int]:
+        """Return the first and last frame of the part of a motion about its beginning that stays near the picture."""
+        places = np.array([[self.sketch.at(v, frame) for v in self.vertices] for frame in frames])
+        low, high = np.min(places[start], axis=0) - far, np.max(places[start], axis=0) + far
+        outside = np.flatnonzero(np.any((places < low) | (places > high), axis=(1, 2)))
+        before, after = outside[outside < start], outside[outside > start]
+        return int(before[-1]) + 1 if len(before) else 0, int(after[0]) - 1 if len(after) else len(frames) - 1
+
+    # Infinitesimal motions
+
+    def _swings(self, motions: Sequence[FreeMotion]) -> list[Clip]:
+        """Return each infinitesimal motion on its own, to one side and back to the other."""
+        clips, report = [], self.stage.report
+        end = NO_MOTION.format(sure(report, "velocity_dof")) if report.velocity_dof == 0 else NONE_FOUND
+        for motion in motions:
+            far = self._reach(motion)
+            steps = (far * math.sin(2 * math.pi * j / SWING) for j in range(SWING))
+            numbers = tuple(moved_numbers(self.stage.arrangement, motion, step) for step in steps)
+            frames = tuple(self.stage.arrangement.poses_at(n, gibbs=True) for n in numbers)
+            text, arrows = (ENDS + end, self._arrows(motion)) if report.singular else ("", ())
+            name = f"infinitesimal motion: {motion.name}"
+            clips.append(Clip(name, frames, numbers, closed=True, text=text, arrows=arrows))
+        return clips
+
+    def _arrows(self, motion: FreeMotion) -> tuple[tuple[Array, Array], ...]:
+        """Return where traced points are, and the ends of arrows that show their velocities."""
+        step = 1e-4
+        moved, scale = displaced(self.stage.arrangement, motion, step), self._reach(motion) / step
+        points = [(self.sketch.at(v), self.sketch.at(v, moved)) for v in self.sketch.traced]
+        pairs = {place(np.round(a, 9)): (a, a + scale * (b - a)) for a, b in points}.values()
+        return tuple((a, b) for a, b in pairs if np.linalg.norm(b - a) > MOVES * self.stage.size)
+
+    def _reach(self, motion: FreeMotion) -> float:
+        """Return how far a motion is followed: a part of the picture's size, or a rotation that is still small."""
+        step = 1e-3
+        far, turned = 0.0, 0.0
+        for name, pose in displaced(self.stage.arrangement, motion, step).items():
+            here = self.stage.arrangement.poses[name]
+            middle = here.turn.T @ (np.zeros(3) - here.shift)
+            far = max(far, float(np.linalg.norm(pose.moved(middle) - here.moved(middle))) / step)
+            turned = max(turned, float(np.linalg.norm(pose.turn - here.turn)) / step / math.sqrt(2))
+        bounds = [
+            REACH * self.stage.size / far if far > MOVES else math.inf,
+            TURN / turned if turned > MOVES else math.inf,
+        ]
+        return min((b for b in bounds if math.isfinite(b)), default=0.0)
+
+    # Constraints left out
+
+    def switches(self) -> Iterator[tuple[Switch, list[Clip]]]:
+        """Yield a switch for each constraint of a scene with redundant ones, with the motion that is new without it."""
+        report = self.stage.report
+        redundant = report.redundant or []
+        if not self.moves or not report.redundant_equations:
+            return
+        for entry in report.constraints[:MOST_SWITCHES]:
+            if entry.name in redundant:
+                yield Switch(entry.name, UNCHANGED.format(entry.name, sure(report, "redundant")), True), []
+                continue
+            try:
+                clips = self._without(entry.name)
+            except DofkitError:
+                continue
+            others = f"{', '.join(redundant)} {'is' if len(redundant) == 1 else 'are'}"
+            text = NEEDED.format(entry.name) if clips is not None else IMPLIED.format(entry.name, others)
+            yield Switch(entry.name, text), clips or []
+
+    def _without(self, name: str) -> list[Clip] | None:
+        """Return the first motion that is possible only without a constraint; None if there is none."""
+        stage = self.stage
+        scene = without(stage.scene, [name])
+        arrangement = replace(stage.arrangement, system=lower(scene))
+        first = [str(m.symbol.args[1]) for m in stage.motions]
+        motions = free_motions(arrangement, first)
+        extra = [m for m in motions if m.symbol not in {m.symbol for m in stage.motions}]
+        if not extra:
+            return None
+        held = [m.symbol for m in motions if m is not extra[0]]
+        with sampling(arrangement.system, SECONDS):
+            sampler = MotionSampler(arrangement.system, arrangement.first_values)
+            path = self._free_motion(sampler, extra[0], held)
+        clips = self._sampled(f"without {name}: {extra[0].name}", path, FEW // 2)
+        return [clip._replace(text=NEEDED.format(name), dropped=name) for clip in clips]
+
+
+def _combined(motions: Sequence[FreeMotion], parts: Sequence[float] | Array) -> FreeMotion:
+    """Return a linear combination of motions."""
+    rates = {s: float(sum(p * m.rates[s] for p, m in zip(parts, motions, strict=True))) for s in motions[0].rates}
+    return motions[0]._replace(rates=rates)

@@ -1,0 +1,136 @@
+"""A planar scene as a program that the player runs: where everything is, and what the coordinates have to satisfy."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+from dofkit.expressions.tree import TIME, ZERO, Expr, coordinate, fn
+from dofkit.pictures.arrangement import POINT, finite_relations
+from dofkit.pictures.evaluation import evaluated
+from dofkit.pictures.stage import StagedScene
+from dofkit.system import GROUND
+
+#: Functions that the player knows.
+_FUNCTIONS = ("sin", "cos", "tan", "exp", "log", "abs")
+
+
+class UnknownStepError(ValueError):
+    """The player does not know a function of an expression."""
+
+
+class PlanarProgram(NamedTuple):
+    """Expressions over some columns: coordinates with their scales, then time if it occurs.
+
+    ``poses``: of each carrier its shift and, if it rotates, the cosine and sine of its angle; ``relations`` with the
+    names of their constraints, and ``limits`` that stay at 0 or above. ``can_drag``: the relations are all there is.
+    """
+
+    columns: tuple[Expr, ...]
+    scales: tuple[float, ...]
+    numbers: Mapping[Expr, float]
+    poses: Mapping[str, tuple[Expr, ...]]
+    relations: tuple[tuple[str, Expr], ...]
+    limits: tuple[Expr, ...]
+    can_drag: bool
+
+    def data(self, carriers: Sequence[str]) -> dict[str, Any]:
+        """Return the program as JSON: steps, each a number or an operation with the numbers of earlier steps."""
+        steps = _Steps(self.columns, self.numbers)
+        dragged = {
+            "relations": [[name, steps.number_of(e)] for name, e in self.relations],
+            "limits": [steps.number_of(e) for e in self.limits],
+        }
+        return {
+            "moves": [any(e.symbols & set(self.columns) for e in self.poses.get(c, ())) for c in carriers],
+            "poses": [[steps.number_of(e) for e in self.poses.get(c, (ZERO, ZERO))] for c in carriers],
+            "scales": self.scales,
+            "start": self.values(self.numbers),
+            "drag": self.can_drag,
+            **(dragged if self.can_drag else {"relations": [], "limits": []}),
+            "steps": steps.steps,
+        }
+
+    def values(self, numbers: Mapping[Expr, float]) -> list[float]:
+        """Return the values of the columns."""
+        return [round(float(numbers.get(column, 0.0)), 9) for column in self.columns]
+
+
+class _Steps:
+    """Expressions as steps, each written once."""
+
+    def __init__(self, columns: Sequence[Expr], numbers: Mapping[Expr, float]) -> None:
+        self.columns, self.numbers = {column: k for k, column in enumerate(columns)}, numbers
+        self.steps: list[Any] = []
+        self.written: dict[Expr, int] = {}
+
+    def number_of(self, e: Expr) -> int:
+        """Return the number of the step that computes an expression. Raises UnknownStepError."""
+        if e not in self.written:
+            step = self._step(e)
+            self.written[e] = len(self.steps)
+            self.steps.append(step)
+        return self.written[e]
+
+    def _step(self, e: Expr) -> Any:
+        if e in self.columns:
+            return ["q", self.columns[e]]
+        if "call" in e.functions:
+            raise UnknownStepError(str(e))
+        if not e.symbols & self.columns.keys():
+            return float(evaluated(e, self.numbers))
+        if e.op in ("add", "mul"):
+            return [e.op, *map(self.number_of, e.args)]
+        if e.op == "pow" and not e.args[1].symbols:
+            return ["pow", self.number_of(e.args[0]), float(evaluated(e.args[1], {}))]
+        if e.op == "fn" and e.args[0] in _FUNCTIONS:
+            return [e.args[0], self.number_of(e.args[1])]
+        raise UnknownStepError(str(e))
+
+
+def planar_program(stage: StagedScene, dimension: int) -> PlanarProgram | None:
+    """Return the program of a scene that is drawn in the plane; None in space, or if the player cannot run it."""
+    if dimension > 2 or (stage.system.dimension > 2 and stage.system.bodies):
+        return None
+    system = stage.system
+    finite = set(finite_relations(system))
+    equations = [(c.name, r.expr) for c in system.constraints for r in c.relations if r.sense == "="]
+    columns = [*(coordinate(c.name) for c in system.coordinates), TIME]
+    program = PlanarProgram(
+        columns=tuple(columns),
+        scales=(*(system.size if c.role in ("x", "y", "z") else 1.0 for c in system.coordinates), 0.0),
+        numbers=stage.arrangement.numbers,
+        poses=_poses(stage),
+        relations=tuple((name, e) for name, e in equations if e in finite),
+        limits=tuple(finite_relations(system, (">=", ">"))),
+        can_drag=bool(stage.motions) and all(e in finite for _, e in equations),
+    )
+    try:
+        program.data(list(program.poses))
+    except UnknownStepError:
+        return None
+    return program
+
+
+def _poses(stage: StagedScene) -> dict[str, tuple[Expr, ...]]:
+    """Return the shift of each carrier, and the cosine and sine of its angle."""
+    system = stage.system
+    poses: dict[str, tuple[Expr, ...]] = {GROUND: (ZERO, ZERO)}
+    owned = {owner: [coordinate(c.name) for c in system.coordinates if c.owner == owner] for owner in system.bodies}
+    for body, symbols in owned.items():
+        start = [*system.starts[body], ZERO][:2]
+        at = [*symbols[: system.dimension], ZERO][:2]
+        if system.dimension < 2:
+            poses[body] = (at[0] - start[0], ZERO)
+            continue
+        angle = symbols[-1] - system.pose.get(symbols[-1], ZERO)
+        c, s = fn("cos", angle), fn("sin", angle)
+        poses[body] = (at[0] - c * start[0] + s * start[1], at[1] - s * start[0] - c * start[1], c, s)
+    for particle in system.particles or () if system.bodies or system.particles else (POINT,):
+        symbols = [coordinate(c.name) for c in system.coordinates if particle == POINT or c.owner == particle]
+        poses[particle] = ((*symbols, ZERO, ZERO)[0], (*symbols, ZERO, ZERO)[1])
+    for name, placement in stage.arrangement.placements.items():
+        angles = [e for e in (placement.heading, placement.turn) if e is not None]
+        turn = sum(angles, ZERO)
+        poses[name] = (placement.at[0], placement.at[1], *((fn("cos", turn), fn("sin", turn)) if angles else ()))
+    return poses

@@ -1,0 +1,89 @@
+"""A scene in plain notation: standard words, and each text that a simpler grammar does not read written out for it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import suppress
+from dataclasses import replace
+from itertools import chain
+from typing import Any, NamedTuple
+
+from dofkit.base.errors import TextError
+from dofkit.expressions.calculus import DomainSense, Requirement, of_function, of_power
+from dofkit.expressions.text import Names, parse_expression, parse_relations, to_text
+from dofkit.expressions.tree import Expr, nodes
+from dofkit.scene.lowering import survey_of
+from dofkit.scene.scene import Scene
+from dofkit.scene.synonyms import SAID
+
+#: Whether a text with these names is read as it is.
+Reads = Callable[[str, Names], bool]
+
+
+class PlainScene(NamedTuple):
+    """A scene's document; ``readings``: the texts that were rewritten -> what stands in their place."""
+
+    document: dict[str, Any]
+    readings: dict[str, str]
+
+
+def plain_scene(scene: Scene, reads: Reads) -> PlainScene:
+    """Return the document of a scene in standard words, texts that ``reads`` does not read in plain notation."""
+    names, readings = survey_of(scene).names, dict[str, str]()
+
+    def rewritten(value: Any, names: Names) -> Any:
+        if isinstance(value, str):
+            plain = None if reads(value, names) else plain_text(value, names)
+            readings.update({} if plain is None else {value: plain})
+            return value if plain is None else plain
+        if isinstance(value, dict):
+            inner = _within(value, names)
+            return {key: part if key in _REFERENCES else rewritten(part, inner) for key, part in value.items()}
+        return [rewritten(part, names) for part in value] if isinstance(value, list) else value
+
+    document = scene.model_dump(mode="json", by_alias=True, exclude_unset=True)
+    return PlainScene({"name": scene.name, **rewritten(document, names)}, readings)
+
+
+#: Keys under which no text of mathematics stands.
+_REFERENCES = SAID | {"name", "type", "functions", "expect", "picture"}
+
+
+def _within(entry: Mapping[str, Any], names: Names) -> Names:
+    """The names in the texts of a mapping: a curve's coordinates and the letters of joints among them."""
+    letters = {"x", "y", "z"} if entry.keys() & {"surface", "curve"} else set(entry.get("joints", ()))
+    return replace(names, coordinates=names.coordinates.union(letters)) if letters else names
+
+
+def plain_text(text: str, names: Names) -> str | None:
+    """Return a text as `to_text` prints it; None where it cannot be read, or has another domain so."""
+    try:
+        relations = parse_relations(text, names)
+        signs = [f" {relation.relation} " for relation in relations]
+        sides = [relations[0].left, *(relation.right for relation in relations)]
+        with suppress(TextError):
+            sides, signs = [parse_expression(text, names)], []
+    except TextError:
+        return None
+    printed = {base for side in sides for required in _required(side) for base in _bases(*required)}
+    if not {base for required in relations[0].domain for base in _bases(*required)} <= printed:
+        return None
+    return "".join(chain.from_iterable(zip(["", *signs], map(to_text, sides), strict=True)))
+
+
+def _bases(e: Expr, sense: DomainSense) -> Iterator[Requirement]:
+    """What an expression requires, of a product that is not 0 each factor, of a power its base."""
+    parts = e.args if e.op == "mul" else e.args[:1] if e.op == "pow" else ()
+    if sense != "!=" or not parts:
+        yield e, sense
+    for part in parts if sense == "!=" else ():
+        yield from _bases(part, sense) if part.op != "num" else ()
+
+
+def _required(e: Expr) -> Iterator[Requirement]:
+    """What a printed expression requires to have a value."""
+    for node in nodes(e):
+        if node.op == "pow":
+            yield from of_power(*node.args)
+        elif node.op == "fn":
+            yield from of_function(*node.args)
