@@ -53,6 +53,11 @@ def meaning(text: str, **settings: Any) -> Any:
     return Field(description=text, **settings)
 
 
+def decided(text: str) -> Any:
+    """Return a field with its meaning that is None where it is undecided."""
+    return Field(description=text, default=None)
+
+
 class FieldVerdict(ReportModel):
     """How certain a field is: the ``argument`` (a row of `classification/arguments.py`), and what it is ``about``.
 
@@ -111,28 +116,28 @@ class ConstraintEntry(DisplayedFormulas, ReportModel):
     type: str = meaning("the constraint type")
     text: str = meaning("as written")
     form: Form = meaning("finite, pfaffian (linear in the velocities), nonlinear (in the velocities) or inequality")
-    holonomic: bool | None = meaning(
+    holonomic: bool | None = decided(
         "whether it is, in this system, implied by equations between coordinates (and time)"
     )
-    holonomic_alone: bool | None = meaning("the same without all other constraints")
-    scleronomic: bool | None = meaning(
+    holonomic_alone: bool | None = decided("the same without all other constraints")
+    scleronomic: bool | None = decided(
         "whether time does not occur explicitly, nor in the equation that it integrates to (Greenwood's definition); "
         "factors that never vanish, analytic functions of t alone and declared functions are taken out first"
     )
-    catastatic: bool | None = meaning(
+    catastatic: bool | None = decided(
         "whether a Pfaffian form has no term in dt, or a nonlinear constraint is homogeneous in the velocities; null "
         "for any other"
     )
     bilateral: bool = meaning("false for an inequality")
-    exact: bool | None = meaning("whether the form, as written, is the differential of a function")
-    integrating_factor: str | None = meaning("a factor that makes the form exact")
-    integral: str | None = meaning("the equation that it integrates to, such as x*y = C")
-    circuit: list[str] | None = meaning(
+    exact: bool | None = decided("whether the form, as written, is the differential of a function")
+    integrating_factor: str | None = decided("a factor that makes the form exact")
+    integral: str | None = decided("the equation that it integrates to, such as x*y = C")
+    circuit: list[str] | None = decided(
         "for a redundant constraint: a minimal set of earlier constraints that it is implied by"
     )
     equations: int = meaning("the number of its scalar equations")
-    independent: int | None = meaning("how many of them are independent of all before")
-    redundant_equations: list[str] | None = meaning("those that are not, in words", default=None)
+    independent: int | None = decided("how many of them are independent of all before")
+    redundant_equations: list[str] | None = decided("those that are not, in words")
     verdict: Verdict = meaning("how certain its labels are: the weakest of their verdicts")
     verdicts: dict[str, FieldVerdict] = meaning("how certain each label is", default={})
     reason: str = meaning("why, for a student")
@@ -226,7 +231,7 @@ class Report(Displayed, ReportModel):
     _in_brief: ClassVar[tuple[str, ...]] = ("scene", "dof", "velocity_dof", "verdict")
 
     scene: str = meaning("the scene's name")
-    consistent: bool | None = meaning(
+    consistent: bool | None = decided(
         "true if a configuration satisfies all equations at one time; false if no configuration, or no motion, does; "
         "conflicting then names a minimal set; each inequality is considered on its own"
     )
@@ -241,38 +246,38 @@ class Report(Displayed, ReportModel):
     feasible_at: dict[str, str] | None = meaning(
         "a certified point at which all inequalities are satisfied", default=None
     )
-    dof: int | None = meaning(
+    dof: int | None = decided(
         "degrees of freedom: the dimension of the configuration space, which is the number of coordinates less the "
         "number of independent holonomic equations, hidden ones included; non-holonomic constraints and inequalities "
         "do not reduce it"
     )
-    velocity_dof: int | None = meaning(
+    velocity_dof: int | None = decided(
         "velocity freedom: the number of independent admissible velocities of finite motions; non-holonomic "
         "constraints reduce it too"
     )
-    instantaneous_dof: int | None = meaning(
+    instantaneous_dof: int | None = decided(
         "instantaneous freedom: the number of independent velocities that the constraints allow at the reference "
         "configuration"
     )
-    singular: bool | None = meaning("true if the instantaneous freedom differs from the velocity freedom")
-    holonomic: bool | None = meaning(
+    singular: bool | None = decided("true if the instantaneous freedom differs from the velocity freedom")
+    holonomic: bool | None = decided(
         "true if every constraint is holonomic, that is, implied by equations between coordinates (and time)"
     )
-    scleronomic: bool | None = meaning(
+    scleronomic: bool | None = decided(
         "true if time occurs explicitly in no constraint, nor in an equation that one integrates to"
     )
     count: Count = meaning(
         "the textbook count f = N d - k of all holonomic equations as written, and why the count is off"
     )
-    redundant_equations: int | None = meaning("the number of scalar equations that depend on the others")
-    redundant: list[str] | None = meaning(
+    redundant_equations: int | None = decided("the number of scalar equations that depend on the others")
+    redundant: list[str] | None = decided(
         "a maximal redundant set: constraints that can be removed together without changing the motion"
     )
     redundancies: list[Redundancy] = meaning(
-        "groups of constraints that depend on each other, and the number of dependent equations in each"
+        "groups of constraints that depend on each other, and the number of dependent equations in each", default=[]
     )
-    conflicting: list[str] = meaning("a minimal set of constraints that contradict each other")
-    generalized_coordinates: list[str] | None = meaning(
+    conflicting: list[str] = meaning("a minimal set of constraints that contradict each other", default=[])
+    generalized_coordinates: list[str] | None = decided(
         "an independent choice among the scene's coordinates, one for each degree of freedom"
     )
     joint_coordinates: list[str] | None = meaning(
@@ -280,7 +285,7 @@ class Report(Displayed, ReportModel):
         "other scene",
         default=None,
     )
-    growth_vector: list[int] | None = meaning(
+    growth_vector: list[int] | None = decided(
         "the dimensions of the distribution D of admissible directions, of D + [D, D], and so on"
     )
     integrable_part: IntegrablePart | None = meaning(
@@ -296,12 +301,14 @@ class Report(Displayed, ReportModel):
         "the constraints in order, each with its labels, its verdict and the reason"
     )
     forces: list[ForceEntry] = meaning("the forces, and why they are no constraints")
-    special_cases: list[SpecialCase] = meaning("configurations and branches where the answer is another one")
+    special_cases: list[SpecialCase] = meaning(
+        "configurations and branches where the answer is another one", default=[]
+    )
     verdict: Verdict = meaning("how certain the report is: the weakest of all its verdicts")
     verdicts: dict[str, FieldVerdict] = meaning(
         "how certain each field is, with the argument, the bound, and the points that the claim is about", default={}
     )
-    witness: dict[str, str] | None = meaning("a certified configuration: coordinate -> value", default=None)
+    witness: dict[str, str] | None = decided("a certified configuration: coordinate -> value")
     certificate: dict[str, Any] | None = meaning(
         "the evidence for what is proved, which `dofkit verify` checks", default=None
     )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from decimal import Decimal
 from typing import Any, NamedTuple, NoReturn, TypeAlias
 
@@ -103,7 +103,6 @@ class _Collection:
     key_at: int = -1
     skipping: bool = False
     muted: bool = False
-    merged: list[tuple[int, Any]] = field(default_factory=list)
 
 
 class ComposedText:
@@ -161,13 +160,6 @@ class ComposedText:
 
     def _end(self) -> None:
         done = self._stack.pop()
-        for at, other in done.merged:
-            for part in other if isinstance(other, list) else [other]:
-                if not isinstance(part, dict):
-                    self.faults.append((at, Fault("only a mapping can be merged with <<", hint="write << : *name")))
-                    break
-                for key, value in part.items():
-                    done.value.setdefault(key, value)
         if done.anchor:
             self._anchors[done.anchor] = (done.value, done.size)
         self._add(done.value, done.size)
@@ -241,9 +233,7 @@ class ComposedText:
         if isinstance(top.value, list):
             top.value.append(value)
             return
-        if top.key == "<<":
-            top.merged.append((top.key_at, value))
-        elif not top.skipping and top.key is not None:
+        if not top.skipping and top.key is not None:
             top.value[top.key] = value
         top.key, top.skipping = None, False
 

@@ -114,7 +114,7 @@ def circuit(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[str]
     before = owners(evidence)[: owners(evidence).index(claim["owner"])]
     refuse(not dependent or not set(names) <= set(before), "a circuit holds constraints that were written before")
     verified[f"at circuit {claim['owner']}"] = evidence.is_about("here", point)
-    evidence.on_set(point, [*relations_of(evidence, names), *dependent])
+    evidence.on_set(point, {*evidence.finite, *relations_of(evidence, names), *dependent})
     evidence.follow(dependent, relations_of(evidence, names), point, "the circuit")
     for name in names:
         others = relations_of(evidence, [other for other in names if other != name])
@@ -299,8 +299,8 @@ def everywhere(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
         _independent_everywhere(evidence, gram, [f"{q}dot" for _, q in order])
     minor = evidence.accounts(evidence.minor(claim["minor"], names), names) if "minor" in claim else None
     free, rank = _free(evidence, order, minor and minor.point), len(minor.rows if minor else names)
-    groups = [_coordinates(evidence, name, free) for name in blocks]
-    groups.append(frozenset().union(*(_coordinates(evidence, name, free) for name in generic)))
+    groups = [free_coordinates(evidence, name, free) for name in blocks]
+    groups.append(frozenset().union(*(free_coordinates(evidence, name, free) for name in generic)))
     refuse(sum(map(len, groups)) != len(frozenset().union(*groups)), "two blocks share a coordinate")
     for name, letter in generic.items():
         refuse(not evidence.own_symbol(name, [letter]), f"`{letter}` is not the own symbol of `{name}`")
@@ -324,12 +324,12 @@ def everywhere(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     return dof
 
 
-def _independent_everywhere(evidence: CheckedEvidence, gram: Told, given: list[str]) -> None:
+def _independent_everywhere(evidence: CheckedEvidence, gram: Told, ordered: list[str]) -> None:
     """`CheckError` unless det(J D J^T) is as it is told, and positive; D positive by itself (Cauchy and Binet)."""
     forms, scales = gram["forms"], {q: evidence.text(text) for q, text in gram.get("scales", {}).items()}
     relations = [evidence.relation(name) for name in forms]
-    own = all(form.kind == "velocity" and form.tree.symbols.isdisjoint(given) for form in relations)
-    refuse(not own or len(forms) > MOST_FORMS, "no form, one that holds a velocity that is given, or too many")
+    fits = all(form.kind == "velocity" and form.tree.symbols.isdisjoint(ordered) for form in relations)
+    refuse(not fits or len(forms) > MOST_FORMS, "no form, one that holds a velocity that is given, or too many")
     value, coordinates = evidence.text(gram["value"]), evidence.problem.coordinates
     positive = all(evidence.is_nowhere_zero(tree, True) for tree in (value, *scales.values()))
     refuse(not positive, "the determinant or a scale is not positive by itself")
@@ -348,7 +348,7 @@ def _is_analytic(evidence: CheckedEvidence, name: str, graphic: bool) -> bool:
 
 def _is_affine(evidence: CheckedEvidence, name: str) -> bool:
     """Whether a relation has rational slopes: its differential is the same at all places."""
-    return all(evidence.ring.rational(evidence.slope(name, q)) for q in _coordinates(evidence, name, {}))
+    return all(evidence.ring.rational(evidence.slope(name, q)) for q in free_coordinates(evidence, name, {}))
 
 
 def _free(evidence: CheckedEvidence, order: list[list[str]], point: CheckedPoint | None) -> dict[str, frozenset[str]]:
@@ -364,10 +364,11 @@ def _free(evidence: CheckedEvidence, order: list[list[str]], point: CheckedPoint
         refuse(not gives or q + dot == "tdot", f"`{name}` does not give `{q}` everywhere")
         refuse(not checked.tree.symbols.isdisjoint(q + dot for q in later[i + 1 :]), f"`{name}` holds what comes later")
         if not dot:
-            dependencies[q] = _coordinates(evidence, name, dependencies) - {q}
+            dependencies[q] = free_coordinates(evidence, name, dependencies) - {q}
     return dependencies
 
 
-def _coordinates(evidence: CheckedEvidence, name: str, dependencies: dict[str, frozenset[str]]) -> frozenset[str]:
+def free_coordinates(evidence: CheckedEvidence, name: str, dependencies: dict[str, frozenset[str]]) -> frozenset[str]:
+    """The coordinates that a relation holds, those of ``dependencies`` replaced by what they depend on."""
     held = evidence.relation(name).tree.symbols & set(evidence.problem.coordinates)
     return frozenset().union(*(dependencies.get(q, frozenset((q,))) for q in held))

@@ -83,8 +83,8 @@ def certificate_of(content: Any) -> dict[str, Any]:
     refuse(type(form) is not int or form != 1, "a certificate is an object of version 1, with a scene")
     filled: dict[str, Any] = {**{name: [] for name in LISTS}, **content}
     readings = filled["scene"].get("readings", {})
-    told = isinstance(readings, dict) and {*map(type, readings.values())} <= {str}
-    refuse(not told, "`readings` are texts, each with the text that stands for it")
+    are_texts = isinstance(readings, dict) and {*map(type, readings.values())} <= {str}
+    refuse(not are_texts, "`readings` are texts, each with the text that stands for it")
     for name in filled.keys() - {"certificate", "scene"}:
         entries, kind = filled[name], LISTS.get(name, ())
         fine = kind and isinstance(entries, list) and len(entries) <= MOST_ENTRIES

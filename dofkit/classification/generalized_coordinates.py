@@ -273,7 +273,7 @@ def _dependent_at_drawing(block: Block, a: Answer, setting: Setting) -> tuple[st
 def orbit_at_reference(block: Block, a: Answer, setting: Setting) -> RigidOrbit | None:
     """Where a drawing is singular and yet moves as one body alone: its orbit. None elsewhere."""
     alone = a.about == "reference" and a.instantaneous != a.velocity_dof and not block.forms and not block.nonlinear
-    return RigidOrbit.at_reference(make_chart(block, setting), setting, a.dof) if alone and a.dof else None
+    return RigidOrbit.at_reference(make_chart(block, setting), a.dof) if alone and a.dof else None
 
 
 def regular_at_witness(names: Sequence[str], a: Answer, chosen: Sequence[str]) -> bool | None:

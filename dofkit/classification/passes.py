@@ -274,7 +274,6 @@ def _generic_fields(study: Study, values: Values) -> Values:
         "method": fields.method(study),
         "modelled": fields.modelled(study.system, outcome),
         "warnings": fields.warnings(study),
-        "special_cases": [],
     }
     return {**answer, **_verdicts(claims(study, answer), entries)}
 

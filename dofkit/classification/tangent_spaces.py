@@ -40,16 +40,16 @@ def nearby(
 ) -> list[str] | None:
     """From the tangent space at a regular point near the reference, or anywhere where there is none."""
     chart = make_chart(block, setting, hidden)
-    start = _start(chart, setting)
-    drawn = _drawn_tangent(chart, start, setting, dof)
-    search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.positive, chart.symbols)
+    start = _start(chart)
+    drawn = _drawn_tangent(chart, start, dof)
+    search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.setting.positive, chart.symbols)
     for seed, away in enumerate(AWAY):
         symbols = search.start(seed, {})
         for s, v in start.items():
             symbols[s] = v + away * (symbols[s] / 2 if s.args[0] == "coordinate" else 0)
         if search.descend(symbols, seed) is None:
             continue
-        tangent = _tangent(chart, symbols, turning, setting, dof)
+        tangent = _tangent(chart, symbols, turning, dof)
         if len(tangent) == dof:
             chosen = None if drawn is None else _regular_columns(chart, tangent, drawn, turning)
             chosen = _columns(chart, tangent) if chosen is None else chosen
@@ -62,11 +62,11 @@ def nearby(
     return None
 
 
-def _drawn_tangent(chart: Chart, start: dict[Expr, float], setting: Setting, dof: int) -> Any:
+def _drawn_tangent(chart: Chart, start: dict[Expr, float], dof: int) -> Any:
     """The tangent space at the reference over the chart's own coordinates; None where the set is not regular there."""
     if not start:
         return None
-    tangent = _tangent(chart, start, (), setting, dof)
+    tangent = _tangent(chart, start, (), dof)
     return tangent if len(tangent) == dof else None
 
 
@@ -131,16 +131,17 @@ def _settles(search: RealSearch, symbols: dict[Expr, float], seed: int, power: i
     return errors[-1] < 1e-13
 
 
-def _start(chart: Chart, setting: Setting) -> dict[Expr, float]:
-    if setting.reference is None:
+def _start(chart: Chart) -> dict[Expr, float]:
+    reference = chart.setting.reference
+    if reference is None:
         return {}
-    configuration = {**setting.reference, ex.TIME: ex.ZERO}
+    configuration = {**reference, ex.TIME: ex.ZERO}
     point = pose_point(chart, configuration, 3)
     ball = None if point is None else ball_point(chart, configuration, point.rng)
     return {} if ball is None else {s: float(v.mid()) for s, v in ball.symbols.items()}
 
 
-def _tangent(chart: Chart, symbols: dict[Expr, float], turning: Sequence[Rotation], setting: Setting, dof: int) -> Any:
+def _tangent(chart: Chart, symbols: dict[Expr, float], turning: Sequence[Rotation], dof: int) -> Any:
     """A basis of the tangent space at fixed time over the block's coordinates, as rows.
 
     Lengths, angles and other coordinates are each measured in the unit in which they change the relations as much.
@@ -150,7 +151,7 @@ def _tangent(chart: Chart, symbols: dict[Expr, float], turning: Sequence[Rotatio
     columns = [c for s, c in zip(chart.symbols, chart.columns, strict=True) if s != ex.TIME]
     rows = jacobian(chart.ring, at, point, chart.nodes, columns, 0.0)
     j = unit_rows([list(map(float, row)) for row in rows], ZERO)
-    for group in _groups(chart, setting):
+    for group in _groups(chart):
         size = max((largest([row[c] for c in group]) for row in j), default=0.0) or 1.0
         for row in j:
             for c in group:
@@ -160,9 +161,9 @@ def _tangent(chart: Chart, symbols: dict[Expr, float], turning: Sequence[Rotatio
     return _in_angles(chart, symbols, complement(basis, len(columns)), turning)
 
 
-def _groups(chart: Chart, setting: Setting) -> list[list[int]]:
+def _groups(chart: Chart) -> list[list[int]]:
     """The columns of lengths, of angles, and of other coordinates."""
-    roles = {c.name: c.role for c in setting.roles}
+    roles = {c.name: c.role for c in chart.setting.roles}
     kinds: dict[str, list[int]] = {}
     for i, s in enumerate(s for s in chart.symbols if s != ex.TIME):
         role = roles.get(str(s.args[1]), "free")

@@ -165,7 +165,7 @@ def are_coordinates(group: TurnedGroup, chosen: Collection[str], setting: Settin
     if len(group.block.coordinates) > MOST_SEARCHED:
         return False
     chart = make_chart(group.block, setting, group.hidden)
-    search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.positive, chart.symbols)
+    search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.setting.positive, chart.symbols)
     for seed in range(LOOKED):
         real = search.search(seed) if chart.nodes else None
         if chart.nodes and (real is None or not real.certified or not real.consistent):

@@ -78,7 +78,7 @@ def at_reference(chart: Chart, reference: Mapping[Expr, Expr]) -> AtReference | 
     """Return the answer at the reference configuration (t = 0), or None if that does not satisfy the equations."""
     with ctx.workprec(precision()):
         pose = {**reference, ex.TIME: ex.ZERO}
-        if "field" not in chart.engines:
+        if "field" not in chart.setting.engines:
             return _by_balls(chart, pose)
         answer = _by_field(chart, pose)
         return answer if answer is None else replace(answer, sure=_is_exact(chart, pose, answer))
@@ -108,7 +108,7 @@ def _by_field(chart: Chart, pose: Mapping[Expr, Expr]) -> AtReference | None:
     timed = len(chart.columns) - n
     fields = rigid_fields(chart, point)
     rigid = rank_of(fields, point.p)
-    together = timed or (rank == n - rigid and not chart.within) or "classes" not in chart.reductions
+    together = timed or (rank == n - rigid and not chart.setting.within) or "classes" not in chart.setting.reductions
     apart = None if together else _by_parts(chart, pose, matrix, point.p, rank)
     if apart is not None:
         local, looked = apart
@@ -117,7 +117,7 @@ def _by_field(chart: Chart, pose: Mapping[Expr, Expr]) -> AtReference | None:
         local, spared = _with_fewer(chart, pose, point, fields)
         looked = FollowedClasses(coordinates=n - spared, spared=spared)
         return AtReference(n - rank_q, local, matrix, point.p, rank, rigid, looked=looked)
-    ball = ball_point(chart, pose, point.rng) if rank < len(matrix) and "balls" in chart.engines else None
+    ball = ball_point(chart, pose, point.rng) if rank < len(matrix) and "balls" in chart.setting.engines else None
     local = _at_fixed_time(criteria.local_at(chart, point, ball, rigid, chart.time), timed)
     return AtReference(n - rank_q, local, matrix, point.p, rank, rigid)
 
@@ -140,7 +140,7 @@ def _with_fewer(
         return LocalDimension(free, "proved", EXPLICIT, argument="graph"), spared
     kept = [i for i, s in enumerate(chart.symbols) if s in small.symbols]
     rigid = rank_of([[field[i] for i in kept] for field in fields], point.p)
-    ball = ball_point(small, pose, here.rng) if "balls" in chart.engines else None
+    ball = ball_point(small, pose, here.rng) if "balls" in chart.setting.engines else None
     local = criteria.local_at(small, here, ball, rigid)
     return replace(local, dimension=None if local.dimension is None else local.dimension + free), spared
 
@@ -159,7 +159,7 @@ def _by_parts(
         return regular, FollowedClasses(rank)
     reduced = echelon(matrix, p, supports=True)
     classes = dependent_parts(chart, reduced)
-    if len(classes) == 1 and len(classes[0].rows) == len(matrix) and not chart.within:
+    if len(classes) == 1 and len(classes[0].rows) == len(matrix) and not chart.setting.within:
         return None
     dimensions = []
     followed = more = 0

@@ -15,7 +15,7 @@ from dofkit.exact.analyticity import is_analytic
 from dofkit.exact.ideals import dimension_of, echelon_by_degree
 from dofkit.exact.ring.canonical import Canon, is_identically_zero
 from dofkit.exact.ring.ring import Ring
-from dofkit.exact.zero import doubt
+from dofkit.exact.zero import independent_generators
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.tree import Expr
@@ -176,7 +176,7 @@ def _bounded(case: ZeroCase, unknowns: Sequence[Expr], positive: frozenset[Expr]
         return BoundedCase(case.relations, most, True)
     ring = Ring(case.unsolved, positive)
     nodes = [ring.node(g) for g in case.unsolved]
-    if doubt(ring) is not None:
+    if not independent_generators(ring):
         return BoundedCase(case.relations, most, False)
     if len(case.unsolved) == 1:
         return BoundedCase(case.relations, most - 1, True)

@@ -65,7 +65,7 @@ def of_largest_part(chart: Chart, variety: Variety, look: Callable[[Chart], Vari
         return _by(variety, "one relation") if variety.dimension >= least else _near(variety)
     solved = explicit_relations(chart.relations)
     groups = parts_of(solved.implicit, [s for s in chart.symbols if s != ex.TIME])
-    fibres = [_is_fibre(part, chart.positive) for part in groups]
+    fibres = [_is_fibre(part, chart.setting.positive) for part in groups]
     cases = [_cases(part, chart, fibre) for part, fibre in zip(groups, fibres, strict=True)]
     if None in cases or prod(len(c or ()) for c in cases) > MAX_PRODUCTS:
         return near(variety)
@@ -133,7 +133,7 @@ def by_cases(chart: Chart, variety: Variety, look: Callable[[Chart], Variety]) -
         return variety
     solved = explicit_relations(chart.relations)
     groups = parts_of(solved.implicit, [s for s in chart.symbols if s != ex.TIME])
-    cases = [_cases(part, chart, _is_fibre(part, chart.positive)) for part in groups]
+    cases = [_cases(part, chart, _is_fibre(part, chart.setting.positive)) for part in groups]
     if [] in cases:
         parametric = [g for g in solved.implicit if any(s.args[0] == "parameter" for s in g.symbols)]
         return Variety(False, None, "probable" if parametric else "proved", reasons=[NO_CASE], argument="cases")
@@ -213,7 +213,7 @@ def is_irreducible(chart: Chart) -> bool:
     implicit = explicit_relations(chart.relations).implicit
     if len(implicit) != 1:
         return not implicit
-    ring = Ring(implicit, chart.positive)
+    ring = Ring(implicit, chart.setting.positive)
     try:
         node = ring.node(implicit[0])
         canon = Canon(ring)
@@ -242,8 +242,8 @@ def _cases(part: RelationPart, chart: Chart, fibre: bool) -> list[all_cases.Boun
     if fibre:
         return [all_cases.BoundedCase(part.relations, len(part.unknowns) - len(part.relations), True)]
     try:
-        nonzero = [g for g in part.relations if is_identically_zero(g, chart.positive) is not True]
-        return all_cases.cases_of(nonzero, part.unknowns, chart.positive)
+        nonzero = [g for g in part.relations if is_identically_zero(g, chart.setting.positive) is not True]
+        return all_cases.cases_of(nonzero, part.unknowns, chart.setting.positive)
     except NoValueError:
         return None
 

@@ -17,7 +17,7 @@ from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows, sparse, sparse
 from dofkit.exact.points.balls import rational_values, vanish_exactly
 from dofkit.exact.points.real_search import RealPoint
 from dofkit.exact.ring.canonical import error_bits
-from dofkit.exact.zero import doubt
+from dofkit.exact.zero import independent_generators
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Answer, RealRows
@@ -40,27 +40,28 @@ def finite_answer(block: Block, setting: Setting) -> Answer:
     """The answer to a block of finite relations, at the reference where it satisfies them and else generically."""
     chart = make_chart(block, setting)
     measured = is_measured(block, setting)
-    result = _within_tolerance(block, chart, setting) if measured else _finite_answer(chart, setting)
-    result.doubt = doubt(chart.ring)
+    result = _within_tolerance(block, chart) if measured else _finite_answer(chart)
+    result.doubt = not independent_generators(chart.ring)
     return result
 
 
-def _within_tolerance(block: Block, chart: Chart, setting: Setting) -> Answer:
+def _within_tolerance(block: Block, chart: Chart) -> Answer:
     """Return the answer of a block with measured geometry; numbers do not matter in a tree without positions."""
-    pose = pose_of_block(chart, setting)
-    if pose is None and is_tree(block, setting):
-        return _finite_answer(chart, setting)
-    if "balls" not in setting.engines:
+    pose = pose_of_block(chart)
+    if pose is None and is_tree(block, chart.setting):
+        return _finite_answer(chart)
+    if "balls" not in chart.setting.engines:
         return Answer(None, verdict="undecided", reasons=["measured geometry has no points over GF(p)"])
-    freedom = None if pose is None else measured_freedom(chart, pose, setting)
+    freedom = None if pose is None else measured_freedom(chart, pose)
     return (
         Answer(None, verdict="undecided", reasons=[NOT_DRAWN]) if freedom is None else _measured_answer(chart, freedom)
     )
 
 
-def _finite_answer(chart: Chart, setting: Setting) -> Answer:
+def _finite_answer(chart: Chart) -> Answer:
+    setting = chart.setting
     if setting.reference is not None:
-        drawn = _drawn_answer(chart, setting, setting.reference)
+        drawn = _drawn_answer(chart, setting.reference)
         if drawn is not None and drawn.consistent is False:
             return drawn
         if drawn is not None:
@@ -112,7 +113,7 @@ def _numeric_matrix(chart: Chart, real: RealPoint, result: Answer) -> None:
     result.dependent = tuple(str(ranked[columns[i]].args[1]) for i in part.columns)
 
 
-def _drawn_answer(chart: Chart, setting: Setting, reference: Mapping[Expr, Expr]) -> Answer | None:
+def _drawn_answer(chart: Chart, reference: Mapping[Expr, Expr]) -> Answer | None:
     """At the reference configuration; None where the relations do not hold there."""
     local_answer = at_reference(chart, reference)
     if local_answer is None:
@@ -133,7 +134,7 @@ def _drawn_answer(chart: Chart, setting: Setting, reference: Mapping[Expr, Expr]
         result.method = "balls at the given configuration"
         result.dependent = tuple(str(chart.symbols[c].args[1]) for c in local_answer.dependent)
     if local_answer.local.confined:
-        return _confined_answer(chart, setting, result)
+        return _confined_answer(chart, result)
     if local_answer.local.dimension is None and chart.time is not None:
         result.consistent = None
     columns = len(chart.columns) - local_answer.rank
@@ -143,7 +144,7 @@ def _drawn_answer(chart: Chart, setting: Setting, reference: Mapping[Expr, Expr]
     return result
 
 
-def _confined_answer(chart: Chart, setting: Setting, result: Answer) -> Answer:
+def _confined_answer(chart: Chart, result: Answer) -> Answer:
     """No motion passes through the reference; whether one does elsewhere is asked of generic configurations."""
     elsewhere = find(chart, {})
     if elsewhere.consistent is False:

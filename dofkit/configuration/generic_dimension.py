@@ -90,9 +90,9 @@ ALLOWING = "the answers assume that the unknown functions are such that a real c
 
 def real_point(chart: Chart, seed: int, core: Sequence[int]) -> RealPoint | None:
     """Return a real point of the nodes ``core``, with balls; None where none is found, or none is looked for."""
-    if len(chart.columns) > BALL_COLUMNS or "balls" not in chart.engines:
+    if len(chart.columns) > BALL_COLUMNS or "balls" not in chart.setting.engines:
         return None
-    search = RealSearch(chart.ring, core, chart.unknowns, chart.positive, chart.symbols)
+    search = RealSearch(chart.ring, core, chart.unknowns, chart.setting.positive, chart.symbols)
     try:
         point = search.search(seed)
         return point if point is not None or not core else at_another_time(search, seed)
@@ -103,7 +103,7 @@ def real_point(chart: Chart, seed: int, core: Sequence[int]) -> RealPoint | None
 def with_reality(chart: Chart, variety: Variety, rank: int) -> Variety:
     """Hold the real point against what the field said."""
     real = variety.real
-    if "balls" not in chart.engines:
+    if "balls" not in chart.setting.engines:
         return _by_field_alone(chart, variety)
     if len(chart.columns) > BALL_COLUMNS:
         variety.verdict = weakest(variety.verdict, "probable")

@@ -40,7 +40,6 @@ from dofkit.exact.ring.program import values
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Chart
-from dofkit.relations.setting import Setting
 
 #: Points that are looked for beside a drawing, and how far they are begun, in the columns' scales.
 BESIDE, AWAY = 12, 0.05
@@ -53,7 +52,6 @@ class ImpliedRelations:
     """What the relations of a chart imply of each other near the drawing, at t = 0; asked once each."""
 
     chart: Chart
-    setting: Setting
     drawing: Mapping[Expr, Expr]
     _answers: dict[tuple[int, ...], bool | None] = field(default_factory=dict)
 
@@ -66,10 +64,10 @@ class ImpliedRelations:
         if key not in self._answers:
             subchart = chart_of_rows(self.chart, sorted(key[1:]))
             pose = {**self.drawing, ex.TIME: ex.ZERO}
-            if self.setting.tolerance is None:
+            if self.chart.setting.tolerance is None:
                 self._answers[key] = _on_manifold(subchart, pose, len(others), afar)
             else:
-                self._answers[key] = _within_tolerance(subchart, self.setting, pose, len(others))
+                self._answers[key] = _within_tolerance(subchart, pose, len(others))
         return self._answers[key]
 
     def needed(self, row: int, others: Sequence[int]) -> list[int]:
@@ -80,7 +78,7 @@ class ImpliedRelations:
         numbers = sorted((row, *others))
         subchart = chart_of_rows(self.chart, numbers)
         point = pose_point(subchart, {**self.drawing, ex.TIME: ex.ZERO}, 3)
-        if point is None or "field" not in subchart.engines or self.setting.tolerance is not None:
+        if point is None or "field" not in subchart.setting.engines or self.chart.setting.tolerance is not None:
             return list(others)
         try:
             frame = pivots_among(subchart, point, [k for k, i in enumerate(numbers) if i != row])
@@ -105,10 +103,10 @@ class ImpliedRelations:
         """
         chart = self.chart
         ball = ball_point(chart, {**self.drawing, ex.TIME: ex.ZERO}, random.Random("dofkit beside"))
-        if ball is None or "balls" not in chart.engines or self.setting.tolerance is not None:
+        if ball is None or "balls" not in chart.setting.engines or chart.setting.tolerance is not None:
             return False
         start = {s: float(v.mid()) for s, v in ball.symbols.items()}
-        search = RealSearch(chart.ring, [chart.nodes[i] for i in others], chart.unknowns, chart.positive)
+        search = RealSearch(chart.ring, [chart.nodes[i] for i in others], chart.unknowns, chart.setting.positive)
         seen = 0
         for seed in range(BESIDE):
             check()
@@ -141,7 +139,7 @@ def _on_manifold(chart: Chart, pose: Mapping[Expr, Expr], rank: int, afar: bool)
     ``rank`` is that of the relations without the one that is tested: where the answer is True that one is implied. None
     where it is not decided. ``afar``: points at a distance are looked at too, with interval arithmetic.
     """
-    if "field" not in chart.engines:
+    if "field" not in chart.setting.engines:
         return None
     small, free = smaller(chart)
     gone = len(chart.columns) - len(small.columns) - free
@@ -151,7 +149,7 @@ def _on_manifold(chart: Chart, pose: Mapping[Expr, Expr], rank: int, afar: bool)
     if point is None or not on_variety(small, point):
         return None
     rigid = rigid_motions(small, point)
-    ball = ball_point(small, pose, point.rng) if afar and "balls" in chart.engines else None
+    ball = ball_point(small, pose, point.rng) if afar and "balls" in chart.setting.engines else None
     return vanish_near(small, point, ball, rigid, rank - gone)
 
 
@@ -162,12 +160,12 @@ def pivots_among(chart: Chart, point: FieldPoint, rows: Sequence[int]) -> Pivots
     return replace(frame, rows=tuple(rows[r] for r in frame.rows))
 
 
-def _within_tolerance(chart: Chart, setting: Setting, pose: Mapping[Expr, Expr], rank: int) -> bool | None:
+def _within_tolerance(chart: Chart, pose: Mapping[Expr, Expr], rank: int) -> bool | None:
     """Return whether what moves under all measured relations but one keeps that one within the tolerance."""
-    if "balls" not in chart.engines:
+    if "balls" not in chart.setting.engines:
         return None
     try:
-        freedom = measured_freedom(chart, pose, setting)
+        freedom = measured_freedom(chart, pose)
     except NoValueError:
         return None
     return None if freedom is None or freedom.dimension is None else freedom.dimension == chart.coordinates - rank

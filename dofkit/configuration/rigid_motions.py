@@ -16,7 +16,6 @@ from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.ring.program import gradient, values
 from dofkit.expressions import tree as ex
 from dofkit.relations.blocks import Chart
-from dofkit.relations.setting import Setting
 
 Displacement = dict[int, list[tuple[int, int | None]]]
 
@@ -27,7 +26,7 @@ def displacement_fields(chart: Chart) -> list[Displacement]:
     Only where every coordinate of the block is a place or the angle of a planar body.
     """
     place = {str(s.args[1]): i for i, s in enumerate(chart.symbols) if s != ex.TIME}
-    here = [c for c in chart.roles if c.name in place]
+    here = [c for c in chart.setting.roles if c.name in place]
     if len(here) != len(place) or any(c.role not in ("x", "y", "z", "angle") for c in here):
         return []
     by_owner: dict[str, dict[str, int]] = {}
@@ -75,7 +74,7 @@ def rigid_motions_real(chart: Chart, point: BallPoint | FloatPoint) -> int:
 def displacements_real(chart: Chart, point: BallPoint | FloatPoint) -> list[list[float]]:
     """Return the displacement fields that keep all relations, at a real point, as rows over the columns."""
     fields = displacement_fields(chart)
-    by_field = "field" in chart.engines
+    by_field = "field" in chart.setting.engines
     away = None if not fields else pose_point(chart, {}, 11) if by_field else free_real_point(chart, 11)
     if away is None:
         return []
@@ -127,8 +126,9 @@ class RigidOrbit(NamedTuple):
     p: int
 
     @classmethod
-    def at_reference(cls, chart: Chart, setting: Setting, dof: int) -> RigidOrbit | None:
+    def at_reference(cls, chart: Chart, dof: int) -> RigidOrbit | None:
         """Return the orbit, where it has the dimension ``dof`` and so is all that is near the reference; else None."""
+        setting = chart.setting
         if setting.reference is None or "field" not in setting.engines:
             return None
         point = pose_point(chart, {**setting.reference, ex.TIME: ex.ZERO}, 3)

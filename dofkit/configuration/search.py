@@ -60,17 +60,21 @@ def find(chart: Chart, pose: Mapping[Expr, Expr], seed: int = 0) -> Variety:
     variety, look = _variety(chart, pose, seed), partial(_variety, pose={}, seed=seed)
     if _fixes_time(chart, variety):
         variety = Variety(None, None, "undecided", reasons=[FIXED], parted=True)
-    timed = chart.time is not None and variety.consistent is None and "field" in chart.engines
+    timed = chart.time is not None and variety.consistent is None and "field" in chart.setting.engines
     if timed:
         variety = by_cases(chart, variety, look)
     unseen = variety.consistent is not True or ALLOWING in variety.reasons
-    looked = {"field", "balls"} <= chart.engines and unseen and variety.verdict != "proved"
-    if looked and len(chart.relations) <= MAX_RELATIONS and no_solution(chart.relations, chart.positive):
+    looked = {"field", "balls"} <= chart.setting.engines and unseen and variety.verdict != "proved"
+    if looked and len(chart.relations) <= MAX_RELATIONS and no_solution(chart.relations, chart.setting.positive):
         return Variety(False, None, "proved", reasons=[EMPTY], argument="no real solution")
     alone = isolated(chart, variety) if variety.consistent is None or variety.dimension is None else None
     if alone is not None:
         return alone
-    by_case = variety.dimension is None and "field" in chart.engines and (variety.consistent is None or variety.parted)
+    by_case = (
+        variety.dimension is None
+        and "field" in chart.setting.engines
+        and (variety.consistent is None or variety.parted)
+    )
     if by_case and not timed:
         variety = by_cases(chart, variety, look)
     return of_largest_part(chart, variety, look, by_case or timed)
@@ -90,21 +94,21 @@ def _fixes_time(chart: Chart, variety: Variety) -> bool:
 def _variety(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> Variety:
     if not chart.nodes:
         points = []
-        if "field" in chart.engines:
+        if "field" in chart.setting.engines:
             points = [p for p in (pose_point(chart, {}, seed + k) for k in range(samples_for(chart))) if p is not None]
-        free = free_real_point(chart, seed) if "balls" in chart.engines else None
+        free = free_real_point(chart, seed) if "balls" in chart.setting.engines else None
         real = None if free is None else RealPoint(free, PivotedPart(0, math.inf, [], []), True, True, [])
         return Variety(True, chart.coordinates, "proved", points, real, argument="nothing constrains")
-    if "field" in chart.engines and _has_joint_positions(chart):
+    if "field" in chart.setting.engines and _has_joint_positions(chart):
         posed = pose_samples(chart, pose, seed)
         if posed:
             return variety_at(chart, posed, seed, chart.nodes)
-    eliminates = "eliminations" in chart.reductions
+    eliminates = "eliminations" in chart.setting.reductions
     solved = solve_linear(chart.relations if eliminates else ())
     if solved.contradictory:
         why = "the linear equations contradict each other"
         return Variety(False, None, "proved", reasons=[why], argument="linear contradiction")
-    if "field" not in chart.engines:
+    if "field" not in chart.setting.engines:
         return near_real_point(chart, real_point(chart, seed, chart.nodes), chart.nodes)
     core = [n for i, n in enumerate(chart.nodes) if i not in solved.implied]
     others = [n for n, g in zip(chart.nodes, chart.relations, strict=True) if not eliminates or linear(g) is None]
@@ -142,8 +146,8 @@ def _refuted(chart: Chart, solver: TriangularSolver) -> Variety | None:
             "eliminating the unknowns leaves a number that should be 0 and is not, but divides by a term that may be 0"
         )
         return Variety(None, None, "undecided", reasons=[why])
-    if "balls" in chart.engines:
-        certain = excludes_zero(chart.ring, solver.plan.witness, chart.positive)
+    if "balls" in chart.setting.engines:
+        certain = excludes_zero(chart.ring, solver.plan.witness, chart.setting.positive)
     else:
         certain = independent_on_set(chart.ring, chart.nodes)
     if not certain:
@@ -170,7 +174,7 @@ def isolated(chart: Chart, variety: Variety) -> Variety | None:
     z = pi. None where the relations are not so, or no zero was found. What was
     ``variety`` over GF(p) is kept where it has the same rank.
     """
-    if "balls" not in chart.engines or chart.time is not None or len(chart.relations) > MAX_RELATIONS:
+    if "balls" not in chart.setting.engines or chart.time is not None or len(chart.relations) > MAX_RELATIONS:
         return None
     if not all(is_analytic_in_coordinates(g, poles=True) for g in chart.relations):
         return None
@@ -237,7 +241,7 @@ def level_angle(block: Block, setting: Setting) -> str | None:
     if not tilts or not block.finite:
         return None
     chart = make_chart(block, setting)
-    search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.positive, chart.symbols)
+    search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.setting.positive, chart.symbols)
     for seed in range(LOOKED):
         symbols = search.start(seed, {})
         if search.descend(symbols, seed) is not None:

@@ -93,7 +93,7 @@ def free_real_point(chart: Chart, seed: int) -> BallPoint | None:
     """Return a random real point of the ambient space at which the program runs."""
     with ctx.workprec(max(ctx.prec, precision())):
         for attempt in range(TRIES):
-            point = random_ball_point(chart.ring, chart.positive, TRIES * seed + attempt)
+            point = random_ball_point(chart.ring, chart.setting.positive, TRIES * seed + attempt)
             try:
                 values(chart.ring, point)
             except NoValueError:
@@ -220,7 +220,7 @@ def chart_of_relations(chart: Chart, relations: Sequence[Expr], ring: Ring | Non
     """Return a chart of other relations on the columns that they mention; on all columns where it has a ``ring``."""
     mentioned = frozenset[Expr]().union(*(g.symbols for g in relations))
     symbols = chart.symbols if ring else tuple(s for s in chart.symbols if s in mentioned)
-    ring = ring or Ring(relations, chart.positive)
+    ring = ring or Ring(relations, chart.setting.positive)
     nodes = tuple(ring.node(g) for g in relations)
     columns = tuple(-1 if (i := ring.var_index(s)) is None else i for s in symbols)
     return replace(chart, ring=ring, nodes=nodes, symbols=symbols, columns=columns, relations=tuple(relations))
@@ -238,7 +238,11 @@ def smaller(chart: Chart) -> tuple[Chart, int]:
     (theta = 0), bodies welded to others (x_B = x_A, theta_B = theta_A), z = 0. Free are those that no relation mentions
     any more: the set is a product with a line for each. The chart itself where none can go.
     """
-    if len(chart.relations) != len(chart.nodes) or chart.time is not None or "eliminations" not in chart.reductions:
+    if (
+        len(chart.relations) != len(chart.nodes)
+        or chart.time is not None
+        or "eliminations" not in chart.setting.reductions
+    ):
         return chart, 0
     solved = explicit_relations(chart.relations, _linear_coefficients)
     if not solved.explicit:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
-from itertools import combinations
 from typing import Literal
 
 from flint import arb, ctx, fmpq_mat
@@ -130,11 +129,8 @@ def _zero_at_points(ring: Ring, node: int, points: int = 3) -> bool | None:
     return None
 
 
-Doubt = Literal["numbers", "functions"]
 #: Entries of a matrix that tells whether arguments are independent.
 MOST_TERMS = 20_000
-#: Terms of polynomials of which resultants tell whether they are coprime.
-MOST_ELIMINATED = 60
 INVERSE = ("asin", "atan", "atan2")
 
 
@@ -235,103 +231,3 @@ def _linear_somewhere(e: Expr) -> bool:
     """Return whether ``e`` is of degree 1 in one of its symbols."""
     slopes = ((s, diff(e, s)) for s in e.symbols)
     return any(not slope.is_zero and s not in slope.symbols for s, slope in slopes)
-
-
-def doubt(ring: Ring) -> Doubt | None:
-    """Return whether what is 0 may look otherwise over GF(p), or a root stand there for the other one.
-
-    Of numbers only, or of functions: these may be 0 in one region and not in another, so that no point decides. Less is
-    asked than of `independent_generators`: no proof rests on the answer, but where it is None no relation among the
-    generators is known to be possible. Roots and logarithms of pairwise coprime polynomials have none [Ostrowski1946],
-    and a square root of what is no square is as good as its negative.
-    """
-    if _related_functions(ring):
-        return "functions"
-    return "numbers" if odd_constants(ring) else None
-
-
-def _related_functions(ring: Ring) -> bool:
-    """Return whether functions of the variables may be related."""
-    moving = [v for v in ring.vars if ring.var_expr[v.index].symbols]
-    kinds = [v.kind for v in moving]
-    if sum(kind in INVERSE for kind in kinds) + kinds.count("sign") > 1:
-        return True
-    if ring.related or _odd_arguments(moving) or not all(_changes_sign(ring, v) for v in moving if v.kind == "sign"):
-        return True
-    roots = [v for v in moving if _root_of_more(v)]
-    logs = [v for v in moving if v.kind == "log"]
-    if logs and "exp" in kinds:
-        return True
-    return not (_apart(ring, roots, roots=True) and (len(logs) < 2 or _apart(ring, logs, roots=False)))
-
-
-def _changes_sign(ring: Ring, var: Var) -> bool:
-    """Return whether the argument of a sign is linear in a symbol, so that both signs occur."""
-    expression = ring.var_expr[var.index]
-    return any(
-        _linear_somewhere(node.args[1]) for node in ex.nodes(expression) if node.op == "fn" and node.args[0] == "abs"
-    )
-
-
-def _odd_arguments(moving: Sequence[Var]) -> bool:
-    """Return whether there are several sines or exponentials, one of them of something that is no polynomial."""
-    angles = [v for v in moving if v.kind in ("cos", "exp")]
-    if len(angles) < 2:
-        return False
-    return any(_beyond_polynomials(v.key[0]) for v in angles)
-
-
-def _beyond_polynomials(e: Expr) -> bool:
-    """Return whether quotients, roots or functions occur."""
-    return any(
-        node.op == "fn" or (node.op == "pow" and (node.args[1].op != "num" or not _natural(node.args[1])))
-        for node in ex.nodes(e)
-    )
-
-
-def _natural(exponent: Expr) -> bool:
-    value = exponent.args[0]
-    return bool(value.denominator == 1 and value > 0)
-
-
-def _apart(ring: Ring, functions: Sequence[Var], roots: bool) -> bool:
-    """Return whether the arguments of logarithms, or of roots, are coprime, and those of roots no powers.
-
-    They are looked at as polynomials in one symbol at a time: what has no common factor there has none at all.
-    """
-    remaining, canon = list(functions), Canon(ring)
-    symbols = [v.index for v in ring.vars if v.kind == "symbol"]
-    while remaining:
-        try:
-            independent = next(
-                (
-                    independent_here
-                    for i in symbols
-                    if (independent_here := _independent_along(canon, remaining, i, roots))
-                ),
-                None,
-            )
-        except NoValueError:
-            return False
-        if independent is None:
-            return False
-        remaining = [v for v in remaining if v not in independent]
-    return True
-
-
-def _independent_along(canon: Canon, functions: Sequence[Var], index: int, roots: bool) -> list[Var]:
-    """Return those whose arguments hold a symbol, if they are independent over all functions of the other symbols."""
-    ring, place = canon.ring, len(canon.ring.vars) - 1 - index
-    symbol = ring.var_expr[index]
-    along = [v for v in functions if symbol in ring.var_expr[v.index].symbols]
-    polynomials = []
-    for var in along:
-        top, bottom = canon.quotient(var.args[0])
-        polynomial = top * bottom ** (var.degree - 1 if roots else 1)
-        held = {ring.var_expr[i] for i in canon.generators_in(polynomial)}
-        if symbol not in held or len(polynomial) > MOST_ELIMINATED or any(symbol in e.symbols for e in held - {symbol}):
-            return []
-        polynomials.append(polynomial)
-    pairs = [(a, b) for a, b in combinations(polynomials, 2)]
-    pairs += [(p, p.derivative(place)) for p in polynomials if roots]
-    return along if all(canon.reduce(a.resultant(b, place)) != 0 for a, b in pairs) else []

@@ -52,23 +52,6 @@ def linear_terms(e: Expr) -> dict[Expr, Fraction]:
     return {base: factor for base, factor in terms.items() if factor} if cancels else terms
 
 
-def without_cancelled(e: Expr) -> Expr:
-    """Return ``e`` without the terms of sums that cancel as they are written, functions and quotients apart."""
-    subexpressions = ex.children(e)
-    if not subexpressions:
-        return e
-    node = ex.rebuild(e, tuple(map(without_cancelled, subexpressions)))
-    if node.op != "add":
-        return node
-    total: dict[Expr, Fraction] = {}
-    keys = []
-    for term in node.args:
-        factor, base = ex.number_and_rest(term)
-        keys.append(sorted_product(base))
-        total[keys[-1]] = total.get(keys[-1], Fraction(0)) + factor
-    return ex.add(*(t for t, key in zip(node.args, keys, strict=True) if total[key] or key.functions))
-
-
 def sorted_product(e: Expr) -> Expr:
     """Return the same product, its factors in an order of their own."""
     return Expr("mul", tuple(sorted(e.args, key=repr))) if e.op == "mul" else e

@@ -223,8 +223,8 @@ def total(multiples: Iterable[tuple[int | Fraction, Expr]]) -> Expr:
         for term in e.args if e.op == "add" else (e,):
             number: int | Fraction = factor
             if term.op == "num" or (term.op == "mul" and term.args[0].op == "num"):
-                own, term = number_and_rest(term)
-                number = factor * whole(own)
+                coefficient, term = number_and_rest(term)
+                number = factor * whole(coefficient)
             collected[term] = collected[term] + number if term in collected else number
     terms = [_times(number, term) for term, number in collected.items() if number]
     if len(terms) > 1:

@@ -91,7 +91,7 @@ class Grader:
         if submission.error is not None:
             return self.refused(submission.student, submission.error)
         try:
-            if self.prepared.assignment.variants is not None:
+            if self.prepared.combinations:
                 sheet = sheet_of(self.prepared, submission.student)
                 sheet_grader = Grader(sheet, self.seconds, check_only=self.check_only)
                 grader = self._variants.setdefault(sheet.variant, sheet_grader)

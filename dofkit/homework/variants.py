@@ -9,12 +9,13 @@ with the same seed nobody's variant changes when the roster does.
 from __future__ import annotations
 
 import hashlib
+from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from dofkit.base.errors import DofkitError
 from dofkit.homework.answers.roster import Participant, Roster
-from dofkit.homework.assignment import Prepared
+from dofkit.homework.assignment import Combination, Prepared
 from dofkit.homework.key.key import Key
 from dofkit.homework.problem import Pick, StudentVariant, Variants, pick_text, plain_name
 from dofkit.homework.questions import NumberQuestion, QuestionBase
@@ -30,12 +31,22 @@ class VaryError(DofkitError):
     """An assignment that cannot be varied."""
 
 
+def assigned(prepared: Prepared) -> Variants | None:
+    """Return who has which variant, or None if nothing varies. Raises NobodysVariantError if nobody has one yet."""
+    variants = prepared.assignment.variants
+    if variants is None and prepared.combinations:
+        raise NobodysVariantError(
+            "this assignment varies, and no student has a variant: use the assignment.yaml of `dofkit assignment vary`"
+        )
+    return variants
+
+
 def sheet_of(prepared: Prepared, names: str | Iterable[str]) -> Prepared:
     """Return the assignment with the variants of the student who has one of ``names``.
 
-    Without variants it is the assignment itself. Raises NobodysVariantError if that is nobody, or several students.
+    If nothing varies it is the assignment itself. Raises NobodysVariantError if that is nobody, or several students.
     """
-    variants = prepared.assignment.variants
+    variants = assigned(prepared)
     if variants is None:
         return prepared
     called = [names] if isinstance(names, str) else list(names)
@@ -57,14 +68,30 @@ def picked(prepared: Prepared, picks: Mapping[str, Pick]) -> Prepared:
             chosen = next((c for c in combinations if c.pick == picks.get(problem.id)), None)
             if chosen is None:
                 raise NobodysVariantError(f"the problem '{problem.id}' has no variant {picks.get(problem.id)} any more")
-            problem, keys[problem.id] = chosen.problem, chosen.key
+            vary = problem.vary or {}
+            problem, keys[problem.id] = chosen.problem.model_copy(update={"vary": None}), chosen.key
             for question in problem.questions:
-                short = isinstance(question, NumberQuestion | LabelQuestion)
-                if not short or len(_solutions(question, [c.key for c in combinations])) > 1:
-                    marks[problem.id, question.id] = pick_text(chosen.problem.vary or {}, chosen.pick)
+                deciding = [name for name in vary if _decides(name, question, combinations)]
+                if deciding:
+                    marks[problem.id, question.id] = pick_text({name: vary[name] for name in deciding}, chosen.pick)
         problems.append(problem)
     assignment = prepared.assignment.model_copy(update={"problems": tuple(problems), "variants": None})
     return replace(prepared, assignment=assignment, keys=keys, combinations={}, marks=marks, variant=repr(picks))
+
+
+def _decides(name: str, question: QuestionBase, combinations: Sequence[Combination]) -> bool:
+    """Return whether the right answer to a question may depend on one of the names that vary."""
+    if not isinstance(question, NumberQuestion | LabelQuestion):
+        return True
+    alike: defaultdict[Sequence[tuple[str, int]], list[Key]] = defaultdict(list)
+    for pick, _, key in combinations:
+        alike[tuple((other, n) for other, n in pick.items() if other != name)].append(key)
+    return any(len(_solutions(question, keys)) > 1 for keys in alike.values())
+
+
+def first_variant(prepared: Prepared) -> Prepared:
+    """Return the assignment with the first combination of each problem that varies."""
+    return picked(prepared, {problem: several[0].pick for problem, several in prepared.combinations.items()})
 
 
 def _solutions(question: QuestionBase, keys: Iterable[Key]) -> set[str]:
@@ -109,9 +136,9 @@ def differing_share(prepared: Prepared) -> float:
 def with_roster(prepared: Prepared, roster: Roster | None) -> tuple[Prepared, Roster | None]:
     """Return the assignment and the roster, each with the names that the other has for a student with a variant.
 
-    Without a roster it is made of those who have variants.
+    Without a roster it is made of those who have variants. Raises NobodysVariantError if nobody has one yet.
     """
-    variants = prepared.assignment.variants
+    variants = assigned(prepared)
     if variants is None:
         return prepared, roster
     if roster is None:
@@ -138,7 +165,7 @@ def rows_of(prepared: Prepared, variants: Variants) -> Iterator[tuple[str, str, 
     """Yield (student, problem, variant, right answers) of every problem that varies."""
     for student in variants.students:
         sheet = picked(prepared, student.picks)
-        for problem in sheet.assignment.problems:
+        for problem in prepared.assignment.problems:
             if problem.id in student.picks:
                 key = sheet.keys[problem.id]
                 right = "; ".join(text for q in problem.questions for text in _solutions(q, [key]) if text)

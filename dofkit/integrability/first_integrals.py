@@ -10,10 +10,10 @@ modulo fresh primes.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from itertools import combinations_with_replacement, permutations
+from itertools import combinations_with_replacement
 from math import isqrt
 
 from dofkit.base.deadline import check
@@ -39,8 +39,6 @@ MAX_DEGREE, MAX_PRODUCTS, MAX_FUNCTIONS = 3, 170, 12
 SPARE, CHECKS = 6, 4
 #: Rows of the bordered minors that are written out.
 MAX_ROWS = 5
-#: Integrals that are distributed over the rows, and the cost of assigning one twice.
-MAX_ASSIGNED, TWICE = 6, 1000
 
 Monomial = tuple[int, ...]
 
@@ -352,35 +350,19 @@ class BorderedMinors:
 def integral_by_row(forms: Codistribution, integrals: Sequence[FirstIntegral]) -> dict[int, FirstIntegral]:
     """Return an integral for every row that it can stand for: with the other rows it implies the row.
 
-    f can stand for a row where df is not in the span of the others; different rows have different ones while they last.
+    f can stand for a row where df is not in the span of the others; a row takes one that no other has, if there is one,
+    and that mentions the same symbols.
     """
     search = IntegralSearch(forms, 0)
     sample = search.sample(0) if integrals else None
     if sample is None:
         return {}
-    usable: dict[int, list[int]] = {}
+    moving, chosen = frozenset(forms.chart.symbols), dict[int, FirstIntegral]()
     for row in range(forms.finite, len(forms.rows.entries)):
         across = sample.across(row)
-        fitting = [k for k, f in enumerate(integrals) if across and search.slope(f.expr, sample, across) != 0]
+        fitting = [f for f in integrals if across and search.slope(f.expr, sample, across) != 0]
+        mentioned = {forms.chart.symbols[c] for c in forms.rows.entries[row]}
+        apart = {f: (f in chosen.values(), len(mentioned ^ (f.expr.symbols & moving))) for f in fitting}
         if fitting:
-            usable[row] = fitting
-    return {row: integrals[k] for row, k in _most_alike(forms, integrals, usable).items()}
-
-
-def _most_alike(
-    forms: Codistribution, integrals: Sequence[FirstIntegral], usable: Mapping[int, list[int]]
-) -> dict[int, int]:
-    """Return one integral a row, different ones if there are enough, that mention the symbols of the rows."""
-    moving = frozenset(forms.chart.symbols)
-    mentioned = {row: {forms.chart.symbols[c] for c in forms.rows.entries[row]} for row in usable}
-    places = [*range(len(integrals)), *(None for row in usable if len(usable) > len(integrals))][:MAX_ASSIGNED]
-    best: tuple[int, dict[int, int]] | None = None
-    for choice in permutations(places, len(usable)):
-        total, assigned = 0, {}
-        for row, k in zip(usable, choice, strict=True):
-            assigned[row] = k if k in usable[row] and k is not None else usable[row][0]
-            unlike = mentioned[row] ^ (integrals[assigned[row]].expr.symbols & moving)
-            total += TWICE if assigned[row] != k else len(unlike) ** 2
-        if best is None or total < best[0]:
-            best = total, assigned
-    return best[1] if best is not None else {row: few[0] for row, few in usable.items()}
+            chosen[row] = min(fitting, key=apart.__getitem__)
+    return chosen

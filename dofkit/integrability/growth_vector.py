@@ -25,7 +25,6 @@ from dofkit.integrability.lie_algebra import (
     Span,
     columns_of,
     product_coefficient,
-    scaled,
     some_columns,
 )
 
@@ -160,7 +159,7 @@ def _path_variation(flow: AdmissibleCurve, start: Matrix) -> MatrixSeries:
     """The variation of the path: eta' = S eta."""
     moved = [start]
     for k in range(flow.order):
-        moved.append(scaled(product_coefficient(flow.full_slope, moved, k), 1 / flow.base.number(k + 1)))
+        moved.append(product_coefficient(flow.full_slope, moved, k) * (1 / flow.base.number(k + 1)))
     return moved
 
 
@@ -177,10 +176,10 @@ def _frame_variation(flow: AdmissibleCurve, at: list[Any], point: DualPoint, mov
     bent = flow.lifted(lambda k: -(first[k] + product_coefficient(of_dependent, flow.slope, k)), order)
     turned = flow.lifted(lambda k: -product_coefficient(rows, flow.full_frame, k), order)
     full_bent, full_turned = [flow.full(m, None) for m in bent], [flow.full(m, None) for m in turned]
-    back = [scaled(flow.back[0], flow.sample * 0)]
+    back = [flow.back[0] * (flow.sample * 0)]
     for k in range(order - 1):
         total = product_coefficient(back, flow.full_slope, k) + product_coefficient(flow.back, full_bent, k)
-        back.append(scaled(total, -1 / flow.base.number(k + 1)))
+        back.append(total * (-1 / flow.base.number(k + 1)))
     return [
         product_coefficient(back, flow.full_frame, k) + product_coefficient(flow.back, full_turned, k)
         for k in range(order)

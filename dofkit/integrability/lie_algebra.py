@@ -220,13 +220,8 @@ class AdmissibleCurve:
         self.back = [self.identity(len(self.path))]
         for k in range(self.order - 1):
             check()
-            self.back.append(scaled(product_coefficient(self.back, self.full_slope, k), -1 / self.base.number(k + 1)))
+            self.back.append(product_coefficient(self.back, self.full_slope, k) * (-1 / self.base.number(k + 1)))
         self.pulled = [product_coefficient(self.back, self.full_frame, k) for k in range(self.order)]
-
-
-def scaled(matrix: Matrix, factor: Scalar) -> Matrix:
-    """A matrix times a number."""
-    return matrix * factor
 
 
 def some_columns(matrix: Matrix, columns: Sequence[int], numbers: PointMatrices) -> Matrix:

@@ -94,13 +94,15 @@ def _along(curve: AdmissibleCurve, row: Mapping[int, int], order: int, p: int) -
 def _real_point(forms: Codistribution, reference: Mapping[Expr, Expr]) -> RealPoint | None:
     """Return the reference configuration in balls; certified where every equation is proved to be 0 there."""
     chart, place = forms.chart, {**reference, ex.TIME: ex.ZERO}
-    if "balls" not in chart.engines:
+    if "balls" not in chart.setting.engines:
         return None
     with ctx.workprec(max(ctx.prec, precision())):
         ball = ball_point(chart, place, random.Random("dofkit reference"))
         matrix = None if ball is None else ball_matrix(chart, ball, True)
     if ball is None or matrix is None:
         return None
-    exact = all(zero_and_verdict(substitute(g, place), chart.positive) == (True, "proved") for g in chart.relations)
+    exact = all(
+        zero_and_verdict(substitute(g, place), chart.setting.positive) == (True, "proved") for g in chart.relations
+    )
     part = ball_part(matrix) if matrix else ball_part([[arb(0)] * len(chart.symbols)])
     return RealPoint(ball, part, exact, True, matrix)

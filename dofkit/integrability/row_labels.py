@@ -267,7 +267,7 @@ def ball_labels(block: Block, forms: Codistribution, real: RealPoint, result: An
         result.reasons.append(
             f"Lie brackets are resolved down to a gap of {gap:.1e} only, so some may have been missed"
         )
-    if "field" not in forms.chart.engines:
+    if "field" not in forms.chart.setting.engines:
         result.matrix = sparse(dependencies(matrix, part))
         if real.consistent and len(real.part.rows) == forms.finite and rank == len(matrix):
             result.verdict = "proved" if reached or total - rank <= 1 else result.verdict

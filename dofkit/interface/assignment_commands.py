@@ -67,7 +67,7 @@ def handout(
     from dofkit.homework.assignment import load_assignment
     from dofkit.homework.handout.class_sheets import sheets_of, write_handout, write_sheets
     from dofkit.homework.handout.sheets import remarks
-    from dofkit.homework.variants import sheet_of
+    from dofkit.homework.variants import first_variant, sheet_of
 
     with failures_of(assignment):
         prepared = load_assignment(assignment)
@@ -76,9 +76,9 @@ def handout(
             write_sheets(sheets_of(prepared, load_roster(roster)), form, drawing(), target)
         else:
             form, target = handout_file(Path(assignment), form, out)
-            prepared = prepared if student is None else sheet_of(prepared, student)
-            write_handout(prepared, form, drawing(), target, student)
-    for remark in remarks(prepared):
+            sheet = first_variant(prepared) if student is None else sheet_of(prepared, student)
+            write_handout(sheet, form, drawing(), target, student)
+    for remark in remarks(prepared, is_preview=student is None and roster is None):
         typer.echo(f"{assignment}: {remark}", err=True)
     with_runtime(form, target if roster else target.parent, runtime)
     typer.echo(target)
@@ -120,9 +120,10 @@ def practice(
     """
     from dofkit.homework.assignment import load_assignment
     from dofkit.homework.handout.page_sheets import BUILT, put_runtime, write_page
+    from dofkit.homework.variants import first_variant
 
     with failures_of(assignment):
-        prepared = load_assignment(assignment)
+        prepared = first_variant(load_assignment(assignment))
         put_runtime(out, runtime or BUILT)
         write_page(prepared, drawing(), out / "index.html", judges=True)
     typer.echo(out / "index.html")

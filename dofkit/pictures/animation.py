@@ -17,6 +17,7 @@ from dofkit.pictures.files import (
     svg_of,
     write_pdf,
 )
+from dofkit.pictures.joints import with_long_guides
 from dofkit.pictures.layout import Standpoint, page_of, standpoint_of
 from dofkit.pictures.loop_clips import loop_clips, loop_notes, traces
 from dofkit.pictures.motion_clips import ClipMaker
@@ -97,7 +98,7 @@ class Animation:
         return saved(self, path, _WRITERS)
 
     def _repr_html_(self) -> str:
-        return framed(self.html(), page_height(self.sketch, self.clips))
+        return framed(self.html(), page_height(self.sketch, self.clips, self.switches))
 
 
 def animate(scene: SceneLike, report: Report | None = None, *, loop: bool = False) -> Animation:
@@ -144,6 +145,7 @@ def animate(scene: SceneLike, report: Report | None = None, *, loop: bool = Fals
     maker = ClipMaker(stage, sketch)
     switches = list(maker.switches())
     clips = (*maker.clips(), *(clip for _, new in switches for clip in new))
+    sketch = with_long_guides(stage, sketch, clips)
     immobile = (report.velocity_dof == 0 and report.scleronomic) or not can_hold(report)
     notes = sketch.notes if clips else (*sketch.notes, STILL if immobile else NOT_SHOWN)
     return Animation(replace(sketch, notes=notes), clips, program, tuple(switch for switch, _ in switches))

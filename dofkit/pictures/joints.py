@@ -3,13 +3,29 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from itertools import combinations, pairwise
 
 import numpy as np
 
 from dofkit.pictures.loci import locus, profile
-from dofkit.pictures.shapes import SQUARE, Array, Place, Role, Shape, State, Vertex, carried_by, circle, fixed, place
+from dofkit.pictures.shapes import (
+    AT_REST,
+    SQUARE,
+    Array,
+    Clip,
+    Place,
+    Role,
+    Shape,
+    Sketch,
+    State,
+    Vertex,
+    carried_by,
+    circle,
+    fixed,
+    place,
+)
 from dofkit.pictures.stage import StagedScene, axis_of, carriers, radius_of
 from dofkit.scene.symbols import Run, Stroke
 from dofkit.system import GROUND, Connection
@@ -69,6 +85,33 @@ def _stroke(stage: StagedScene, stroke: Stroke, carrier: str, spot: Array, frame
     if len(vertices) == 1:
         return Shape("ball", vertices, role, size=stroke.radius * stage.unit)
     return Shape("area" if stroke.closed else "line", vertices, role)
+
+
+def with_long_guides(stage: StagedScene, sketch: Sketch, clips: Sequence[Clip]) -> Sketch:
+    """Return a sketch whose guides are as long as the motions of what slides on them."""
+    shapes = list(sketch.shapes)
+    for number, connection in enumerate(stage.system.connections):
+        symbol, members = stage.symbol(number), carriers(connection)
+        strokes = symbol.plane if stage.flat else symbol.space
+        if not symbol.rails or not strokes or stage.places[number] is None or len(members) < 2:
+            continue
+        longest = max(strokes, key=lambda stroke: max(spot[0] for spot in stroke.spots))
+        half = stage.unit * max(spot[0] for spot in longest.spots)
+        guide, slider = members[longest.member], members[1 - longest.member]
+        axis, middle = axis_of(stage.arrangement, connection, 0), stage.spot(number, guide)
+        block, reach = Vertex(slider, place(stage.spot(number, slider))), [0.0]
+        for poses in (poses for clip in clips if not clip.dropped for poses in clip.frames):
+            seen = poses.get(guide, AT_REST).back(sketch.at(block, poses))
+            reach.append(float(axis @ (np.array(seen) - middle)))
+        low, stretch = min(reach), 1 + (max(reach) - min(reach)) / (2 * half)
+        name = stage.system.constraints[number].name
+        for k, shape in enumerate(shapes):
+            if shape.owner == name and shape.kind != "words" and {v.carrier for v in shape.vertices} == {guide}:
+                along = [float(axis @ (np.array(v.at) - middle)) for v in shape.vertices]
+                ends = [(low - half + (a + half) * stretch - a) * axis for a in along]
+                moved = [np.array(v.at) + end for v, end in zip(shape.vertices, ends, strict=True)]
+                shapes[k] = shape._replace(vertices=carried_by(guide, moved))
+    return replace(sketch, shapes=tuple(shapes))
 
 
 def _footing(stage: StagedScene, number: int, at: Place, frame: Array) -> Iterator[Shape]:

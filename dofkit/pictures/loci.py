@@ -17,8 +17,9 @@ from dofkit.pictures.shapes import Array, Role, Shape, fixed
 from dofkit.pictures.stage import StagedScene
 from dofkit.system import Connection, Relation
 
-#: Points of a grid in the plane, and in each slice of space; slices in each direction; points of a drawn line.
-GRID, SLICE_GRID, SLICES, DRAWN = 161, 41, 7, 40
+#: Points of a grid in the plane, and in each slice of space; slices in each direction; points of a line in the
+#: plane, and in a slice.
+GRID, SLICE_GRID, SLICES, DRAWN, FEW_DRAWN = 161, 41, 7, 40, 28
 #: Steps of a curve in space to either side.
 STEPS = 220
 
@@ -34,7 +35,9 @@ def level_lines(value: Callable[[Array, Array], Array], box: Sequence[float], co
     segments = contours.allsegs[0]
     contours.remove()
     usual = float(np.median(np.abs(z.compressed())))
-    return [_thinned(s) for s in segments if len(s) > 1 and _is_zero(value, s, usual)]
+    return [
+        _thinned(s, DRAWN if count == GRID else FEW_DRAWN) for s in segments if len(s) > 1 and _is_zero(value, s, usual)
+    ]
 
 
 @cache
@@ -51,9 +54,9 @@ def _is_zero(value: Callable[[Array, Array], Array], line: Array, usual: float) 
     return bool(np.median(np.nan_to_num(along, nan=np.inf)) <= 0.5 * usual)
 
 
-def _thinned(line: Array) -> Array:
-    kept = np.unique(np.linspace(0, len(line) - 1, DRAWN).astype(int))
-    return line if len(line) <= DRAWN else np.asarray(line[kept])
+def _thinned(line: Array, most: int) -> Array:
+    kept = np.unique(np.linspace(0, len(line) - 1, most).astype(int))
+    return line if len(line) <= most else np.asarray(line[kept])
 
 
 def locus(stage: StagedScene, number: int, connection: Connection) -> Iterator[Shape]:

@@ -22,8 +22,8 @@ from dofkit.system import GROUND
 
 #: Steps of a sampled motion to either side, their length, and the most frames that are kept.
 STEPS, STEP, FRAMES = 160, 0.1, 96
-#: The same if there are several motions.
-SHORT, FEW = 25, 40
+#: Steps and frames of each motion if there are several, and their frames together.
+SHORT, FEW, MOST_FRAMES = 25, 40, 120
 #: How far beyond the picture a motion is shown, by the picture's size; a closed one returns to within this part of it.
 FAR, BACK = 0.5, 0.05
 #: The number of points of a sketch by which two poses are compared.
@@ -33,7 +33,7 @@ MANY, LEAST = 3000, 10
 #: The time limit of the finite motions.
 SECONDS = 12.0
 #: Frames of an infinitesimal motion to both sides, its extent by the picture's size, and its largest rotation.
-SWING, REACH, TURN = 32, 0.22, 0.6
+SWING, REACH, TURN = 24, 0.22, 0.6
 #: The number of motions, and of constraints with a switch, that are shown.
 MOST_MOTIONS, MOST_SWITCHES = 12, 8
 GOES_ON = "This infinitesimal motion goes on: it was followed as a finite motion."
@@ -51,6 +51,7 @@ class ClipMaker:
         every = dict.fromkeys(v for s in sketch.shapes if s.kind != "words" for v in s.vertices if v.carrier != GROUND)
         vertices = list(every)
         self.stage, self.sketch, self.motions = stage, sketch, stage.motions[:MOST_MOTIONS]
+        self.few = min(FEW, MOST_FRAMES // max(1, len(self.motions)))
         self.vertices = vertices[:: max(1, len(vertices) // MOST_SEEN)]
         self.moves = can_hold(stage.report) and bool(vertices)
 
@@ -76,13 +77,13 @@ class ClipMaker:
     def _in_turn(self, sampler: MotionSampler) -> Iterator[Clip]:
         """Yield a motion of each free velocity, while the others rest."""
         count = len(self.stage.motions)
-        name = "free velocity {} of {}: {}" if count > 1 else "a finite motion"
         for k, motion in enumerate(self.motions):
             held = [other.symbol for other in self.stage.motions if other is not motion]
             clips: list[Clip] = []
             try:
                 path = self._free_motion(sampler, motion, held)
-                clips += self._sampled(name.format(k + 1, count, motion.name), path, FEW)
+                name = f"free velocity {k + 1} of {count}: {motion.name}" if count > 1 else "a finite motion"
+                clips += self._sampled(name, path, self.few)
             except DofkitError:
                 pass
             yield from clips or self._swings([motion])
@@ -102,7 +103,7 @@ class ClipMaker:
         for direction, path in sampler.branches(self._steps(SHORT), STEP):
             coefficients.append(rows @ direction / np.sum(rows**2, axis=1))
             arrows = self._arrows(_combined(self.motions, coefficients[-1]))
-            for clip in self._sampled(f"finite motion {len(coefficients)}", path, FEW):
+            for clip in self._sampled(f"finite motion {len(coefficients)}", path, self.few):
                 yield clip._replace(text=GOES_ON, arrows=arrows)
         others, pivots = by_pivots(kernel(np.array(coefficients), len(self.motions)), range(len(self.motions)))
         yield from self._swings([
@@ -219,7 +220,7 @@ class ClipMaker:
         with sampling(arrangement.system, SECONDS):
             sampler = MotionSampler(arrangement.system, arrangement.first_values)
             path = self._free_motion(sampler, extra[0], held)
-        clips = self._sampled(f"without {name}: {extra[0].name}", path, FEW // 2)
+        clips = self._sampled(f"without {name}: {extra[0].name}", path, self.few // 2)
         return [clip._replace(text=NEEDED.format(name), dropped=name) for clip in clips]
 
 

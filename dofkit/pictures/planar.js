@@ -10,12 +10,14 @@ function planarScene(program) {
 
   /* The values of all steps of the program, and their derivatives by the scaled coordinates. */
   function evaluate(q, wanted) {
-    const values = [], gradients = [], count = wanted ? q.length : 0;
+    const values = [], gradients = [], count = wanted ? q.length : 0, zero = new Float64Array(count);
     for (const step of program.steps) {
-      const gradient = new Float64Array(count), [op, first] = Array.isArray(step) ? step : [null];
+      const [op, first] = Array.isArray(step) ? step : [null], gradient = op === null ? zero : new Float64Array(count);
       let value = op === "mul" ? 1 : 0;
       const add = function (node, factor) {
-        for (let k = 0; k < count; k++) { gradient[k] += factor * gradients[node][k]; }
+        const of = gradients[node];
+        if (of === zero) { return; }
+        for (let k = 0; k < count; k++) { gradient[k] += factor * of[k]; }
       };
       if (op === null) {
         value = step;
@@ -44,7 +46,11 @@ function planarScene(program) {
     return { values: values, gradients: gradients };
   }
 
-  function inner(a, b) { return a.reduce(function (sum, x, k) { return sum + x * b[k]; }, 0); }
+  function inner(a, b, count = a.length) {
+    let sum = 0;
+    for (let k = 0; k < count; k++) { sum += a[k] * b[k]; }
+    return sum;
+  }
 
   /* The shortest step whose products with the rows are the gaps (least squares where rows depend on each other). */
   function shortest(rows, gaps) {
@@ -52,7 +58,7 @@ function planarScene(program) {
     rows.forEach(function (row, i) {
       lower.push([]);
       for (let j = 0; j <= i; j++) {
-        const rest = inner(row, rows[j]) - inner(lower[i].slice(0, j), lower[j]);
+        const rest = inner(row, rows[j]) - inner(lower[i], lower[j], j);
         lower[i].push(i === j ? Math.sqrt(Math.max(rest, 0) + 1e-12) : rest / lower[j][j]);
       }
       x.push((gaps[i] - inner(x, lower[i])) / lower[i][i]);
@@ -60,7 +66,7 @@ function planarScene(program) {
     for (let i = rows.length - 1; i >= 0; i--) {
       x[i] /= lower[i][i];
       for (let j = 0; j < i; j++) { x[j] -= lower[i][j] * x[i]; }
-      rows[i].forEach(function (entry, k) { step[k] += x[i] * entry; });
+      for (let k = 0; k < step.length; k++) { step[k] += x[i] * rows[i][k]; }
     }
     return step;
   }
@@ -71,7 +77,7 @@ function planarScene(program) {
     for (const [name, node] of program.relations) {
       const size = Math.sqrt(inner(at.gradients[node], at.gradients[node]));
       if (off.has(name) || size < 1e-9) { continue; }
-      rows.push(Array.from(at.gradients[node], function (entry) { return entry / size; }));
+      rows.push(at.gradients[node].map(function (entry) { return entry / size; }));
       gaps.push(-at.values[node] / size);
     }
     const within = program.limits.every(function (node) { return at.values[node] >= -1e-9; });
@@ -109,12 +115,12 @@ function planarScene(program) {
   function pulled(q, grip, target, off) {
     let now = satisfied(q, off);
     if (!(now.here.worst < 1e-9)) { return now; }
-    for (let round = 0; round < 4; round++) {
+    for (let round = 0; round < 3; round++) {
       const point = gripped(now.here.at, grip), rows = now.here.rows;
       const gap = [target[0] - point.place[0], target[1] - point.place[1]];
       const free = point.slope.map(function (row) {
         const bound = shortest(rows, rows.map(function (other) { return inner(other, row); }));
-        return row.map(function (entry, k) { return entry - (rows.length ? bound[k] : 0); });
+        return row.map(function (entry, k) { return rows.length ? entry - bound[k] : entry; });
       });
       const wide = Math.sqrt(inner(free[0], free[0]) + inner(free[1], free[1]));
       if (wide < 1e-9) { break; }

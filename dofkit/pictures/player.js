@@ -2,7 +2,7 @@
    Part of dofkit, under its MIT licence; it uses no other library and fetches nothing. */
 "use strict";
 (function () {
-  const data = JSON.parse(document.getElementById("data").textContent);
+  const opened = performance.now(), data = JSON.parse(document.getElementById("data").textContent);
   const canvas = document.querySelector("canvas");
   const pen = canvas.getContext("2d");
   const program = data.program, solid = data.dimension === 3, planar = program && planarScene(program);
@@ -10,6 +10,9 @@
   const state = { clip: 0, frame: 0, playing: false, azimuth: data.view[0], elevation: data.view[1], free: null, off: new Set() };
   const night = window.matchMedia("(prefers-color-scheme: dark)");
   let hatch = makeHatch();
+  for (const shape of data.shapes) {
+    shape.v = shape.v || Array.from({ length: shape.p.length / 3 }, function (_, k) { return [shape.n, ...shape.p.slice(3 * k, 3 * k + 3)]; });
+  }
 
   /* A colour as it is on the paper that is shown: light, or dark where the reader has it so. */
   function tone(colour) { return night.matches && data.dark[colour] || colour; }
@@ -348,7 +351,8 @@
 
   function tick(time) {
     if (!state.playing) { return; }
-    if (time - last > 40 / Number(controls.speed.value)) { last = time; advance(); }
+    const pace = 40 * Math.max(1, 36 / data.clips[state.clip].frames.length);
+    if (time - last > pace / Number(controls.speed.value)) { last = time; advance(); }
     window.requestAnimationFrame(tick);
   }
 
@@ -412,7 +416,7 @@
     draw();
   }
 
-  const residual = make("span", { id: "residual" });
+  const residual = make("span", { id: "residual", textContent: "Drag a point, or move it by the arrow keys (N takes the next point)." });
 
   function drag(grip, target) {
     const clip = data.clips[state.clip], from = state.free || (clip ? clip.frames[state.frame] : program.start);
@@ -477,4 +481,5 @@
   window.addEventListener("resize", draw);
   night.addEventListener("change", function () { hatch = makeHatch(); draw(); });
   draw();
+  canvas.dataset.opened = String(performance.now() - opened);
 })();

@@ -24,6 +24,7 @@ from dofkit.pictures.shapes import (
     Displacement,
     Ink,
     Poses,
+    Shape,
     Sketch,
     Switch,
     ink_of,
@@ -35,6 +36,7 @@ from dofkit.pictures.shapes import (
 FRAME, EDGE, LINE = int(WIDTH * 1.5), 12.0, 22.0
 #: Part of the panel that a sketch of space fills, so that it can be turned.
 FILL = 0.94
+_COMMENT = re.compile(r"^ +/\*.*?\*/\n", re.MULTILINE | re.DOTALL)
 DRAG = "Drag the picture, or use the arrow keys, to turn it."
 
 
@@ -59,9 +61,10 @@ def page_html(
 
 
 def player_script() -> str:
-    """Return the script that plays, turns and drags pictures, without its indentation."""
+    """Return the script that plays, turns and drags pictures, without indentation and inner comments."""
     texts = [(files("dofkit.pictures") / name).read_text(encoding="utf-8") for name in ("planar.js", "player.js")]
-    return "\n".join(line.strip() for text in texts for line in text.splitlines())
+    script = _COMMENT.sub("", "".join(texts))
+    return "\n".join(line.strip() for line in script.splitlines() if line.strip())
 
 
 def _notes(sketch: Sketch) -> tuple[str, ...]:
@@ -77,8 +80,8 @@ def framed(page: str, height: float) -> str:
     )
 
 
-def page_height(sketch: Sketch, clips: Sequence[Clip]) -> float:
-    """Return the height of `page_html` in pixels: title, answer, panel, buttons, legend, notes."""
+def page_height(sketch: Sketch, clips: Sequence[Clip], switches: Sequence[Switch] = ()) -> float:
+    """Return the height of `page_html` in pixels: title, answer, panel, buttons, switches, legend, notes."""
     margins = margins_of(sketch)
     panel = (FRAME - 2 * EDGE) * (margins.high - margins.low) / WIDTH
     lines = [
@@ -86,7 +89,9 @@ def page_height(sketch: Sketch, clips: Sequence[Clip]) -> float:
         1 + len(sketch.answer) // 85,
         *(1 + len(note) // 95 for note in _notes(sketch)),
     ]
-    lines.append(bool(keys_of(sketch.shapes, sketch.meanings)) + 2 * bool(clips))
+    lines.append(
+        bool(keys_of(sketch.shapes, sketch.meanings)) + (2 + (sketch.dimension < 3)) * bool(clips) + 3 * bool(switches)
+    )
     lines.append(max((1 + len(clip.text) // 85 for clip in clips if clip.text), default=0))
     return panel + LINE * sum(lines) + 4 * EDGE
 
@@ -100,12 +105,13 @@ def player_data(
     carriers = list(dict.fromkeys(v.carrier for s in sketch.shapes for v in s.vertices))
     looks: dict[Ink, int] = {}
     offsets = iter(standpoint.offsets)
+    digits = max(0, 4 - math.floor(math.log10(sketch.size)))
     owners = {switch.name for switch in switches}
     shapes = []
     for shape in sketch.shapes:
         entry: dict[str, Any] = {
             "k": shape.kind,
-            "v": [[carriers.index(v.carrier), *_rounded(v.at)] for v in shape.vertices],
+            **_vertex_data(shape, carriers, digits),
             "i": looks.setdefault(ink_of(shape), len(looks)),
         }
         if shape.size:
@@ -124,20 +130,33 @@ def player_data(
         "names": name_size(sketch),
         "traced": [[carriers.index(v.carrier), *_rounded(v.at)] for v in sketch.traced if v.carrier in carriers],
         "still": [_pose_row(sketch.poses.get(c, AT_REST)) for c in carriers],
-        "clips": [_clip_data(clip, carriers, program) for clip in clips],
+        "clips": [_clip_data(clip, carriers, program, digits) for clip in clips],
         "switches": [switch._asdict() for switch in switches],
         "program": None if program is None else program.data(carriers),
         **_panel(sketch, standpoint, every),
     }
 
 
-def _clip_data(clip: Clip, carriers: Sequence[str], program: PlanarProgram | None) -> dict[str, Any]:
-    """Return a clip, whose frames are values of the program's columns if there is one, else poses of all carriers."""
+def _vertex_data(shape: Shape, carriers: Sequence[str], digits: int) -> dict[str, Any]:
+    """Return the vertices of a shape: of one carrier its number and all components in a row, else one by one."""
+    places = [[round(x, digits) for x in v.at] for v in shape.vertices]
+    numbers = [carriers.index(v.carrier) for v in shape.vertices]
+    if len(set(numbers)) == 1:
+        return {"n": numbers[0], "p": [x for p in places for x in p]}
+    return {"v": [[number, *p] for number, p in zip(numbers, places, strict=True)]}
+
+
+def _clip_data(clip: Clip, carriers: Sequence[str], program: PlanarProgram | None, digits: int) -> dict[str, Any]:
+    """Return a clip, whose frames are values of the program's columns if there is one, else poses of all carriers.
+
+    ``digits`` after the point are as many as can be seen.
+    """
     entry: dict[str, Any] = {"name": clip.name, "closed": clip.closed, "loop": clip.loop, "text": clip.text}
     if program is not None:
-        frames: list[Any] = [_rounded(program.values(numbers)) for numbers in clip.path]
+        frames: list[Any] = [[round(v, max(4, digits)) for v in program.values(numbers)] for numbers in clip.path]
     else:
-        frames = [[_pose_row(frame.get(c, AT_REST)) for c in carriers] for frame in clip.frames]
+        rows = ([_pose_row(frame.get(c, AT_REST)) for c in carriers] for frame in clip.frames)
+        frames = [[[*(round(v, digits) for v in p[:3]), *(round(v, 4) for v in p[3:])] for p in row] for row in rows]
     arrows = [[_rounded(a), _rounded(b)] for a, b in clip.arrows]
     return entry | {"dropped": clip.dropped, "size": clip.size, "arrows": arrows, "frames": frames}
 

@@ -11,7 +11,6 @@ from flint import arb
 
 from dofkit.base.verdicts import OPEN, About, ArgumentKey, Claim, Verdict
 from dofkit.exact.matrices.sparse import SparseRow, Supports
-from dofkit.exact.zero import Doubt
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Block
 
@@ -115,7 +114,7 @@ class Answer:
     dependent: tuple[str, ...] = ()
     growth: tuple[int, ...] | None = None
     derived: tuple[int, ...] | None = None
-    doubt: Doubt | None = None
+    doubt: bool = False
     method: str = ""
     late: bool = False
     conflict: tuple[int, ...] = ()

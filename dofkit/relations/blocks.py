@@ -9,15 +9,13 @@ from typing import NamedTuple
 from dofkit.base.deadline import check
 from dofkit.exact.matrices.sparse import components
 from dofkit.exact.ring.ring import Ring
-from dofkit.exact.zero import BOTH, Engines
 from dofkit.expressions import tree as ex
 from dofkit.expressions.renaming import coordinates_in
 from dofkit.expressions.tree import Expr
 from dofkit.relations.linear_relations import explicit_relations, number_coefficients
 from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.pieces import Clause, Finite, JointEquation, Nonlinear, Pfaffian
-from dofkit.relations.setting import ALL, Reductions, Setting
-from dofkit.system import Coordinate
+from dofkit.relations.setting import Reductions, Setting
 
 
 class Row(NamedTuple):
@@ -149,10 +147,8 @@ def is_measured(block: Block, setting: Setting) -> bool:
 class Chart:
     """A block's ring, its finite relations and its columns: coordinates, then time where it occurs.
 
-    ``columns`` are generator indices (-1: the symbol occurs nowhere); ``unknowns`` are the symbols that a
-    real search moves: coordinates and generic geometry. ``relations`` are what the nodes compute; ``engines`` those
-    that may look at it; ``size`` is the scale of lengths; ``reductions``: those in
-    use. ``within``: they hang by joints on other bodies.
+    ``columns`` are generator indices (-1: the symbol occurs nowhere); ``unknowns`` are the symbols that a real search
+    moves: coordinates and generic geometry. ``relations`` are what the nodes compute.
     """
 
     ring: Ring
@@ -160,13 +156,8 @@ class Chart:
     symbols: tuple[Expr, ...]
     columns: tuple[int, ...]
     unknowns: tuple[Expr, ...]
-    positive: frozenset[Expr]
-    roles: tuple[Coordinate, ...] = ()
-    relations: tuple[Expr, ...] = ()
-    engines: Engines = BOTH
-    size: float = 1.0
-    reductions: Reductions = ALL
-    within: bool = False
+    relations: tuple[Expr, ...]
+    setting: Setting
 
     @property
     def coordinates(self) -> int:
@@ -181,8 +172,8 @@ class Chart:
     @property
     def scales(self) -> list[float]:
         """The size by which each column is measured: places by the scale of lengths."""
-        places = {c.name for c in self.roles if c.role in ("x", "y", "z")}
-        return [self.size if s.args[-1] in places else 1.0 for s in self.symbols]
+        places = {c.name for c in self.setting.roles if c.role in ("x", "y", "z")}
+        return [self.setting.size if s.args[-1] in places else 1.0 for s in self.symbols]
 
 
 def aliases(block: Block, finite: Sequence[Expr]) -> dict[Expr, Expr]:
@@ -220,17 +211,4 @@ def make_chart(block: Block, setting: Setting, extra: Sequence[Expr] = (), more:
         symbols = (*symbols, ex.TIME)
     columns = tuple(-1 if (i := ring.var_index(s)) is None else i for s in symbols)
     unknowns = (*(s for s in symbols if s != ex.TIME), *setting.generic)
-    return Chart(
-        ring,
-        nodes,
-        symbols,
-        columns,
-        unknowns,
-        setting.positive,
-        setting.roles,
-        tuple(finite),
-        setting.engines,
-        setting.size,
-        setting.reductions,
-        setting.within,
-    )
+    return Chart(ring, nodes, symbols, columns, unknowns, tuple(finite), setting)

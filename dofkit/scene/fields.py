@@ -33,11 +33,7 @@ from pydantic_core import InitErrorDetails, PydanticCustomError
 
 from dofkit.base.errors import Fault
 from dofkit.base.wording import many, nearest, verb
-
-#: A number is refused beyond this power of ten, up or down.
-LARGEST_EXPONENT = 1000
-#: A literal is taken as a number only up to this many characters.
-LONGEST_LITERAL = 400
+from dofkit.base.yaml_events import LARGEST_EXPONENT, LONGEST_NUMBER
 
 _LITERAL = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,6})?)(?:\s*/\s*(\d+))?", re.ASCII)
 _OURS = "dofkit"
@@ -140,7 +136,7 @@ def _from_decimal(value: Decimal) -> Fraction:
 
 
 def _literal(text: str) -> Fraction | None:
-    match = _LITERAL.fullmatch(text.strip()) if len(text) <= LONGEST_LITERAL else None
+    match = _LITERAL.fullmatch(text.strip()) if len(text) <= LONGEST_NUMBER else None
     if match is None or (match[2] and not int(match[2])):
         return None
     return _from_decimal(Decimal(match[1])) / int(match[2] or 1)

@@ -73,11 +73,11 @@ def plain_text(text: str, names: Names) -> str | None:
 
 def _bases(e: Expr, sense: DomainSense) -> Iterator[Requirement]:
     """What an expression requires, of a product that is not 0 each factor, of a power its base."""
-    parts = e.args if e.op == "mul" else e.args[:1] if e.op == "pow" else ()
-    if sense != "!=" or not parts:
+    factors = e.args if e.op == "mul" else e.args[:1] if e.op == "pow" else ()
+    if sense != "!=" or not factors:
         yield e, sense
-    for part in parts if sense == "!=" else ():
-        yield from _bases(part, sense) if part.op != "num" else ()
+    for factor in factors if sense == "!=" else ():
+        yield from _bases(factor, sense) if factor.op != "num" else ()
 
 
 def _required(e: Expr) -> Iterator[Requirement]:

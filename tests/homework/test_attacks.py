@@ -15,7 +15,7 @@ from shared.known_scenes import spread
 import dofkit
 from dofkit.homework import hand_in
 from dofkit.homework.assignment import load_assignment
-from dofkit.homework.formats import gradescope, prairielearn
+from dofkit.homework.formats import coursera, gradescope, prairielearn
 from dofkit.homework.runs.run import GradingOptions, run
 
 LINE = {"coordinates": ["x", "y"], "constraints": ["x = y"]}
@@ -128,6 +128,17 @@ def test_what_is_seen_before_points_does_not_tell_right_from_wrong(question: str
         shown.append(json.dumps([grades.get("gradable"), grades.get("format_errors"), early]).replace(answer, "..."))
     for text, other in zip(*(re.split(r"Read as: [^\"]*|declared: [^\"]*", text) for text in shown), strict=True):
         assert text == other
+
+
+@pytest.mark.parametrize(
+    ("question", "answer"), [("f", "7?"), ("f", "3 = 4"), ("f", "n = 9"), ("label", "holonomic? rheonomic?")]
+)
+def test_nothing_is_had_for_an_answer_that_commits_to_nothing(question: str, answer: str) -> None:
+    asked = [{"id": "f", "ask": "dof"}, {"id": "label", "ask": "label", "constraint": "c1"}]
+    scene = {"coordinates": ["x", "y"], "constraints": ["x^2 + y^2 = 1"]}
+    sheet = load_assignment({"title": "One", "problems": [{"id": "p", "scene": scene, "questions": asked}]})
+    result = dofkit.grade(sheet, {"student": "eve", "answers": {"p": {question: answer}}})
+    assert (result.score, coursera.document(result)["fractionalScore"]) == (0, 0)
 
 
 def test_a_line_of_json_holds_no_end_of_line(tmp_path: Path) -> None:

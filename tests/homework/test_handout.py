@@ -168,6 +168,11 @@ def test_the_page_needs_no_network_and_runs_nothing(tmp_path: Path) -> None:
     assert not re.search(r'(src|href)="(?!data:)', page)
     assert page.count("<math") == 3
     assert "prefers-color-scheme: dark" in page
+    hostile = pendulum(text=text, title="</script><script>alert(2)</script>", names={"x_A": ["u"]})
+    write_handout(sheet(hostile), "page", drawing(), out, "</script><img src=x onerror=alert(3)>")
+    page = out.read_text(encoding="utf-8")
+    assert page.count("<script") == page.count("</script") == 2
+    assert "<img src=x" not in page
 
 
 def test_an_answer_is_read_by_the_names_of_the_sheet_as_grading_reads_it() -> None:

@@ -83,6 +83,10 @@ def test_everyone_is_graded_by_their_own_key() -> None:
         assert result.items[0].variant is None  # f is 1 in every variant, so one decision holds for all
         assert result.items[2].variant == f"l = {length}, support = {('is at rest', 'moves')[pick['support']]}"
         assert sheet.assignment.variants is None
+    nobody = Grader(load_assignment(SHEET)).grade(of_value({"student": "s1", "answers": {"chain": {"f": 1}}}, ""))
+    assert "no student has a variant" in str(nobody.error)  # not graded by the first one
+    labels = [sheet_of(prepared, f"s{n}").marks["chain", "label"] for n in range(12)]
+    assert set(labels) == {"support = is at rest", "support = moves"}  # of which alone the label depends
     assert "none of the students" in str(grader.grade(of_value({"student": "zoe", "answers": {}}, "")).error)
     with pytest.raises(NobodysVariantError, match="several students"):
         sheet_of(prepared, ["s1", "s2"])
@@ -139,6 +143,9 @@ def test_a_class_keeps_its_variants(tmp_path: Path) -> None:
         (tmp_path / "dee@x.json").write_text(json.dumps({"student": "Dee", "answers": answers}))
         graded = runner.invoke(app, ["grade", f"class/{ASSIGNMENT}", "dee@x.json", "--roster", "roster.csv"])
         assert json.loads(graded.output.splitlines()[0])["score"] == 1.0
+        preview = runner.invoke(app, ["assignment", "handout", "class/assignment.yaml", "--out", "first.html"])
+        assert "this is a preview" in preview.output
+        assert "[[" not in (tmp_path / "first.html").read_text(encoding="utf-8")
         plain = {"id": "p", "scene": "four-bar-linkage", "questions": [{"id": "f", "ask": "dof"}]}
         (tmp_path / "plain.yaml").write_text(yaml.safe_dump({**SHEET, "problems": [plain]}))
         assert "nothing varies" in runner.invoke(app, [*command[:2], "plain.yaml", *command[3:]]).output
@@ -169,7 +176,7 @@ def test_a_page_with_fields_has_only_names_of_its_own_sheet(tmp_path: Path) -> N
         assert {key: value for key, value in data["declared"]["chain"].items() if key != "questions"} == {
             "scene": {"dimension": 3, "coordinates": ["x", "y"]}, "constraints": ["rod"], "also": {}, "others": {}
         }  # fmt: skip
-    with pytest.raises(VaryError, match="the sheet varies"):
+    with pytest.raises(NobodysVariantError, match="no student has a variant"):
         write_sheets(sheets_of(load_assignment(written), members), "page", drawing(), tmp_path)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+import time
 from collections.abc import Iterator
 from importlib.util import find_spec
 from pathlib import Path
@@ -114,6 +115,86 @@ def test_a_loop_has_a_size_and_says_what_is_displaced(viewer: Viewer, tmp_path: 
         "s => { s.value = s.max; s.dispatchEvent(new Event('input')); }", viewer.page.query_selector("#slider")
     )
     assert viewer.shot() != before
+    assert viewer.said == []
+
+
+#: Drags a point of the picture about for two seconds, and returns the worst residual and the mean time of a step in ms.
+DRAG = """async ([x, y]) => {
+  const canvas = document.querySelector("canvas"), box = canvas.getBoundingClientRect();
+  const point = (type, right, down) => canvas.dispatchEvent(new PointerEvent(type, {
+    clientX: box.left + x * box.width + right, clientY: box.top + y * box.height + down, pointerId: 1 }));
+  canvas.setPointerCapture = () => {};
+  point("pointerdown", 0, 0);
+  let worst = 0, spent = 0, count = 0;
+  const start = performance.now();
+  while (performance.now() - start < 2000) {
+    const turn = (performance.now() - start) / 300, before = performance.now();
+    point("pointermove", 60 * Math.sin(turn), 40 * (1 - Math.cos(turn)));
+    spent += performance.now() - before;
+    count += 1;
+    worst = Math.max(worst, Number(canvas.dataset.residual));
+    await new Promise((done) => requestAnimationFrame(done));
+  }
+  point("pointerup", 0, 0);
+  return { worst, spent: spent / count };
+}"""
+#: Five triangles in a row on ten bars with the ground, closed by hinges: a planar ten-bar linkage of one freedom.
+HINGES = "gP 0 0, PQ 0 1, QR 3 2, Rg 3 0, QS 4 3, ST 6 2, Tg 6 0, SU 7 3, UV 9 2, Vg 9 0, UW 10 3, WX 12 2, Xg 12 0"
+TEN_BAR = {
+    "dimension": 2,
+    "bodies": list("PQRSTUVWX"),
+    "constraints": [
+        {
+            "type": "revolute",
+            "between": ["ground" if m == "g" else m for m in pair],
+            "at": [int(x), int(y)],
+        }
+        for pair, x, y in (hinge.split() for hinge in HINGES.split(", "))
+    ],
+}
+
+
+@pytest.mark.parametrize(
+    ("scene", "at"), [("four-bar-linkage", [0.3, 0.25]), (TEN_BAR, [0.3, 0.45]), ("double-pendulum-links", [0.5, 0.5])]
+)
+def test_a_point_is_dragged_within_the_constraints(viewer: Viewer, scene: Any, at: list[float], tmp_path: Path) -> None:
+    before = viewer.show(dofkit.animate(scene).save(tmp_path / "a.html"))
+    if at != [0.5, 0.5]:
+        dragged = viewer.page.evaluate(DRAG, at)
+        assert dragged["worst"] < 1e-9
+        assert dragged["spent"] < 1000 / 30
+    viewer.page.focus("canvas")
+    for _ in range(4):
+        viewer.page.keyboard.press("ArrowLeft")
+    assert float(viewer.page.get_attribute("canvas", "data-residual")) < 1e-9
+    assert viewer.shot() != before
+    assert viewer.said == []
+
+
+def test_a_switch_keeps_the_motion_or_shows_a_new_one(viewer: Viewer, tmp_path: Path) -> None:
+    viewer.show(dofkit.animate("five-particles-ten-links").save(tmp_path / "a.html"))
+    boxes = viewer.page.locator("#switches input")
+    motion = viewer.page.input_value("#clip")
+    boxes.last.uncheck()
+    boxes.first.uncheck()
+    assert boxes.last.is_checked()
+    boxes.first.check()
+    assert viewer.page.input_value("#clip") == motion
+    assert viewer.said == []
+
+
+def test_a_page_opens_and_plays_at_once(viewer: Viewer, tmp_path: Path) -> None:
+    """The script draws within 100 ms of its start, and a frame within a thirtieth of a second."""
+    for name in ("four-bar-linkage", "five-particles-ten-links"):
+        viewer.show(dofkit.animate(name).save(tmp_path / "a.html"))
+        assert float(viewer.page.get_attribute("canvas", "data-opened")) < 100
+        count = (
+            "new Promise((end) => { let n = 0; const f = () => ++n < 30 ? requestAnimationFrame(f) : end(n); f(); })"
+        )
+        viewer.page.click("#play")
+        start = time.perf_counter()
+        viewer.page.evaluate(count)
+        assert time.perf_counter() - start < 1
     assert viewer.said == []
 
 

@@ -240,9 +240,10 @@ def test_a_fault_found_later_gets_its_place_too() -> None:
     assert (located.faults[0].line, located.faults[0].column) == (4, 3)
 
 
-def test_anchors_and_merges_are_read() -> None:
+def test_anchors_are_read() -> None:
     scene = loads(
-        "particles: [A, B, C]\nconstraints:\n- &l {type: link, between: [A, B]}\n- {<<: *l, between: [B, C]}\n- *l\n"
+        "particles: [A, B, C]\nconstraints:\n- &l {type: link, between: [A, B]}\n"
+        "- {type: link, between: [B, C]}\n- *l\n"
     )
     assert [constraint.in_words for constraint in scene.constraints] == ["link A-B", "link B-C", "link A-B"]
 

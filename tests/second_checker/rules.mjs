@@ -98,12 +98,12 @@ export class Rules {
     return this.e.relations.some((r) => r.kind === "finite" && (r.tree.hasAny(others) || r.tree.functions.size));
   }
 
-  /** Where finite relations hold parameters: a minor whose rows account for them. */
-  parameters(said, covers, fallback) {
+  /** Where finite relations hold parameters: a minor whose rows account for those of some relations. */
+  parameters(said, covers, fallback, relations = this.e.relations) {
     if (!this.hasParameters) return;
     const minor = said === undefined ? fallback : this.e.minor(said);
     refuse(!minor, "a minor is needed, for parameters");
-    this.e.account(minor, this.e.relations.filter((r) => r.kind === "finite"), covers);
+    this.e.account(minor, relations.filter((r) => r.kind === "finite"), covers);
   }
 
   // -- bounds --------------------------------------------------------------------------------------------
@@ -673,7 +673,7 @@ export class Rules {
       const value = this.e.pairing(pairs, this.e.word(claim.word));
       refuse(!this.e.at(value, point).nonzero, "the bracket may be tangent");
       if (!alone) this.parameters(claim.minor, claim.covers, null);
-      else if (equations.some((r) => r.kind === "finite") && this.hasParameters) this.parameters(claim.minor, claim.covers, null);
+      else if (equations.some((r) => r.kind === "finite") && this.hasParameters) this.parameters(claim.minor, claim.covers, null, equations);
     } else refuse(true, "another rule");
     return {};
   }

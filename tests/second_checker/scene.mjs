@@ -367,11 +367,9 @@ function inVelocities(scene, tree) {
   let degree = 0;
   if (tree.has("dt")) {
     degree = null;
-    for (const k of [1, 2, 3]) {
-      // homogeneous of degree k: at dt = 2 it is 2^k times what it is at dt = 1, term by term
-      const at = (v) => substitute(tree, new Map([["dt", number(v)]]));
+    // homogeneous of degree k, by Euler's relation; a quotient of differentials is so of degree 0
+    for (const k of [0, 1, 2, 3, -1, -2]) {
       if (degree === null && isZero(sub(mul(symbol("dt"), tr.derivative(tree, "dt")), mul(number(k), tree)))) degree = k;
-      else if (degree === null && at(0) === tree) degree = 0;
     }
     refuse(degree === null, "differentials and finite terms are added together");
   }

@@ -258,7 +258,7 @@ class NearDrawing(BlockImplication):
 
     @cached_property
     def _relations(self) -> ImpliedRelations:
-        return ImpliedRelations(make_chart(self.block, self.setting), self.setting, self.setting.reference or {})
+        return ImpliedRelations(make_chart(self.block, self.setting), self.setting.reference or {})
 
     def follows(self, row: int, others: Sequence[int]) -> bool | None:
         """Return whether a relation that is dependent at the reference vanishes near it where the others do."""

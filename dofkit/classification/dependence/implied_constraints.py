@@ -11,12 +11,9 @@ from dofkit.base.deadline import limited, unless_late
 from dofkit.base.verdicts import About
 from dofkit.classification.dependence.implication import follows
 from dofkit.classification.dependence.minimal_sets import largest_redundant_set, minimal_set
-from dofkit.classification.freedom.branches import Outcome, solve
+from dofkit.classification.freedom.branches import AnsweredBlocks, Outcome, solve
 from dofkit.classification.freedom.preparation import all_of
-from dofkit.expressions import tree as ex
-from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Redundancies, undecided_dependence
-from dofkit.relations.linear_relations import linear, solve_linear
 from dofkit.relations.normal.pieces import Finite, Normal, Reduced
 from dofkit.relations.setting import Setting
 
@@ -158,21 +155,11 @@ def conflict(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome) -> 
     return Conflict(kept, all(sets.consistent(kept[:k] + kept[k + 1 :]) for k in range(len(kept))))
 
 
-def _linear(some: Sequence[Reduced]) -> list[Expr] | None:
-    """The relations where all are finite and linear, on one branch; else None."""
-    branches = [branch for r in some for normal in r.normals for branch in (normal.branches or ((),))]
-    pieces = [p for branch in branches for p in branch]
-    relations = [p.expr for p in pieces if isinstance(p, Finite) and linear(p.expr) is not None]
-    single = all(len(normal.branches) == 1 for r in some for normal in r.normals)
-    timed = any(ex.TIME in e.symbols for e in relations)
-    return relations if single and len(relations) == len(pieces) and len(relations) > 1 and not timed else None
-
-
 class ConstraintSets:
     """Sets of a system's constraints, with what was found of each."""
 
     def __init__(self, reduced: Sequence[Reduced], setting: Setting) -> None:
-        self.reduced, self.setting = reduced, setting
+        self.reduced, self.answered = reduced, AnsweredBlocks(setting)
         self._answers: dict[tuple[int, ...], tuple[bool | None, bool]] = {(): (True, True)}
 
     def inconsistent(self, numbers: Sequence[int]) -> bool:
@@ -191,10 +178,7 @@ class ConstraintSets:
         return self._answers.get(tuple(numbers)) == (True, True)
 
     def _looked(self, numbers: Sequence[int]) -> tuple[bool | None, bool]:
-        """(consistent, proved); linear ones alone are simply solved."""
-        straight = _linear([self.reduced[i] for i in numbers])
-        if straight is not None:
-            return not solve_linear(straight).contradictory, True
+        """(consistent, proved)."""
         some = [r if i in set(numbers) else Reduced(r.constraint, (), ()) for i, r in enumerate(self.reduced)]
-        result = solve(some, self.setting)
+        result = solve(some, self.answered.setting, self.answered)
         return result.consistent, all(a.exists or a.verdict == "proved" for a in result.answers)

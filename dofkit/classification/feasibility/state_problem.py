@@ -44,6 +44,7 @@ MAX_BOXED = 40
 #: Functions that are nowhere negative, and those that are above 0; bounded by 1 in size.
 _NOT_NEGATIVE, _POSITIVE, _BOUNDED = frozenset({"abs", "acos"}), frozenset({"exp", "cosh"}), ("sin", "cos", "tanh")
 
+ZERO = fmpq(0)
 Sense = Literal["=", ">=", ">"]
 
 
@@ -87,18 +88,13 @@ def contradictory(claims: Sequence[SignClaim], positive: frozenset[Expr]) -> boo
     order = sorted({u for c in facts for u in _terms(c.expr)} - {ex.ONE}, key=repr)
     if len(order) > max(MAX_TERMS, 2 * len(claims)):
         return False
-    place = {u: k for k, u in enumerate(order)}
-    return solution([_condition(c, place) for c in facts]) is False
+    return solution([linear_condition(c, order) for c in facts]) is False
 
 
-def _condition(claim: SignClaim, place: dict[Expr, int]) -> LinearCondition:
-    row, constant = [fmpq(0)] * len(place), fmpq(0)
-    for u, factor in _terms(claim.expr).items():
-        value = fmpq(factor.numerator, factor.denominator)
-        if u == ex.ONE:
-            constant = value
-        else:
-            row[place[u]] = value
+def linear_condition(claim: SignClaim, order: Sequence[Expr]) -> LinearCondition:
+    """Return a claim as a linear condition on the terms in ``order``."""
+    terms = _terms(claim.expr)
+    *row, constant = (fmpq(v.numerator, v.denominator) if (v := terms.get(u)) else ZERO for u in (*order, ex.ONE))
     return LinearCondition(tuple(row), constant, claim.sense)
 
 

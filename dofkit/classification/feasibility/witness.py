@@ -14,9 +14,9 @@ from flint import arb, fmpq, fmpq_mat
 
 from dofkit.base.deadline import check
 from dofkit.base.errors import NoValueError
-from dofkit.classification.feasibility.state_problem import StateProblem
+from dofkit.classification.feasibility.state_problem import SignClaim, StateProblem, linear_condition
 from dofkit.exact.boxes import WHOLE, BoxProgram, EmptyError, Interval, bounds
-from dofkit.exact.linear_inequalities import LinearCondition, solution
+from dofkit.exact.linear_inequalities import solution
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.points.balls import BallPoint, jacobian
 from dofkit.exact.points.real_search import RealPoint, RealSearch
@@ -114,22 +114,15 @@ def _linearly(problem: StateProblem, positive: frozenset[Expr]) -> Values | None
     open_only = not problem.rigidly
     if open_only and _linear_rank(rows, columns) < len(rows):
         return None
-    senses = ["=" for _ in problem.equations] + [">" if open_only else c.sense for c in problem.conditions]
-    conditions = [_linear_condition(e, sense, order) for e, sense in zip(problem.expressions, senses, strict=True)]
-    conditions += [_linear_condition(s, ">", order) for s in order if s in positive]
-    conditions += [_linear_condition(s - ex.num(v), "=", order) for s, v in problem.fixed.items() if s in order]
-    result = solution(conditions)
+    claims = [SignClaim(e, "=") for e in problem.equations]
+    claims += [SignClaim(c.expr, ">" if open_only or c.sense == ">" else ">=") for c in problem.conditions]
+    claims += [SignClaim(s, ">") for s in order if s in positive]
+    claims += [SignClaim(s - ex.num(v), "=") for s, v in problem.fixed.items() if s in order]
+    result = solution([linear_condition(claim, order) for claim in claims])
     if not result:
         return None
     at: dict[Expr, Expr | arb] = dict.fromkeys(problem.unknowns, ex.ZERO)
     return at | {s: ex.num(Fraction(int(v.p), int(v.q))) for s, v in zip(order, result, strict=True)}
-
-
-def _linear_condition(e: Expr, sense: str, order: Sequence[Expr]) -> LinearCondition:
-    terms = linear(e) or {}
-    row = [Fraction(terms.get(s, 0)) for s in (*order, ex.ONE)]
-    numbers = [fmpq(v.numerator, v.denominator) for v in row]
-    return LinearCondition(tuple(numbers[:-1]), numbers[-1], "=" if sense == "=" else ">" if sense == ">" else ">=")
 
 
 def _linear_rank(rows: Sequence[Expr], columns: Sequence[Expr]) -> int:

@@ -18,7 +18,7 @@ from dofkit.exact.matrices.sparse import echelon
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import pairing
 from dofkit.exact.ring.program import NoPointError
-from dofkit.exact.zero import BALLS, BOTH, doubt, independent_generators
+from dofkit.exact.zero import BALLS, BOTH, independent_generators
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.lie_algebra import SampledSpan, on_the_same_part, span_at
 from dofkit.integrability.nonlinear_velocities import first_order_beside_bends, set_velocity_freedom
@@ -165,7 +165,7 @@ def _prolonged(block: Block, setting: Setting, result: Answer, relations: Sequen
     extra = list(relations)
     for _ in range(MAX_ROUNDS):
         forms = codistribution(block, setting, extra)
-        result.doubt = result.doubt or doubt(forms.chart.ring)
+        result.doubt = result.doubt or not independent_generators(forms.chart.ring)
         points = _points(forms, setting)
         result.reasons = list(points.reasons)
         if not points.consistent or (not points.samples and points.real is None):
@@ -202,7 +202,7 @@ def _points(forms: Codistribution, setting: Setting) -> Variety:
         result = find(forms.chart, setting.pose)
         return result if alike else replace(result, about="component")
     undecided = Variety(None, None, "undecided", reasons=[IRREGULAR])
-    points = reference_points(forms, setting.reference) if "field" in forms.chart.engines else None
+    points = reference_points(forms, setting.reference) if "field" in forms.chart.setting.engines else None
     if points is None:
         return undecided
     if not points:

@@ -127,7 +127,7 @@ def _most(block: Block, a: Answer) -> int:
 
 def _bound(block: Block, a: Answer) -> int:
     """A bound of its freedom on any part: a relation takes at least one away, unless it may hold always unseen."""
-    bound = len(block.coordinates) - (a.doubt is None and bool(block.finite))
+    bound = len(block.coordinates) - (not a.doubt and bool(block.finite))
     return bound if a.most is None else min(bound, a.most)
 
 

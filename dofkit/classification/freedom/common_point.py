@@ -92,7 +92,7 @@ def _point_within(chart: Chart, conditions: Sequence[DomainCondition], dof: int 
 
     For finite equations alone the rank there has to agree with ``dof``: other components may be larger or smaller.
     """
-    search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.positive, chart.symbols)
+    search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.setting.positive, chart.symbols)
     points = []
     for seed in range(SEEDS):
         moment = {ex.TIME: (-1.0) ** seed * LATER ** (seed // 2)} if seed else {}

@@ -3,36 +3,30 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Hashable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
-from typing import NamedTuple
 
 from dofkit.base.deadline import OutOfTimeError, check
-from dofkit.base.verdicts import OPEN as UNDECIDED
-from dofkit.base.verdicts import Claim, Verdict, weakest
-from dofkit.base.wording import verb
+from dofkit.base.verdicts import Verdict, weakest
 from dofkit.classification.freedom.branches import AnsweredBlocks, Outcome, solve
 from dofkit.classification.labels.companions import Companionship
 from dofkit.classification.labels.entry import Evidence, LabelledRow, entry, label_in_system, unfinished
-from dofkit.classification.labels.reasons import Others, in_words
+from dofkit.classification.labels.reasons import EntryDependence, Others
 from dofkit.exact.matrices.sparse import rank_of_rows
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import TIME
 from dofkit.integrability.nonlinear_velocities import label_modulo_others
 from dofkit.integrability.traits import Traits, traits
-from dofkit.relations.answer import GAP, Answer, Redundancies
+from dofkit.relations.answer import Answer, Redundancies
 from dofkit.relations.blocks import Block, Row, coordinates_of
 from dofkit.relations.normal.pieces import Clause, JointEquation, Nonlinear, Pfaffian, Reduced, piece_shape
 from dofkit.relations.setting import Setting
-from dofkit.report import ConstraintEntry, FieldVerdict, IntegrablePart
+from dofkit.report import ConstraintEntry, IntegrablePart
 
-#: What is said of dependence that is open, or not on what was written before.
+#: What is said of dependence that is open.
 OPEN = "Whether it is implied by the others was not decided."
 UNCOUNTED = "The number of its equations that are independent of the preceding ones was not decided."
-REDUNDANT = "It is redundant: the other constraints, including those written after it, allow the same motions."
-#: What is added where this is stated for one component of the configuration space.
-ON_COMPONENT = "The claim is about the component of the configuration space that contains the report's witness."
 
 
 def entries_of(
@@ -46,27 +40,24 @@ def entries_of(
 
     ``company``: what a differential constraint is together with others.
     """
-    names = [r.constraint.name for r in reduced]
-    dependence = _dependence(dependent, outcome)
     answer = _labelled_rows(len(reduced), outcome, setting)
+    dependences = _dependences([r.constraint.name for r in reduced], dependent, outcome, answer)
     entries, by_kind = list[ConstraintEntry](), dict[Hashable, ConstraintEntry]()
     traits_of, consistent = partial(_traits_of, setting), outcome.consistent
-    for i, r in enumerate(reduced):
-        number = dependence.independent.get(i, None if answer[i] else 0)
-        circuit = None if i not in dependence.circuits else [names[j] for j in dependence.circuits[i]]
+    for i, (r, dependence) in enumerate(zip(reduced, dependences, strict=True)):
         try:
             check()
-            copied = i in outcome.copies
-            likeness = None if dependence.says_more_of(i) else _likeness(r, answer[i], setting)
-            kind = None if likeness is None else (likeness, number, copied, i in dependence.following)
+            likeness = None if dependence.is_told else _likeness(r, answer[i], setting)
+            kind = None if likeness is None else (likeness, dependence)
             if kind in by_kind:
                 named = {"name": r.constraint.name, "text": r.constraint.text}
                 entries.append(by_kind[kind].model_copy(update=named))
                 continue
             companions_of = partial(_with_others, i, answer[i], company)
             alone = by_itself(r, answer[i], company.answered)
-            evidence = Evidence(answer[i], alone, number, circuit, traits_of, companions_of, copied)
-            entries.append(_with_dependence(entry(r, evidence, setting, consistent), i, r, dependence))
+            entries.append(
+                entry(r, Evidence(answer[i], alone, dependence, traits_of, companions_of), setting, consistent)
+            )
             if kind is not None and _is_nameless(entries[-1]):
                 by_kind[kind] = entries[-1]
         except OutOfTimeError as error:
@@ -123,59 +114,29 @@ def _traits_of(setting: Setting, piece: Clause) -> Traits:
     return traits(piece, setting.positive, setting.engines)
 
 
-class _Dependence(NamedTuple):
-    """What is known of all constraints, by number: independent equations, circuits that were written before, what can
-    go and how surely, what is open, which equations follow, of which constraints that was seen in numbers, and which
-    can go on the component of the witness.
-    """
-
-    independent: Mapping[int, int]
-    circuits: Mapping[int, list[int]]
-    gone: Mapping[int, Verdict]
-    open: Mapping[int, str]
-    following: Mapping[int, set[int]]
-    seen: frozenset[int]
-    on_component: frozenset[int]
-
-    def says_more_of(self, i: int) -> bool:
-        """Return whether more is stated of a constraint than how many of its equations are independent."""
-        return i in self.circuits or i in self.gone or i in self.open or i in self.seen or bool(self.following.get(i))
-
-
-def _dependence(dependent: Sequence[Redundancies], outcome: Outcome) -> _Dependence:
-    """What was found part by part, put together."""
+def _dependences(
+    names: Sequence[str], dependent: Sequence[Redundancies], outcome: Outcome, labelled: Sequence[Sequence[LabelledRow]]
+) -> Iterator[EntryDependence]:
+    """Yield what was found of every constraint, part by part, put together."""
     independent: Counter[int] = Counter()
+    following: dict[int, frozenset[int]] = {}
     for result in dependent:
         independent.update(result.independent)
+        following |= {i: following.get(i, frozenset()).union(more) for i, more in result.equations.items()}
     uncounted = {i for result in dependent for i in result.uncounted}
-    counted = {i for result in dependent for i in result.independent} - _unmeasured(outcome) - uncounted
-    return _Dependence(
-        {i: independent[i] for i in counted},
-        {i: c for result in dependent for i, c in result.circuits.items() if all(j < i for j in c)},
-        {i: result.verdict for result in dependent for i in result.redundant},
-        dict.fromkeys(uncounted, UNCOUNTED) | {i: OPEN for result in dependent for i in result.undecided},
-        _following(dependent),
-        frozenset(i for result in dependent for i in result.seen),
-        frozenset(i for result in dependent if result.about == "component" for i in result.redundant),
-    )
-
-
-def _with_dependence(made: ConstraintEntry, i: int, r: Reduced, dependence: _Dependence) -> ConstraintEntry:
-    """An entry with what it says of dependence, where it can be left out or that is open."""
-    if i in dependence.gone:
-        reason = made.reason if i in dependence.circuits else f"{made.reason} {REDUNDANT}"
-        reason = f"{reason} {ON_COMPONENT}" if i in dependence.on_component else reason
-        made = made.model_copy(update={"verdict": weakest(made.verdict, dependence.gone[i]), "reason": reason})
-    if i in dependence.seen and made.verdict != "undecided":
-        claim = FieldVerdict.of(Claim("numeric", "leaving out", gap=GAP, about="reference"))
-        sure = {"verdict": "numeric", "verdicts": {**made.verdicts, "independent": claim}}
-        made = made.model_copy(update=sure)
-    if i not in dependence.open:
-        return _with_equations(made, r, dependence.following.get(i))
-    reason = f"{made.reason} {dependence.open[i]}"
-    verdicts = {**made.verdicts, "independent": FieldVerdict.of(UNDECIDED)}
-    changed = {"verdict": "undecided", "verdicts": verdicts, "independent": None, "reason": reason}
-    return made.model_copy(update=changed)
+    counted = independent.keys() - _unmeasured(outcome) - uncounted
+    circuits = {i: c for result in dependent for i, c in result.circuits.items() if all(j < i for j in c)}
+    redundant = {i: result.verdict for result in dependent for i in result.redundant}
+    undecided = dict.fromkeys(uncounted, UNCOUNTED) | {i: OPEN for result in dependent for i in result.undecided}
+    seen = {i for result in dependent for i in result.seen}
+    on_component = {i for result in dependent if result.about == "component" for i in result.redundant}
+    for i, rows in enumerate(labelled):
+        number = independent[i] if i in counted else None if rows else 0
+        circuit = [names[j] for j in circuits[i]] if i in circuits else None
+        yield EntryDependence(
+            number, circuit, redundant.get(i), undecided.get(i, ""), following.get(i),
+            i in seen, i in on_component, i in outcome.copies,
+        )  # fmt: skip
 
 
 def labels_in_system(
@@ -186,29 +147,6 @@ def labels_in_system(
     if not outcome.consistent:
         return [(None, "undecided")] * len(reduced)
     return [label_in_system(rows, r.inequalities, (), ()) for rows, r in zip(answer, reduced, strict=True)]
-
-
-def _following(dependent: Sequence[Redundancies]) -> dict[int, set[int]]:
-    """The scalar equations of each constraint that follow from those before them, by their numbers."""
-    following: dict[int, set[int]] = {}
-    for result in dependent:
-        for i, equations in result.equations.items():
-            following.setdefault(i, set()).update(equations)
-    return following
-
-
-def _with_equations(made: ConstraintEntry, r: Reduced, following: set[int] | None) -> ConstraintEntry:
-    """An entry with its redundant equations by name, where their number is what was found before."""
-    if following is None or made.independent is None or len(following) != made.equations - made.independent:
-        return made
-    written = [relation for relation in r.constraint.relations if relation.sense == "="] if following else []
-    names = [in_words(written[k], r.constraint.text) for k in sorted(following)]
-    reason = made.reason
-    if names and made.equations > 1:
-        few = f"{len(names)} of its {made.equations}" if made.independent else f"All {made.equations} of its"
-        number = len(names) if made.independent else made.equations
-        reason += f" {few} equations {verb(number)} implied by the preceding ones: {'; '.join(names)}."
-    return made.model_copy(update={"redundant_equations": names, "reason": reason})
 
 
 def _unmeasured(outcome: Outcome) -> set[int]:
@@ -260,7 +198,7 @@ def by_itself(r: Reduced, labelled: Sequence[LabelledRow], answered: AnsweredBlo
         bent = next((t.answer for t in labelled if isinstance(t.row.piece, Nonlinear) and t.answer.curved), None)
         if bent is not None:
             return bent
-    elif not any(isinstance(t.row.piece, Pfaffian) for t in labelled):
+    elif not any(isinstance(t.row.piece, Pfaffian) for t in labelled) and all(len(n.branches) < 2 for n in r.normals):
         return None
     elif len(labelled) == 1 and labelled[0].label is not None and labelled[0].label.holonomic is False:
         return Answer(labels={0: labelled[0].label})

@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 from dofkit.base.verdicts import OPEN, VERDICTS, Claim, Verdict, weakest
 from dofkit.classification.labels.reasons import (
+    EntryDependence,
     EntryLabels,
     EntryTraits,
     Ground,
@@ -24,7 +25,7 @@ from dofkit.classification.labels.reasons import (
 from dofkit.classification.undecided import open_entry
 from dofkit.exact.zero import BOTH
 from dofkit.integrability.traits import Integrability, Traits, integrability
-from dofkit.relations.answer import Answer, HolonomyLabel
+from dofkit.relations.answer import GAP, Answer, HolonomyLabel
 from dofkit.relations.blocks import Block, Row
 from dofkit.relations.normal.pieces import Clause, Finite, Nonlinear, Normal, Pfaffian, Reduced
 from dofkit.relations.setting import Setting
@@ -60,23 +61,20 @@ def form_of(piece: Clause) -> Form:
 class Evidence:
     """What was found of one constraint: its rows as they were labelled, and its rows by themselves (None: finite).
 
-    ``independent`` equations and ``circuit``, None where unknown or none; ``traits_of`` gives what a piece carries by
-    itself, ``companions_of`` what the other constraints do for a form that is holonomic in the system, or is not;
-    ``copied``: an earlier constraint says the same.
+    ``traits_of`` gives what a piece carries by itself, ``companions_of`` what the other constraints do for a form that
+    is holonomic in the system, or is not.
     """
 
     rows: Sequence[LabelledRow]
     by_itself: Answer | None
-    independent: int | None
-    circuit: list[str] | None
+    dependence: EntryDependence
     traits_of: Callable[[Clause], Traits]
     companions_of: Callable[[bool], Others]
-    copied: bool = False
 
 
 def entry(reduced: Reduced, evidence: Evidence, setting: Setting, consistent: bool | None) -> ConstraintEntry:
     """Everything that is told of one constraint."""
-    constraint, normals = reduced.constraint, reduced.normals
+    constraint, normals, dependence = reduced.constraint, reduced.normals, evidence.dependence
     pieces: list[Clause] = [p for normal in normals for p in normal.pieces] + list(reduced.inequalities)
     form: Form = max((form_of(p) for p in pieces), key=FORMS.index, default="finite")
     forms = _integrable_forms(normals, evidence.rows)
@@ -84,13 +82,15 @@ def entry(reduced: Reduced, evidence: Evidence, setting: Setting, consistent: bo
     labels = _labels_of(reduced, evidence, form, proofs, forms, consistent)
     integral, others = _integral_of(form, labels, proofs, evidence, bool(consistent))
     of_pieces = _traits_of(pieces, normals, evidence)
-    branches = branches_of_time(reduced, bool(consistent), setting.positive)
+    of_pieces += branches_of_time(reduced, bool(consistent), setting.positive)
     single = evidence.rows[0] if len(evidence.rows) == len(pieces) == 1 else None
     timed = timed_in_system(pieces[0], single.block, single.answer, others, setting) if single else None
-    every = _of_every_form(labels, evidence.rows, normals)
-    traits = traits_together([*of_pieces, *branches], form, every, timed)
-    sentences = (reason_of(form, labels, proofs, evidence.circuit, others), reason_of_time(traits))
+    traits = traits_together(of_pieces, form, _of_every_form(labels, evidence.rows, normals), timed)
+    implied = dependence.implied(reduced)
+    sentences = [reason_of(form, labels, proofs, dependence.circuit, others), reason_of_time(traits)]
+    sentences += dependence.sentences(implied, reduced.equations)
     claims = _claims(form, labels, traits, integral, evidence, bool(proofs) and all(p.proved for p in proofs))
+    sure = weakest(*(c.verdict for c in claims.values()), *(t.answer.verdict for t in evidence.rows))
     return ConstraintEntry(
         name=constraint.name,
         type=constraint.type,
@@ -104,10 +104,11 @@ def entry(reduced: Reduced, evidence: Evidence, setting: Setting, consistent: bo
         exact=traits.exact,
         integrating_factor=joined([p.factor for p in proofs]),
         integral=integral,
-        circuit=evidence.circuit,
+        circuit=dependence.circuit,
         equations=reduced.equations,
-        independent=None if evidence.independent is None else min(evidence.independent, reduced.equations),
-        verdict=weakest(*(c.verdict for c in claims.values()), *(t.answer.verdict for t in evidence.rows)),
+        independent=dependence.of(reduced.equations),
+        redundant_equations=implied,
+        verdict=weakest(sure, dependence.redundant or "proved"),
         verdicts={name: FieldVerdict.of(claim) for name, claim in claims.items()},
         reason="".join(sentences),
     )
@@ -208,11 +209,16 @@ def _claims(
         claims[name] = OPEN if value is None else ground.claim(traits.verdicts[name], argument, False)
     if traits.by is not None and traits.scleronomic is not None:
         claims["scleronomic"] = ground.claim(traits.verdicts["scleronomic"], claims[traits.by].argument or "identity")
-    if evidence.independent is not None:
-        all_needed = evidence.circuit is None and evidence.independent >= len(evidence.rows)
-        claims["independent"] = claim_of_dependence(ground, all_needed, evidence.copied)
-    if evidence.circuit is not None:
+    dependence = evidence.dependence
+    if dependence.independent is not None:
+        all_needed = dependence.circuit is None and dependence.independent >= len(evidence.rows)
+        claims["independent"] = claim_of_dependence(ground, all_needed, dependence.copied)
+    if dependence.circuit is not None:
         claims["circuit"] = claims.get("independent", OPEN)
+    if dependence.open:
+        claims["independent"] = OPEN
+    elif dependence.seen:
+        claims["independent"] = Claim("numeric", "leaving out", gap=GAP, about="reference")
     return claims
 
 

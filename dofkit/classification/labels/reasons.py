@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from dofkit.base.verdicts import OPEN, ArgumentKey, Claim, Verdict, least, together, weakest
+from dofkit.base.wording import verb
 from dofkit.expressions import tree as ex
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
@@ -174,6 +175,59 @@ def in_words(relation: Relation, otherwise: str) -> str:
 def _is_specific(vector: tuple[Expr, ...]) -> bool:
     """Return whether nothing is in general position."""
     return not any(str(s.args[1]).startswith("_") for part in vector for s in part.symbols)
+
+
+REDUNDANT = " It is redundant: the other constraints, including those written after it, allow the same motions."
+ON_COMPONENT = " The claim is about the component of the configuration space that contains the report's witness."
+
+
+class EntryDependence(NamedTuple):
+    """What is known of one constraint beside those before it, or all others.
+
+    ``independent`` equations, None where unknown; ``circuit``: names; ``redundant``: how surely it can be left out,
+    None where it cannot; ``open``: what is undecided; ``following``: its equations that follow, by their numbers, and
+    ``seen``: that was seen in numbers; ``on_component``: it can go on that of the witness; ``copied``: an earlier
+    constraint says the same.
+    """
+
+    independent: int | None
+    circuit: list[str] | None
+    redundant: Verdict | None
+    open: str
+    following: frozenset[int] | None
+    seen: bool
+    on_component: bool
+    copied: bool
+
+    @property
+    def is_told(self) -> bool:
+        """Return whether more is stated than how many equations are independent."""
+        return bool(self.circuit is not None or self.redundant or self.open or self.seen or self.following)
+
+    def of(self, equations: int) -> int | None:
+        """Return how many of so many equations are independent; None where that is open."""
+        return None if self.independent is None or self.open else min(self.independent, equations)
+
+    def implied(self, reduced: Reduced) -> list[str] | None:
+        """Return the equations that follow, in words, where they are as many as are not independent."""
+        independent = self.of(reduced.equations)
+        if self.following is None or independent is None or len(self.following) != reduced.equations - independent:
+            return None
+        written = [r for r in reduced.constraint.relations if r.sense == "="] if self.following else []
+        return [in_words(written[k], reduced.constraint.text) for k in sorted(self.following)]
+
+    def sentences(self, implied: Sequence[str] | None, equations: int) -> Iterator[str]:
+        """Yield that the constraint can be left out, which equations are implied, or what is undecided."""
+        if self.redundant and self.circuit is None:
+            yield REDUNDANT
+        if self.redundant and self.on_component:
+            yield ON_COMPONENT
+        if self.open:
+            yield f" {self.open}"
+        elif implied and equations > 1:
+            whole = len(implied) == equations
+            few = f"All {equations} of its" if whole else f"{len(implied)} of its {equations}"
+            yield f" {few} equations {verb(len(implied))} implied by the preceding ones: {'; '.join(implied)}."
 
 
 class EntryTraits(NamedTuple):

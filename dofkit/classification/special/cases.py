@@ -51,7 +51,7 @@ def points_of(chart: Chart) -> tuple[FieldPoint, BallPoint, bool] | None:
     drawn = solver.draw(1)
     if drawn is None or not on_variety(chart, drawn):
         return None
-    search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.positive)
+    search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.setting.positive)
     real = search.search(starts=STARTS, steps=STEPS)
     if real is None or not real.certified or not real.consistent:
         return None
@@ -257,7 +257,10 @@ class SpecialLoci:
 
     def _rows_on(self, locus: Locus) -> RowsOnLocus | None:
         """Return the rows on a locus; None where no such real configuration is found, or the engines disagree."""
-        remaining = [g for g in self.candidates.relations if not self.candidates.zeros.holds_on(locus, g)]
+        zeros, relations = self.candidates.zeros, self.candidates.relations
+        if not all(zeros.branches(locus.on(g)) for g in relations):
+            return None
+        remaining = [g for g in relations if not zeros.holds_on(locus, g)]
         if len(locus.equations) + len(remaining) > len(self.block.coordinates):
             return None
         with suppress(*_UNFINISHED):

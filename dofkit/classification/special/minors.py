@@ -26,13 +26,18 @@ from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Block
 from dofkit.relations.linear_relations import explicit_relations, number_coefficients
 from dofkit.relations.normal.pieces import Finite, Pfaffian
+from dofkit.relations.normal.semidefinite import Signs, sum_of_even
 from dofkit.relations.normal.zero_set import zero_set
 from dofkit.relations.setting import Setting
 
-#: Minors of which there may be so many, their size, and the terms of what they are expanded from.
-MAX_MINORS, MAX_SIZE, MAX_TERMS = 20, 4, 60
+#: Minors of which there may be so many, their size, and the terms of entries: of larger minors, of those up to 2 x 2.
+MAX_MINORS, MAX_SIZE, MAX_TERMS, MAX_SHORT = 20, 4, 12, 60
 #: Sets of equations that are followed before the search is given up; terms of an equation that a person can read.
 MAX_STEPS, MAX_READ = 120, 4
+#: Terms of the shortest minor, and of the longest, past which no zeros are looked for.
+MAX_FACTORED, MAX_LONG = 48, 160
+#: Terms of a polynomial of which all signs are looked at.
+MAX_EVEN = 12
 
 
 @dataclass(frozen=True)
@@ -138,15 +143,18 @@ class RowPolynomials:
         ring = Ring([*chain(*rows), *chain(*(curl.values() for curl in curls))], setting.positive)
         nodes = {e: ring.node(e) for e in chain(*rows, *(curl.values() for curl in curls))}
         self.canon = Canon(ring)
+        self.signs = Signs(self.canon, setting.positive)
+        self.moving = {i for i, e in enumerate(ring.var_expr) if not self.zeros.variables.isdisjoint(e.symbols)}
         self.rows = [self._cleared(row, nodes) for row in rows]
-        self.curls = [dict(zip(curl, self._cleared([*curl.values()], nodes), strict=True)) for curl in curls]
+        self._curls, self._nodes = curls, nodes
         self.pivots: list[tuple[int, int]] = []
         while (pivot := self._pivot()) is not None:
             self._eliminate(*pivot)
             self.pivots.append(pivot)
 
     def _cleared(self, row: Sequence[Expr], nodes: Mapping[Expr, int]) -> list[Poly]:
-        return cleared(self.canon, [lowest_terms(*self.canon.quotient(nodes[e])) for e in row])[0]
+        quotients = (self.canon.quotient(nodes[e]) for e in row)
+        return cleared(self.canon, [q if q[1].is_constant() else lowest_terms(*q) for q in quotients])[0]
 
     def _pivot(self) -> tuple[int, int] | None:
         """Return the place of a coefficient of a coordinate that never vanishes; a number where there is one."""
@@ -154,15 +162,22 @@ class RowPolynomials:
         coordinates = [c for c, s in enumerate(self.symbols) if s != ex.TIME and c not in columns]
         open_ = [(r, c) for r, row in enumerate(self.rows) if r not in done for c in coordinates if row[c] != 0]
         numbers = ((r, c) for r, c in open_ if self.rows[r][c].is_constant())
-        never = ((r, c) for r, c in open_ if not self.zeros.branches(self.canon.to_expr(self.rows[r][c])))
+        never = ((r, c) for r, c in open_ if self._never_vanishes(self.rows[r][c]))
         return next(chain(numbers, never), None)
+
+    def _never_vanishes(self, poly: Poly) -> bool:
+        """Return whether a polynomial is a generic constant, or has terms of one sign of which one is not 0."""
+        if self.moving.isdisjoint(self.canon.generators_in(poly)):
+            return True
+        even = sum_of_even(poly, self.signs) if len(poly) <= MAX_EVEN else None
+        return even is not None and any(not zeros for zeros in even)
 
     def _eliminate(self, r: int, c: int) -> None:
         check()
         pivot = self.rows[r]
         for k, row in enumerate(self.rows):
             if k != r and row[c] != 0:
-                if max(map(len, row)) > MAX_TERMS:
+                if max(map(len, row)) > MAX_SHORT:
                     raise TooLargeError
                 pairs = zip(row, pivot, strict=True)
                 self.rows[k] = [self.canon.reduce(pivot[c] * a - row[c] * b) for a, b in pairs]
@@ -181,13 +196,14 @@ class RowPolynomials:
     def curvature(self) -> list[list[Poly]]:
         """Return d(omega)(u, v) of every form, for all pairs of vectors that span the kernel where all have a pivot."""
         result = []
-        for curl in self.curls:
-            values = []
-            for u, v in combinations(map(self._kernel_vector, self.free), 2) if curl else ():
+        vectors = [self._kernel_vector(column) for column in self.free]
+        for curl in self._curls:
+            values, coefficients = [], self._cleared([*curl.values()], self._nodes)
+            for u, v in combinations(vectors, 2) if curl else ():
                 check()
                 total = self.canon.unit * 0
-                for (i, j), coefficient in curl.items():
-                    if max(map(len, (*u, *v))) * len(coefficient) > MAX_TERMS:
+                for (i, j), coefficient in zip(curl, coefficients, strict=True):
+                    if max(map(len, (*u, *v))) * len(coefficient) > MAX_SHORT:
                         raise TooLargeError
                     total = total + coefficient * (u[i] * v[j] - u[j] * v[i])
                 values.append(self.canon.reduce(total))
@@ -236,23 +252,33 @@ def candidates(block: Block, hidden: Sequence[Expr], setting: Setting, rank: int
 
 
 def _loci(rows: RowPolynomials, matrix: Callable[[], list[list[Poly]]], size: int) -> list[Locus]:
-    """Return the loci on which all minors of a size vanish; none where they are too large or have no value."""
+    """Return the loci on which all minors of a size vanish; none where they are too large or have no value.
+
+    On each a factor of the shortest minor vanishes, which nobody could read if it is long.
+    """
     try:
         minors = raising_no_value(lambda: list(_minors(rows.canon, matrix(), size)))()
-        return rows.zeros.loci(minors) if minors else []
+        shortest = min(minors, key=len, default=None)
+        if shortest is None or len(shortest) > MAX_FACTORED or max(map(len, minors)) > MAX_LONG:
+            return []
+        if all(len(factor) > MAX_READ for factor, _ in rows.canon.factors(shortest)):
+            return []
+        return rows.zeros.loci([rows.canon.to_expr(minor) for minor in minors])
     except NoValueError:
         return []
 
 
-def _minors(canon: Canon, matrix: list[list[Poly]], size: int) -> Iterator[Expr]:
+def _minors(canon: Canon, matrix: list[list[Poly]], size: int) -> Iterator[Poly]:
     """Yield the minors of a size, other than 0. Raises TooLargeError."""
     columns = range(len(matrix[0]) if matrix else 0)
     longest = max((len(entry) for row in matrix for entry in row), default=0)
-    if comb(len(matrix), size) * comb(len(columns), size) > MAX_MINORS or size > MAX_SIZE or longest > MAX_TERMS:
+    if comb(len(matrix), size) * comb(len(columns), size) > MAX_MINORS or size > MAX_SIZE:
+        raise TooLargeError
+    if longest > (MAX_SHORT if size < 3 else MAX_TERMS):
         raise TooLargeError
     for some in combinations(matrix, size):
         for chosen in combinations(columns, size):
             check()
             minor = determinant(canon, [[row[c] for c in chosen] for row in some])
             if minor != 0:
-                yield canon.to_expr(minor)
+                yield minor

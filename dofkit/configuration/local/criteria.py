@@ -204,7 +204,7 @@ def local_at(
     """
     try:
         field, over_balls = _manifolds(chart, frame_at(chart, point), point, ball)
-        return local_dimension(field, over_balls, rigid, time, drawn and "balls" in chart.engines)
+        return local_dimension(field, over_balls, rigid, time, drawn and "balls" in chart.setting.engines)
     except NoValueError:
         return LocalDimension(
             None, "undecided", "the equations could not be evaluated along a curve through this configuration"

@@ -32,7 +32,6 @@ from dofkit.configuration.measured.equations import (
 from dofkit.exact.matrices.certified import dependency_pattern, greedy_pivots
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Chart
-from dofkit.relations.setting import Setting
 
 #: From so many sizes from the origin singular values are smaller by the square of that, since turns are about it; from
 #: `FAR_AWAY` sizes on no motion is followed.
@@ -73,12 +72,12 @@ class MeasuredFreedom:
     bound: int | None = None
 
 
-def measured_freedom(chart: Chart, pose: Mapping[Expr, Expr], setting: Setting) -> MeasuredFreedom | None:
+def measured_freedom(chart: Chart, pose: Mapping[Expr, Expr]) -> MeasuredFreedom | None:
     """Return the freedom at a measured pose, or None if something has no value there."""
     at = float_point(chart, pose)
     if at is None:
         return None
-    freedom = _within_tolerance(chart, at, setting)
+    freedom = _within_tolerance(chart, at)
     if freedom.reason not in (OPEN, FOLLOWED) or chart.time is not None:
         return freedom
     exact = at_reference(chart, pose)
@@ -100,8 +99,8 @@ def _compared_with_exact(freedom: MeasuredFreedom, exact: AtReference) -> Measur
     return replace(freedom, dimension=dimension, reason=AS_WRITTEN.format(exact.local.reason))
 
 
-def _within_tolerance(chart: Chart, at: Mapping[Expr, float], setting: Setting) -> MeasuredFreedom:
-    equations, tolerance = ScaledEquations(chart, setting, at), float(setting.tolerance or 0)
+def _within_tolerance(chart: Chart, at: Mapping[Expr, float]) -> MeasuredFreedom:
+    equations, tolerance = ScaledEquations(chart, at), float(chart.setting.tolerance or 0)
     n = chart.coordinates
     if not chart.nodes:
         return MeasuredFreedom(n, n, [], (), float("inf"), "")

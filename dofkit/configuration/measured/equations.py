@@ -42,8 +42,8 @@ class ScaledEquations:
     last, in such a unit that no equation changes faster with it than with a shift.
     """
 
-    def __init__(self, chart: Chart, setting: Setting, at: Point) -> None:
-        self.chart = chart
+    def __init__(self, chart: Chart, at: Point) -> None:
+        self.chart, setting = chart, chart.setting
         self.symbols = chart.symbols
         self.coordinates = chart.coordinates
         self._arms = _Arms(setting, chart.symbols)
@@ -281,8 +281,9 @@ def float_point(chart: Chart, pose: Mapping[Expr, Expr]) -> dict[Expr, float] | 
     return None if ball is None else {s: float(v.mid()) for s, v in ball.symbols.items()}
 
 
-def pose_of_block(chart: Chart, setting: Setting) -> Mapping[Expr, Expr] | None:
+def pose_of_block(chart: Chart) -> Mapping[Expr, Expr] | None:
     """Return the reference configuration, else the given positions if the equations mention no others, else None."""
+    setting = chart.setting
     if setting.reference is not None:
         return setting.reference
     mentioned = {v.key for v in chart.ring.vars if v.kind == "symbol"} - {ex.TIME}

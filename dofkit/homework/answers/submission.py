@@ -19,9 +19,9 @@ from typing import Any
 
 from dofkit.base.documents import Document, read_document
 from dofkit.base.errors import Fault
+from dofkit.base.yaml_events import LARGEST_EXPONENT
 from dofkit.homework.answers.notation import backslashes_kept
 from dofkit.homework.judgement import Given
-from dofkit.scene.fields import LARGEST_EXPONENT
 
 #: A longer text of submissions is refused.
 MOST_BYTES = 8_000_000

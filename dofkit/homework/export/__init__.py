@@ -17,10 +17,13 @@ from dofkit.homework.formats.base import text
 from dofkit.homework.formats.gradescope import document, visibility_of
 from dofkit.homework.formats.review import TABLE, RunReview
 from dofkit.homework.handout.portable import standing_alone
+from dofkit.homework.variants import assigned
 from dofkit.scene.catalog import catalog_folder
 
 SCRIPTS = Path(__file__).parent / "scripts"
 _EXECUTABLE = frozenset({"setup.sh", "run_autograder"})
+#: Folders that no autograder needs: the site, which only a clone has, may hold what its bench is built from.
+_LEFT_OUT = (".", "__pycache__", "site")
 _TIME = (1980, 1, 1, 0, 0, 0)
 
 
@@ -33,10 +36,11 @@ def export_gradescope(assignment: str | os.PathLike[str], out: Path, reviewed: P
 
     It holds ``setup.sh`` and ``run_autograder``, the assignment with its scenes in place, the result that stands until
     there is another, ``reviewed``, the points that a person gave, dofkit, and the list of what dofkit requires. Raises
-    AssignmentError for what is no assignment, ReviewError for what is no such table, ExportError if the zip cannot be
-    written.
+    AssignmentError, NobodysVariantError where it varies and nobody has a variant, ReviewError, and ExportError if the
+    zip cannot be written.
     """
     prepared = load_assignment(assignment)
+    assigned(prepared)
     RunReview.read(prepared, reviewed, None)
     files = {path.name: path.read_bytes() for path in sorted(SCRIPTS.iterdir()) if path.is_file()}
     files["assignment.json"] = json.dumps(standing_alone(prepared, Path())).encode()
@@ -57,7 +61,7 @@ def export_gradescope(assignment: str | os.PathLike[str], out: Path, reviewed: P
 def _below(folder: Traversable, path: str) -> Iterator[tuple[str, bytes]]:
     """Yield the files of an installed folder with their paths in the zip."""
     for entry in sorted(folder.iterdir(), key=lambda entry: entry.name):
-        if entry.is_dir() and not entry.name.startswith((".", "__pycache__")):
+        if entry.is_dir() and not entry.name.startswith(_LEFT_OUT):
             yield from _below(entry, f"{path}/{entry.name}")
         elif entry.is_file():
             yield f"{path}/{entry.name}", entry.read_bytes()

@@ -86,11 +86,7 @@ def write_class(made: ClassSheets, form: str, draw: Draw, out: Path) -> None:
 
 
 def sheets_of(prepared: Prepared, roster: Roster) -> Iterator[tuple[str, Prepared]]:
-    """Yield everyone in a roster with their sheet. Raises VaryError where it varies, and nobody has a variant yet."""
-    if prepared.combinations and prepared.assignment.variants is None:
-        raise VaryError(
-            "the sheet varies: `dofkit assignment vary` picks a variant for everyone, and writes the sheets"
-        )
+    """Yield everyone in a roster with their sheet. Raises NobodysVariantError for one without a variant."""
     for member in roster.members:
         yield member.student, sheet_of(prepared, (member.student, *member.called()))
 

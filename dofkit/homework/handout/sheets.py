@@ -81,8 +81,10 @@ def write_markdown(prepared: Prepared, draw: Draw, out: Path, whose: str | None 
         target.write_bytes(figure.data)
 
 
-def remarks(prepared: Prepared) -> Iterator[str]:
-    """Yield what a lecturer should know about a sheet before it is handed out."""
+def remarks(prepared: Prepared, is_preview: bool = False) -> Iterator[str]:
+    """Yield what a lecturer should know about a sheet before it is handed out; ``is_preview``: it is nobody's."""
+    if prepared.combinations and is_preview:
+        yield "it varies: this is a preview with the first value of each name"
     for problem in prepared.assignment.problems:
         for text in unset_formulas(problem.text or ""):
             yield f"problem '{problem.id}': the formula ${text}$ cannot be typeset, and is shown as typed"

@@ -10,6 +10,7 @@ from itertools import combinations
 
 from flint import arb
 
+from dofkit.checker.dimension_rules import free_coordinates
 from dofkit.checker.evidence import HIGHEST_ORDER, along_curve
 from dofkit.checker.geometry import determinant, dot
 from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, number, power, symbol, times
@@ -160,18 +161,20 @@ def _gram(room: Room, forms: list[str]) -> Told | None:
     for q, column in zip(coordinates, zip(*rows, strict=True), strict=True):
         shared = [{*operands(entry, "product")} for entry in column if entry != ZERO]
         letters = [symbol(name) for name, sign in room.problem.world.signs.items() if sign == "positive"]
-        common = [power(letter, number(-2)) for letter in letters if shared and all(letter in one for one in shared)]
+        common = [
+            power(letter, number(-2)) for letter in letters if shared and all(letter in factors for factors in shared)
+        ]
         scales |= {q: times(*common)} if common else {}
     scaled = [[times(scales.get(q, ONE), slope) for q, slope in zip(coordinates, row, strict=True)] for row in rows]
     try:
         value = evidence.ring.read(determinant([[dot(row, other) for other in scaled] for row in rows]))
     except CheckError:
         return None
-    parts = [evidence.ring.text_of(part) for part in value]
-    told = f"({parts[0]})/({parts[1]})"
-    if None in parts or not evidence.is_nowhere_zero(evidence.text(told), True):
+    texts = [evidence.ring.text_of(part) for part in value]
+    determinant_text = f"({texts[0]})/({texts[1]})"
+    if None in texts or not evidence.is_nowhere_zero(evidence.text(determinant_text), True):
         return None
-    return {"forms": forms, "scales": {q: text_of(tree) for q, tree in scales.items()}, "value": told}
+    return {"forms": forms, "scales": {q: text_of(tree) for q, tree in scales.items()}, "value": determinant_text}
 
 
 def _needed(standing: Standing, names: Sequence[str]) -> list[str]:
@@ -265,16 +268,10 @@ def _split(
     room: Room, order: Order, remaining: list[str], own_symbols_of: dict[str, str]
 ) -> tuple[list[str], list[str]]:
     """What is left as single relations, and those that share coordinates."""
-    dependencies: dict[str, frozenset[str]] = {}
-    coordinates = set(room.problem.coordinates)
-
-    def free(name: str) -> frozenset[str]:
-        held = room.scenery.evidence.relation(name).tree.symbols & coordinates
-        return frozenset().union(*(dependencies.get(q, frozenset((q,))) for q in held))
-
+    evidence, dependencies = room.scenery.evidence, dict[str, frozenset[str]]()
     for name, q in order:
-        dependencies[q] = free(name) - {q}
-    sets = {name: free(name) for name in remaining}
+        dependencies[q] = free_coordinates(evidence, name, dependencies) - {q}
+    sets = {name: free_coordinates(evidence, name, dependencies) for name in remaining}
     alone = [
         name for name in remaining if all(sets[name].isdisjoint(sets[other]) for other in remaining if other != name)
     ]

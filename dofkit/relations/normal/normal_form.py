@@ -22,7 +22,7 @@ from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero import is_proved_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import cleared, diff, in_velocities, refuse_accelerations, substitute
-from dofkit.expressions.terms import Combined, combined, without_cancelled
+from dofkit.expressions.terms import Combined, combined
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.domain import (
     DomainCondition,
@@ -202,9 +202,6 @@ def _normalised(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
         return _finite(form.dt, positive, written)
     if form is not None and (form.coefficients or not form.dt.is_zero):
         return Normal(((form,),))
-    plain = without_cancelled(velocity_form)
-    if plain != velocity_form:
-        return _normalised(plain, positive, written)
     return _defined(velocity_form, _nonlinear(velocity_form, positive), positive)
 
 
