@@ -3,6 +3,7 @@
 What a person wrote stands in `pages/`. The rest is generated from the package itself: `reference_pages` from the
 classes of the constraint types (glossary, theorems, commands: from the tables of fields, verdicts and arguments and
 from the help of the commands), `gallery` from the catalog's pictures and reports, which it keeps
-between builds. `markdown` escapes prose, and `building` runs MkDocs over all of it. `bench` assembles the page that
-runs dofkit in the browser, where `browser` answers it. The folder is not part of the wheel.
+between builds. `markdown` escapes prose, and `building` runs MkDocs over all of it. `runtime`
+assembles what runs dofkit in a browser, `bench` the page that asks it, and `browser` answers there.
+The folder is not part of the wheel.
 """

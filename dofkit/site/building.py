@@ -17,12 +17,13 @@ import yaml
 from dofkit.base.errors import DofkitError
 from dofkit.scene.catalog import catalog_folder
 from dofkit.scene.constraints import TYPES
-from dofkit.site.bench import BenchError, build_bench
+from dofkit.site.bench import build_bench
 from dofkit.site.gallery import FOLDER as GALLERY
 from dofkit.site.gallery import ShownScene, catalog_scenes, gallery_pages
-from dofkit.site.markdown import SitePage
+from dofkit.site.markdown import SitePage, with_bench_links
 from dofkit.site.reference_pages import FOLDER as TYPE_FOLDER
 from dofkit.site.reference_pages import GLOSSARY, command_pages, constraint_pages, readme_page, report_pages, rooms_page
+from dofkit.site.runtime import BenchError
 
 ROOT = Path(__file__).parents[2]
 WRITTEN = Path(__file__).parent / "pages"
@@ -75,6 +76,10 @@ def sources(folder: Path, catalog: Sequence[ShownScene], has_bench: bool = False
         target = folder / "pages" / page.path
         target.parent.mkdir(parents=True, exist_ok=True)
         target.write_text(page.text, encoding="utf-8")
+    if has_bench:
+        for path in (folder / "pages").rglob("*.md"):
+            bench = f"{'../' * (len(path.relative_to(folder).parts) - 2)}bench"
+            path.write_text(with_bench_links(path.read_text(encoding="utf-8"), bench), encoding="utf-8")
     # JSON is YAML in which nothing is taken for a truth value: there is a type `on`
     (folder / "mkdocs.yml").write_text(json.dumps(settings(catalog)), encoding="utf-8")
 

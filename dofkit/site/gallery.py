@@ -18,7 +18,7 @@ from dofkit.pictures.still import draw, without_text
 from dofkit.report import Report
 from dofkit.scene.catalog import catalog_folder, catalog_text
 from dofkit.scene.reading import loads
-from dofkit.site.markdown import SitePage, code, fence, folded, page, picture, prose
+from dofkit.site.markdown import SitePage, bench_link, code, fence, folded, page, picture, prose
 
 FOLDER = "gallery"
 #: The width of a picture and of a report: pixels, columns.
@@ -137,13 +137,12 @@ def gallery_pages(
 
 
 def _entry(scene: ShownScene, has_bench: bool) -> str:
-    link = f'<p><a href="../bench/index.html#example={scene.name}">Open in the bench</a></p>'
     return "\n\n".join(
         (
             f"## {prose(scene.title)} {{#{scene.name}}}",
             f"{code(scene.name)}: {prose(scene.answer)}",
             picture(f"{scene.name}.svg", scene.alternative),
-            *([link] if has_bench else []),
+            *([bench_link("../bench", f"#example={scene.name}")] if has_bench else []),
             folded("The scene", fence("yaml", scene.written)),
             folded("The report", fence("text", scene.report)),
         )

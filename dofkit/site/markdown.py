@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import base64
 import re
+import zlib
 from collections.abc import Iterable, Sequence
 from html import escape
 from typing import NamedTuple
 
 _SPECIAL = re.compile(r"([\\*_\[\]|#])")
 _CODE = re.compile(r"(`+[^`]+`+)")
+#: A block of YAML that is a scene.
+_SCENE = re.compile(r"^```yaml[^\n]*\n((?:(?!```)[^\n]*\n)*?constraints:(?:(?!```)[^\n]*\n)*)```$", re.MULTILINE)
 
 
 class SitePage(NamedTuple):
@@ -67,6 +71,26 @@ def folded(title: str, text: str) -> str:
 def picture(path: str, alternative: str) -> str:
     """A picture on paper, as an element that loads when it is reached."""
     return f'<img class="paper" src="{escape(path)}" alt="{escape(alternative)}" loading="lazy">'
+
+
+def fragment(scene: str) -> str:
+    """Return the address of a scene within the bench: its text, deflated.
+
+    >>> fragment("coordinates: [x]")
+    '#scene=S87PL0rJzEssSS22UoiuiAUA'
+    """
+    packed = zlib.compress(scene.encode(), 9, wbits=-15)
+    return f"#scene={base64.urlsafe_b64encode(packed).decode().rstrip('=')}"
+
+
+def bench_link(bench: str, address: str) -> str:
+    """Return a link to a scene in the bench; ``bench``: the folder of the bench, as seen from the page."""
+    return f'<p><a href="{bench}/index.html{address}">Open in the bench</a></p>'
+
+
+def with_bench_links(text: str, bench: str) -> str:
+    """Return a page with a link below each of its scenes."""
+    return _SCENE.sub(lambda block: f"{block[0]}\n\n{bench_link(bench, fragment(block[1]))}", text)
 
 
 def anchor(text: str) -> str:

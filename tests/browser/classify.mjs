@@ -1,9 +1,11 @@
-// node classify.mjs PYODIDE ARCHIVE SCENES: the reports on scenes by Python compiled for browsers, as JSON by name.
-// SCENES is a JSON file of texts by name; ARCHIVE has dofkit and what it needs, and no numpy.
-import { readFileSync } from "node:fs";
+// node classify.mjs RUNTIME SCENES: the reports on scenes by Python compiled for browsers, as JSON by name.
+// SCENES is a JSON file of texts by name; RUNTIME is the folder from which a page runs dofkit, and has no numpy.
+import { createReadStream, readFileSync } from "node:fs";
+import { Readable } from "node:stream";
 import { pathToFileURL } from "node:url";
+import { startPython } from "../../dofkit/site/bench/start.js";
 
-const [runtime, archive, scenes] = process.argv.slice(2);
+const [runtime, scenes] = process.argv.slice(2);
 const { loadPyodide } = await import(pathToFileURL(`${runtime}/pyodide.mjs`).href);
 const program = `
 import json, sys, time
@@ -20,9 +22,9 @@ json.dumps({
 })
 `;
 try {
-  const python = await loadPyodide();
-  const site = python.runPython("import site; site.getsitepackages()[0]");
-  python.unpackArchive(new Uint8Array(readFileSync(archive)), "zip", { extractDir: site });
+  const core = Readable.toWeb(createReadStream(`${runtime}/core.bin`));
+  const { python, site } = await startPython(loadPyodide, Promise.resolve(core), {});
+  python.unpackArchive(new Uint8Array(readFileSync(`${runtime}/graphs.zip`)), "zip", { extractDir: site });
   python.globals.set("scenes", readFileSync(scenes, "utf8"));
   process.stdout.write(python.runPython(program));
 } catch (error) {

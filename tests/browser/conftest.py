@@ -7,14 +7,13 @@ import shutil
 import threading
 from collections.abc import Iterator
 from functools import partial
-from http.server import ThreadingHTTPServer
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
 import pytest
 from shared.documented import ROOT
-from shared.served import PageHandler, Served
+from shared.served import PageHandler, PageServer, Served
 
 from dofkit.homework.assignment import load_assignment
 from dofkit.homework.handout.page_sheets import put_runtime, write_page
@@ -48,8 +47,9 @@ def served(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
     for name in ("node", "npm"):
         if shutil.which(name) is None:
             pytest.skip(f"the bench is built with {name}, which is not installed")
-    from dofkit.site.bench import BenchError, build_bench
+    from dofkit.site.bench import build_bench
     from dofkit.site.gallery import catalog_scenes
+    from dofkit.site.runtime import BenchError
 
     folder = Path(os.environ.get("DOFKIT_BENCH") or tmp_path_factory.mktemp("pages"))
     if not (folder / "bench").exists():
@@ -60,7 +60,7 @@ def served(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
     (folder / "screenshots").mkdir(exist_ok=True)
     put_runtime(folder / "practice", folder / "bench" / "runtime.js")
     write_page(load_assignment(GERMAN), drawing(), folder / "practice" / "index.html", judges=True)
-    server = ThreadingHTTPServer(("127.0.0.1", 0), partial(PageHandler, directory=str(folder)))
+    server = PageServer(("127.0.0.1", 0), partial(PageHandler, directory=str(folder)))
     threading.Thread(target=server.serve_forever, daemon=True).start()
     yield Served(f"http://127.0.0.1:{server.server_port}", folder, server)
     server.shutdown()

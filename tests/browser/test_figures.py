@@ -57,7 +57,7 @@ def test_keystrokes_and_the_reports_of_the_catalog(served: Served, visit: Any) -
     page = visit.page
     page.goto(f"{served.url}/bench/player.html")
     texts = page.evaluate("fetch('catalog.json').then((a) => a.json()).then((all) => all.map((scene) => scene.text))")
-    answer = page.evaluate(ASK, [f"{served.url}/bench/worker.js", texts])
+    answer = page.evaluate(ASK, [f"{served.url}/bench/runtime/worker.js", texts])
     for name in ("checks", "reports"):
         measured(f"{name}, 95 of 100 scenes within", quantiles(answer[name], n=20)[-1], "ms")
         measured(f"{name}, slowest", max(answer[name]), "ms")

@@ -20,11 +20,10 @@ ROUNDED = {"witness", "bound"}
 
 @pytest.fixture(scope="module")
 def answered(served: Served, tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
-    """The answers of Pyodide, under node, by the archive that the bench loads."""
+    """The answers of Pyodide, under node, by the files that the bench loads."""
     scenes = tmp_path_factory.mktemp("pyodide") / "scenes.json"
     scenes.write_text(json.dumps({name: dofkit.catalog_text(name) for name in dofkit.catalog_names()}))
-    bench = served.folder / "bench"
-    command = ["node", str(SCRIPT), str(bench / "pyodide"), str(bench / "core.zip"), str(scenes)]
+    command = ["node", str(SCRIPT), str(served.folder / "bench" / "runtime"), str(scenes)]
     ran = subprocess.run(command, capture_output=True, text=True, check=False, timeout=500)
     assert not ran.returncode, ran.stderr[-2000:]
     answers: dict[str, Any] = json.loads(ran.stdout)

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import gzip
+import sys
 from functools import cache
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
-from typing import ClassVar, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 #: Media types that the server of Python does not know.
 _KINDS = {".mjs": "text/javascript", ".wasm": "application/wasm"}
+#: Files that are compressed already.
+_PACKED = (".zip", ".bin")
 
 
 @cache
@@ -30,10 +33,10 @@ class PageHandler(SimpleHTTPRequestHandler):
         if not path.is_file():
             self.send_error(404)
             return
-        data = path.read_bytes() if path.suffix == ".zip" else _compressed(path)
+        data = path.read_bytes() if path.suffix in _PACKED else _compressed(path)
         self.send_response(200)
         self.send_header("Content-Type", self.guess_type(path))
-        if path.suffix != ".zip":
+        if path.suffix not in _PACKED:
             self.send_header("Content-Encoding", "gzip")
         self.send_header("Content-Length", str(len(data)))
         self.end_headers()
@@ -44,12 +47,21 @@ class PageHandler(SimpleHTTPRequestHandler):
         """Say nothing."""
 
 
+class PageServer(ThreadingHTTPServer):
+    """A server that a page may leave in the middle of an answer."""
+
+    def handle_error(self, request: Any, client_address: Any) -> None:
+        """Print what went wrong, unless the page has left."""
+        if not isinstance(sys.exception(), ConnectionError):
+            super().handle_error(request, client_address)
+
+
 class Served(NamedTuple):
     """The address of the pages, the folder that is served, and the server."""
 
     url: str
     folder: Path
-    server: ThreadingHTTPServer
+    server: PageServer
 
     @property
     def sent(self) -> int:

@@ -2,7 +2,8 @@
 import { build } from "esbuild";
 
 const common = { bundle: true, minify: true, target: "es2022", legalComments: "linked", outdir: process.argv[2], logLevel: "warning" };
-await build({ ...common, format: "esm", entryPoints: ["bench.js", "worker.js", "player-frame.js"], external: ["./pyodide/*"] });
+const pages = { bench: "bench.js", "player-frame": "player-frame.js", "runtime/worker": "worker.js" };
+await build({ ...common, format: "esm", entryPoints: pages, external: ["./pyodide.mjs"] });
 await build({ ...common, format: "iife", globalName: "dofkitRuntime", entryPoints: ["runtime.js"] });
 await build({
   ...common,

@@ -17,7 +17,7 @@ export class Engine {
 
   start() {
     this.changed("loading");
-    this.worker = new Worker(new URL("./worker.js", import.meta.url), { type: "module" });
+    this.worker = new Worker(new URL("./runtime/worker.js", import.meta.url), { type: "module" });
     this.worker.addEventListener("message", ({ data }) => this.hear(data));
     this.worker.addEventListener("error", (event) => this.fail(event.message || "the worker could not be started"));
   }

@@ -2,6 +2,7 @@
 import { loadPyodide } from "pyodide";
 import createPyodideModule from "./node_modules/pyodide/pyodide.asm.mjs";
 import { unpacked } from "./runtime.js";
+import { startPython } from "./start.js";
 
 /** The address that Pyodide is told its files have. */
 const NOWHERE = "https://runtime.invalid/";
@@ -15,13 +16,13 @@ async function start(packed) {
     const name = String(url).slice(NOWHERE.length);
     return new Response(files[name], { headers: { "Content-Type": type(name) } });
   };
-  const python = await loadPyodide({
+  const core = Promise.resolve(new Response(files["core.bin"]).body);
+  const { python, site } = await startPython(loadPyodide, core, {
     indexURL: NOWHERE,
     createPyodideModule,
     env: { PYTHONDONTWRITEBYTECODE: "1", HOME: "/home/pyodide" },
   });
-  const site = python.runPython("import site; site.getsitepackages()[0]");
-  for (const name of ["core.zip", "sheets.zip"]) python.unpackArchive(files[name], "zip", { extractDir: site });
+  for (const name of ["graphs.zip", "sheets.zip"]) python.unpackArchive(files[name], "zip", { extractDir: site });
   python.pyimport("dofkit.site.browser.answers"); // now, so that the first answer is read at once
   answer = python.pyimport("dofkit.site.browser").answer;
 }

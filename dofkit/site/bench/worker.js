@@ -1,47 +1,47 @@
-// Runs dofkit in the background: Python with the package in bytecode, and what is loaded only when it is asked for.
-import { loadPyodide } from "./pyodide/pyodide.mjs";
+// Runs dofkit in the background. A page asks by messages {id, call, args}, and is answered by {id, value} or {id, error};
+// {ready: true} comes once Python has started. runtime.py says what is beside this file.
+import { loadPyodide } from "./pyodide.mjs";
+import { startPython } from "./start.js";
 
 /** Where numpy is had from; everything else comes from this folder. */
 const DISTRIBUTION = "https://cdn.jsdelivr.net/pyodide/v314.0.7/full/";
-/** The module of each call, and what it needs beyond the first archive: of this folder, and of the distribution. */
+/** The module of each call, and what it needs beyond the core: archives of this folder, packages of the distribution. */
 const CALLS = {
   check: { module: "reports" },
   report: { module: "reports" },
   as_json: { module: "reports" },
-  picture: { module: "drawings", packages: ["numpy"] },
-  motion: { module: "drawings", packages: ["numpy"] },
+  picture: { module: "drawings", archives: ["graphs"], packages: ["numpy"] },
+  motion: { module: "drawings", archives: ["graphs"], packages: ["numpy"] },
   equations: { module: "equations", archives: ["symbols"] },
-  read: { module: "answers", archives: ["sheets"] },
-  judge: { module: "answers", archives: ["sheets"] },
+  read: { module: "answers", archives: ["graphs", "sheets"] },
+  judge: { module: "answers", archives: ["graphs", "sheets"] },
 };
 const loaded = new Set();
 const ready = start();
 
-/** @param {string} name an archive of this folder, without its ending */
-async function archive(name) {
-  const answer = await fetch(new URL(`./${name}.zip`, import.meta.url));
-  if (!answer.ok) throw new Error(`${name}.zip: ${answer.status}`);
-  return answer.arrayBuffer();
+async function file(/** @type {string} */ name) {
+  const answer = await fetch(new URL(name, import.meta.url));
+  if (!answer.ok || !answer.body) throw new Error(`${name}: ${answer.status}`);
+  return answer;
 }
 
 async function start() {
-  const core = archive("core");
-  const python = await loadPyodide({
-    indexURL: new URL("./pyodide/", import.meta.url).href,
+  const core = file("core.bin").then(({ body }) => body);
+  const runtime = await startPython(loadPyodide, core, {
+    indexURL: new URL("./", import.meta.url).href,
     packageBaseUrl: DISTRIBUTION,
     env: { PYTHONDONTWRITEBYTECODE: "1", HOME: "/home/pyodide" },
   });
-  const site = python.runPython("import site; site.getsitepackages()[0]");
-  python.unpackArchive(await core, "zip", { extractDir: site });
-  const module = python.pyimport("dofkit.site.browser");
+  const { answer } = runtime.python.pyimport("dofkit.site.browser");
+  runtime.python.pyimport("dofkit.site.browser.reports").destroy();
   postMessage({ ready: true });
-  return { python, site, answer: module.answer };
+  return { ...runtime, answer };
 }
 
 /** @param {{packages?: string[], archives?: string[]}} needs @param {Awaited<ReturnType<typeof start>>} runtime */
 async function provide({ packages = [], archives = [] }, { python, site }) {
   for (const name of archives.filter((name) => !loaded.has(name))) {
-    python.unpackArchive(await archive(name), "zip", { extractDir: site });
+    python.unpackArchive(await (await file(`${name}.zip`)).arrayBuffer(), "zip", { extractDir: site });
     loaded.add(name);
   }
   for (const name of packages.filter((name) => !loaded.has(name))) {
@@ -57,11 +57,23 @@ function reason(error) {
   return lines.findLast((line) => /^[\w.]*(Error|Exception)\b/.test(line)) ?? lines.at(-1);
 }
 
+/** The answer; networkx, which linkages need, is loaded when it is found missing. */
+async function answered({ module, ...needs }, call, args) {
+  const runtime = await ready;
+  await provide(needs, runtime);
+  const ask = () => JSON.parse(runtime.answer(module, call, JSON.stringify(args)));
+  try {
+    return ask();
+  } catch (error) {
+    if (!error.message.includes("No module named 'networkx'")) throw error;
+    await provide({ archives: ["graphs"] }, runtime);
+    return ask();
+  }
+}
+
 addEventListener("message", async ({ data: { id, call, args } }) => {
   try {
-    const runtime = await ready;
-    await provide(CALLS[call], runtime);
-    postMessage({ id, value: JSON.parse(runtime.answer(CALLS[call].module, call, JSON.stringify(args))) });
+    postMessage({ id, value: await answered(CALLS[call], call, args) });
   } catch (error) {
     postMessage({ id, error: reason(error) });
   }

@@ -1,0 +1,153 @@
+"""The runtime: dofkit in the browser, as a folder of static files that a page starts as a worker.
+
+```javascript
+const worker = new Worker(new URL("./runtime/worker.js", import.meta.url), { type: "module" });
+worker.postMessage({ id: 1, call: "report", args: [text, []] });   // answered by {id, value} or {id, error}
+```
+
+The calls are the functions of `dofkit.site.browser`: `check`, `report`, `as_json`, `picture`, `motion`, `equations`,
+`read`, `judge`. Beside `worker.js` the folder has Pyodide (from npm, pinned by the lock file); `core.bin`, the packages
+of a report in bytecode and the compiled libraries (from PyPI, in the versions that are installed); and archives that
+are loaded when a call needs them: `graphs.zip` for linkages, `sheets.zip` for homework, `symbols.zip` for equations of
+motion.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import re
+import shutil
+import subprocess
+import sys
+import zipfile
+from collections.abc import Iterable, Sequence
+from importlib.metadata import version
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from dofkit.base.errors import DofkitError
+
+SOURCES = Path(__file__).parent / "bench"
+PACKAGE = Path(__file__).parents[1]
+#: The compiled packages, and the platform and the Python of Pyodide.
+COMPILED = ("python-flint", "pydantic-core")
+PLATFORM = ("--platform", "pyemscripten_2026_0_wasm32", "--python-version", "3.14", "--abi", "cp314")
+#: Modules of FLINT that neither dofkit nor SymPy uses.
+UNUSED_MODULES = (
+    "_gr", "acb_series", "arb_series", "fmpq_series", "fmpz_mod_mpoly", "fmpz_series", "fq_default", "fq_default_poly",
+    "nmod_mpoly", "nmod_series", "showgood",
+)  # fmt: skip
+#: The packages of each archive: what a report needs, and what is loaded after it for homework and equations of motion.
+CORE = (
+    "annotated_types",
+    "latex2mathml",
+    "lazy_loader",
+    "pydantic",
+    "typing_extensions",
+    "typing_inspection",
+    "yaml",
+)
+GRAPHS = ("networkx",)
+SHEETS = ("markdown_it", "mdit_py_plugins", "mdurl")
+SYMBOLS = ("mpmath", "sympy")
+#: Folders of dofkit that no page needs; of its site only what the worker calls.
+LEFT_OUT = ("benchmark", "homework", "site", "_catalog")
+#: Files that tests and typists need.
+UNUSED = ("tests", "test", "__pycache__", "testing")
+#: What Pyodide needs at run time.
+PYODIDE = ("pyodide.mjs", "pyodide.asm.mjs", "pyodide.asm.wasm", "python_stdlib.zip", "pyodide-lock.json")
+
+
+class BenchError(DofkitError):
+    """The files could not be built; the message names what is missing."""
+
+
+def build_runtime(out: Path) -> None:
+    """Build the runtime into ``out``. Raises BenchError where node, npm or a package cannot be had."""
+    if shutil.which("node") is None or shutil.which("npm") is None:
+        raise BenchError("node and npm are not installed")
+    modules = SOURCES / "node_modules"
+    if not (modules / ".package-lock.json").exists():
+        run(["npm", "ci", "--no-audit", "--no-fund"], "npm ci")
+    for name in PYODIDE:
+        _copy(modules / "pyodide" / name, out / name)
+    with TemporaryDirectory() as folder:
+        packages = Path(folder)
+        _stage_compiled(packages / "core")
+        _stage_packages(CORE, packages / "core")
+        _stage_dofkit(packages / "core")
+        _stage_packages(GRAPHS, packages / "graphs")
+        _stage_packages(SHEETS, packages / "sheets")
+        _stage_folder(PACKAGE / "homework", packages / "sheets" / "dofkit" / "homework")
+        _stage_packages(SYMBOLS, packages / "symbols")
+        run(["node", "compile.mjs", str(packages), str(out.resolve())], "the compilation to bytecode")
+
+
+def run(command: list[str], what: str) -> None:
+    """Run a command in the folder of the sources. Raises BenchError if it fails; ``what``: what it does."""
+    ran = subprocess.run(command, cwd=SOURCES, capture_output=True, text=True, check=False)
+    if ran.returncode:
+        raise BenchError(f"{what} failed: {(ran.stderr or ran.stdout).strip()[-2000:]}")
+
+
+def _stage_compiled(target: Path) -> None:
+    """Unpack the wheels for the browser, in the versions that are installed, without the modules that are not used."""
+    with TemporaryDirectory() as folder:
+        pins = [f"{name}=={version(name)}" for name in COMPILED]
+        command = [sys.executable, "-m", "pip", "download", "-q", "--only-binary=:all:", "--no-deps", *PLATFORM]
+        run([*command, "-d", folder, *pins], "the download of wheels for the browser")
+        for wheel in sorted(Path(folder).glob("*.whl")):
+            with zipfile.ZipFile(wheel) as archive:
+                for name in archive.namelist():
+                    path = Path(name)
+                    if _is_used(path) and ".dist-info/" not in name and path.name.split(".")[0] not in UNUSED_MODULES:
+                        archive.extract(name, target)
+    types = target / "flint" / "__init__.py"
+    types.write_text(without_unused(types.read_text(encoding="utf-8")), encoding="utf-8")
+
+
+def without_unused(text: str) -> str:
+    """Return the text of FLINT's package without the imports of unused modules.
+
+    >>> without_unused("from .types.arb import arb\\nfrom .types.nmod_series import nmod_series\\n")
+    'from .types.arb import arb\\n'
+    """
+    imports = re.compile(rf"^from \.\w+\.(?:{'|'.join(UNUSED_MODULES)}) import .*\n", re.MULTILINE)
+    return imports.sub("", text)
+
+
+def _stage_packages(names: Iterable[str], target: Path) -> None:
+    """Copy packages of this environment, without what is compiled for it."""
+    for name in names:
+        spec = importlib.util.find_spec(name)
+        if spec is None or spec.origin is None:
+            raise BenchError(f"the package {name} is not installed")
+        origin = Path(spec.origin)
+        if spec.submodule_search_locations is None:
+            _copy(origin, target / origin.name)
+        else:
+            _stage_folder(origin.parent, target / name)
+            for metadata in origin.parents[1].glob(f"{name}-*.dist-info/METADATA"):  # some ask for their own version
+                _copy(metadata, target / metadata.parent.name / "METADATA")
+
+
+def _stage_dofkit(target: Path) -> None:
+    _stage_folder(PACKAGE, target / "dofkit", LEFT_OUT)
+    _copy(PACKAGE / "site" / "__init__.py", target / "dofkit" / "site" / "__init__.py")
+    _stage_folder(PACKAGE / "site" / "browser", target / "dofkit" / "site" / "browser")
+
+
+def _stage_folder(source: Path, target: Path, left_out: Sequence[str] = ()) -> None:
+    for path in source.rglob("*"):
+        inner = path.relative_to(source)
+        if path.is_file() and _is_used(inner) and inner.parts[0] not in left_out and ".so" not in inner.suffixes:
+            _copy(path, target / inner)
+
+
+def _is_used(path: Path) -> bool:
+    return path.suffix not in (".pyi", ".pyd", ".pyx", ".c", ".typed") and not set(path.parts) & set(UNUSED)
+
+
+def _copy(source: Path, target: Path) -> None:
+    target.parent.mkdir(parents=True, exist_ok=True)
+    shutil.copyfile(source, target)
