@@ -218,8 +218,8 @@ def _common_zeros(part: RelationPart) -> Iterator[Expr]:
 def _witness(symbols: Sequence[Expr], solved: Explicit, zeros: Mapping[Expr, Expr]) -> dict[Expr, str]:
     """Return a point of the set, at which what nothing determines is 0."""
     free = {s: zeros.get(s, ex.ZERO) for s in symbols if s not in solved.values}
-    given = {s: substitute(value, free) for s, value in solved.by_others.items()}
-    return {s: to_text(value) for s, value in {**free, **given}.items()}
+    determined = {s: substitute(value, free) for s, value in solved.by_others.items()}
+    return {s: to_text(value) for s, value in {**free, **determined}.items()}
 
 
 # Level bodies: at theta = 0 the Euler angles phi and psi turn alike, and distinguish no poses

@@ -224,7 +224,7 @@ class ClipMaker:
         return [clip._replace(text=NEEDED.format(name), dropped=name) for clip in clips]
 
 
-def _combined(motions: Sequence[FreeMotion], parts: Sequence[float] | Array) -> FreeMotion:
+def _combined(motions: Sequence[FreeMotion], weights: Sequence[float] | Array) -> FreeMotion:
     """Return a linear combination of motions."""
-    rates = {s: float(sum(p * m.rates[s] for p, m in zip(parts, motions, strict=True))) for s in motions[0].rates}
+    rates = {s: float(sum(w * m.rates[s] for w, m in zip(weights, motions, strict=True))) for s in motions[0].rates}
     return motions[0]._replace(rates=rates)

@@ -53,8 +53,8 @@ class Explicit(NamedTuple):
     @property
     def contradictory(self) -> bool:
         """Whether a linear equation between parameters and numbers is left, which generic parameters do not satisfy."""
-        left = (g for g in self.implicit if all(s.args[0] == "parameter" for s in g.symbols))
-        return any(linear(g) is not None for g in left)
+        of_parameters = (g for g in self.implicit if all(s.args[0] == "parameter" for s in g.symbols))
+        return any(linear(g) is not None for g in of_parameters)
 
     @property
     def by_others(self) -> dict[Expr, Expr]:
@@ -113,11 +113,13 @@ def explicit_relations(relations: Iterable[Expr], coefficients: Coefficients = c
         alone = bool(private)
         i = (private or shared).pop()
         slopes = coefficients(remaining[i]) if i in remaining else {}
-        given = [(_value(remaining[i], s, slope), s) for s, slope in slopes.items() if len(users[s]) == 1 or not alone]
-        given = [(v, s) for v, s in given if alone or _fits(v, [remaining[k] for k in users[s] if k != i])]
-        if not given:
+        solutions = [
+            (_value(remaining[i], s, slope), s) for s, slope in slopes.items() if len(users[s]) == 1 or not alone
+        ]
+        solutions = [(v, s) for v, s in solutions if alone or _fits(v, [remaining[k] for k in users[s] if k != i])]
+        if not solutions:
             continue
-        value, s = min(given, key=lambda pair: (len(users[pair[1]]), repr(pair[1])))
+        value, s = min(solutions, key=lambda pair: (len(users[pair[1]]), repr(pair[1])))
         values[s] = value
         before = {k: remaining[k] for k in users[s]}
         explicit[s] = remaining.pop(i)
@@ -133,8 +135,8 @@ def explicit_relations(relations: Iterable[Expr], coefficients: Coefficients = c
             if k != i and remaining[k].is_zero:
                 implied.append(k)
         private, shared = [*private, *before], [*shared, *before]
-    left = tuple(g for g in remaining.values() if not g.is_zero)
-    return Explicit(explicit, values, left, tuple(implied))
+    implicit = tuple(g for g in remaining.values() if not g.is_zero)
+    return Explicit(explicit, values, implicit, tuple(implied))
 
 
 def solve_linear(relations: Sequence[Expr]) -> Explicit:

@@ -294,12 +294,12 @@ class SpecialLoci:
     def _case(self, locus: Locus, what: str, constraints: Sequence[int], sure: Verdict) -> Iterator[SpecialCase]:
         """Yield what is said of a locus that no inequality forbids."""
         sure, positive = weakest(sure, self.answer.verdict), self.study.setting.positive
-        sides = ((substitute(q.expr, locus.given), q.strict) for r in self.study.reduced for q in r.inequalities)
+        sides = ((substitute(q.expr, locus.explicit), q.strict) for r in self.study.reduced for q in r.inequalities)
         if sure == "undecided" or any(never_holds(e, strict, positive) for e, strict in sides):
             return
         order = [ex.coordinate(c.name) for c in self.study.system.coordinates]
-        given = [s - locus.given[s] for s in order if s in locus.given]
-        texts = [_equation(_in_order(e, self.study.system)) for e in (*given, *locus.others)]
+        solved = [s - locus.explicit[s] for s in order if s in locus.explicit]
+        texts = [_equation(_in_order(e, self.study.system)) for e in (*solved, *locus.others)]
         names = [self.study.names[i] for i in constraints]
         yield SpecialCase(where=" and ".join(texts), kind="locus", what=what, constraints=names, verdict=sure)
 
@@ -340,8 +340,8 @@ def _equation(terms: Sequence[Expr]) -> str:
     number = ex.add(*(term for term in terms if term.op == "num"))
     sides = [term for term in terms if term.op != "num"]
     if len(sides) == 2 and number.is_zero and _is_negative(sides[0]) != _is_negative(sides[1]):
-        left, right = (-e if _is_negative(e) else e for e in sides)
-        return f"{to_text(left)} = {to_text(right)}"
+        first, second = (-e if _is_negative(e) else e for e in sides)
+        return f"{to_text(first)} = {to_text(second)}"
     return f"{to_text(ex.add(*sides))} = {to_text(-number)}"
 
 

@@ -47,23 +47,23 @@ class Locus:
     equations: tuple[Expr, ...] = ()
 
     @cached_property
-    def given(self) -> dict[Expr, Expr]:
+    def explicit(self) -> dict[Expr, Expr]:
         """The coordinates that the equations give explicitly."""
         return explicit_relations(self.equations, number_coefficients).by_others
 
     @cached_property
     def others(self) -> tuple[Expr, ...]:
         """The equations that give none."""
-        return tuple(e for e in (substitute(e, self.given) for e in self.equations) if not is_identically_zero(e))
+        return tuple(e for e in (substitute(e, self.explicit) for e in self.equations) if not is_identically_zero(e))
 
     def on(self, e: Expr) -> Expr:
         """Return an expression on the locus, as far as that is solved."""
-        return replace_nodes(substitute(e, self.given), {g: ex.ZERO for g in self.others if g.op == "fn"})
+        return replace_nodes(substitute(e, self.explicit), {g: ex.ZERO for g in self.others if g.op == "fn"})
 
     @property
     def is_short(self) -> bool:
         """Return whether a person can read it, and at most two equations give no coordinate."""
-        terms = (len(e.args) if e.op == "add" else 1 for e in (*self.given.values(), *self.others))
+        terms = (len(e.args) if e.op == "add" else 1 for e in (*self.explicit.values(), *self.others))
         return len(self.others) < 3 and max(terms, default=0) <= MAX_READ
 
     @property
@@ -95,15 +95,15 @@ class CommonZeros:
 
     def loci(self, expressions: Sequence[Expr]) -> list[Locus]:
         """Return the loci that a person can read on which all of some expressions vanish. Raises TooLargeError."""
-        open_, found = [(Locus(), [*expressions])], list[Locus]()
+        open_, loci = [(Locus(), [*expressions])], list[Locus]()
         for _ in range(MAX_STEPS):
             check()
             if not open_:
-                kept = [a for a in found if a.is_of_coordinates and not any(_is_part(a, b) for b in found)]
+                kept = [a for a in loci if a.is_of_coordinates and not any(_is_part(a, b) for b in loci)]
                 return list(dict.fromkeys(kept))
             locus, remaining = open_.pop()
             if not remaining:
-                found.append(locus)
+                loci.append(locus)
                 continue
             first, *others = sorted(map(locus.on, remaining), key=_size)
             branches = self.branches(first)
@@ -197,7 +197,7 @@ class RowPolynomials:
         """The columns without a pivot."""
         return [c for c in range(len(self.symbols)) if c not in {column for _, column in self.pivots}]
 
-    def rest(self) -> list[list[Poly]]:
+    def other_rows(self) -> list[list[Poly]]:
         """Return the other rows in the free columns of coordinates."""
         done = {r for r, _ in self.pivots}
         columns = [c for c in self.free if self.symbols[c] != ex.TIME]
@@ -256,7 +256,7 @@ def candidates(block: Block, hidden: Sequence[Expr], setting: Setting, rank: int
     """
     rows = raising_no_value(RowPolynomials)(block, hidden, setting)
     size = rank - len(rows.pivots)
-    ranks = _loci(rows, rows.rest, size) if size > 0 else []
+    ranks = _loci(rows, rows.other_rows, size) if size > 0 else []
     rows.eliminate_rest()
     bends = _loci(rows, rows.curvature, curvature) if curvature else []
     return Candidates(ranks, bends, rows.zeros, rows.relations)
