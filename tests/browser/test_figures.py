@@ -7,7 +7,7 @@ from statistics import quantiles
 from typing import Any
 
 import pytest
-from shared.served import Served
+from shared.served import PageHandler, Served
 
 pytestmark = [pytest.mark.browser, pytest.mark.xdist_group("browser"), pytest.mark.timeout(900)]
 ASK = """async ([url, texts]) => {
@@ -51,6 +51,13 @@ def test_the_first_and_the_second_visit(served: Served, visit: Any) -> None:
     page.reload()
     page.locator("#report table").first.wait_for()
     measured("second visit, page to report", time.perf_counter() - start, "s")
+
+
+def test_the_first_visit_over_a_slow_line(served: Served, visit: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(PageHandler, "rate", 20e6 / 8)
+    start = time.perf_counter()
+    visit.opened(f"{served.url}/bench/")
+    measured("first visit over 20 Mbit/s, page to report", time.perf_counter() - start, "s")
 
 
 def test_keystrokes_and_the_reports_of_the_catalog(served: Served, visit: Any) -> None:

@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import gzip
 import sys
+import time
 from functools import cache
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
+from threading import Lock
 from typing import Any, ClassVar, NamedTuple
 
 #: Media types that the server of Python does not know.
 _KINDS = {".mjs": "text/javascript", ".wasm": "application/wasm"}
 #: Files that are compressed already.
 _PACKED = (".zip", ".bin")
+_CHUNK = 1 << 16
 
 
 @cache
@@ -26,6 +29,9 @@ class PageHandler(SimpleHTTPRequestHandler):
     protocol_version = "HTTP/1.1"
     extensions_map = SimpleHTTPRequestHandler.extensions_map | _KINDS
     sent: ClassVar[int] = 0
+    #: Bytes in a second that all answers together may take; None for as many as there can be.
+    rate: ClassVar[float | None] = None
+    _turn: ClassVar[Lock] = Lock()
 
     def do_GET(self) -> None:
         path = Path(self.translate_path(self.path))
@@ -40,7 +46,11 @@ class PageHandler(SimpleHTTPRequestHandler):
             self.send_header("Content-Encoding", "gzip")
         self.send_header("Content-Length", str(len(data)))
         self.end_headers()
-        self.wfile.write(data)
+        for start in range(0, len(data), _CHUNK):
+            if PageHandler.rate:
+                with PageHandler._turn:
+                    time.sleep(_CHUNK / PageHandler.rate)
+            self.wfile.write(data[start : start + _CHUNK])
         PageHandler.sent += len(data)
 
     def log_message(self, *_: object) -> None:
