@@ -39,6 +39,7 @@ MOST_MOTIONS, MOST_SWITCHES = 12, 8
 GOES_ON = "This infinitesimal motion goes on: it was followed as a finite motion."
 ENDS = "This infinitesimal motion does not go on: "
 NONE_FOUND, NO_MOTION = "no finite motion in its direction was found.", "no finite motion is possible{}."
+NOT_SAMPLED = "No finite motion was sampled: {}"
 UNCHANGED = "{} is redundant{}: without it the motion goes on unchanged."
 IMPLIED = "{} is implied by the others as long as {} in use: without it the motion goes on unchanged."
 NEEDED = "{} is needed: without it this motion is possible too."
@@ -68,8 +69,8 @@ class ClipMaker:
                     return list(self._in_turn(sampler))
                 path = sampler.configurations(self._steps(STEPS), STEP)
                 return [*self._sampled("a finite motion", path)] or self._swings(self.motions)
-            except DofkitError:
-                return self._swings(self.motions)
+            except DofkitError as error:
+                return self._swings(self.motions, NOT_SAMPLED.format(error))
 
     def _steps(self, most: int) -> int:
         return min(most, max(LEAST, MANY // max(1, len(self.stage.system.coordinates))))
@@ -79,14 +80,14 @@ class ClipMaker:
         count = len(self.stage.motions)
         for k, motion in enumerate(self.motions):
             held = [other.symbol for other in self.stage.motions if other is not motion]
-            clips: list[Clip] = []
+            clips, reason = list[Clip](), ""
             try:
                 path = self._free_motion(sampler, motion, held)
                 name = f"free velocity {k + 1} of {count}: {motion.name}" if count > 1 else "a finite motion"
                 clips += self._sampled(name, path, self.few)
-            except DofkitError:
-                pass
-            yield from clips or self._swings([motion])
+            except DofkitError as error:
+                reason = NOT_SAMPLED.format(error)
+            yield from clips or self._swings([motion], reason)
 
     def _free_motion(self, sampler: MotionSampler, motion: FreeMotion, held: Sequence[Expr]) -> list[dict[str, float]]:
         """Return a motion in steps that reach the edge of the picture in half of `SHORT`, and then go on."""
@@ -149,8 +150,11 @@ class ClipMaker:
 
     # Infinitesimal motions
 
-    def _swings(self, motions: Sequence[FreeMotion]) -> list[Clip]:
-        """Return each infinitesimal motion on its own, to one side and back to the other."""
+    def _swings(self, motions: Sequence[FreeMotion], reason: str = "") -> list[Clip]:
+        """Return each infinitesimal motion on its own, to one side and back to the other.
+
+        ``reason``: why no finite motion is shown in its place.
+        """
         clips, report = [], self.stage.report
         end = NO_MOTION.format(sure(report, "velocity_dof")) if report.velocity_dof == 0 else NONE_FOUND
         for motion in motions:
@@ -158,7 +162,7 @@ class ClipMaker:
             steps = (far * math.sin(2 * math.pi * j / SWING) for j in range(SWING))
             numbers = tuple(moved_numbers(self.stage.arrangement, motion, step) for step in steps)
             frames = tuple(self.stage.arrangement.poses_at(n, gibbs=True) for n in numbers)
-            text, arrows = (ENDS + end, self._arrows(motion)) if report.singular else ("", ())
+            text, arrows = (ENDS + end, self._arrows(motion)) if report.singular else (reason, ())
             name = f"infinitesimal motion: {motion.name}"
             clips.append(Clip(name, frames, numbers, closed=True, text=text, arrows=arrows))
         return clips
