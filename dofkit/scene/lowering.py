@@ -292,7 +292,7 @@ def system_of(scene: Scene, surveyed: Survey) -> System:
         arms=_arms(drawing, centre_of(world.points) if drawing.tolerance else None),
         tolerance=scene.tolerance or None,
         size=surveyed.size,
-        warnings=(*world.warnings, *_gear_warnings(surveyed.constraints, surveyed.connections), *warning),
+        warnings=(*world.warnings, *_joint_warnings(surveyed.constraints, surveyed.connections), *warning),
         left_out=scene.left_out,
         drawn=singular,
     )
@@ -345,21 +345,42 @@ def _rotations(drawing: Drawing) -> tuple[Rotation, ...]:
     return tuple(rotations)
 
 
-def _gear_warnings(constraints: Sequence[Constraint], connections: Sequence[Connection]) -> Iterator[str]:
-    """Yield a warning for each wheel on a moving arm: without ``carrier`` a ratio is that of angles to the ground."""
-    gears = [c for c in connections if c.facts.geared and len(c.members) == 2]
-    hinges = [c.members for c in connections if c.facts.axial and c.facts.planar_pair and len(c.members) == 2]
-    at_rest = _at_rest(connections) if gears else set()
-    for gear in gears:
-        name = constraints[gear.constraint].name
-        for wheel in gear.members:
+def _joint_warnings(constraints: Sequence[Constraint], connections: Sequence[Connection]) -> Iterator[str]:
+    """Yield warnings about joints that mean something else than they seem to.
+
+    Gears whose wheel turns on a moving arm: without ``carrier`` their ratio is one of angles against the ground. A
+    driven joint that repeats another joint of the same bodies at the same place: a motor that is written as a joint.
+    """
+    joints = [c for c in connections if (c.facts.joint or c.facts.geared) and len(c.members) == 2]
+    hinges = [c.members for c in joints if c.facts.axial and c.facts.planar_pair]
+    at_rest = _at_rest(connections) if any(c.facts.geared for c in joints) else set()
+    for joint in joints:
+        name = constraints[joint.constraint].name
+        for wheel in joint.members if joint.facts.geared else ():
             arms = [second if first == wheel else first for first, second in hinges if wheel in (first, second)]
-            moving = [arm for arm in arms if arm not in gear.members and at_rest.isdisjoint(arms)]
+            moving = [arm for arm in arms if arm not in joint.members and at_rest.isdisjoint(arms)]
             for arm in moving[:1]:
                 yield (
                     f"'{name}': the wheel '{wheel}' turns on '{arm}', which moves; without `carrier` the ratio is that "
                     f"of the angles against the ground. If '{arm}' carries the gears, write `carrier: {arm}`."
                 )
+    for motor in joints:
+        for joint in joints if motor.driven else ():
+            if joint is not motor and _repeats(motor, joint):
+                name, other = constraints[motor.constraint].name, constraints[joint.constraint].name
+                drive = constraints[motor.constraint].text.rpartition("driven by ")[2]
+                yield (
+                    f"'{name}' and '{other}' join '{motor.members[0]}' and '{motor.members[1]}' at the same place, so "
+                    f"their equations occur twice. If '{name}' is the motor of '{other}', write `drive: {drive}` "
+                    f"on '{other}' and remove '{name}'."
+                )
+
+
+def _repeats(motor: Connection, joint: Connection) -> bool:
+    """Return whether two joints of one type connect the same bodies in the same geometry, which is given."""
+    is_given = None not in (*motor.places, *motor.directions) and bool(motor.places)
+    geometry = (motor.facts, {*motor.members}, motor.places, motor.directions)
+    return is_given and geometry == (joint.facts, {*joint.members}, joint.places, joint.directions)
 
 
 def _at_rest(connections: Sequence[Connection]) -> set[str]:

@@ -15,7 +15,7 @@ from shared.command_line import called
 from shared.late import LONG
 
 import dofkit
-from dofkit.base.runs import Journal, Pool
+from dofkit.base.runs import BusyError, Journal, Pool
 from dofkit.base.workers import Job, JobOutcome
 from dofkit.interface.answers import streams
 from dofkit.interface.jobs import Cut, Printed, Request, Run
@@ -194,6 +194,15 @@ def test_a_journal_keeps_what_is_written_again(tmp_path: Path) -> None:
         journal.close()
     Journal(path, "n").remove()
     assert not list(path.parent.iterdir())
+
+
+def test_two_runs_do_not_write_one_journal(tmp_path: Path) -> None:
+    path = tmp_path / "results.unfinished"
+    first = Journal(path, "m")
+    with pytest.raises(BusyError, match="another run is writing to"):
+        Journal(path, "m")
+    first.close()
+    Journal(path, "m").close()
 
 
 def test_a_model_that_includes_files_is_analysed_again(tmp_path: Path, counting: Counting) -> None:

@@ -11,6 +11,7 @@ from functools import cached_property
 from itertools import combinations
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from dofkit.base.deadline import gc_rarely
 from dofkit.base.display import Displayed
 from dofkit.base.wording import many
 from dofkit.mobility.graph.links import Joint, LineGraph, Link, LinkageError, Proof, Question, read
@@ -230,6 +231,7 @@ def linkage(links: Iterable[Link] | nx.Graph[Any], dimension: int = 2, joints: I
     return Linkage(dimension, graph.joints, tuple(graph.links), _GRAPHS[dimension](len(graph.joints), graph.ends))
 
 
+@gc_rarely()
 def redundant_links(links: Iterable[Link] | nx.Graph[Any], dimension: int) -> list[Link]:
     """Return the links that are redundant in general position, in the order given.
 
