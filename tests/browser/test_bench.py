@@ -186,3 +186,40 @@ def test_the_keyboard_alone_is_enough(served: Served, visit: Any) -> None:
     page.keyboard.press("Enter")
     page.wait_for_url(lambda url: "#example=" in url and "disc-rolling-on-plane" not in url)
     page.locator("#report h2").filter(has_not_text="Upright disc").wait_for(timeout=SOON)
+
+
+def test_the_picture_of_the_readme(served: Served, visit: Any) -> None:
+    """Make `screenshots/bench.png` in the folder of the pages; `dofkit/site/pages/bench.png` is a copy of it.
+
+    After `python -m dofkit.site`: `DOFKIT_BENCH=build/site python -m pytest -m browser -k picture_of_the_readme`.
+    """
+    visit.page.set_viewport_size({"width": 1000, "height": 570})
+    page = visit.opened(f"{served.url}/bench/")
+    page.locator("#picture:not([hidden])").wait_for()
+    page.get_by_label("along_x").uncheck()
+    seen(page, "#report p", "velocity freedom: 2 -> 3")
+    path = served.folder / "screenshots" / "bench.png"
+    page.screenshot(path=path)
+    assert path.stat().st_size < 120_000
+
+
+def test_completion_offers_fields_types_and_names(served: Served, visit: Any) -> None:
+    page = visit.opened(f"{served.url}/bench/")
+    write(page, "coordinates: [x, y, theta]\nconstraints:\n")
+    for typed, offered, key in (
+        ("- {n", ["name"], "Enter"),
+        ("edge, t", ["text", "type", "theta"], "Escape"),
+        ("ype: e", ["equation"], "Enter"),
+        (", te", ["text"], "Enter"),
+        ('"cos(th', ["theta"], "Enter"),
+    ):
+        page.keyboard.type(typed)
+        options = page.locator(".cm-tooltip-autocomplete li .cm-completionLabel")
+        options.first.wait_for(timeout=SOON)
+        page.wait_for_timeout(200)  # what has just appeared is not accepted yet
+        assert options.all_inner_texts() == offered
+        page.keyboard.press(key)
+    page.keyboard.type(") dx + sin(theta) dy = 0")
+    seen(page, "#report th", "edge")
+    seen(page, "#report td", "(2, 3)")
+    assert visit.errors == []

@@ -30,6 +30,34 @@ ASK = """async ([url, texts]) => {
   }
   return {checks, reports, faults};
 }"""
+#: A worker that also says how much memory Python has: it grows as Python asks for more, and never shrinks.
+WEIGHED = """
+const { instantiate, instantiateStreaming } = WebAssembly;
+let memory;
+const kept = (made) => { memory ??= (made.instance ?? made).exports.memory; return made; };
+WebAssembly.instantiate = (...given) => instantiate(...given).then(kept);
+WebAssembly.instantiateStreaming = (...given) => instantiateStreaming(...given).then(kept);
+addEventListener("message", ({ data }) => data === "memory" && postMessage({ memory: memory.buffer.byteLength }));
+import("./worker.js");
+"""
+WEIGH = """async ([url, texts]) => {
+  const worker = new Worker(url, {type: "module"});
+  const heard = (holds) => new Promise((resolve) => {
+    const hear = ({data}) => { if (holds(data)) { worker.removeEventListener("message", hear); resolve(data); } };
+    worker.addEventListener("message", hear);
+  });
+  await heard((data) => data.ready);
+  const memories = [];
+  for (const [id, text] of texts.entries()) {
+    const answer = heard((data) => data.id === id);
+    worker.postMessage({id, call: "report", args: [text, []]});
+    await answer;
+    const weighed = heard((data) => data.memory);
+    worker.postMessage("memory");
+    memories.push((await weighed).memory);
+  }
+  return memories;
+}"""
 
 
 def measured(what: str, value: float, unit: str) -> None:
@@ -69,3 +97,16 @@ def test_keystrokes_and_the_reports_of_the_catalog(served: Served, visit: Any) -
         measured(f"{name}, 95 of 100 scenes within", quantiles(answer[name], n=20)[-1], "ms")
         measured(f"{name}, slowest", max(answer[name]), "ms")
     assert answer["faults"] == []
+
+
+def test_the_memory_of_100_reports(served: Served, visit: Any) -> None:
+    (served.folder / "bench" / "runtime" / "weighed.js").write_text(WEIGHED, encoding="utf-8")
+    page = visit.page
+    page.goto(f"{served.url}/bench/player.html")
+    texts = page.evaluate("fetch('catalog.json').then((a) => a.json()).then((all) => all.map((scene) => scene.text))")
+    fifty = texts[::2][:50]
+    memories = page.evaluate(WEIGH, [f"{served.url}/bench/runtime/weighed.js", [*fifty, *fifty]])
+    measured("memory of Python after 50 reports", memories[49] / 1e6, "MB")
+    measured("memory of Python after 100 reports", memories[-1] / 1e6, "MB")
+    assert memories[-1] == memories[49]
+    assert memories[-1] < 200e6

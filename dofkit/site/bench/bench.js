@@ -96,6 +96,7 @@ async function report() {
     at("report").replaceChildren(...sheet(answer.sheet));
     showFaults([]);
     document.title = `${answer.report.scene === "scene" ? "dofkit bench" : answer.report.scene} - dofkit`;
+    clearTimeout(slow);
     say("");
     await picture(known, text);
     keepOffline();

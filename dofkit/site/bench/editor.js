@@ -17,7 +17,7 @@ const LOOKS = HighlightStyle.define([
   { tag: [tags.punctuation, tags.separator, tags.squareBracket, tags.brace], color: "var(--quiet)" },
 ]);
 const THEME = EditorView.theme({
-  "&": { height: "100%", color: "var(--ink)", backgroundColor: "var(--paper)", fontSize: "15px" },
+  "&": { height: "100%", color: "var(--ink)", backgroundColor: "var(--paper)", fontSize: "14px" },
   "&.cm-focused": { outline: "2px solid var(--focus)", outlineOffset: "-2px" },
   ".cm-scroller": { fontFamily: "ui-monospace, 'DejaVu Sans Mono', Menlo, Consolas, monospace", lineHeight: "1.55" },
   ".cm-content": { caretColor: "var(--ink)", padding: "8px 0" },
@@ -51,12 +51,24 @@ export function editor(place, text, changed, words) {
       EditorView.updateListener.of((update) => update.docChanged && changed()),
     ],
   });
-  return new EditorView({ state, parent: root, root });
+  const view = new EditorView({ state, parent: root, root });
+  scrollToMechanism(view);
+  return view;
 }
 
 /** Put another text in place of all. @param {EditorView} view @param {string} text */
 export function replaceText(view, text) {
   view.dispatch({ changes: { from: 0, to: view.state.doc.length, insert: text }, selection: { anchor: 0 } });
+  scrollToMechanism(view);
+}
+
+/** Show first what a small editor has no room for below the notes: what moves, and its constraints. */
+function scrollToMechanism(view) {
+  const start = Math.max(0, view.state.doc.toString().search(/^(parameters|particles|bodies|coordinates):/m));
+  view.requestMeasure({
+    read: () => view.lineBlockAt(start).top,
+    write: (top) => { view.scrollDOM.scrollTop = top; },
+  });
 }
 
 /** The faults with their places in the text, and with the correction of a misspelt name. */
@@ -92,11 +104,13 @@ function completions(context, { names, schema }) {
   const from = word?.from ?? context.pos;
   const before = line.text.slice(0, from - line.from);
   if (/type:\s*["']?$/.test(before)) return { from, options: types(schema).map((label) => ({ label, type: "type" })) };
-  const keys = before.trim() === "" && !/^\s/.test(line.text) ? schema.properties : fields(schema, line.text);
+  const quoted = before.split('"').length % 2 === 0;
+  const outer = before.trim() === "" && !/^\s/.test(line.text);
+  const keys = outer ? schema.properties : quoted ? {} : fields(schema, line.text, before);
   const options = Object.entries(keys).map(([label, { description }]) => ({
     label, type: "property", apply: `${label}: `, info: description,
   }));
-  if (keys !== schema.properties) options.push(...names.map((label) => ({ label, type: "variable", boost: 1 })));
+  if (!outer) options.push(...names.map((label) => ({ label, type: "variable", boost: -1 })));
   return { from, options, validFor: /^[\p{L}\p{N}_]*$/u };
 }
 
@@ -104,8 +118,8 @@ function types(schema) {
   return Object.values(schema.$defs).flatMap((part) => part.properties?.type?.enum ?? []);
 }
 
-function fields(schema, line) {
+function fields(schema, line, before) {
   const type = /type:\s*["']?(\w+)/.exec(line)?.[1];
   const known = Object.values(schema.$defs).find((part) => part.properties?.type?.enum?.includes(type));
-  return known?.properties ?? (/[{,-]\s*\w*$/.test(line) ? { name: {}, type: {}, text: {} } : {});
+  return known?.properties ?? (/[{,-]\s*$/.test(before) ? { name: {}, type: {}, text: {} } : {});
 }
