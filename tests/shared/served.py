@@ -47,9 +47,9 @@ class PageHandler(SimpleHTTPRequestHandler):
         self.send_header("Content-Length", str(len(data)))
         self.end_headers()
         for start in range(0, len(data), _CHUNK):
-            if PageHandler.rate:
+            if rate := PageHandler.rate:  # a test may end, and with it the slow line, while one waits for its turn
                 with PageHandler._turn:
-                    time.sleep(_CHUNK / PageHandler.rate)
+                    time.sleep(_CHUNK / rate)
             self.wfile.write(data[start : start + _CHUNK])
         PageHandler.sent += len(data)
 
