@@ -66,8 +66,8 @@ BUGS: Mapping[str, Bug] = {
     ),
     "brackets": Bug(
         "integrability/lie_algebra.py",
-        "self.full_slope, k), -1 / self.base.number(k + 1)))",
-        "self.full_slope, k), 1 / self.base.number(k + 1)))",
+        "self.full_slope, k) * (-1 / self.base.number(k + 1)))",
+        "self.full_slope, k) * (1 / self.base.number(k + 1)))",
         "catalog/l6/x-dy-plus-y-dx.yaml",
     ),
     "pebbles": Bug(
