@@ -95,8 +95,8 @@ def with_long_guides(stage: StagedScene, sketch: Sketch, clips: Sequence[Clip]) 
         strokes = symbol.plane if stage.flat else symbol.space
         if not symbol.rails or not strokes or stage.places[number] is None or len(members) < 2:
             continue
-        longest = max(strokes, key=lambda stroke: max(spot[0] for spot in stroke.spots))
-        half = stage.unit * max(spot[0] for spot in longest.spots)
+        longest = max(strokes, key=lambda stroke: max(point[0] for point in stroke.spots))
+        half = stage.unit * max(point[0] for point in longest.spots)
         guide, slider = members[longest.member], members[1 - longest.member]
         axis, middle = axis_of(stage.arrangement, connection, 0), stage.spot(number, guide)
         block, reach = Vertex(slider, place(stage.spot(number, slider))), [0.0]

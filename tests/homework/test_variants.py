@@ -171,7 +171,8 @@ def test_a_page_with_fields_has_only_names_of_its_own_sheet(tmp_path: Path) -> N
             picked_support == 0,
         )
         assert re.findall(r"<mn>(\d)</mn>", page) == [str((2, 3, 5)[picked_l])]
-        data = json.loads(re.search(r'id="data">(.*?)</script>', page)[1])  # type: ignore[index]
+        (text,) = re.findall(r'id="data">(.*?)</script>', page)
+        data = json.loads(text)
         assert data["assignment"] is None
         assert {key: value for key, value in data["declared"]["chain"].items() if key != "questions"} == {
             "scene": {"dimension": 3, "coordinates": ["x", "y"]}, "constraints": ["rod"], "also": {}, "others": {}

@@ -325,7 +325,7 @@ class SpecialLoci:
             return
         what = f"the first Lie brackets add {'no direction' if vanishes else 'fewer directions'} there"
         scene = self.report.growth_vector
-        sure: Verdict = "proved" if vanishes and seen.regular else "probable"
+        sure: Verdict = "proved" if vanishes and seen.regular and self.candidates.regular else "probable"
         if scene and elsewhere and there[-1] == elsewhere[-1]:
             more = scene[0] - elsewhere[0]
             if [g + more for g in elsewhere] == list(scene):

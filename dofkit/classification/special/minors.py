@@ -186,7 +186,7 @@ class RowPolynomials:
                 pairs = zip(row, pivot, strict=True)
                 self.rows[k] = [self.canon.reduce(pivot[c] * a - row[c] * b) for a, b in pairs]
 
-    def eliminate_rest(self) -> None:
+    def _eliminate_rest(self) -> None:
         """Eliminate the other rows where the pivots that they need do not vanish. Raises TooLargeError."""
         while (place := next(iter(self._open()), None)) is not None:
             self._eliminate(*place)
@@ -205,6 +205,7 @@ class RowPolynomials:
 
     def curvature(self) -> list[list[Poly]]:
         """Return d(omega)(u, v) of every form on all pairs of vectors that span the kernel where no pivot vanishes."""
+        self._eliminate_rest()
         result = []
         vectors = [self._kernel_vector(column) for column in self.free]
         for curl in self._curls:
@@ -240,10 +241,14 @@ def _curl(form: Mapping[Expr, Expr], symbols: Sequence[Expr]) -> dict[tuple[int,
 
 
 class Candidates(NamedTuple):
-    """Loci on which the rank of the rows may be smaller, and that of the curvature; ``zeros`` compares them."""
+    """Loci on which the rank of the rows may be smaller, and that of the curvature; ``zeros`` compares them.
+
+    ``regular``: no pivot vanishes anywhere; else where one does, so may what was computed of the curvature.
+    """
 
     ranks: list[Locus]
     bends: list[Locus]
+    regular: bool
     zeros: CommonZeros
     relations: Sequence[Expr]
 
@@ -257,9 +262,8 @@ def candidates(block: Block, hidden: Sequence[Expr], setting: Setting, rank: int
     rows = raising_no_value(RowPolynomials)(block, hidden, setting)
     size = rank - len(rows.pivots)
     ranks = _loci(rows, rows.other_rows, size) if size > 0 else []
-    rows.eliminate_rest()
     bends = _loci(rows, rows.curvature, curvature) if curvature else []
-    return Candidates(ranks, bends, rows.zeros, rows.relations)
+    return Candidates(ranks, bends, size == 0, rows.zeros, rows.relations)
 
 
 def _loci(rows: RowPolynomials, matrix: Callable[[], list[list[Poly]]], size: int) -> list[Locus]:
