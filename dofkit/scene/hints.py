@@ -32,7 +32,7 @@ _ENOUGH = re.compile(
 )
 #: The differential or a velocity of a name.
 _RATE = re.compile(rf"d((?:[a-zA-Z]|{'|'.join(LETTERS_OF_NAMES)})(?:_\w+)?)|(\w+?)d{{0,2}}dot")
-_SUGGESTED = re.compile(r"did you mean '(\w+)'\?")
+SUGGESTED = re.compile(r"did you mean '(\w+)'\?")
 _MEANT_NAME = re.compile(r"did you mean `(.+)`\?")
 _FORCES = ("spring", "damper", "force", "gravity")
 #: A line by the key that it gives; of some keys one for each dimension.
@@ -71,7 +71,7 @@ def without_echoes(faults: Iterable[Fault], value: Mapping[str, Any]) -> list[Fa
     meant = {
         (fault.where[:-1], match[1])
         for fault in faults
-        if fault.message.startswith(UNKNOWN_KEY) and (match := _SUGGESTED.fullmatch(fault.hint or ""))
+        if fault.message.startswith(UNKNOWN_KEY) and (match := SUGGESTED.fullmatch(fault.hint or ""))
     }
     kept = [
         fault
@@ -117,7 +117,7 @@ def _undeclared_at_once(faults: list[Fault], value: Mapping[str, Any]) -> list[F
 
 def meant_section(fault: Fault) -> str | None:
     """Return the section that an unknown key of a scene should be, where one is meant."""
-    suggested = _SUGGESTED.match(fault.hint or "")
+    suggested = SUGGESTED.match(fault.hint or "")
     unknown = len(fault.where) == 1 and fault.message.startswith(UNKNOWN_KEY)
     return suggested[1] if unknown and suggested else None
 
@@ -178,7 +178,7 @@ def with_hint(fault: Fault, value: Mapping[str, Any] | None = None) -> Fault:
 def _see(fault: Fault, value: Mapping[str, Any]) -> str | None:
     """Return the type of constraint or the section of a scene that a fault is about, where there is one."""
     where = fault.where
-    suggested = _SUGGESTED.match(fault.hint or "")
+    suggested = SUGGESTED.match(fault.hint or "")
     if where[:1] == ("constraints",) and len(where) > 1:
         kind = _type_at(value, where[1]) or (suggested[1] if suggested else None)
         entry = _entry_at(value, where[1])
@@ -234,7 +234,7 @@ def _direction(fault: Fault, value: Mapping[str, Any]) -> str | None:
 def _line(fault: Fault, hint: str, value: Mapping[str, Any]) -> str | None:
     """Return a line that would work in the place of a fault: of a constraint, or of a key."""
     where, d = fault.where, dimension_of(value)
-    suggested = _SUGGESTED.fullmatch(hint)
+    suggested = SUGGESTED.fullmatch(hint)
     unknown = len(where) == 1 and fault.message.startswith(UNKNOWN_KEY) and not suggested
     unknown = unknown or (bool(hint) and where[:1] == ("picture",))
     if not where or unknown or (suggested and suggested[1] not in TYPES and suggested[1] not in LINES):
