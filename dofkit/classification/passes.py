@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 from typing import Any, NamedTuple
 
@@ -15,14 +15,15 @@ from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.freedom.preparation import all_of
 from dofkit.classification.generalized_coordinates import generalized_coordinates
 from dofkit.classification.special import special_cases
-from dofkit.classification.study import Decided, Study, study
+from dofkit.classification.study import Decided, Study, counted, decided, study
 from dofkit.exact.points.balls import precise_for
 from dofkit.exact.zero import BOTH, Engines
+from dofkit.expressions.text import to_text
 from dofkit.mobility.counts import without_drives
 from dofkit.relations.answer import DEFECTS
 from dofkit.relations.setting import ALL, Reductions, Setting
-from dofkit.report import ConstraintEntry, FieldVerdict, ForceEntry, Mobility, Report
-from dofkit.system import System
+from dofkit.report import BRANCH_WARNING, ConstraintEntry, FieldVerdict, ForceEntry, Mobility, Report
+from dofkit.system import BINDING, System
 
 #: Fields of the entries that are withheld together with the redundancy of the report.
 OF_ENTRIES = ("independent", "circuit", "redundant_equations")
@@ -167,9 +168,9 @@ def _claim(field: FieldVerdict) -> Claim:
 DECIDED: Mapping[str, Callable[[Study], Decided]] = {
     "consistent": fields.consistent,
     "conflicting": fields.conflicting,
-    "dof": fields.dof,
-    "velocity_dof": fields.velocity_dof,
-    "redundant_equations": fields.redundant_equations,
+    "dof": lambda study: decided(study, study.outcome.dof, study.free),
+    "velocity_dof": lambda study: decided(study, study.outcome.velocity_dof, study.free),
+    "redundant_equations": lambda study: decided(study, study.redundant_equations, counted(study.free)),
     "redundant": fields.redundant,
     "redundancies": fields.redundancies,
     "generalized_coordinates": generalized_coordinates,
@@ -193,7 +194,7 @@ Fill = Callable[[Study, Values], Values]
 def _generic_fields(study: Study, values: Values) -> Values:
     """Return the generic answer: every field that needs no second look at the scene, with the claim of each."""
     del values
-    decided = {name: decide(study) for name, decide in DECIDED.items()}
+    answers = {name: decide(study) for name, decide in DECIDED.items()}
     return {
         "scene": study.system.name,
         "forces": [ForceEntry(name=f.name, reason=f.reason) for f in study.system.forces],
@@ -203,10 +204,61 @@ def _generic_fields(study: Study, values: Values) -> Values:
         "witness": fields.witness(study),
         "method": fields.method(study),
         "modelled": fields.modelled(study.system, study.outcome),
-        "warnings": fields.warnings(study),
-        **{name: field.value for name, field in decided.items()},
-        **_verdicts({name: field.claim for name, field in decided.items() if field.claim is not None}, study.entries),
+        "warnings": _warnings(study),
+        **{name: field.value for name, field in answers.items()},
+        **_verdicts({name: field.claim for name, field in answers.items() if field.claim is not None}, study.entries),
     }
+
+
+def _warnings(study: Study) -> list[str]:
+    """Lines of text: what was noticed while reading, why something is open, and what is hidden."""
+    answer = list(study.system.warnings)
+    answer += [
+        f"not read, so the true freedom may be smaller: {t}" for t in study.system.left_out if t.startswith(BINDING)
+    ]
+    for r in study.reduced:
+        for normal in r.normals:
+            answer += [f"'{r.constraint.name}': {note}" for note in normal.notes]
+            if len(normal.branches) > 1:
+                answer.append(BRANCH_WARNING.format(name=r.constraint.name))
+        answer += [f"'{r.constraint.name}': {note}" for note in r.constraint.notes]
+    answer += [
+        f"'{study.names[i]}': whether it can be satisfied at all was not decided" for i in study.outcome.unsettled
+    ]
+    for a in study.outcome.answers:
+        answer += a.reasons
+        answer += [f"hidden geometric equation: {to_text(g)} = 0" for g in a.hidden]
+    if study.outcome.dof is None and study.outcome.consistent is not False:
+        answer += [
+            f"There is no reference configuration: give {missing}. With a reference configuration more can be decided."
+            for missing in _missing_reference(study.system)
+        ]
+    return list(dict.fromkeys(answer))
+
+
+def _about_branches(system: System, branches: Sequence[str]) -> Iterator[str]:
+    """Yield for each branch that alone has the report's freedom how the answer for another branch is obtained."""
+    for branch in branches:
+        for missing in _missing_reference(system):
+            yield (
+                f"The configuration space has branches of different dimension. The degrees of freedom, the redundancy "
+                f"and the coordinates are those of the largest branch, {branch}. To choose a branch, give {missing}."
+            )
+
+
+def _missing_reference(system: System) -> Iterator[str]:
+    """Yield what the scene has to give for a reference configuration, where it has none."""
+    placed = {str(symbol.args[1]) for symbol in system.pose}
+    if system.reference is not None or all(c.name in placed for c in system.coordinates):
+        return
+    owners = dict.fromkeys(c.owner for c in system.coordinates if c.owner in system.particles and c.name not in placed)
+    text = ", ".join([*owners][:8]) + (", ..." if len(owners) > 8 else "")
+    wanted = [f"`at` for {text}"] if owners else []
+    if system.bodies and system.generic:
+        wanted.append("`at` (and `axis`) for the joints")
+    if not wanted:
+        wanted = ["`configuration`, a value for each coordinate"]
+    yield " and ".join(wanted)
 
 
 def _verdicts(of_fields: Mapping[str, Claim], entries: Sequence[ConstraintEntry]) -> Values:
@@ -247,7 +299,7 @@ def _special(study: Study, values: Values) -> Values:
     late: Values = {"warnings": [*values["warnings"], NO_SPECIAL_CASES]}
     special = unless_late(search, late)
     branches = [case.where for case in special.get("special_cases", ()) if case.kind == "branch"]
-    warnings = [*special.get("warnings", values["warnings"]), *fields.about_branches(study.system, branches)]
+    warnings = [*special.get("warnings", values["warnings"]), *_about_branches(study.system, branches)]
     return {**special, "warnings": warnings}
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from typing import Any, NamedTuple
@@ -17,7 +17,6 @@ from dofkit.classification.freedom.preparation import prepared
 from dofkit.classification.labels.companions import Companionship
 from dofkit.classification.labels.entries import entries_of, integrable_part
 from dofkit.exact.zero import BOTH, Engines
-from dofkit.expressions.text import to_text
 from dofkit.integrability.lie_algebra import is_free
 from dofkit.mobility.counts import CountedFacts, count
 from dofkit.mobility.joint_tree import tree_coordinates
@@ -25,8 +24,8 @@ from dofkit.relations.answer import BITS, Redundancies, undecided_dependence
 from dofkit.relations.blocks import uses_time
 from dofkit.relations.normal.pieces import Finite, Reduced
 from dofkit.relations.setting import ALL, Reductions, Setting
-from dofkit.report import BRANCH_WARNING, ConstraintEntry, Count, Redundancy
-from dofkit.system import BINDING, System
+from dofkit.report import ConstraintEntry, Count, Redundancy
+from dofkit.system import System
 
 #: Of the time that is left after the blocks: for what depends on what; the rest is for labels.
 DEPENDENCE = 0.5
@@ -115,10 +114,6 @@ class Study:
         """The constraints' entries, where this is known of what depends on what."""
         return entries_of(self.reduced, self.setting, self.outcome, dependent, self.company)
 
-    def by_name(self, labels: Sequence[bool | None]) -> Mapping[str, bool | None]:
-        """A label for each constraint, by its name."""
-        return dict(zip(self.names, labels, strict=True))
-
 
 def study(
     system: System, engines: Engines = BOTH, reductions: Reductions = ALL, grows: bool = True, flag: bool = False
@@ -173,16 +168,6 @@ def conflicting(study: Study) -> Decided:
     return Decided(names, together(claim, sure) if members else OPEN)
 
 
-def dof(study: Study) -> Decided:
-    """The dimension of the configuration space."""
-    return decided(study, study.outcome.dof, study.free)
-
-
-def velocity_dof(study: Study) -> Decided:
-    """Independent velocities of finite motions."""
-    return decided(study, study.outcome.velocity_dof, study.free)
-
-
 def instantaneous_dof(study: Study) -> Decided:
     """Velocities allowed to first order at the reference configuration; None without one, or where branches cross.
 
@@ -204,11 +189,6 @@ def singular(study: Study) -> Decided:
     (here, claim), velocities = instantaneous_dof(study), study.outcome.velocity_dof
     value = None if here is None or velocities is None else here != velocities
     return Decided(value) if claim is None else decided(study, value, together(claim, study.free))
-
-
-def redundant_equations(study: Study) -> Decided:
-    """Equations too many."""
-    return decided(study, study.redundant_equations, counted(study.free))
 
 
 def lecture_count(study: Study) -> Count:
@@ -376,54 +356,3 @@ def _looked_at(outcome: Outcome) -> Iterator[str]:
             "fewer coordinates for the finite motions (welded bodies and rigid clusters as one body, bodies that do "
             "not turn as particles, variables that a linear equation gives explicitly)"
         )
-
-
-def warnings(study: Study) -> list[str]:
-    """Lines of text: what was noticed while reading, why something is open, and what is hidden."""
-    answer = list(study.system.warnings)
-    answer += [
-        f"not read, so the true freedom may be smaller: {t}" for t in study.system.left_out if t.startswith(BINDING)
-    ]
-    for r in study.reduced:
-        for normal in r.normals:
-            answer += [f"'{r.constraint.name}': {note}" for note in normal.notes]
-            if len(normal.branches) > 1:
-                answer.append(BRANCH_WARNING.format(name=r.constraint.name))
-        answer += [f"'{r.constraint.name}': {note}" for note in r.constraint.notes]
-    answer += [
-        f"'{study.names[i]}': whether it can be satisfied at all was not decided" for i in study.outcome.unsettled
-    ]
-    for a in study.outcome.answers:
-        answer += a.reasons
-        answer += [f"hidden geometric equation: {to_text(g)} = 0" for g in a.hidden]
-    if study.outcome.dof is None and study.outcome.consistent is not False:
-        answer += [
-            f"There is no reference configuration: give {missing}. With a reference configuration more can be decided."
-            for missing in _missing_reference(study.system)
-        ]
-    return list(dict.fromkeys(answer))
-
-
-def about_branches(system: System, branches: Sequence[str]) -> Iterator[str]:
-    """Yield for each branch that alone has the report's freedom how the answer for another branch is obtained."""
-    for branch in branches:
-        for missing in _missing_reference(system):
-            yield (
-                f"The configuration space has branches of different dimension. The degrees of freedom, the redundancy "
-                f"and the coordinates are those of the largest branch, {branch}. To choose a branch, give {missing}."
-            )
-
-
-def _missing_reference(system: System) -> Iterator[str]:
-    """Yield what the scene has to give for a reference configuration, where it has none."""
-    placed = {str(symbol.args[1]) for symbol in system.pose}
-    if system.reference is not None or all(c.name in placed for c in system.coordinates):
-        return
-    owners = dict.fromkeys(c.owner for c in system.coordinates if c.owner in system.particles and c.name not in placed)
-    text = ", ".join([*owners][:8]) + (", ..." if len(owners) > 8 else "")
-    wanted = [f"`at` for {text}"] if owners else []
-    if system.bodies and system.generic:
-        wanted.append("`at` (and `axis`) for the joints")
-    if not wanted:
-        wanted = ["`configuration`, a value for each coordinate"]
-    yield " and ".join(wanted)
