@@ -32,6 +32,8 @@ SINGULAR_TRIES = 4
 MAX_ELIMINATED = 20_000
 #: A Newton step smaller than the precision by so many bits ends the refinement.
 SPARE_BITS = 16
+#: So often a box around two points is made wider, and by how much at least.
+INFLATIONS, ROOM = 4, 2**-30
 
 
 @dataclass(frozen=True)
@@ -211,6 +213,29 @@ class RealSearch:
             return None
         consistent = all(at[n].contains(0) for n in self.nodes)
         return RealPoint(point, ball_part(matrix), certified, consistent, matrix, len(rows))
+
+    def is_joined(self, start: Mapping[Expr, arb], end: RealPoint, rank: int) -> bool:
+        """Return whether zeros of ``rank`` independent relations at ``end`` are a curve to it from the zero ``start``.
+
+        In a box around both points as many unknowns are then functions of the other symbols [KrawczykNewton].
+        """
+        at = values(self.ring, end.point, self.upto)
+        part = ball_part(jacobian(self.ring, at, end.point, self.nodes, self.columns, arb(0)))
+        unknowns = [self.unknowns[c] for c in part.columns]
+        box = {s: v.union(start[s]) for s, v in end.point.symbols.items()}
+        middle = {u: box[u].mid() for u in unknowns}
+        nodes, indices = [self.nodes[r] for r in part.rows], [self.columns[c] for c in part.columns]
+        for _ in range(INFLATIONS if part.rank == rank else 0):
+            try:
+                f = self._ball_system({**box, **middle}, nodes, indices, end.point.seed)[0]
+                step = _solution(self._ball_system(box, nodes, indices, end.point.seed)[1], f)
+            except NoValueError:
+                return False
+            reached = {u: v - step[i, 0] for i, (u, v) in enumerate(middle.items())}
+            if all(box[u].contains_interior(v) for u, v in reached.items()):
+                return True
+            box |= {u: box[u].union(middle[u] + 2 * (v - middle[u]) + arb(0, ROOM)) for u, v in reached.items()}
+        return False
 
     def _newton(
         self, exact: dict[Expr, arb], rows: Sequence[int], columns: Sequence[int], seed: int
