@@ -21,7 +21,7 @@ from dofkit.configuration.at_reference import ball_point
 from dofkit.configuration.variety import field_jacobian, on_variety, pose_point
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.sparse import sparse_frame, without_time
-from dofkit.exact.points.real_search import RealPoint, RealSearch
+from dofkit.exact.points.real_search import RealPoint, RealSearch, are_joined
 from dofkit.expressions import tree as ex
 from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.tree import Expr
@@ -193,7 +193,7 @@ def _near_reference(chart: Chart, rank: int) -> Iterator[RealPoint | None]:
         rng, initial = random.Random(f"dofkit near {seed}"), {s: float(v.mid()) for s, v in start.symbols.items()}
         initial |= {s: initial[s] + away * rng.uniform(-1.0, 1.0) for s in search.unknowns}
         real = search.search(seed, initial, starts=1)
-        if real and real.certified and real.consistent and search.is_joined(start.symbols, real, rank):
+        if real and real.certified and real.consistent and are_joined(search, start.symbols, real, rank):
             yield real
 
 
