@@ -28,8 +28,9 @@ from dofkit.homework.assignment import Prepared, Visibility, load_assignment
 from dofkit.homework.formats import gradescope, prairielearn
 from dofkit.homework.formats.base import text
 from dofkit.homework.formats.review import TABLE, RunReview
+from dofkit.homework.grading import item_of
 from dofkit.homework.judgement import needs_review
-from dofkit.homework.result import Item, Result
+from dofkit.homework.result import Result
 from dofkit.homework.runs.batch import MODULES, Keeper, Orders
 from dofkit.homework.sentences import Language
 from dofkit.homework.variants import NobodysVariantError, sheet_of
@@ -115,13 +116,8 @@ SITES: dict[str, Site] = {
 def undecided(prepared: Prepared, student: str, reason: str) -> Result:
     """The result in which every answer needs a review."""
     review = needs_review("", reason)
-    items = [
-        Item(problem=problem.id, question=question.id, score=None, max_score=float(question.points),
-             status=review.status, codes=[], read_as="", feedback=review.feedback(prepared.assignment.language))
-        for problem, question in prepared.questions()
-    ]  # fmt: skip
-    most = sum(item.max_score for item in items)
-    return Result(student=student, score=0.0, max_score=most, items=items, needs_review=len(items))
+    items = [item_of(prepared, problem, question, review) for problem, question in prepared.questions()]
+    return Result(student=student, score=0.0, max_score=prepared.max_score, items=items, needs_review=len(items))
 
 
 def grade_at(site: Site, assignment: Path, memory: int) -> Result:
@@ -138,9 +134,7 @@ def grade_at(site: Site, assignment: Path, memory: int) -> Result:
         prepared = sheet_of(prepared, [name for user in users for name in (user.student, *user.called())])
         handed = _only_hand_in(site, prepared)
     except NobodysVariantError as error:
-        handed = Result(
-            student=student, score=None, max_score=Orders.of(prepared).max_score, items=[], error=str(error)
-        )
+        handed = Result.refused(student, prepared.max_score, str(error))
     result = handed if isinstance(handed, Result) else _result(handed, prepared, site.seconds, memory)
     named = isinstance(handed, Handed) and result.student not in ("", student, *handed.claims)
     doubt = doubt_of_platform(users, result.student) if named else None
@@ -155,14 +149,13 @@ def _prepared(site: Site, assignment: Path, student: str) -> Prepared:
         prepared = load_assignment(assignment)
         return RunReview.read(prepared, review_table if review_table.is_file() else None, None).applied(prepared)
     except (DofkitError, OSError):
-        _write(site, Result(student=student, score=None, max_score=0.0, items=[], error=BROKEN), None)
+        _write(site, Result.refused(student, 0.0, BROKEN), None)
         raise
 
 
 def _only_hand_in(site: Site, prepared: Prepared) -> Handed | Result:
     """The one thing that was handed in, or the result that says why there is none."""
     folder = site.root / site.folder
-    most = sum(float(question.points) for _, question in prepared.questions())
     handed_in: dict[Path, list[Handed]] = {}
     for handed in hand_ins([str(folder)], prepared.columns()):
         path = Path(handed.place.file)
@@ -183,7 +176,7 @@ def _only_hand_in(site: Site, prepared: Prepared) -> Handed | Result:
         why = f"there is more than one file: {names}; name one of them answers.yaml"
     else:
         why = "there is no file with answers: submit one named answers.yaml, answers.json or answers.csv"
-    return Result(student="", score=None, max_score=most, items=[], error=clean(why))
+    return Result.refused("", prepared.max_score, clean(why))
 
 
 def _result(handed: Handed, prepared: Prepared, seconds: float, memory: int) -> Result:
@@ -194,11 +187,7 @@ def _result(handed: Handed, prepared: Prepared, seconds: float, memory: int) -> 
     orders = replace(orders, seconds=min(orders.seconds, share), hard=min(orders.hard, 2 * share))
     with Pool(1, memory, MODULES) as pool:
         pool.fork()
-        lines = Keeper(orders, pool).grade(handed)
-    if len(lines) != 1:
-        why = f"{handed.place}: it contains {len(lines)} submissions, not one"
-        return Result(student="", score=None, max_score=orders.max_score, items=[], error=why)
-    return Result.model_validate_json(lines[0])
+        return Result.model_validate_json(Keeper(orders, pool).grade(handed))
 
 
 def _write(site: Site, result: Result, prepared: Prepared | None) -> None:

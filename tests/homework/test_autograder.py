@@ -186,7 +186,7 @@ ONE, LINKED = submission(), "link"
     ("files", "why"),
     [
         ({"a.json": ONE, "b.json": ONE}, "there is more than one file: a.json, b.json"),
-        ({"answers.json": f"[{ONE}, {ONE}]"}, "contains 2 submissions, not one"),
+        ({"answers.json": f"[{ONE}, {ONE}]"}, "a submission is a mapping"),
         ({"answers.csv": "student,disc.f\nada,4\nbob,4\n"}, "contains 2 submissions, not one"),
         ({"answers.json": LINKED}, "there is no file with answers"),
         ({"answers.json": '{"answers": {'}, "line 1"),

@@ -54,13 +54,13 @@ class Handed:
     claims: tuple[str, ...] = ()
     listed: bool = False
 
-    def submissions(self, columns: Columns) -> list[Submission]:
+    def submission(self, columns: Columns) -> Submission:
         """Read it; ``columns``: the assignment's columns."""
         if self.data is None:
-            return [refused(self.name, self.place, self.error)]
+            return refused(self.name, self.place, self.error)
         if isinstance(self.data, bytes):
             return of_text(self.data, self.name, self.place, columns)
-        return [of_value(self.data, self.name, self.place)]
+        return of_value(self.data, self.name, self.place)
 
     @property
     def key(self) -> str:
@@ -80,11 +80,9 @@ def read_submission(source: str | os.PathLike[str] | Mapping[str, Any], columns:
     if isinstance(source, Mapping):
         return of_value(shaped(source, columns), "")
     path = os.fspath(source)
-    submissions_there = list(
-        islice((submission for h in hand_ins([path], columns) for submission in h.submissions(columns)), 2)
-    )
-    if len(submissions_there) == 1:
-        return submissions_there[0]
+    handed = list(islice(hand_ins([path], columns), 2))
+    if len(handed) == 1:
+        return handed[0].submission(columns)
     return refused(_stem(clean(path)), FilePlace(clean(path)), "it contains more than one submission")
 
 

@@ -124,7 +124,7 @@ def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
         grading(orders, options.workers, options.scheduler) as grade_all,
         nullcontext() if out is None else closing(Journal(unfinished(out), mark)) as journal,
     ):
-        results = settled(orders, _graded(grade_all, stream, people, journal), people)
+        results = settled(_graded(grade_all, stream, people, journal), people)
         if form.name != NATIVE:
             form.write(iter(results), prepared, out or sys.stdout, roster)
         elif out is None:
@@ -148,9 +148,9 @@ def _graded(
     """Yield every result with its owner; a bar on a terminal shows how far it is."""
     with _bar() as bar:
         task = bar.add_task("graded", total=None)
-        for handed, lines in grade_all(stream, journal):
-            yield from (owned(people, handed, Result.model_validate_json(line)) for line in lines)
-            bar.update(task, advance=len(lines))
+        for handed, line in grade_all(stream, journal):
+            yield owned(people, handed, Result.model_validate_json(line))
+            bar.update(task, advance=1)
 
 
 def _to_stdout(results: Iterable[Result]) -> None:
