@@ -117,7 +117,7 @@ def _bars(scores: Sequence[float], most: float) -> list[tuple[str, int, float]]:
     return [(label, counts[i], 100 * counts[i] / highest) for i, label in enumerate(labels)]
 
 
-def write(results: Iterator[Result], prepared: Prepared, target: Target, roster: Roster | None = None) -> None:
+def write(results: Sequence[Result], prepared: Prepared, target: Target, roster: Roster | None = None) -> None:
     """Write a folder of pages. Raises FormatError for what is no folder."""
     if not isinstance(target, Path) or (target.exists() and not target.is_dir()):
         raise FormatError("the format html writes a folder: give its name with --out")
