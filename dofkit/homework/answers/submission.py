@@ -97,8 +97,8 @@ def shaped(value: Any, columns: Mapping[str, tuple[str, str]]) -> Any:
     if not isinstance(value, Mapping):
         return value
     answers = value.get("answers", {key: each for key, each in value.items() if key != "student"})
-    known = {*columns, *(problem for problem, _ in columns.values())}
-    if not isinstance(answers, Mapping) or known.isdisjoint(map(str, answers)):
+    declared = {*columns, *(problem for problem, _ in columns.values())}
+    if not isinstance(answers, Mapping) or declared.isdisjoint(map(str, answers)):
         return value
     by_problem: defaultdict[str, dict[Any, Any]] = defaultdict(dict)
     for key, each in answers.items():
