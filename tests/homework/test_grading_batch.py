@@ -119,7 +119,7 @@ TABLES: dict[str, tuple[str | bytes, Any]] = {
     "one person's": ("p.f;p.q.a\n1;x\n", [("t", {"p": {"f": "1"}, "p.q": {"a": "x"}})]),
     "one person's of two": (
         "p.f\n1\n2\n",
-        [("t", ", line 1: its header has no column 'student', and there is more than one row")],
+        [("t", ", line 1: its header has no column 'student' but p.f")],
     ),
     "another name for the student": ("name,p.f\nana,1\n", [("ana", {"p": {"f": "1"}})]),
     "no student": ("who,p.f\nana,1\n", [("t", ", line 1: its header has no column 'student' but who, p.f")]),
