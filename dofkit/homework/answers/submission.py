@@ -96,6 +96,8 @@ def shaped(value: Any, columns: Mapping[str, tuple[str, str]]) -> Any:
     """
     if not isinstance(value, Mapping):
         return value
+    if isinstance(typed := value.get("submitted_answers"), Mapping):  # PrairieLearn's data.json
+        value = {"answers": {column: _typed(typed, *place) for column, place in columns.items()}}
     answers = value.get("answers", {key: each for key, each in value.items() if key != "student"})
     declared = {*columns, *(problem for problem, _ in columns.values())}
     if not isinstance(answers, Mapping) or declared.isdisjoint(map(str, answers)):
@@ -111,6 +113,12 @@ def shaped(value: Any, columns: Mapping[str, tuple[str, str]]) -> Any:
             return value
     kept = {key: each for key, each in value.items() if key == "student" or "answers" in value}
     return {**kept, "answers": dict(by_problem)}
+
+
+def _typed(typed: Mapping[str, Any], problem: str, question: str) -> Any:
+    """Return what was typed into an input ``PROBLEM.QUESTION``, or with ``_`` or ``-``; None if there is none."""
+    answer = next((typed[name] for sign in "._-" if (name := f"{problem}{sign}{question}") in typed), None)
+    return answer.get("_value") if isinstance(answer, Mapping) else answer
 
 
 def _with_backslashes(data: bytes | str, name: str) -> Document:

@@ -13,7 +13,7 @@ from pathlib import Path
 from dofkit.homework.assignment import load_assignment
 from dofkit.homework.autograder import undecided
 from dofkit.homework.formats.base import text
-from dofkit.homework.formats.gradescope import document, visibility_of
+from dofkit.homework.formats.gradescope import document
 from dofkit.homework.formats.review import TABLE, RunReview
 from dofkit.homework.handout.portable import standing_alone
 from dofkit.homework.variants import assigned
@@ -39,7 +39,7 @@ def export_gradescope(assignment: str | os.PathLike[str], out: Path, reviewed: P
     files = {path.name: path.read_bytes() for path in sorted(SCRIPTS.iterdir()) if path.is_file()}
     files["assignment.json"] = json.dumps(standing_alone(prepared, Path())).encode()
     interrupted = undecided(prepared, "", "grading was interrupted.")
-    files["fallback.json"] = text(document(interrupted, visibility_of(prepared), prepared.assignment.language)).encode()
+    files["fallback.json"] = text(document(interrupted, prepared)).encode()
     if reviewed is not None:
         files[TABLE] = reviewed.read_bytes()
     required = [line for line in metadata.requires("dofkit") or [] if "extra ==" not in line]
