@@ -14,10 +14,10 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from dofkit.base.errors import DofkitError
-from dofkit.homework.answers.roster import Participant, Roster
+from dofkit.homework.answers.roster import Participant, Roster, plain_name
 from dofkit.homework.assignment import Combination, Prepared
 from dofkit.homework.key.key import Key
-from dofkit.homework.problem import Pick, StudentVariant, Variants, pick_text, plain_name
+from dofkit.homework.problem import Pick, StudentVariant, Variants, pick_text
 from dofkit.homework.questions import NumberQuestion, QuestionBase
 from dofkit.homework.questions.labels import LabelQuestion
 from dofkit.homework.sentences import say

@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 from dofkit.base.wording import nearest
 from dofkit.homework.answers.roster import identity_column
-from dofkit.homework.answers.spreadsheet import DELIMITERS, SpreadsheetRow, cells_of, spreadsheet
+from dofkit.homework.answers.spreadsheet import SpreadsheetRow, spreadsheet
 from dofkit.homework.answers.submission import clean
 
 STUDENT = "student"
@@ -79,11 +79,6 @@ def _header_fault(names: list[str], student: int, asked: Sequence[Asked], column
     if repeated is not None:
         return f"has two columns for {'.'.join(repeated)}"
     return None if any(asked) else f"names no question: {_meant(names, student, columns)}"
-
-
-def is_header(line: str) -> bool:
-    """Return whether a line begins a table: it has several cells, and one that identifies the student."""
-    return any(delimiter in line and identity_column(cells_of(line, delimiter)) >= 0 for delimiter in DELIMITERS)
 
 
 def _asked(name: str, columns: Columns) -> Asked:
