@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
@@ -26,6 +26,7 @@ from dofkit.relations.normal.no_solution import no_solution
 from dofkit.relations.normal.normal_form import velocities_of
 from dofkit.relations.normal.pieces import Clause, Inequality, Nonlinear, Pfaffian
 from dofkit.relations.normal.zero_set import never_vanishes
+from dofkit.relations.setting import Setting
 
 TraitAnswer = tuple[bool | None, Verdict]
 
@@ -292,23 +293,28 @@ def proof(form: Pfaffian, positive: frozenset[Expr]) -> str | None:
     """Why the form integrates by itself, where that is proved; else None."""
     if exact(form, positive) == (True, "proved"):  # [PoincareLemma]
         return "it is closed, so locally it is the differential of a function"
-    items = list(form.items())
-    symbols = {s for s, _ in items} | {s for _, e in items for s in e.symbols if s.args[0] in ("coordinate", "time")}
+    symbols = {s for s, e in form.items() for s in (s, *e.symbols) if s.args[0] in ("coordinate", "time")}
     if len(symbols) <= 2:  # [Frobenius1877]
         return "a form in two variables is always integrable"
-    if len(items) <= 5 and _frobenius(items):
+    if len(dict(form.items())) <= 5 and all(zero == (True, "proved") for zero in _curvature(form, positive)):
         return "d(omega) ^ omega = 0 identically"
     return None
 
 
-def _frobenius(items: list[tuple[Expr, Expr]]) -> bool:
-    """d(omega) ^ omega = 0 for every three variables [Frobenius1877]."""
-    symbols = {s for _, e in items for s in e.symbols if s.args[0] in ("coordinate", "time")} - {s for s, _ in items}
-    everything = [*items, *((s, ex.ZERO) for s in sorted(symbols, key=repr))]
-    for (s, a), (u, b), (w, c) in combinations(everything, 3):
+def is_curved(form: Pfaffian, setting: Setting) -> bool:
+    """Return whether d(omega) ^ omega is proved not to be 0 on an open dense set: alone the form does not integrate."""
+    analytic = all(is_analytic(e, e.symbols, setting.positive) for _, e in form.items())
+    asked = analytic and setting.engines == BOTH
+    return asked and (False, "proved") in _curvature(form, setting.positive)
+
+
+def _curvature(form: Pfaffian, positive: frozenset[Expr]) -> Iterator[TraitAnswer]:
+    """Yield whether d(omega) ^ omega is 0, component by component [Frobenius1877]."""
+    items = dict(form.items())
+    mentioned = {s for e in items.values() for s in e.symbols if s.args[0] in ("coordinate", "time")}
+    items |= dict.fromkeys(sorted(mentioned - items.keys(), key=repr), ex.ZERO)
+    for (s, a), (u, b), (w, c) in combinations(items.items(), 3):
         total = a * (diff(c, u) - diff(b, w))
         total += b * (diff(a, w) - diff(c, s))
         total += c * (diff(b, s) - diff(a, u))
-        if zero_and_verdict(total, frozenset()) != (True, "proved"):
-            return False
-    return True
+        yield zero_and_verdict(total, positive)
