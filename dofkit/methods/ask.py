@@ -24,7 +24,17 @@ from dofkit.classification.labels.entries import labels_in_system
 from dofkit.classification.study import Study, study
 from dofkit.exact.points.balls import balls_of, precise_for, precision
 from dofkit.exact.zero import BALLS, BOTH, Engines
-from dofkit.methods.table import METHODS, QUESTIONS, Knobs, MethodName, MethodReply, Question, cannot, function_of
+from dofkit.methods.table import (
+    CONTRADICTORY,
+    METHODS,
+    QUESTIONS,
+    Knobs,
+    MethodName,
+    MethodReply,
+    Question,
+    cannot,
+    function_of,
+)
 from dofkit.mobility.general_position import unprescribed_links
 from dofkit.mobility.graph.linkage import linkage
 from dofkit.relations.normal.domain import DomainCondition
@@ -36,7 +46,6 @@ from dofkit.scene.reading import SceneLike, load, scene_or_system
 from dofkit.scene.scene import Scene
 from dofkit.system import System
 
-CONTRADICTORY = -1
 #: What the equations of an answer are called in the scene that holds them.
 ANSWER = "the answer"
 

@@ -15,7 +15,7 @@ import sympy
 from dofkit.expressions import tree as ex
 from dofkit.expressions.sympy_bridge import Bridge
 from dofkit.expressions.tree import Expr
-from dofkit.methods.as_written import Written, as_written, labelled
+from dofkit.methods.as_written import Written, as_written, labelled, without_loss
 from dofkit.methods.table import Knobs, MethodReply
 from dofkit.scene.scene import Scene
 from dofkit.system import System
@@ -130,17 +130,8 @@ def redundancy(scene: Scene | System, knobs: Knobs) -> MethodReply:
     """Constraints without which the rank that SymPy finds stays as it is, the last written first."""
     del knobs
     symbols = Symbols(as_written(scene))
-    finite, forms = [i for i, _ in symbols.finite], [i for i, _ in symbols.forms]
 
-    def rank(of: set[int]) -> tuple[int, int]:
-        rows = [k for k, i in enumerate(finite) if i in of]
-        more = [k for k, i in enumerate(forms) if i in of]
-        return int(symbols.rows(rows, []).rank()), int(symbols.rows(rows, more).rank())
+    def ranks(finite: Sequence[int], forms: Sequence[int]) -> tuple[int, int]:
+        return int(symbols.rows(finite, []).rank()), int(symbols.rows(finite, forms).rank())
 
-    everything = {*finite, *forms}
-    whole, dropped = rank(everything), set[int]()
-    for i in sorted(everything - set(symbols.written.others), key=lambda i: (i in forms, i), reverse=True):
-        if rank(everything - dropped - {i}) == whole:
-            dropped.add(i)
-    names = [c.name for c in symbols.written.system.constraints]
-    return MethodReply(sorted(names[i] for i in dropped))
+    return MethodReply(without_loss(symbols.written, ranks))

@@ -197,6 +197,10 @@ class MethodReply:
     verdict: Verdict = "undecided"
 
 
+#: The freedom of constraints that contradict each other.
+CONTRADICTORY = -1
+
+
 def cannot(reason: str) -> MethodReply:
     """Return a reply without a value."""
     return MethodReply(None, reason, cannot=True)
