@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import random
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
 
-from dofkit.base.errors import NoValueError
+from dofkit.base.errors import NoValueError, TextError
 from dofkit.base.verdicts import VERDICTS, Verdict, weakest
 from dofkit.exact.analyticity import is_analytic
 from dofkit.exact.points.real_search import RealPoint, RealSearch, at_another_time
@@ -18,7 +17,7 @@ from dofkit.exact.ring.ring import Ring
 from dofkit.exact.triangular import TriangularSolver
 from dofkit.exact.zero import BOTH, Engines, independent_on_set, is_proved_zero, odd_constants, zero_and_verdict
 from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import diff
+from dofkit.expressions.calculus import diff, differential_degree, substitute
 from dofkit.expressions.enclosures import interval_of
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.integrals import search
@@ -30,8 +29,6 @@ from dofkit.relations.setting import Setting
 
 TraitAnswer = tuple[bool | None, Verdict]
 
-#: Points at which a degree is read off, the largest denominator that it has, and how close it comes.
-DRAWS, MAX_DEGREE, CLOSE = 8, 64, 1e-9
 #: Times at which a factor of time alone may rest at 0.
 TIMES = tuple(Fraction(n, 3) for n in (-80, -31, -14, -7, -2, 1, 4, 8, 11, 16, 29, 80))
 
@@ -161,7 +158,7 @@ def _is_of_time_alone(e: Expr) -> bool:
 def _is_cone(e: Expr, positive: frozenset[Expr], engines: Engines) -> TraitAnswer:
     """Return whether e = 0 is homogeneous in the velocities where it holds: v . de/dv = 0 there (Euler)."""
     radial = ex.add(*(v * diff(e, v) for v in sorted(velocities_of(e), key=repr)))
-    return (True, "proved") if _homogeneous(e, radial) else vanishes_on(e, radial, positive, engines)
+    return (True, "proved") if _is_homogeneous(e) else vanishes_on(e, radial, positive, engines)
 
 
 def vanishes_on(
@@ -224,25 +221,13 @@ def _is_apart(ring: Ring, real: RealPoint, rate: int, others: list[int]) -> bool
     return not at[rate].contains(0) and (not others or any(not at[k].contains(0) for k in others))
 
 
-def _homogeneous(e: Expr, radial: Expr) -> bool:
-    """Euler's relation ``radial`` = v . de/dv = k e for some k, which is read off at a random point."""
-    degree = _ratio(radial, e)
-    return degree is not None and is_proved_zero(radial - ex.num(degree) * e, frozenset())
-
-
-def _ratio(a: Expr, b: Expr) -> Fraction | None:
-    """A rational number of small denominator that a/b is close to at a random point; None where there is none."""
-    symbols = sorted(a.symbols | b.symbols, key=repr)
-    rng = random.Random("dofkit degree")
-    for _ in range(DRAWS):
-        point = {s: Fraction(rng.randrange(64, 257), 97) for s in symbols}
-        above, below = interval_of(a, point), interval_of(b, point)
-        if above is None or below is None or below.contains(0):
-            continue
-        value = float((above / below).mid())
-        near = Fraction(value).limit_denominator(MAX_DEGREE)
-        return near if abs(value - near) < CLOSE else None
-    return None
+def _is_homogeneous(e: Expr) -> bool:
+    """Return whether an expression, as it is written, is homogeneous in the velocities."""
+    try:
+        differential_degree(substitute(e, {v: ex.differential(str(v.args[1])) for v in velocities_of(e)}))
+    except TextError:
+        return False
+    return True
 
 
 def exact(form: Pfaffian, positive: frozenset[Expr], engines: Engines = BOTH) -> TraitAnswer:
