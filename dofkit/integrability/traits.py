@@ -26,6 +26,7 @@ from dofkit.relations.normal.normal_form import velocities_of
 from dofkit.relations.normal.pieces import Clause, Inequality, Nonlinear, Pfaffian
 from dofkit.relations.normal.zero_set import never_vanishes
 from dofkit.relations.setting import Setting
+from dofkit.relations.velocity_reductions import form_rate
 
 TraitAnswer = tuple[bool | None, Verdict]
 
@@ -62,7 +63,7 @@ def timeless(piece: Clause, positive: frozenset[Expr], engines: Engines = BOTH) 
     A piece is the zero set of a function of coordinates, velocities and time, or the side of it where the function is
     positive. What is left of t in the function does not matter where the set is the same at all times.
     """
-    e = piece.expr if not isinstance(piece, Pfaffian) else _rate(piece)
+    e = form_rate(piece) if isinstance(piece, Pfaffian) else piece.expr
     if ex.TIME not in e.symbols:
         return True, "proved"
     sided = isinstance(piece, Inequality)
@@ -119,11 +120,6 @@ def _rests_at_zero(f: Expr, positive: frozenset[Expr]) -> bool:
         branch = memo[f]
         rests = rests or (is_analytic(branch, [ex.TIME], positive) and is_proved_zero(branch, positive))
     return rests and acts
-
-
-def _rate(form: Pfaffian) -> Expr:
-    """Return what a form says of velocities: 0 for those that it allows."""
-    return ex.add(*(a * ex.velocity(name) for name, a in form.coefficients.items()), form.dt)
 
 
 def _factors_left(e: Expr, sided: bool, positive: frozenset[Expr]) -> list[Expr]:

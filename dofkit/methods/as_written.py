@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any, Protocol
 
@@ -14,7 +14,7 @@ from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import cleared, in_velocities
 from dofkit.expressions.tree import Expr
-from dofkit.methods.table import Knobs, MethodReply
+from dofkit.methods.table import Knobs, Reply
 from dofkit.relations.normal.normal_form import linear_form, velocities_of
 from dofkit.relations.normal.pieces import Pfaffian
 from dofkit.scene.lowering import lower
@@ -116,11 +116,11 @@ class Decider(Protocol):
 class WrittenRows:
     """The equations of a scene as a program that can be run at points."""
 
-    def __init__(self, written: Written, more: Sequence[Expr] = ()) -> None:
+    def __init__(self, written: Written) -> None:
         self.written = written
         self.columns = [*written.coordinates, *([ex.TIME] if written.timed else [])]
         self.n = len(written.coordinates)
-        self.ring = Ring([*written.expressions, *more], written.positive)
+        self.ring = Ring(written.expressions, written.positive)
         place = {s: k for k, s in enumerate(self.columns)}
         self.finite = [(i, self.ring.node(g)) for i, g in written.finite]
         self.forms = [(i, {place[s]: self.ring.node(a) for s, a in f.items()}) for i, f in written.forms]
@@ -265,8 +265,8 @@ def independent_at_reference(sampled: SampledPoints, numbers: Decider) -> bool:
     return numbers.rank([row[: sampled.rows.n] for row in rows]) == len(rows)
 
 
-Look = Callable[[Scene | System, Knobs], tuple[SampledPoints, Decider] | MethodReply]
-Answering = Callable[[Scene | System, Knobs], MethodReply]
+Look = Callable[[Scene | System, Knobs], tuple[SampledPoints, Decider] | Reply]
+Answering = Callable[[Scene | System, Knobs], Reply]
 
 
 def questions_at_points(
@@ -277,19 +277,19 @@ def questions_at_points(
     ``certainty``: of the freedom where all equations are independent at the reference configuration.
     """
 
-    def dof(scene: Scene | System, knobs: Knobs) -> MethodReply:
+    def dof(scene: Scene | System, knobs: Knobs) -> Reply:
         """Coordinates less the rank of the Jacobian, forms that pass Frobenius' test included."""
         samples = look_at(scene, knobs)
-        if isinstance(samples, MethodReply):
+        if isinstance(samples, Reply):
             return samples
         sure = certainty(*samples) if independent_at_reference(*samples) else "undecided"
-        return MethodReply(freedom(*samples), verdict=sure)
+        return Reply(freedom(*samples), verdict=sure)
 
-    def at_points(answer: Callable[[SampledPoints, Decider], Any], scene: Scene | System, knobs: Knobs) -> MethodReply:
+    def at_points(answer: Callable[[SampledPoints, Decider], Any], scene: Scene | System, knobs: Knobs) -> Reply:
         """Return an answer from the points; where the constraints contradict each other there is none."""
         samples = look_at(scene, knobs)
-        if isinstance(samples, MethodReply):
-            return MethodReply(None, samples.reason, samples.cannot)
-        return MethodReply(answer(*samples))
+        if isinstance(samples, Reply):
+            return replace(samples, value=None)
+        return Reply(answer(*samples))
 
     return dof, partial(at_points, labels), partial(at_points, droppable)

@@ -10,6 +10,7 @@ from functools import partial
 from flint import fmpq, fmpq_mat, fmpz
 
 from dofkit.base.errors import NoValueError
+from dofkit.exact.points.frames import pivots
 from dofkit.exact.ring.program import Scalar, Var, raising_no_value
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
@@ -25,7 +26,7 @@ from dofkit.methods.as_written import (
     look,
     questions_at_points,
 )
-from dofkit.methods.table import CONTRADICTORY, Knobs, MethodReply, cannot
+from dofkit.methods.table import CONTRADICTORY, Knobs, Reply, cannot
 from dofkit.relations.linear_relations import explicit_relations
 from dofkit.scene.scene import Scene
 from dofkit.system import System
@@ -113,16 +114,13 @@ class Rationals:
 
     def kernel(self, matrix: Matrix, columns: int) -> Matrix:
         """A basis of what all rows vanish on."""
-        reduced, rank = fmpq_mat(matrix).rref() if matrix else (fmpq_mat(0, columns), 0)
-        pivots = [next(c for c in range(columns) if reduced[r, c] != 0) for r in range(rank)]
-        vectors = []
-        for free in sorted(set(range(columns)) - set(pivots)):
-            vector = [fmpq(0) for _ in range(columns)]
-            vector[free] = fmpq(1)
-            for r, c in enumerate(pivots):
-                vector[c] = -reduced[r, free]
-            vectors.append(vector)
-        return vectors
+        reduced = fmpq_mat(matrix).rref()[0] if matrix else fmpq_mat(0, columns)
+        place = {c: r for r, c in enumerate(pivots(reduced))}
+        return [
+            [-reduced[place[c], free] if c in place else fmpq(int(c == free)) for c in range(columns)]
+            for free in range(columns)
+            if free not in place
+        ]
 
     def vanishes(self, value: Scalar, scale: Sequence[Scalar]) -> bool:
         del scale
@@ -165,7 +163,7 @@ def give_values(point: RationalPoint, solved: Mapping[Expr, Expr], rows: Written
     rows.at(point, fmpq(0))
 
 
-def _look(scene: Scene | System, knobs: Knobs) -> tuple[SampledPoints, Decider] | MethodReply:
+def _look(scene: Scene | System, knobs: Knobs) -> tuple[SampledPoints, Decider] | Reply:
     del knobs
     numbers = Rationals()
     written = as_written(scene)
@@ -176,7 +174,7 @@ def _look(scene: Scene | System, knobs: Knobs) -> tuple[SampledPoints, Decider] 
     except IrrationalError as error:
         return cannot(str(error))
     except ContradictionError as error:
-        return MethodReply(CONTRADICTORY, str(error))
+        return Reply(CONTRADICTORY, reason=str(error))
     if sampled is None:
         return cannot(NOWHERE)
     if any(sampled.samples[0].residuals):

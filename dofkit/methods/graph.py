@@ -6,7 +6,7 @@ from dofkit.base.verdicts import Verdict
 from dofkit.classification.dependence.circuits import OwnedRows, analyse
 from dofkit.exact.matrices.sparse import SparseRow
 from dofkit.exact.points.field import prime_for
-from dofkit.methods.table import Knobs, MethodReply, cannot
+from dofkit.methods.table import Knobs, Reply, cannot
 from dofkit.mobility.general_position import in_general_position, linked_particles, unprescribed_links
 from dofkit.mobility.graph.linkage import linkage
 from dofkit.mobility.placement import general_placement, rows_of
@@ -18,7 +18,7 @@ from dofkit.system import System
 WRITTEN = "'{}' is no link and no joint: a graph says nothing of what was written as an equation, or rolls"
 
 
-def _joined(scene: Scene | System) -> System | MethodReply:
+def _joined(scene: Scene | System) -> System | Reply:
     """Return the system, or why the graph does not tell of it: what is neither a link nor a joint."""
     system = scene if isinstance(scene, System) else lower(scene)
     joined = {c.constraint for c in system.connections if c.facts.placed}
@@ -26,33 +26,33 @@ def _joined(scene: Scene | System) -> System | MethodReply:
     return system if other is None else cannot(WRITTEN.format(other))
 
 
-def dof(scene: Scene | System, knobs: Knobs) -> MethodReply:
+def dof(scene: Scene | System, knobs: Knobs) -> Reply:
     """Coordinates less the rank in general position."""
     del knobs
     system = _joined(scene)
-    if isinstance(system, MethodReply):
+    if isinstance(system, Reply):
         return system
     rank = in_general_position(system, (), Setting(frozenset())).rank or 0
-    return MethodReply(len(system.coordinates) - rank, verdict=_verdict(system))
+    return Reply(len(system.coordinates) - rank, verdict=_verdict(system))
 
 
-def integrability(scene: Scene | System, knobs: Knobs) -> MethodReply:
+def integrability(scene: Scene | System, knobs: Knobs) -> Reply:
     """Links and joints are finite."""
     del knobs
     system = _joined(scene)
-    if isinstance(system, MethodReply):
+    if isinstance(system, Reply):
         return system
-    return MethodReply({c.name: True for c in system.constraints}, verdict="proved")
+    return Reply({c.name: True for c in system.constraints}, verdict="proved")
 
 
-def redundancy(scene: Scene | System, knobs: Knobs) -> MethodReply:
+def redundancy(scene: Scene | System, knobs: Knobs) -> Reply:
     """By the rank in general position with and without each."""
     del knobs
     system = _joined(scene)
-    if isinstance(system, MethodReply):
+    if isinstance(system, Reply):
         return system
     names = [c.name for c in system.constraints]
-    return MethodReply(sorted(names[i] for i in _redundant(system)), verdict=_verdict(system))
+    return Reply(sorted(names[i] for i in _redundant(system)), verdict=_verdict(system))
 
 
 def _verdict(system: System) -> Verdict:

@@ -24,7 +24,7 @@ from dofkit.methods.as_written import (
     look,
     questions_at_points,
 )
-from dofkit.methods.table import CONTRADICTORY, Knobs, MethodReply
+from dofkit.methods.table import CONTRADICTORY, Knobs, Reply
 from dofkit.scene.scene import Scene
 from dofkit.system import System
 
@@ -102,10 +102,10 @@ def singular_values(matrix: Matrix) -> Any:
     return np.linalg.svd(np.array(matrix, dtype=float), compute_uv=False)
 
 
-def _look(scene: Scene | System, knobs: Knobs) -> tuple[SampledPoints, Decider] | MethodReply:
+def _look(scene: Scene | System, knobs: Knobs) -> tuple[SampledPoints, Decider] | Reply:
     numbers = Floats(knobs.tolerance)
     sampled = look(as_written(scene), numbers)
-    return MethodReply(CONTRADICTORY, NOWHERE.format(STARTS)) if sampled is None else (sampled, numbers)
+    return Reply(CONTRADICTORY, reason=NOWHERE.format(STARTS)) if sampled is None else (sampled, numbers)
 
 
 def _is_clear(sampled: SampledPoints, numbers: Decider) -> bool:

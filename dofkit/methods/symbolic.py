@@ -16,7 +16,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.sympy_bridge import Bridge
 from dofkit.expressions.tree import Expr
 from dofkit.methods.as_written import Written, as_written, labelled, without_loss
-from dofkit.methods.table import Knobs, MethodReply
+from dofkit.methods.table import Knobs, Reply
 from dofkit.scene.scene import Scene
 from dofkit.system import System
 
@@ -104,11 +104,11 @@ def passing(symbols: Symbols) -> list[bool]:
     return points
 
 
-def dof(scene: Scene | System, knobs: Knobs) -> MethodReply:
+def dof(scene: Scene | System, knobs: Knobs) -> Reply:
     """Coordinates less the rank that SymPy finds, forms that pass Frobenius' test included."""
     del knobs
     symbols = Symbols(as_written(scene))
-    return MethodReply(_freedom(symbols, passing(symbols)))
+    return Reply(_freedom(symbols, passing(symbols)))
 
 
 def _freedom(symbols: Symbols, passes: Sequence[bool]) -> int:
@@ -116,17 +116,17 @@ def _freedom(symbols: Symbols, passes: Sequence[bool]) -> int:
     return symbols.n - int(symbols.rows(range(len(symbols.finite)), kept).rank())
 
 
-def integrability(scene: Scene | System, knobs: Knobs) -> MethodReply:
+def integrability(scene: Scene | System, knobs: Knobs) -> Reply:
     """By wedge products."""
     del knobs
     symbols = Symbols(as_written(scene))
     labels: dict[int, bool] = {}
     for (i, _), passes in zip(symbols.forms, passing(symbols), strict=True):
         labels[i] = labels.get(i, True) and passes
-    return MethodReply(labelled(symbols.written, labels))
+    return Reply(labelled(symbols.written, labels))
 
 
-def redundancy(scene: Scene | System, knobs: Knobs) -> MethodReply:
+def redundancy(scene: Scene | System, knobs: Knobs) -> Reply:
     """Constraints without which the rank that SymPy finds stays as it is, the last written first."""
     del knobs
     symbols = Symbols(as_written(scene))
@@ -134,4 +134,4 @@ def redundancy(scene: Scene | System, knobs: Knobs) -> MethodReply:
     def ranks(finite: Sequence[int], forms: Sequence[int]) -> tuple[int, int]:
         return int(symbols.rows(finite, []).rank()), int(symbols.rows(finite, forms).rank())
 
-    return MethodReply(without_loss(symbols.written, ranks))
+    return Reply(without_loss(symbols.written, ranks))

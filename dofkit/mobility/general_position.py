@@ -161,7 +161,7 @@ def framework_answer(block: Block, setting: Setting) -> Answer | None:
     if pairs is None:
         return None
     framework = linkage(pairs, setting.dimension)
-    proof = framework.proof("redundant")
+    proof = framework.proof
     p = prime_for(1, (), 0)
     matrix = _rows(pairs, block.coordinates, setting, p)
     dependent = set(framework.redundant_places)

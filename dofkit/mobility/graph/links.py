@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import chain, pairwise
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from dofkit.base.errors import DofkitError
 from dofkit.base.libraries import nx
@@ -17,7 +17,6 @@ Joint = Any
 Link = tuple[Any, Any]
 #: The numbers of a link's two joints.
 Ends = tuple[int, int]
-Question = Literal["rank", "redundant", "circuits", "redundancies", "clusters"]
 
 
 class LinkageError(DofkitError):
@@ -114,6 +113,6 @@ class LineGraph:
         """Return the maximal sets of joints that keep all their distances; every joint is in one at least."""
         return sorted(map(sorted, nx.connected_components(self._forest)))
 
-    def proof(self, question: Question) -> Proof:
+    def proof(self) -> Proof:
         """Return how certain an answer is."""
         return _PROOF

@@ -227,6 +227,8 @@ def _term(coefficient: Any, exponents: Sequence[int], symbols: Sequence[Expr]) -
 
 #: Values that are tried for every symbol, and for all alike.
 _SIMPLE = (ex.ZERO, ex.ONE, ex.MINUS_ONE, ex.TWO, ex.PI, ex.PI * ex.HALF, -ex.PI * ex.HALF)
+#: Functions that are defined and continuous everywhere.
+_TOTAL = frozenset({"sin", "cos", "exp", "sinh", "cosh", "tanh", "atan", "abs"})
 #: Random points, and how far out they lie.
 POINTS, SCALES = 40, (1, 10, 1000, Fraction(1, 1000))
 #: Starts of the search along a slack variable.
@@ -245,7 +247,9 @@ def holds_somewhere(e: Expr, strict: bool, positive: frozenset[Expr]) -> bool | 
         plain = None
     if plain is not None and any(_holds_at(plain, strict, point) for point in _points(plain, positive)):
         return True
-    if never_holds(e, strict, positive) or no_solution([], positive, [e]):
+    if never_holds(e, strict, positive) or _never_by_bounds(e, strict, positive) or no_solution([], positive, [e]):
+        return False
+    if _negative_everywhere(e, positive):
         return False
     return True if plain is not None and _holds_along_slack(plain, strict, positive) else None
 
@@ -282,6 +286,33 @@ def _holds_at(e: Expr, strict: bool, point: dict[Expr, Expr]) -> bool:
         return bool(value > 0) or (not strict and is_proved_zero(there, frozenset()))
     except (NoValueError, ArithmeticError, ValueError):
         return False
+
+
+def _never_by_bounds(e: Expr, strict: bool, positive: frozenset[Expr]) -> bool:
+    """Return whether an upper bound of ``e`` over all of space is below 0, or 0 where > 0 is asked."""
+    try:
+        program = BoxProgram([(e, WHOLE)])
+        box = [NON_NEGATIVE if v in positive else WHOLE for v in program.variables]
+        top = program.forward(box)[e][1]
+    except (EmptyError, NoValueError):
+        return False
+    return top <= 0 if strict else top < 0
+
+
+def _negative_everywhere(e: Expr, positive: frozenset[Expr]) -> bool:
+    """Continuous on all of space, without a zero, and below 0 at one point (the intermediate value theorem)."""
+    if not all(map(_continuous, ex.nodes(e))):
+        return False
+    point = dict.fromkeys(e.symbols, ex.ONE)
+    return _holds_at(-e, True, point) and (never_vanishes(e, positive) or no_solution([e], positive))
+
+
+def _continuous(node: Expr) -> bool:
+    """Return whether an operation is defined and continuous everywhere."""
+    if node.op == "pow":
+        exponent = node.args[1]
+        return exponent.op == "num" and bool(exponent.args[0] > 0) and exponent.args[0].denominator == 1
+    return node.op in ("num", "const", "sym", "add", "mul") or (node.op == "fn" and node.args[0] in _TOTAL)
 
 
 def _holds_along_slack(e: Expr, strict: bool, positive: frozenset[Expr]) -> bool:
