@@ -188,7 +188,7 @@ def _depend_plainly(evidence: CheckedEvidence, minor: CheckedMinor, others: set[
     every relation is linear or has a generic length that no other has, all ranks are constant near almost every point,
     and there is nothing to check.
     """
-    if not evidence.moving and all(_is_general(evidence, name) for name in evidence.finite):
+    if not others or (not evidence.moving and all(_is_general(evidence, name) for name in evidence.finite)):
         return
     for name in others:
         ways = [

@@ -72,11 +72,18 @@ def _from_node(node: yaml.Node | None) -> Any:
     return [_from_node(part) for part in node.value] if isinstance(node, yaml.SequenceNode) else node and node.value
 
 
-def canonical(document: object) -> dict[str, Any]:
+class CanonicalScene(dict[str, Any]):
+    """A document in its canonical form."""
+
+
+def canonical(document: object) -> CanonicalScene:
     """The document without its name, titles, notes and empty entries, short forms written out and values exact."""
+    if isinstance(document, CanonicalScene):
+        return document
     mapping = _canonical(document, "", 0)
     refuse(not isinstance(mapping, dict), "a scene is a mapping")
-    return {key: part for key, part in mapping.items() if key not in _SILENT and part != _DEFAULTS.get(key)}
+    said = ((key, part) for key, part in mapping.items() if key not in _SILENT)
+    return CanonicalScene((key, part) for key, part in said if part != _DEFAULTS.get(key))
 
 
 def _canonical(value: Any, key: str, depth: int) -> Any:

@@ -257,7 +257,7 @@ def _gives(room: Room, name: str, q: str) -> bool:
         plain = (
             slope.symbols <= evidence.chosen
             and room.point is not None
-            and room.scenery.differs(slope, room.point.floats)
+            and room.scenery.differs(slope, room.point.estimates)
         )
         return plain or bool(evidence.ring.rational(slope))
     except CheckError:
@@ -297,7 +297,7 @@ def stationary(room: Room) -> Iterator[Told]:
 
 def _motions_from(room: Room, standing: Standing, size: int) -> Iterator[Told]:
     """Yield ``size`` motions from the point: rigid ones of all together, none, or a family."""
-    fields = kept_motions(room, room.problem.coordinates) if size else {}
+    fields = kept_motions(room, standing.point) if size else {}
     if len(fields) == size:
         orbit_of = {"fields": list(fields), "words": [[name] for name in fields], "columns": list(fields.values())}
         yield {"rule": "span", "at": standing.point.name, "rows": list(room.scenery.evidence.finite), **orbit_of}

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
+from itertools import combinations
 from typing import Any
 
 from networkx.utils import UnionFind
 
+from dofkit.checker.constraints import Surroundings
 from dofkit.checker.evidence import CheckedEvidence, VelocityField, bracket, field_named, on_row
 from dofkit.checker.geometry import determinant
 from dofkit.checker.trees import ZERO, CheckError, Tree, negative
@@ -17,33 +19,19 @@ from dofkit.methods.certificates.points import FoundPoint
 from dofkit.methods.certificates.room import Room, Standing, Told
 from dofkit.methods.certificates.scenery import Scenery, text_of
 
-_AXES = "xyz"
 
-
-def places_of(document: Mapping[str, Any], dimension: int) -> list[tuple[list[str], str]]:
-    """The coordinates of every particle and body of the plane: its place, and its angle or ""."""
-    places = []
-    for key in ("particles", "bodies"):
-        for entry in document.get(key) or []:
-            owner = {"name": entry} if isinstance(entry, str) else entry
-            roles = _AXES[:dimension] if dimension < 3 or key == "particles" else ""
-            names = owner.get("coordinates") or [f"{role}_{owner['name']}" for role in roles]
-            angle = (owner.get("coordinates") or [f"theta_{owner['name']}"])[-1] if key == "bodies" else ""
-            if roles:
-                places.append((list(names[:dimension]), angle if dimension == 2 else ""))
-    return places
-
-
-def motions(document: Mapping[str, Any], dimension: int) -> list[dict[str, str]]:
+def motions(world: Surroundings) -> list[dict[str, str]]:
     """Translations and rotations as fields; none where a body of space occurs."""
-    places = places_of(document, dimension)
-    if dimension == 3 and document.get("bodies"):
+    d, frames = world.dimension, [frame for frame in world.frames.values() if frame.reference]
+    if d == 3 and frames:
         return []
-    fields = [{place[i]: "1" for place, _ in places} for i in range(dimension)]
-    for i in range(dimension):
-        for j in range(i):
-            turn = {place[j]: f"-{place[i]}" for place, _ in places} | {place[i]: place[j] for place, _ in places}
-            fields.append(turn | {angle: "1" for _, angle in places if angle})
+    places = [[str(q.value) for q in moved] for moved in (*(p.over for p in world.particles.values()),
+                                                          *(frame.position for frame in frames))]  # fmt: skip
+    angles = [list(frame.reference)[2] for frame in frames if d == 2]
+    fields = [{place[i]: "1" for place in places} for i in range(d)]
+    for i, j in combinations(range(d), 2):
+        turn = {place[i]: f"-{place[j]}" for place in places} | {place[j]: place[i] for place in places}
+        fields.append(turn | dict.fromkeys(angles, "1"))
     return fields
 
 
@@ -66,7 +54,7 @@ def backing(room: Room, standing: Standing | None) -> Told | None:
 def covering(room: Room, standing: Standing) -> list[Told] | None:
     """Blocks of relations whose rank is told by how many there are, or by rigid motions."""
     scenery, blocks = room.scenery, []
-    candidates = motions(room.document, room.problem.world.dimension)
+    candidates = motions(room.problem.world)
     accounted = {*standing.rows, *standing.dependent}
     finite = [name for name in scenery.evidence.finite if name in accounted]
     for names in parts_of(scenery, finite):
@@ -85,14 +73,14 @@ def covering(room: Room, standing: Standing) -> list[Told] | None:
     return blocks
 
 
-def kept_motions(room: Room, columns: Sequence[str]) -> dict[str, str]:
-    """Motions of all together that keep all finite relations, each with a column: independent at the main point."""
-    scenery, estimates = room.scenery, Estimates(room.point.floats if room.point else {})
+def kept_motions(room: Room, point: FoundPoint) -> dict[str, str]:
+    """Motions of all together that keep all finite relations, each with a column: independent at the point."""
+    scenery = room.scenery
     finite = list(scenery.evidence.finite)
-    ids = [field_id(scenery, {"components": motion}) for motion in motions(room.document, room.problem.world.dimension)]
+    ids = [field_id(scenery, {"components": motion}) for motion in motions(room.problem.world)]
     kept = [motion for motion in ids if _kept(scenery, [motion], finite)]
     fields = [field_named(scenery.evidence, motion) for motion in kept]
-    rows = [{q: estimates.value(tree) for q, tree in motion.items() if q in columns} for motion in fields]
+    rows = [{q: point.estimates.value(tree) for q, tree in motion.items()} for motion in fields]
     return {kept[p.row]: p.column for p in echelon(rows).pivots}
 
 
@@ -109,7 +97,7 @@ def parts_of(scenery: Scenery, names: Sequence[str]) -> list[list[str]]:
 
 def _chosen(scenery: Scenery, fields: list[dict[str, str]], standing: Standing) -> list[tuple[int, str]]:
     """Independent fields at the point, each with a column."""
-    estimates = Estimates(standing.point.floats)
+    estimates = standing.point.estimates
     rows = [{q: estimates.value(scenery.evidence.text(text)) for q, text in field.items()} for field in fields]
     return [(p.row, p.column) for p in echelon(rows).pivots]
 
@@ -218,7 +206,7 @@ def reach(room: Room) -> int:
 
 
 def _grown(room: Room, standing: Standing, fields: list[str], most: int) -> Words:
-    estimates = Estimates(standing.point.floats)
+    estimates = standing.point.estimates
     chosen = room.scenery.chosen
     bases: dict[str, VelocityField] = {
         name: {q: chosen(tree) for q, tree in field_named(room.scenery.evidence, name).items()} for name in fields

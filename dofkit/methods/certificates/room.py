@@ -7,12 +7,12 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, Literal
 
+from dofkit.checker.problem import CanonicalScene, sha256_of
 from dofkit.checker.problem import CheckedProblem as Problem
-from dofkit.checker.problem import canonical, sha256_of
 from dofkit.checker.relations import FAULTS, fault_text
 from dofkit.checker.trees import CheckError
 from dofkit.checker.verification import PARTS, Verifier
-from dofkit.methods.certificates.numerics import Estimates, NoEstimateError, echelon
+from dofkit.methods.certificates.numerics import NoEstimateError, echelon
 from dofkit.methods.certificates.points import FoundPoint, PointSearch
 from dofkit.methods.certificates.scenery import MOST_ROWS, Scenery
 from dofkit.methods.certificates.steps import accounted, rate_of
@@ -21,9 +21,9 @@ from dofkit.report import Report
 Outcome = Literal["shown", "contradicted", "open"]
 
 
-def empty_certificate(name: str, document: Mapping[str, Any], readings: Mapping[str, str]) -> dict[str, Any]:
+def empty_certificate(name: str, document: CanonicalScene, readings: Mapping[str, str]) -> dict[str, Any]:
     """Return a certificate of a scene without parts, claims, or what is uncovered."""
-    scene = {"name": name, "sha256": sha256_of(document), "document": canonical(document)}
+    scene = {"name": name, "sha256": sha256_of(document), "document": dict(document)}
     scene |= {"readings": dict(readings)} if readings else {}
     lists: dict[str, list[dict[str, Any]]] = {part: [] for part in PARTS}
     return {"certificate": 1, "scene": scene, "cayley": [], **lists, "claims": [], "uncovered": []}
@@ -84,7 +84,6 @@ class Room:
     """A report and a reading of its scene, the main point, and rows that are independent there."""
 
     report: Report
-    document: Mapping[str, Any]
     scenery: Scenery
     words: dict[tuple[str, ...], Any] = field(default_factory=dict)
 
@@ -192,8 +191,7 @@ class Room:
         """The entries of a row in floats: by coordinates, or by their velocities."""
         scenery = self.scenery
         finite = scenery.evidence.relation(name).kind == "finite"
-        rates = {f"{q}dot": 0.0 for q in (*self.problem.coordinates, "t")} | {"tdot": 1.0}
-        gradient = Estimates({**rates, **point.floats}).gradient(scenery.tree(name))
+        gradient = point.estimates.gradient(scenery.tree(name))
         return {
             q: gradient[q if finite else f"{q}dot"]
             for q in self.problem.coordinates

@@ -125,10 +125,10 @@ class Scenery:
         }
         return substituted(tree, {}, made)
 
-    def differs(self, tree: Tree, floats: Mapping[str, float]) -> bool:
+    def differs(self, tree: Tree, estimates: Estimates) -> bool:
         """Return whether a tree is not 0 at a point, by far."""
         try:
-            return abs(Estimates(floats).value(self.chosen(tree))) > FAR
+            return abs(estimates.value(self.chosen(tree))) > FAR
         except NoEstimateError:
             return False
 
