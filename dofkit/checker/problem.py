@@ -72,18 +72,11 @@ def _from_node(node: yaml.Node | None) -> Any:
     return [_from_node(part) for part in node.value] if isinstance(node, yaml.SequenceNode) else node and node.value
 
 
-class CanonicalScene(dict[str, Any]):
-    """A document in its canonical form."""
-
-
-def canonical(document: object) -> CanonicalScene:
+def canonical(document: object) -> dict[str, Any]:
     """The document without its name, titles, notes and empty entries, short forms written out and values exact."""
-    if isinstance(document, CanonicalScene):
-        return document
     mapping = _canonical(document, "", 0)
     refuse(not isinstance(mapping, dict), "a scene is a mapping")
-    said = ((key, part) for key, part in mapping.items() if key not in _SILENT)
-    return CanonicalScene((key, part) for key, part in said if part != _DEFAULTS.get(key))
+    return {key: part for key, part in mapping.items() if key not in _SILENT and part != _DEFAULTS.get(key)}
 
 
 def _canonical(value: Any, key: str, depth: int) -> Any:
@@ -112,7 +105,12 @@ def _canonical(value: Any, key: str, depth: int) -> Any:
 
 def sha256_of(document: object) -> str:
     """The hash of the canonical JSON of a document."""
-    text = json.dumps(canonical(document), sort_keys=True, separators=(",", ":"), ensure_ascii=False)
+    return sha256_of_canonical(canonical(document))
+
+
+def sha256_of_canonical(scene: Entry) -> str:
+    """The hash of a document in its canonical form."""
+    text = json.dumps(scene, sort_keys=True, separators=(",", ":"), ensure_ascii=False)
     return sha256(text.encode("utf-8", "surrogatepass")).hexdigest()
 
 
@@ -147,8 +145,12 @@ class CheckedProblem(NamedTuple):
 
 def read_problem(document: Mapping[str, Any], cayley: frozenset[str] = frozenset()) -> CheckedProblem:
     """The problem of a document; bodies in ``cayley`` are read with Cayley parameters in the place of angles."""
+    return problem_of_canonical(canonical(document), cayley)
+
+
+def problem_of_canonical(scene: Entry, cayley: frozenset[str] = frozenset()) -> CheckedProblem:
+    """The same of a document in its canonical form."""
     try:
-        scene = canonical(document)
         known_fields(scene, KEYS)
         world, coordinates, configured = _surroundings(scene, cayley)
         relations = tuple(_relations(world, scene, coordinates))

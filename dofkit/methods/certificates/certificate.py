@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
-from dofkit.checker.problem import CanonicalScene, canonical, read_problem
 from dofkit.checker.problem import CheckedProblem as Problem
+from dofkit.checker.problem import canonical, problem_of_canonical
 from dofkit.checker.trees import CheckError
 from dofkit.methods.certificates import emptiness, fields, freedom, labels
 from dofkit.methods.certificates.numerics import NoEstimateError
@@ -163,9 +163,9 @@ def _texts_in(value: Any) -> set[str]:
     return {text for item in value for text in _texts_in(item)} if isinstance(value, list) else set()
 
 
-def _rooms(document: CanonicalScene, report: Report, certificate: dict[str, Any]) -> list[Room]:
+def _rooms(document: Mapping[str, Any], report: Report, certificate: dict[str, Any]) -> list[Room]:
     """The readings that evidence is looked for in: with Cayley parameters first, where a drawing is given."""
-    plain = read_problem(document)
+    plain = problem_of_canonical(document)
     rooms = [Room(report, Scenery(plain, False, certificate))]
     bodies = frozenset(plain.world.frames) - {"ground"}
     if plain.world.dimension == 3 and bodies and plain.reference:
@@ -176,9 +176,9 @@ def _rooms(document: CanonicalScene, report: Report, certificate: dict[str, Any]
     return rooms
 
 
-def _with_cayley(document: CanonicalScene, bodies: frozenset[str]) -> Problem | None:
+def _with_cayley(document: Mapping[str, Any], bodies: frozenset[str]) -> Problem | None:
     try:
-        return read_problem(document, bodies)
+        return problem_of_canonical(document, bodies)
     except CheckError:
         return None
 

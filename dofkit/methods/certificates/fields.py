@@ -43,12 +43,7 @@ def backing(room: Room, standing: Standing | None) -> Told | None:
         return {}
     if (blocks := covering(room, standing)) is None:
         return None
-    covers, cover = room.scenery.entries["covers"], {"minor": room.minor(standing), "blocks": blocks}
-    for entry in covers:
-        if all(entry[key] == value for key, value in cover.items()):
-            return {"covers": [entry["id"]]}
-    covers.append({"id": f"cover{len(covers)}", **cover})
-    return {"covers": [covers[-1]["id"]]}
+    return {"covers": [room.scenery.entry_id("covers", {"minor": room.minor(standing), "blocks": blocks})]}
 
 
 def covering(room: Room, standing: Standing) -> list[Told] | None:
@@ -66,7 +61,7 @@ def covering(room: Room, standing: Standing) -> list[Told] | None:
         variables = [q for q in room.problem.coordinates if q in held]
         fields = [{q: text for q, text in motion.items() if q in held} for motion in candidates]
         columns = _chosen(scenery, fields, standing)
-        ids = [field_id(scenery, {"components": fields[place]}) for place, _ in columns]
+        ids = [scenery.entry_id("fields", {"components": fields[place]}) for place, _ in columns]
         if len(variables) - rank != len(ids) or not _kept(scenery, ids, names):
             return None
         blocks.append({"rows": names, "fields": ids, "columns": [column for _, column in columns]})
@@ -77,7 +72,7 @@ def kept_motions(room: Room, point: FoundPoint) -> dict[str, str]:
     """Motions of all together that keep all finite relations, each with a column: independent at the point."""
     scenery = room.scenery
     finite = list(scenery.evidence.finite)
-    ids = [field_id(scenery, {"components": motion}) for motion in motions(room.problem.world)]
+    ids = [scenery.entry_id("fields", {"components": motion}) for motion in motions(room.problem.world)]
     kept = [motion for motion in ids if _kept(scenery, [motion], finite)]
     fields = [field_named(scenery.evidence, motion) for motion in kept]
     rows = [{q: point.estimates.value(tree) for q, tree in motion.items()} for motion in fields]
@@ -115,16 +110,6 @@ def _kept(scenery: Scenery, ids: Sequence[str], names: Sequence[str]) -> bool:
         return False
 
 
-def field_id(scenery: Scenery, field: Told) -> str:
-    """The id of a field, new or known."""
-    fields = scenery.entries["fields"]
-    for entry in fields:
-        if all(entry.get(key) == value for key, value in field.items()):
-            return str(entry["id"])
-    fields.append({"id": f"X{len(fields)}", **field})
-    return str(fields[-1]["id"])
-
-
 # Evidence about what velocities allow: fields by Cramer's rule, words of brackets, orbits, growth.
 
 #: The most rows of a determinant that is written out; the longest word, and the most words of a length.
@@ -155,7 +140,7 @@ def tangent_fields(room: Room, standing: Standing) -> list[str] | None:
         if len(touched) > LARGEST_CRAMER:
             return None
         components = _by_cramer(evidence, touched, [pairs[row] for row in touched], coordinate)
-        ids.append(field_id(scenery, {"components": components}))
+        ids.append(scenery.entry_id("fields", {"components": components}))
     return ids
 
 

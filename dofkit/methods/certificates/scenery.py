@@ -75,6 +75,15 @@ class Scenery:
         self._prepared: dict[str, Tree] = {}
         self.steps: set[str] = set()
 
+    def entry_id(self, part: str, entry: dict[str, Any]) -> str:
+        """The id of a minor, field or cover, written into the certificate where it is new."""
+        entries = self.entries[part]
+        known = (str(other["id"]) for other in entries if {**other, **entry} == other)
+        if (name := next(known, "")) == "":
+            name = f"{part[0].upper()}{len(entries)}"
+            entries.append({"id": name, **entry})
+        return name
+
     @property
     def label(self) -> str:
         """What ids of this reading begin with."""
