@@ -68,12 +68,6 @@ _OWN: dict[ArgumentKey, Argument] = {
         "at most that dimension",
         "dofkit.configuration.cases.cases_of",
     ),
-    "isolated zeros": Argument(
-        "some coordinates have isolated values; the others are free or determined by them",
-        "IsolatedZeros",
-        "each equation has one coordinate, is analytic everywhere and not identically zero, with a known common zero",
-        "dofkit.configuration.search.isolated",
-    ),
     "singular values": Argument(
         "the rank of measured geometry",
         "",

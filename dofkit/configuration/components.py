@@ -144,8 +144,11 @@ def by_cases(chart: Chart, variety: Variety, look: Callable[[Chart], Variety]) -
     if None in cases or prod(len(c or ()) for c in cases) > MAX_PRODUCTS:
         return variety
     together = sorted(cartesian(*(c for c in cases if c is not None)), key=lambda choice: -_most(choice))
-    for choice in together[:MAX_TOGETHER] if len(together) > 1 or variety.parted else ():
-        seen = _variety_of(chart, [*solved.explicit.values(), *(g for case in choice for g in case.relations)], look)
+    for choice in together[:MAX_TOGETHER]:
+        relations = [*solved.explicit.values(), *(g for case in choice for g in case.relations)]
+        if set(relations) == set(chart.relations) and not variety.parted:
+            continue
+        seen = _variety_of(chart, relations, look)
         samples = [p for p in seen.samples if on_variety(chart, p)]
         if seen.consistent and samples:
             return replace(seen, samples=samples)
@@ -182,7 +185,7 @@ def _larger(chart: Chart, best: Variety, other: Variety, most: int) -> tuple[Var
 
 def _restricted(chart: Chart, relations: Sequence[Expr]) -> Chart:
     """The chart with other relations, in a ring of their own: they may have no value where those of the chart do."""
-    ring = chart.ring.another()
+    ring = chart.ring.another(relations)
     for var in chart.ring.vars:
         if var.kind == "symbol":
             ring.symbol(var.key)

@@ -59,8 +59,7 @@ class MeasuredFreedom:
 
     ``dependencies``: a matrix over GF(2) with the pattern of dependent rows that the Jacobian has within the tolerance:
     independent rows are unit vectors, the others sums of those they depend on. ``columns`` are dependent coordinates.
-    ``gap``: between the least singular value that counts and the largest that does not. ``bound``: an upper bound of
-    the dimension where it is undecided.
+    ``gap``: between the least singular value that counts and the largest that does not.
     """
 
     instantaneous: int | None
@@ -69,7 +68,6 @@ class MeasuredFreedom:
     columns: tuple[int, ...]
     gap: float
     reason: str
-    bound: int | None = None
 
 
 def measured_freedom(chart: Chart, pose: Mapping[Expr, Expr]) -> MeasuredFreedom | None:
@@ -94,7 +92,7 @@ def _compared_with_exact(freedom: MeasuredFreedom, exact: AtReference) -> Measur
         return freedom
     if freedom.dimension is not None:
         return replace(freedom, dimension=None, reason=STOPPED)
-    if dimension is None or dimension <= exact.rigid or freedom.bound is None or dimension < freedom.bound:
+    if dimension is None or dimension <= exact.rigid or dimension < exact.instantaneous - 1:
         return freedom
     return replace(freedom, dimension=dimension, reason=AS_WRITTEN.format(exact.local.reason))
 
@@ -129,7 +127,6 @@ def _within_tolerance(chart: Chart, at: Mapping[Expr, float]) -> MeasuredFreedom
         tuple(greedy_pivots(j.T.tolist(), rank)),
         gap,
         conclusion.reason,
-        problem.bound if conclusion.reason == OPEN else None,
     )
 
 
@@ -147,11 +144,6 @@ class _Problem:
     def forms(self) -> StressForms:
         """The second order."""
         return StressForms(self.pose)
-
-    @property
-    def bound(self) -> int:
-        """An upper bound of the dimension where not all of its infinitesimal motions are finite."""
-        return min(self.first - 1, self.rigid + self.forms.cone_bound)
 
     @cached_property
     def paths(self) -> list[tuple[Path, Path]]:
