@@ -179,6 +179,14 @@ _READ: dict[str, Callable[[Bridge, Any], Expr]] = {
 }  # fmt: skip
 
 
+def integrators() -> tuple[Callable[..., Any], ...]:
+    """Return SymPy's algorithms, imported at first use, which takes longer than most integrals."""
+    from sympy.integrals.manualintegrate import manualintegrate
+    from sympy.integrals.risch import risch_integrate
+
+    return risch_integrate, manualintegrate
+
+
 def antiderivative_by_sympy(e: Expr, x: Expr, positive: frozenset[Expr]) -> Expr | None:
     """Return the antiderivative of ``e`` by the symbol ``x`` that SymPy finds, or None.
 
@@ -186,14 +194,12 @@ def antiderivative_by_sympy(e: Expr, x: Expr, positive: frozenset[Expr]) -> Expr
     none of them; then the rules that a person would use. Raises UntranslatableError where a result cannot be written.
     """
     from sympy import Integral, Piecewise
-    from sympy.integrals.manualintegrate import manualintegrate
-    from sympy.integrals.risch import risch_integrate
     from sympy.polys.polyerrors import BasePolynomialError
 
     plain = {s: ex.parameter(f"p{i}") for i, s in enumerate(sorted(e.symbols, key=repr))}
     bridge = Bridge((), frozenset(plain[s] for s in e.symbols & positive))
     integrand, variable = bridge.sympy(substitute(e, plain)), bridge.sympy(plain[x])
-    for integrate in (risch_integrate, manualintegrate):
+    for integrate in integrators():
         try:
             integral = integrate(integrand, variable)
         except (ArithmeticError, AttributeError, BasePolynomialError, LookupError, RuntimeError, TypeError, ValueError):
