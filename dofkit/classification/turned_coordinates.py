@@ -33,6 +33,8 @@ from dofkit.system import Rotation
 ANYWHERE = 0.3
 #: What is added to a number of floating point, so that the ball holds the number meant.
 NEARLY = arb(0, 1e-12)
+#: The least square of the sine of a tilt at which a body does not seem to stand upright.
+TILTED = 1e-7
 #: Coordinates at most of what is looked at where it is drawn, and where it is searched for.
 MOST_DRAWN, MOST_SEARCHED = 700, 60
 #: Points at which the angles are looked at.
@@ -197,27 +199,26 @@ def _rows(
         if set(r.names) <= place.keys() and not set(r.names).isdisjoint(chosen):
             values = [arb(ANYWHERE) if real is None else real.point.symbols.get(ex.coordinate(n)) for n in r.names]
             upright = group.fixed.issuperset(r.names[:2]) and all(e.is_zero for e in r.initial[:2])
-            solved = _rates([arb(ANYWHERE) if v is None else v for v in values], _drawn(r), upright)
+            solved = angle_rates([arb(ANYWHERE) if v is None else v for v in values], r, upright)
             rates |= {a: {g: solved[i, j] for j, g in enumerate(r.names)} for i, a in enumerate(r.names)}
     return [*rows, *([rates[name].get(c, arb(0)) for c in place] for name in place if name in chosen)]
 
 
-def _drawn(r: Rotation) -> list[arb]:
-    """Where the body's z axis is drawn, R0 e_z = (sin theta sin phi, -sin theta cos phi, cos theta)."""
-    phi, theta = (NEARLY + (approximate(e) or 0.0) if not e.is_zero else arb(0) for e in r.initial[:2])
-    return [theta.sin() * phi.sin(), -theta.sin() * phi.cos(), theta.cos()]
-
-
-def _rates(g: Sequence[arb], drawn: Sequence[arb], upright: bool) -> arb_mat:
+def angle_rates(g: Sequence[arb], r: Rotation, upright: bool | None = None) -> arb_mat:
     """The Euler angles' rates by the rates of the Gibbs vector. Raises ZeroDivisionError where they are singular.
 
-    Where the body keeps its z axis ``upright``, psi stands for the turn about it, theta and phi for tilts.
+    Where the body keeps its z axis ``upright``, psi stands for the turn about it, theta and phi for tilts; None: where
+    it seems to stand upright. Its z axis is drawn at R0 e_z = (sin theta sin phi, -sin theta cos phi, cos theta).
     """
     x, y, z = g
+    phi, theta = (NEARLY + (approximate(e) or 0.0) if not e.is_zero else arb(0) for e in r.initial[:2])
+    drawn = [theta.sin() * phi.sin(), -theta.sin() * phi.cos(), theta.cos()]
     cross = arb_mat([[0, -z, y], [z, 0, -x], [-y, x, 0]])
     identity = arb_mat([[1, 0, 0], [0, 1, 0], [0, 0, 1]])
     scale = 2 / (1 + x * x + y * y + z * z)
     axis = (identity + (cross + cross * cross) * scale) * arb_mat([[v] for v in drawn])
     a, b, c = (axis[i, 0] for i in range(3))
+    if upright is None:
+        upright = bool(a * a + b * b < TILTED)
     axes = arb_mat([[0, 1, 0], [1, 0, 0], [0, 0, 1]] if upright else [[0, -b, a], [0, a, b], [1, 0, c]])
     return axes.solve((identity + cross) * scale)
