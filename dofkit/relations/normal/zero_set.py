@@ -7,10 +7,9 @@ is dropped, a product becomes branches. No branch: no real zero.
 
 from __future__ import annotations
 
-from fractions import Fraction
-
 from dofkit.base.errors import NoValueError
 from dofkit.exact.ring.canonical import Canon
+from dofkit.exact.ring.radicals import never_negative
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.polynomial_zeros import (
@@ -130,21 +129,9 @@ def sign_as_written(term: Expr, positive: frozenset[Expr]) -> int | None:
     for factor in term.args if term.op == "mul" else (term,):
         if factor.op == "num":
             sign = sign if factor.args[0] > 0 else -sign
-        elif not _never_negative(factor, positive):
+        elif not never_negative(factor, positive):
             return None
     return sign
-
-
-def _never_negative(factor: Expr, positive: frozenset[Expr]) -> bool:
-    if factor in positive or (factor.op == "fn" and factor.args[0] in ("exp", "abs", "cosh")):
-        return True
-    if factor.op == "const":
-        return True
-    if factor.op == "pow" and factor.args[1].op == "num":
-        exponent: Fraction = factor.args[1].args[0]
-        even = exponent.denominator == 1 and exponent % 2 == 0
-        return even or exponent.denominator % 2 == 0 or factor.args[0] in positive
-    return False
 
 
 def _below(factor: Expr) -> bool:
