@@ -112,7 +112,7 @@ def phase_sketch(stage: StagedScene) -> Sketch:
     report, system = stage.report, stage.system
     if len(system.coordinates) < 2 or not any(e.form in ("pfaffian", "nonlinear") for e in report.constraints):
         raise NoFormsError("a picture of directions needs differential constraints and at least two coordinates")
-    if not is_linear(stage.arrangement):
+    if not is_linear(system):
         raise NoFormsError("a picture of directions needs constraints that are linear in the velocities")
     distribution = Distribution(stage.arrangement)
     if not distribution.fields:

@@ -105,7 +105,7 @@ def _alone(stage: StagedScene, owner: str, relations: Sequence[Relation]) -> Ite
     for relation in relations:
         curve_role = relation.sense == "=" and len(equations) < len(symbols) == 2
         role: Role = "locus" if curve_role else "surface"
-        for line in lines_of(stage.arrangement, relation.expr, symbols, _half(stage)):
+        for line in lines_of(stage.arrangement, relation.expr, symbols, half_of(stage)):
             yield Shape("line", fixed(*line), role)
 
 
@@ -121,12 +121,12 @@ def meeting_shapes(stage: StagedScene) -> Iterator[Shape]:
                 surfaces.setdefault(owners[0], []).append(relation.expr)
     for owner, exprs in surfaces.items():
         symbols = [coordinate(c.name) for c in stage.system.coordinates if c.owner == owner][:3]
-        line = curve(stage.arrangement, exprs, symbols, 2 * _half(stage)) if len(exprs) > 1 else []
+        line = curve(stage.arrangement, exprs, symbols, 2 * half_of(stage)) if len(exprs) > 1 else []
         if len(line) > 1:
             yield Shape("line", fixed(*line), "locus", owner=owner)
 
 
-def _half(stage: StagedScene) -> float:
+def half_of(stage: StagedScene) -> float:
     """Return half the side of a cube about the origin that contains the picture."""
     origins = (pose.moved((0.0, 0.0, 0.0)) for pose in stage.arrangement.poses.values())
     reach = [np.zeros(3), np.array(stage.centre), *origins]

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 from dofkit.expressions.tree import TIME, ZERO, Expr, coordinate, fn
-from dofkit.pictures.arrangement import POINT, finite_relations
+from dofkit.pictures.arrangement import finite_relations
 from dofkit.pictures.evaluation import evaluated
 from dofkit.pictures.stage import StagedScene
 from dofkit.system import GROUND
@@ -126,8 +126,8 @@ def _poses(stage: StagedScene) -> dict[str, tuple[Expr, ...]]:
         angle = symbols[-1] - system.pose.get(symbols[-1], ZERO)
         c, s = fn("cos", angle), fn("sin", angle)
         poses[body] = (at[0] - c * start[0] + s * start[1], at[1] - s * start[0] - c * start[1], c, s)
-    for particle in system.particles or () if system.bodies or system.particles else (POINT,):
-        symbols = [coordinate(c.name) for c in system.coordinates if particle == POINT or c.owner == particle]
+    for particle in system.particles:
+        symbols = [coordinate(c.name) for c in system.coordinates if c.owner == particle]
         poses[particle] = ((*symbols, ZERO, ZERO)[0], (*symbols, ZERO, ZERO)[1])
     for name, placement in stage.arrangement.placements.items():
         angles = [e for e in (placement.heading, placement.turn) if e is not None]

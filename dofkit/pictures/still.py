@@ -13,7 +13,7 @@ import numpy as np
 from dofkit.base.wording import many
 from dofkit.methods.classify import classify
 from dofkit.pictures.constraint_graph import graph_sketch, hover_script
-from dofkit.pictures.coordinates import coordinate_sketch, has_set
+from dofkit.pictures.coordinates import coordinate_sketch
 from dofkit.pictures.directions import phase_sketch
 from dofkit.pictures.files import has_matplotlib, png_of, saved, svg_of, write_pdf
 from dofkit.pictures.layout import WIDTH, page_of
@@ -21,7 +21,7 @@ from dofkit.pictures.mechanism import FREE_PLACES, is_bare, sketch_of
 from dofkit.pictures.paper import Page
 from dofkit.pictures.player import framed, page_height, page_html
 from dofkit.pictures.shapes import Sketch
-from dofkit.pictures.stage import StagedScene, stage_of
+from dofkit.pictures.stage import POINT, StagedScene, stage_of
 from dofkit.report import Report
 from dofkit.scene.reading import SceneLike, load
 from dofkit.scene.scene import Scene
@@ -158,10 +158,10 @@ def staged(scene: Scene, report: Report) -> StagedScene:
 
 def whole_sketch(stage: StagedScene) -> tuple[Sketch, str]:
     """Return the sketch of a scene of any kind, and the script that goes with it."""
+    if stage.system.particles == (POINT,):
+        return coordinate_sketch(stage), ""
     if not is_bare(stage.system) or stage.picture.shapes:
         return sketch_of(stage), ""
-    if has_set(stage.system):
-        return coordinate_sketch(stage), ""
     reason = NO_AXES if stage.system.coordinates else NOTHING
     return graph_sketch(stage.scene, stage.system, stage.report, reason), hover_script(stage.report)
 

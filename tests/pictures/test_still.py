@@ -15,12 +15,12 @@ import dofkit
 from dofkit.base.errors import ArgumentError
 from dofkit.pictures import stage
 from dofkit.pictures.arrangement import SCHEMATIC
-from dofkit.pictures.coordinates import POINT
 from dofkit.pictures.files import ExtraMissingError
 from dofkit.pictures.layout import page_of
 from dofkit.pictures.mechanism import FREE_PLACES
 from dofkit.pictures.paper import HIGH, Page, width_of
 from dofkit.pictures.shapes import ON_DARK, WHITE, Role, Shape, State, ink_of, keys_of
+from dofkit.pictures.stage import POINT
 from dofkit.pictures.still import Picture
 from dofkit.report import FieldVerdict
 
