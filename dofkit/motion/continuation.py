@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import islice
 
 import numpy as np
 
@@ -22,6 +23,8 @@ HELD, ROUNDS, EASY = 1e-12, 60, 8
 SMALL = 1e-7
 #: What a correction may add to a step, the least cosine between steps, and the least part of a step that is tried.
 SLACK, STRAIGHT, LEAST = 0.3, 0.9, 2.0**-12
+#: What a value is below 0 by that does not count.
+STILL = 1e-6
 #: The longest chord on which forms are integrated.
 CHORD = 1 / 100
 #: Directions in which a singular configuration is left, and how much of a step the first one is.
@@ -113,6 +116,27 @@ class Follower:
                     continue
                 current, remaining, part = reached, remaining - part, part * (1.0 if self.relations.forms else 2.0)
             yield current
+
+    def trail(self, start: Pose, first: Reached | None, steps: int, step: float) -> tuple[list[Pose], bool]:
+        """Return the poses of one way from a start, and whether it closes up.
+
+        It ends where an inequality is violated that was satisfied at the start.
+        """
+        poses: list[Pose] = []
+        if first is None:
+            return poses, False
+        closing = self.freedom == 1 and self.clock is None and not self.relations.forms
+        margins = self.relations.margins(start)
+        for reached in islice(self.path(first, step), steps):
+            pairs = zip(margins, self.relations.margins(reached.pose), strict=False)
+            if any(now < -STILL <= before for before, now in pairs):
+                break
+            poses.append(reached.pose)
+            if closing and len(poses) > 2 and float(reached.direction @ first.direction) > STRAIGHT:
+                back = self.relations.same(start, reached.pose)
+                if float(np.linalg.norm(self.relations.between(reached.pose, back))) < 0.75 * step:
+                    return [*poses[:-1], back], True
+        return poses, False
 
     def _step(self, current: Reached, length: float) -> Reached | None:
         """The pose so far ahead; None where the step is too long to be sure of, or nothing is ahead."""

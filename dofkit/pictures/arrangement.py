@@ -15,14 +15,14 @@ from typing import NamedTuple
 import networkx as nx
 import numpy as np
 
-from dofkit.base.errors import DofkitError
 from dofkit.expressions.tree import DT, TIME, Expr, coordinate, differential, parameter, velocity
-from dofkit.motion.configurations import configurations
-from dofkit.pictures.evaluation import by_pivots, derivatives, evaluated, kernel, values_at, with_unit_rows
-from dofkit.pictures.placed_shapes import ShapePlacement
-from dofkit.pictures.shapes import AT_REST, Array, Displacement, Place, about, place
+from dofkit.motion.loops import by_pivots
+from dofkit.motion.poses import euler_angles, from_euler, matrix_of
+from dofkit.pictures.evaluation import derivatives, evaluated, kernel, values_at, with_unit_rows
+from dofkit.pictures.placed_shapes import ShapePlacement, carrier_placements
+from dofkit.pictures.shapes import AT_REST, Array, Displacement, Place, place
 from dofkit.relations.normal.normal_form import linear_form
-from dofkit.system import GROUND, PARTICLE_ROLES, Coordinate, System
+from dofkit.system import GROUND, PARTICLE_ROLES, Rotation, System
 
 #: Rounds of Newton's method, the residual that counts as 0, and the number of starting points.
 ROUNDS, MET, STARTS = 60, 1e-9, 8
@@ -52,11 +52,16 @@ class Arrangement:
 
     def poses_at(self, numbers: Mapping[Expr, float], *, gibbs: bool) -> dict[str, Displacement]:
         """Return where every carrier is at some numbers; ``gibbs``: rotations are in the system's own charts."""
-        poses = poses_of(self.system, numbers, gibbs=gibbs)
-        moving = {name: placement for name, placement in self.placements.items() if placement.moves}
-        if moving and gibbs:
-            numbers = {**numbers, **_euler_values(self.system, poses, numbers)}
-        return poses | {name: placement.pose(numbers) for name, placement in moving.items()}
+        poses = {GROUND: AT_REST, **_spatial_poses(self.system, numbers, gibbs)}
+        values = dict(numbers)
+        for r in (r for r in self.system.rotations if gibbs and r.chart == "gibbs"):
+            turn = poses[r.body].turn @ _initial(r, numbers)
+            values |= zip(map(coordinate, r.names), euler_angles(turn, [0.0, 0.0, 0.0]), strict=True)
+        return poses | {name: placement.pose(values) for name, placement in self._moving.items()}
+
+    @cached_property
+    def _moving(self) -> dict[str, ShapePlacement]:
+        return {name: placement for name, placement in self.placements.items() if placement.moves}
 
     def along(self, path: Iterable[Mapping[str, float]]) -> Iterator[dict[Expr, float]]:
         """Yield the numbers at some configurations, which have the Euler angles of bodies in space."""
@@ -92,24 +97,16 @@ def finite_relations(system: System, senses: Sequence[str] = ("=",)) -> list[Exp
 def arrangement_of(system: System) -> Arrangement:
     """Return the reference configuration, else positions that satisfy the equations, else a schematic."""
     numbers: dict[Expr, float] = {parameter(p): 1.0 for p in (*system.parameters, *system.generic)} | {TIME: 0.0}
+    placements = carrier_placements(system)
     if system.reference is not None:
-        return Arrangement(system, numbers | _finite_values(system.reference, numbers), None, True)
+        return Arrangement(system, numbers | _finite_values(system.reference, numbers), None, True, placements)
     posed = _finite_values(system.pose, numbers)
     for seed in range(STARTS):
         solved = onto(system, numbers | _start(system, seed) | posed)
         if solved is not None:
-            return Arrangement(
-                system, solved, CHOSEN if any(c.relations for c in system.constraints) else EXAMPLES, True
-            )
-    try:
-        sample = configurations(system, steps=0)[0]
-    except DofkitError:
-        return Arrangement(system, numbers | _start(system, 0) | posed, SCHEMATIC, False)
-    # a body whose rotation is in the Gibbs chart stays as the reference configuration has it
-    names = {c.name for c in system.coordinates} - {n for r in system.rotations for n in r.names}
-    numbers |= {(coordinate if n in names else parameter)(n): v for n, v in sample.items()}
-    met = bool(np.all(values_at(finite_relations(system, (">=", ">")), numbers) >= -MET))
-    return Arrangement(system, numbers, CHOSEN if met else SCHEMATIC, met)
+            note = CHOSEN if any(c.relations for c in system.constraints) else EXAMPLES
+            return Arrangement(system, solved, note, True, placements)
+    return Arrangement(system, numbers | _start(system, 0) | posed, SCHEMATIC, False, placements)
 
 
 def _finite_values(exprs: Mapping[Expr, Expr], numbers: Mapping[Expr, float]) -> dict[Expr, float]:
@@ -210,58 +207,24 @@ def _hanging(graph: nx.Graph, fixed: Mapping[str, Sequence[float]], d: int) -> d
 # Poses
 
 
-def poses_of(system: System, numbers: Mapping[Expr, float], *, gibbs: bool) -> dict[str, Displacement]:
-    """Return where every carrier is; ``gibbs``: rotations are in the system's own charts, not Euler's angles."""
-    poses = {GROUND: AT_REST}
-    rotations = {r.body: r for r in system.rotations}
-    owned: dict[str | None, list[Coordinate]] = {}
-    for c in system.coordinates:
-        owned.setdefault(c.owner, []).append(c)
-
-    def values(coordinates: Sequence[Coordinate]) -> list[float]:
-        return [float(numbers.get(coordinate(c.name), 0.0)) for c in coordinates]
-
-    for body in system.bodies:
-        at = values(owned[body])
-        start = np.array(place([float(evaluated(e, numbers)) for e in system.starts[body]]))
-        turn = np.eye(3)
-        if system.dimension == 2:
-            initial = system.pose.get(coordinate(owned[body][-1].name))
-            turn = about(2, at[-1] - (float(evaluated(initial, numbers)) if initial is not None else 0.0))
-        elif system.dimension == 3 and body in rotations:
-            r = rotations[body]
-            if gibbs and r.chart == "gibbs":
-                turn = _from_gibbs(np.array(at[3:]))
-            else:
-                turn = _from_euler(at[3:]) @ _from_euler([float(evaluated(e, numbers)) for e in r.initial]).T
-        poses[body] = Displacement(turn, np.array(place(at[: system.dimension])) - turn @ start)
-    return poses | {p: Displacement(np.eye(3), np.array(place(values(owned[p])))) for p in system.particles}
-
-
-def _from_euler(angles: Sequence[float]) -> Array:
-    phi, theta, psi = angles
-    return about(2, phi) @ about(0, theta) @ about(2, psi)
-
-
-def _euler_values(
-    system: System, poses: Mapping[str, Displacement], numbers: Mapping[Expr, float]
-) -> dict[Expr, float]:
-    """Return the Euler angles of the bodies whose rotations are in the Gibbs chart."""
-    angles: dict[Expr, float] = {}
+def _spatial_poses(system: System, numbers: Mapping[Expr, float], gibbs: bool) -> dict[str, Displacement]:
+    """Return where the bodies of space are; ``gibbs``: rotations are in the system's own charts, not Euler's angles."""
+    poses = {}
     for r in system.rotations:
-        if r.chart == "gibbs":
-            turn = poses[r.body].turn @ _from_euler([float(evaluated(e, numbers)) for e in r.initial])
-            tilt = math.acos(min(1.0, max(-1.0, turn[2, 2])))
-            level = math.sin(tilt) < 1e-9
-            phi = math.atan2(turn[1, 0], turn[0, 0]) if level else math.atan2(turn[0, 2], -turn[1, 2])
-            psi = 0.0 if level else math.atan2(turn[2, 0], turn[2, 1])
-            angles |= dict(zip(map(coordinate, r.names), (phi, tilt, psi), strict=True))
-    return angles
+        at = np.array([numbers.get(coordinate(c.name), 0.0) for c in system.coordinates if c.owner == r.body])
+        start = np.array(place([float(evaluated(e, numbers)) for e in system.starts[r.body]]))
+        if gibbs and r.chart == "gibbs":
+            quaternion = np.array([1.0, *at[3:]])
+            turn = matrix_of(quaternion / np.linalg.norm(quaternion))
+        else:
+            turn = from_euler(*at[3:]) @ _initial(r, numbers).T
+        poses[r.body] = Displacement(turn, at[:3] - turn @ start)
+    return poses
 
 
-def _from_gibbs(g: Array) -> Array:
-    cross = np.array([[0, -g[2], g[1]], [g[2], 0, -g[0]], [-g[1], g[0], 0]])
-    return np.asarray(np.eye(3) + 2 * (cross + cross @ cross) / (1 + g @ g))
+def _initial(rotation: Rotation, numbers: Mapping[Expr, float]) -> Array:
+    """Return the rotation of a body in the reference configuration."""
+    return from_euler(*(float(evaluated(e, numbers)) for e in rotation.initial))
 
 
 # Infinitesimal motions

@@ -110,23 +110,3 @@ def kernel(rows: Array, columns: int, dimension: int | None = None) -> Array:
     _, singular, right = np.linalg.svd(with_unit_rows(rows))
     rank = int(np.sum(singular > SMALL)) if dimension is None else max(0, columns - dimension)
     return np.asarray(right[rank:])
-
-
-def by_pivots(basis: Array, order: Sequence[int]) -> tuple[Array, list[int]]:
-    """Return the basis reduced so that each row alone moves one column, the first possible in an order; and these."""
-    rows = basis.copy()
-    pivots: list[int] = []
-    for column in order:
-        k = len(pivots)
-        if k == len(rows):
-            break
-        best = k + int(np.argmax(np.abs(rows[k:, column])))
-        if abs(rows[best, column]) < 1e-4:
-            continue
-        rows[[k, best]] = rows[[best, k]]
-        rows[k] /= rows[k, column]
-        factors = rows[:, column].copy()
-        factors[k] = 0.0
-        rows -= np.outer(factors, rows[k])
-        pivots.append(column)
-    return rows, pivots

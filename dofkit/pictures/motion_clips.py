@@ -11,8 +11,9 @@ import numpy as np
 from dofkit.base.errors import DofkitError
 from dofkit.expressions.tree import Expr
 from dofkit.motion.configurations import MotionSampler, sampling
+from dofkit.motion.loops import by_pivots
 from dofkit.pictures.arrangement import MOVES, FreeMotion, displaced, free_motions, moved_numbers
-from dofkit.pictures.evaluation import by_pivots, kernel
+from dofkit.pictures.evaluation import kernel
 from dofkit.pictures.shapes import Array, Clip, Poses, Sketch, Switch, place
 from dofkit.pictures.stage import StagedScene
 from dofkit.pictures.words import can_hold, sure

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from math import cos, sin
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
@@ -147,15 +146,6 @@ def circle(count: int, closed: bool = False) -> Array:
     """Return points of the unit circle as rows (x, y, 0); ``closed``: the first also stands at the end."""
     angles = 2 * np.pi * np.arange(count + closed) / count
     return np.column_stack([np.cos(angles), np.sin(angles), np.zeros(len(angles))])
-
-
-def about(axis: int, angle: float) -> Array:
-    """Return the rotation about a coordinate axis."""
-    c, s = cos(angle), sin(angle)
-    i, j = [(1, 2), (2, 0), (0, 1)][axis]
-    turn = np.eye(3)
-    turn[i, i], turn[i, j], turn[j, i], turn[j, j] = c, -s, s, c
-    return turn
 
 
 def quaternion(turn: Array) -> Array:

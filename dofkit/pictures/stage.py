@@ -158,7 +158,8 @@ def stage_of(scene: Scene, report: Report) -> StagedScene:
         picture = recognised(system) or picture
         if not picture.shapes and has_set(system):
             system = lower(as_particle(scene))
-    arrangement = replace(arrangement_of(system), placements=placements_of(picture))
+    arrangement = arrangement_of(system)
+    arrangement = replace(arrangement, placements={**arrangement.placements, **placements_of(picture)})
     written = [_written_place(arrangement, c) for c in system.connections]
     points = _points(scene, arrangement, written)
     sizes = [s for s in picture_shapes(picture, arrangement.numbers, 0.0) if s.kind != "words"]
@@ -199,7 +200,7 @@ def has_set(system: System) -> bool:
 
 def as_particle(scene: Scene) -> Scene:
     """Return a scene of two or three coordinates as one of a particle that has them."""
-    particle = Particle(name=POINT, coordinates=scene.coordinates)
+    particle = Particle(name=POINT, coordinates=scene.coordinates, at=None, mass=None)
     return scene.model_copy(update={"particles": (particle,), "coordinates": (), "dimension": len(scene.coordinates)})
 
 

@@ -201,7 +201,7 @@ def data_of(found: Animation) -> dict[str, Any]:
 
 
 def test_other_endings_are_told(tmp_path: Path) -> None:
-    with pytest.raises(ArgumentError, match=r"the endings are \.html, \.gif, \.mp4, \.svg, \.png, \.pdf$"):
+    with pytest.raises(ArgumentError, match=r"the endings are \.svg, \.png, \.pdf, \.html, \.gif, \.mp4$"):
         dofkit.animate("crank-held-at-angle").save(tmp_path / "a.avi")
 
 

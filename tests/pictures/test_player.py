@@ -64,7 +64,7 @@ def test_a_click_on_play_moves_a_body(viewer: Viewer, name: str, tmp_path: Path)
     viewer.page.wait_for_timeout(600)
     viewer.page.click("#play")
     assert viewer.shot() != before
-    assert int(viewer.page.input_value("#slider")) > 0
+    assert float(viewer.page.input_value("#slider")) > 0
     assert viewer.page.inner_text("#play") == "Play"
     assert viewer.said == []
 
