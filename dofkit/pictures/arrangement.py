@@ -26,6 +26,8 @@ from dofkit.system import GROUND, PARTICLE_ROLES, Rotation, System
 
 #: Rounds of Newton's method, the residual that counts as 0, and the number of starting points.
 ROUNDS, MET, STARTS = 60, 1e-9, 8
+#: The angle between points that are spread over a sphere from below.
+GOLDEN = math.pi * (3 - math.sqrt(5))
 #: More coordinates than this are not moved onto the equations.
 MOST_COORDINATES = 400
 #: The least velocity, of a unit velocity, that counts as motion.
@@ -158,13 +160,19 @@ def _spots(system: System) -> dict[str, Array]:
     if not system.particles:
         return {}
     if len(system.particles) == 1 and not fixed:
-        return {system.particles[0]: np.array([0.62, 0.5, 0.55])}
+        down = np.where(np.arange(3) == d - 1, -1.0, 1.0) if finite_relations(system) else np.ones(3)
+        return {system.particles[0]: down * np.array([0.9, 0.7, 0.8])}
     if d == 1:
         return {name: np.array([1.0 + 1.5 * k]) for k, name in enumerate(system.particles)}
     if fixed and nx.is_forest(graph):
         return _hanging(graph, fixed, d)
-    if not graph.edges and d == 2:
-        return {str(n): 1.5 * np.asarray(p) for n, p in nx.circular_layout(graph).items()}
+    if not graph.edges:
+        heights = [(2 * k + 1) / len(graph) - 1 if d == 3 else 0.0 for k in range(len(graph))]
+        turn = GOLDEN if d == 3 else 2 * math.pi / len(graph)
+        return {
+            n: 1.5 * np.array([math.sqrt(1 - z * z) * math.cos(k * turn), math.sqrt(1 - z * z) * math.sin(k * turn), z])
+            for k, (n, z) in enumerate(zip(graph, heights, strict=True))
+        }
     if len(graph) > MOST_COORDINATES:
         return {str(n): np.append(p, 0.0) for n, p in nx.circular_layout(graph).items()}
     laid = nx.spring_layout(graph, dim=d, seed=7, pos=fixed or None, fixed=list(fixed) or None, scale=1.6)
@@ -185,7 +193,8 @@ def _links(system: System) -> tuple[nx.Graph, dict[str, list[float]]]:
                 at = [float(evaluated(e, {})) for e in point.at]
                 nodes.append(f"@{at}")
                 fixed[nodes[-1]] = at
-        graph.add_edges_from(combinations(nodes, 2) if connection.facts.complete else pairwise(nodes))
+        if not connection.facts.shared:
+            graph.add_edges_from(combinations(nodes, 2) if connection.facts.complete else pairwise(nodes))
     for name in (n for n in graph if n in fixed and graph.degree(n) == 0):
         fixed.pop(name)
     graph.remove_nodes_from([n for n in graph if str(n).startswith("@") and n not in fixed])

@@ -98,7 +98,8 @@ def svg_of(page: Page, width: float | None = None, script: str = "") -> str:
     on_screen = page.width if width is None else width
     head = (
         f'<svg xmlns="http://www.w3.org/2000/svg" class="{CLASS}" viewBox="0 0 {page.width:g} {page.height:g}" '
-        f'width="{on_screen:g}" height="{on_screen * page.height / page.width:g}" role="img" font-family="{FONT}" stroke-linejoin="round">'
+        f'width="{on_screen:g}" height="{on_screen * page.height / page.width:g}" role="img" '
+        f'font-family="{FONT}" stroke-linejoin="round">'
     )
     words = f"<title>{escape(page.title)}</title><desc>{escape(page.alternative)}</desc>"
     ground = f'<rect width="{page.width:g}" height="{page.height:g}" fill="#FFFFFF"/>'

@@ -363,7 +363,7 @@
 
   function tick(time) {
     if (!state.playing) { return; }
-    const pace = 40 * Math.max(1, 36 / data.clips[state.clip].frames.length), past = Math.min(time - last, 100);
+    const pace = 40 * Math.max(1, 36 / data.clips[state.clip].frames.length), past = Math.min(Math.max(time - last, 0), 100);
     last = time;
     advance(past * Number(controls.speed.value) / pace);
     window.requestAnimationFrame(tick);
