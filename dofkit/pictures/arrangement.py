@@ -15,13 +15,13 @@ from typing import NamedTuple
 import networkx as nx
 import numpy as np
 
+from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import DT, TIME, Expr, coordinate, differential, parameter, velocity
 from dofkit.motion.loops import by_pivots
 from dofkit.motion.poses import euler_angles, from_euler, matrix_of
 from dofkit.pictures.evaluation import derivatives, evaluated, kernel, values_at, with_unit_rows
 from dofkit.pictures.placed_shapes import ShapePlacement, carrier_placements
 from dofkit.pictures.shapes import AT_REST, Array, Displacement, Place, place
-from dofkit.relations.normal.normal_form import linear_form
 from dofkit.system import GROUND, PARTICLE_ROLES, Rotation, System
 
 #: Rounds of Newton's method, the residual that counts as 0, and the number of starting points.
@@ -292,7 +292,9 @@ def velocity_rows(system: System, numbers: Mapping[Expr, float]) -> tuple[Array,
 
 def is_linear(system: System) -> bool:
     """Return whether all relations with velocities are linear in them."""
-    return all(linear_form(r.expr) is not None for c in system.constraints for r in c.relations)
+    written = [r.expr for c in system.constraints for r in c.relations]
+    slopes = (diff(e, s) for e in written for s in e.symbols if s.args[0] == "velocity")
+    return not any(s.args[0] == "velocity" for slope in slopes for s in slope.symbols)
 
 
 def movers(arrangement: Arrangement, motions: Sequence[FreeMotion]) -> frozenset[str]:
