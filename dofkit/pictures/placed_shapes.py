@@ -39,7 +39,7 @@ CURVE, MOVING_CURVE, MESH, MESH_POINTS, RIM, STROKES = 61, 15, 9, 25, 40, 12
 #: Shapes that are one line or dot: its kind and role, and its size in symbols where no radius is given.
 _LINES: Mapping[str, tuple[Kind, Role, float]] = {
     "rod": ("line", "bar", 0.0), "string": ("line", "rope", 0.0), "spring": ("coil", "force", 0.8),
-    "arrow": ("arrow", "arrow", 0.8), "point": ("ball", "point", 0.42), "curve": ("line", "guide", 0.0),
+    "arrow": ("arrow", "arrow", 0.8), "point": ("ball", "point", 0.42), "curve": ("curve", "guide", 0.0),
 }  # fmt: skip
 #: The sides of the ground, of axes and of a blade whose size is not given.
 SIDE, AXIS, BLADE = 4.0, 1.0, 0.8
@@ -59,11 +59,15 @@ class ShapePlacement(NamedTuple):
     upright: bool = False
     start: Vec = ()
 
+    def depends_on(self, *kinds: str) -> bool:
+        """Return whether it depends on symbols of some kinds."""
+        exprs = [*self.at, *(self.axis or ()), *(e for e in (self.heading, self.turn) if e is not None)]
+        return any(s.args[0] in kinds for e in exprs for s in e.symbols)
+
     @property
     def moves(self) -> bool:
         """Whether it depends on coordinates or time."""
-        exprs = [*self.at, *(self.axis or ()), *(e for e in (self.heading, self.turn) if e is not None)]
-        return any(s.args[0] in ("coordinate", "time") for e in exprs for s in e.symbols)
+        return self.depends_on("coordinate", "time")
 
     def pose(self, values: Values) -> Displacement:
         """Return the displacement of the carrier, whose own frame has its axis along z and its mark along y."""

@@ -179,6 +179,22 @@
     pen.stroke();
   }
 
+  /* A smooth line through points: the spline of Catmull and Rom. */
+  function smooth(points) {
+    const last = points.length - 1, closed = Math.hypot(points[0][0] - points[last][0], points[0][1] - points[last][1]) < 1e-3;
+    function slope(k, c) {
+      if (closed && k % last === 0) { return (points[1][c] - points[last - 1][c]) / 6; }
+      const a = Math.max(k - 1, 0), b = Math.min(k + 1, last);
+      return (points[b][c] - points[a][c]) / (b - a) / 3;
+    }
+    pen.beginPath();
+    pen.moveTo(points[0][0], points[0][1]);
+    for (let k = 0; k < last; k++) {
+      const p = points[k], q = points[k + 1];
+      pen.bezierCurveTo(p[0] + slope(k, 0), p[1] + slope(k, 1), q[0] - slope(k + 1, 0), q[1] - slope(k + 1, 1), q[0], q[1]);
+    }
+  }
+
   function drawShape(shape, points, look) {
     if (shape.k === "ball") {
       pen.beginPath();
@@ -192,6 +208,9 @@
       paint(look, false);
     } else if (shape.k === "arrow") {
       arrow(points[0], points[1], shape.s * data.scale);
+      paint(look, false);
+    } else if (shape.k === "curve") {
+      smooth(points);
       paint(look, false);
     } else if (shape.k === "bow") {
       trace(bow(points[0], points[1], shape.s), false);

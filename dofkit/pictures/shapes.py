@@ -17,10 +17,10 @@ from dofkit.system import GROUND
 Array = np.ndarray[Any, Any]
 Place = tuple[float, float, float]
 
-#: ``line`` and ``area``: through the vertices; ``hull``: around them, rounded by ``size``; ``ball``: a disc on paper of
-#: radius ``size``; ``coil``: a spring between two; ``bow``: an arc between two, as high as ``size`` of its length;
-#: ``arrow``: from one to another, with a head of ``size``; ``words``: a text beside the vertex.
-Kind = Literal["line", "area", "hull", "ball", "coil", "bow", "arrow", "words"]
+#: ``line`` and ``area``: through the vertices; ``curve``: a smooth line through them; ``hull``: around them, rounded by
+#: ``size``; ``ball``: a disc on paper of radius ``size``; ``coil``: a spring between two; ``bow``: an arc between two,
+#: as high as ``size`` of its length; ``arrow``: from one to another, with a head of ``size``; ``words``: a text there.
+Kind = Literal["line", "area", "curve", "hull", "ball", "coil", "bow", "arrow", "words"]
 #: What a shape is part of.
 Role = Literal[
     "body", "joint", "guide", "bar", "rope", "ground", "hatch", "axis", "locus", "trace", "tie", "force", "point",

@@ -206,11 +206,11 @@ def svg(scene: SceneLike, report: Report | None = None, width: float = WIDTH) ->
 
 
 def unanswered(scene: Scene, report: Report, title: str) -> Picture | None:
-    """Return the picture for an assignment, or None for a scene of coordinates only. Raises as `draw`.
+    """Return the picture for an assignment, or None for coordinates without a `picture`. Raises as `draw`.
 
     It shows nothing that the report says: neither equations nor what moves, is redundant or contradicts others.
     """
-    if not (scene.particles or scene.bodies):
+    if not (scene.particles or scene.bodies or scene.picture):
         return None
     stage = staged(scene, report)
     sketch = sketch_of(stage)
@@ -227,4 +227,6 @@ def _contents(scene: Scene) -> Iterator[str]:
         yield many(len(scene.bodies), "body")
     if scene.particles:
         yield many(len(scene.particles), "particle")
+    if scene.coordinates:
+        yield many(len(scene.coordinates), "coordinate")
     yield many(len(scene.constraints), "constraint")
