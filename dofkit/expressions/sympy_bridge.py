@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from fractions import Fraction
+from importlib import import_module
 from typing import Any
 
 from dofkit.base.errors import DofkitError
@@ -177,6 +178,12 @@ _READ: dict[str, Callable[[Bridge, Any], Expr]] = {
     "Subs": Bridge.substituted,
     "sign": _sign,
 }  # fmt: skip
+
+
+def import_integrals() -> None:
+    """Import what `antiderivative_by_sympy` needs, so that a limit of its time does not count the import."""
+    for module in ("manualintegrate", "risch"):
+        import_module(f"sympy.integrals.{module}")
 
 
 def antiderivative_by_sympy(e: Expr, x: Expr, positive: frozenset[Expr]) -> Expr | None:

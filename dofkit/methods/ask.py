@@ -186,7 +186,7 @@ def _why(outcome: Outcome) -> str:
 
 def _integrability(studied: Study) -> Reply:
     labels_of_study = labels_in_system(studied.reduced, studied.setting, studied.outcome)
-    labels = studied.by_name([label for label, _ in labels_of_study])
+    labels = dict(zip(studied.names, (label for label, _ in labels_of_study), strict=True))
     sure = weakest(*(verdict for _, verdict in labels_of_study))
     reason = ""
     if None in labels.values():

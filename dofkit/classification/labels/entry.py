@@ -108,7 +108,7 @@ def entry(reduced: Reduced, evidence: Evidence, setting: Setting, consistent: bo
         equations=reduced.equations,
         independent=dependence.of(reduced.equations),
         redundant_equations=implied,
-        verdict=weakest(sure, dependence.redundant or "proved"),
+        verdict=weakest(sure, dependence.claim.verdict if dependence.redundant else "proved"),
         verdicts={name: FieldVerdict.of(claim) for name, claim in claims.items()},
         reason="".join(sentences),
     )
@@ -212,7 +212,7 @@ def _claims(
     dependence = evidence.dependence
     if dependence.independent is not None:
         all_needed = dependence.circuit is None and dependence.independent >= len(evidence.rows)
-        claims["independent"] = claim_of_dependence(ground, all_needed, dependence.copied)
+        claims["independent"] = claim_of_dependence(ground, dependence, all_needed)
     if dependence.circuit is not None:
         claims["circuit"] = claims.get("independent", OPEN)
     if dependence.open:

@@ -14,7 +14,7 @@ from dofkit.base.verdicts import Verdict, weakest
 from dofkit.base.wording import many, verb
 from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.special.minors import Candidates, Locus, candidates
-from dofkit.classification.study import Study, freedom
+from dofkit.classification.study import Study
 from dofkit.configuration.variety import on_variety
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.sparse import rank_of
@@ -103,7 +103,7 @@ def branch_dimensions(study: Study, report: Report, again: Again) -> Iterator[Sp
         if expired():
             return
         remainder = again(where_nonzero(system, h))
-        dof, elsewhere = remainder.outcome.dof, freedom(remainder)
+        dof, elsewhere = remainder.outcome.dof, remainder.free
         if dof is None or elsewhere.about == "component" or not remainder.outcome.consistent:
             continue
         sure = weakest(claim.verdict, elsewhere.verdict)

@@ -18,7 +18,7 @@ from dofkit.exact.ring.program import TooLargeError, raising_no_value
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
-from dofkit.expressions.sympy_bridge import UntranslatableError, antiderivative_by_sympy
+from dofkit.expressions.sympy_bridge import UntranslatableError, antiderivative_by_sympy, import_integrals
 from dofkit.expressions.terms import expand
 from dofkit.expressions.tree import Expr
 
@@ -29,7 +29,7 @@ T = TypeVar("T")
 #: Canonical forms asked for in one integration; past it the search ends without a result.
 STEPS = 400
 #: Seconds that SymPy is given in one integration.
-SECONDS = 2.0
+SECONDS = 3.0
 #: The largest expression taken up, in nodes, and the largest polynomial factored or divided, in terms.
 MAX_NODES = 500
 MAX_TERMS = 120
@@ -379,6 +379,7 @@ def _by_sympy(work: Algebra, e: Expr, x: Expr) -> Expr | None:
     if size(e) > MAX_SYMPY or any(n.op == "call" for n in ex.nodes(e)):
         return None
     work.tick(SYMPY_STEPS)
+    import_integrals()
     start = thread_time()
     try:
         with by_processor(min(work.seconds, remaining_seconds())), checked_calls():

@@ -22,7 +22,6 @@ from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero import is_proved_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import cleared, diff, in_velocities, refuse_accelerations, substitute
-from dofkit.expressions.terms import Combined, combined
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.domain import (
     DomainCondition,
@@ -45,7 +44,6 @@ from dofkit.relations.normal.pieces import (
     Normal,
     Pfaffian,
     Piece,
-    with_values,
 )
 from dofkit.relations.normal.polynomial_zeros import Conjunction
 from dofkit.relations.normal.semidefinite import Signs, weak_sign
@@ -184,14 +182,6 @@ def normalise(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
     Raises TextError for second derivatives and for sums of differentials with finite terms.
     """
     refuse_accelerations(e)
-    fewer = combined(e) if written else Combined(e, {})
-    result = _normalised(fewer.expr, positive, written)
-    if not fewer.sums:
-        return result
-    return result._replace(branches=tuple(tuple(with_values(p, fewer.sums) for p in b) for b in result.branches))
-
-
-def _normalised(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
     velocity_form, divided = in_velocities(e)
     if not velocities_of(velocity_form):
         if divided:
