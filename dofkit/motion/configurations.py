@@ -16,7 +16,7 @@ from dofkit.exact.points.balls import precise_for
 from dofkit.exact.points.real_search import RealSearch
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.motion.continuation import STILL, Follower, Ways
+from dofkit.motion.continuation import STILL, Follower, Ways, trail
 from dofkit.motion.poses import Array, Pose, PoseRelations, number
 from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian, Reduced
@@ -178,8 +178,8 @@ class MotionSampler:
         self, follower: Follower, ways: Ways, steps: int, step: float, both: bool = True
     ) -> list[dict[str, float]]:
         ahead, back = ways
-        forward, closed = follower.trail(self.start, ahead, steps, step)
-        backward = follower.trail(self.start, back, steps, step)[0] if both and not closed else []
+        forward, closed = trail(follower, self.start, ahead, steps, step)
+        backward = trail(follower, self.start, back, steps, step)[0] if both and not closed else []
         if steps and not forward and not backward:
             raise NoMotionError("no motion was followed that leaves the first configuration")
         middle = self.values(self.start, {})

@@ -117,27 +117,6 @@ class Follower:
                 current, remaining, part = reached, remaining - part, part * (1.0 if self.relations.forms else 2.0)
             yield current
 
-    def trail(self, start: Pose, first: Reached | None, steps: int, step: float) -> tuple[list[Pose], bool]:
-        """Return the poses of one way from a start, and whether it closes up.
-
-        It ends where an inequality is violated that was satisfied at the start.
-        """
-        poses: list[Pose] = []
-        if first is None:
-            return poses, False
-        closing = self.freedom == 1 and self.clock is None and not self.relations.forms
-        margins = self.relations.margins(start)
-        for reached in islice(self.path(first, step), steps):
-            pairs = zip(margins, self.relations.margins(reached.pose), strict=False)
-            if any(now < -STILL <= before for before, now in pairs):
-                break
-            poses.append(reached.pose)
-            if closing and len(poses) > 2 and float(reached.direction @ first.direction) > STRAIGHT:
-                back = self.relations.same(start, reached.pose)
-                if float(np.linalg.norm(self.relations.between(reached.pose, back))) < 0.75 * step:
-                    return [*poses[:-1], back], True
-        return poses, False
-
     def _step(self, current: Reached, length: float) -> Reached | None:
         """The pose so far ahead; None where the step is too long to be sure of, or nothing is ahead."""
         try:
@@ -255,3 +234,25 @@ class Follower:
         opposite = self._reached(pose, -self.relations.between(pose, first.pose))
         last = min([*poses, *([opposite] if opposite else [])], key=lambda r: float(r.direction @ goal))
         return first if first.direction @ goal >= 0 else None, last if last.direction @ goal < 0 else None
+
+
+def trail(follower: Follower, start: Pose, first: Reached | None, steps: int, step: float) -> tuple[list[Pose], bool]:
+    """Return the poses of one way from a start, and whether it closes up.
+
+    It ends where an inequality is violated that was satisfied at the start.
+    """
+    poses: list[Pose] = []
+    if first is None:
+        return poses, False
+    closing = follower.freedom == 1 and follower.clock is None and not follower.relations.forms
+    margins = follower.relations.margins(start)
+    for reached in islice(follower.path(first, step), steps):
+        pairs = zip(margins, follower.relations.margins(reached.pose), strict=False)
+        if any(now < -STILL <= before for before, now in pairs):
+            break
+        poses.append(reached.pose)
+        if closing and len(poses) > 2 and float(reached.direction @ first.direction) > STRAIGHT:
+            back = follower.relations.same(start, reached.pose)
+            if float(np.linalg.norm(follower.relations.between(reached.pose, back))) < 0.75 * step:
+                return [*poses[:-1], back], True
+    return poses, False

@@ -5,9 +5,10 @@ from __future__ import annotations
 import io
 import re
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from importlib.util import find_spec
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 from xml.sax.saxutils import escape, quoteattr
@@ -15,7 +16,7 @@ from xml.sax.saxutils import escape, quoteattr
 from dofkit.base.display import schemes
 from dofkit.base.errors import DofkitError
 from dofkit.base.wording import format_of_path
-from dofkit.pictures.paper import Mark, Page
+from dofkit.pictures.paper import Mark, Page, Spot
 from dofkit.pictures.shapes import ON_DARK, Sketch
 
 #: The class of everything that is drawn, for its style.
@@ -129,8 +130,16 @@ def _element(mark: Mark, height: float) -> str:
             f' fill="{mark.ink.line}" stroke="#FFFFFF" stroke-width="2.4" '
             f'paint-order="stroke"{owner}>{escape(mark.text)}</text>'
         )
-    path = f"M{'L'.join(f'{x:.1f} {height - y:.1f}' for x, y in mark.spots)}{'Z' if mark.closed else ''}"
+    path = f"M{_steps(mark.spots, height)}{'z' if mark.closed else ''}"
     return "".join(f'<path d="{path}" {attributes}{owner}/>' for attributes in _paints(mark))
+
+
+def _steps(spots: Sequence[Spot], height: float) -> str:
+    """Return a first place and the steps from one place to the next, in tenths of a point, as a path has them."""
+    tenths = [(round(10 * x), round(10 * (height - y))) for x, y in spots]
+    pairs = [tenths[0], *((c - a, d - b) for (a, b), (c, d) in pairwise(tenths))]
+    first, *others = (f"{x / 10:g}{'' if y < 0 else ' '}{y / 10:g}" for x, y in pairs)
+    return f"{first}l{' '.join(others)}"
 
 
 def _paints(mark: Mark) -> Iterator[str]:

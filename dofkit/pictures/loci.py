@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from dofkit.expressions.tree import Expr, coordinate
-from dofkit.motion.continuation import Follower
+from dofkit.motion.continuation import Follower, trail
 from dofkit.motion.poses import PoseRelations
 from dofkit.pictures.arrangement import Arrangement
 from dofkit.pictures.evaluation import evaluated, with_examples
@@ -21,7 +21,7 @@ from dofkit.system import Connection, Relation
 
 #: Points of a grid in the plane, and in each slice of space; slices in each direction; points of a line in the
 #: plane, and in a slice.
-GRID, SLICE_GRID, SLICES, DRAWN, FEW_DRAWN = 161, 41, 7, 40, 28
+GRID, SLICE_GRID, SLICES, DRAWN, FEW_DRAWN = 161, 41, 6, 40, 22
 #: Steps of a curve in space to either side.
 STEPS = 220
 
@@ -172,8 +172,8 @@ def curve(arrangement: Arrangement, exprs: Sequence[Expr], symbols: Sequence[Exp
     if start is None:
         return []
     ahead, back = follower.begin(start, None, step)
-    poses, closed = follower.trail(start, ahead, STEPS, step)
-    before = [] if closed else follower.trail(start, back, STEPS, step)[0]
+    poses, closed = trail(follower, start, ahead, STEPS, step)
+    before = [] if closed else trail(follower, start, back, STEPS, step)[0]
     halves = [[pose.plain[columns] for pose in half] for half in (before, poses)]
     ends = [list(takewhile(lambda p: float(np.max(np.abs(p))) <= limit, half)) for half in halves]
     return [*reversed(ends[0]), start.plain[columns], *ends[1]]

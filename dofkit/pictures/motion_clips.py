@@ -24,7 +24,7 @@ from dofkit.system import GROUND
 #: Steps of a sampled motion to either side, their length, and the most frames that are kept.
 STEPS, STEP, FRAMES = 160, 0.1, 96
 #: Steps and frames of each motion if there are several, and their frames together.
-SHORT, FEW, MOST_FRAMES = 25, 40, 120
+SHORT, FEW, MOST_FRAMES = 25, 28, 84
 #: How far beyond the picture a motion is shown, by the picture's size; a closed one returns to within this part of it.
 FAR, BACK = 0.5, 0.05
 #: The number of points of a sketch by which two poses are compared.
@@ -34,7 +34,7 @@ MANY, LEAST = 3000, 10
 #: The time limit of the finite motions.
 SECONDS = 12.0
 #: Frames of an infinitesimal motion to both sides, its extent by the picture's size, and its largest rotation.
-SWING, REACH, TURN = 24, 0.22, 0.6
+SWING, REACH, TURN = 16, 0.22, 0.6
 #: The number of motions, and of constraints with a switch, that are shown.
 MOST_MOTIONS, MOST_SWITCHES = 12, 8
 GOES_ON = "This infinitesimal motion goes on: it was followed as a finite motion."

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from html import escape
 from importlib.resources import files
 from typing import Any, NamedTuple
@@ -138,7 +138,8 @@ def panel_of(sketch: Sketch, clips: Sequence[Clip]) -> Panel:
 
 def first_frame(sketch: Sketch, panel: Panel) -> Page:
     """Return what the panel shows before the script runs."""
-    return page_of(sketch, None, panel.standpoint, Margins((), (), panel.height, LOW))
+    page = page_of(sketch, None, panel.standpoint, Margins((), (), panel.height, LOW))
+    return page._replace(marks=tuple(mark._replace(owner="") for mark in page.marks))
 
 
 def player_data(
@@ -152,24 +153,14 @@ def player_data(
     panel = panel or panel_of(sketch, clips)
     view, fit, named = panel.standpoint
     carriers = list(dict.fromkeys(v.carrier for s in sketch.shapes for v in s.vertices))
-    looks: dict[Ink, int] = {}
-    offsets = iter(named)
     digits = max(0, 4 - math.floor(math.log10(sketch.size)))
-    owners = {switch.name for switch in switches}
+    looks: dict[Ink, int] = {}
+    owners = frozenset(switch.name for switch in switches)
+    offsets = iter(named)
     shapes = []
     for shape in sketch.shapes:
-        entry: dict[str, Any] = {
-            "k": shape.kind,
-            **_vertex_data(shape, carriers, digits),
-            "i": looks.setdefault(ink_of(shape), len(looks)),
-        }
-        if shape.size:
-            entry["s"] = _number(shape.size)
-        if shape.owner in owners:
-            entry["c"] = shape.owner
-        if shape.kind == "words":
-            entry |= {"t": shape.text, "o": _rounded(next(offsets))}
-        shapes.append(entry)
+        entry = {"k": shape.kind, "i": looks.setdefault(ink_of(shape), len(looks))}
+        shapes.append(entry | _vertex_data(shape, carriers, digits) | _shape_data(shape, owners, offsets))
     return {
         "dimension": sketch.dimension,
         "axes": list(sketch.axes[: sketch.dimension]),
@@ -193,8 +184,18 @@ def player_data(
     }
 
 
+def _shape_data(shape: Shape, owners: frozenset[str], offsets: Iterator[Array]) -> dict[str, Any]:
+    """Return the size of a shape, the constraint with a switch that it shows, and of a name its text and offset."""
+    entry: dict[str, Any] = {"s": _number(shape.size)} if shape.size else {}
+    if shape.owner in owners:
+        entry["c"] = shape.owner
+    return entry | ({"t": shape.text, "o": _rounded(next(offsets))} if shape.kind == "words" else {})
+
+
 def _vertex_data(shape: Shape, carriers: Sequence[str], digits: int) -> dict[str, Any]:
     """Return the vertices of a shape: of one carrier its number and all components in a row, else one by one."""
+    if shape.role in ("surface", "mesh"):
+        digits -= 1
     places = [[round(x, digits) for x in v.at] for v in shape.vertices]
     numbers = [carriers.index(v.carrier) for v in shape.vertices]
     if len(set(numbers)) == 1:
