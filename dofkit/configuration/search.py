@@ -13,8 +13,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from fractions import Fraction
 from functools import partial
 
+from dofkit.base.deadline import check
 from dofkit.base.errors import NoValueError
 from dofkit.configuration.components import RelationPart, by_cases, of_largest_part, parts_of
 from dofkit.configuration.generic_dimension import ALLOWING, near_real_point, real_point, variety_at
@@ -43,9 +45,11 @@ from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Block, Chart, make_chart
 from dofkit.relations.linear_relations import Explicit, explicit_relations, linear, solve_linear
 from dofkit.relations.normal.no_solution import no_solution
-from dofkit.relations.normal.zero_set import candidates, is_analytic_in_coordinates
+from dofkit.relations.normal.zero_set import is_analytic_in_coordinates
 from dofkit.relations.setting import Setting
 
+#: Zeros that are tried are so many multiples of a fraction, and of that fraction of pi.
+MAX_MULTIPLE, PARTS = 240, 24
 #: More relations than this are not searched for a proof that they have no real solution.
 MAX_RELATIONS = 40
 FIXED = "at the points that were found the geometric equations fix the time: no motion passes through them"
@@ -204,12 +208,15 @@ def _of_one_coordinate(part: RelationPart) -> bool:
 
 
 def _common_zeros(part: RelationPart) -> Iterator[Expr]:
-    """Exact values of the coordinate at which all of the relations vanish."""
+    """Exact values of the coordinate, short numbers and multiples of pi, at which all of the relations vanish."""
     (s,) = part.unknowns
-    for value in candidates(part.relations, s):
+    numbers = (ex.num(Fraction(k, PARTS)) for k in sorted(range(-MAX_MULTIPLE, MAX_MULTIPLE + 1), key=abs))
+    for value in (u for number in numbers for u in (number, number * ex.PI)):
+        check()
         try:
             there = [substitute(g, {s: value}) for g in part.relations]
-            if all(interval_of(g) is not None and is_proved_zero(g, frozenset()) for g in there):
+            near = all((ball := interval_of(g)) is not None and ball.contains(0) for g in there)
+            if near and all(is_proved_zero(g, frozenset()) for g in there):
                 yield value
         except NoValueError:
             continue

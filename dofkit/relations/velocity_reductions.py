@@ -156,18 +156,11 @@ def _ways(row: Row, rows: Sequence[Row], positive: frozenset[Expr]) -> _Rewritin
             result = _branches(row, *_without_divisors(row.piece.expr, changed, divisors, positive), positive)
         except NoValueError:  # what was put in leaves 0 to a power, which has no value
             return _Rewriting([(row,)])
-        sound = [
-            b for b in result if not any(isinstance(r.piece, Finite) and _divides(r.piece.expr, divisors) for r in b)
-        ]
-        ways, divided = _one_that_holds(sound or result), not all(never_vanishes(d, positive) for d in divisors)
+        divided = not all(never_vanishes(d, positive) for d in divisors)
+        ways = [b for b in result if not b] or result  # the branch that says nothing holds the others
         if not (divided and any(isinstance(r.piece, Nonlinear) for w in ways for r in w)):
             return _Rewriting(ways, divided)
     return _Rewriting([(row,)] if there == row.piece.expr else _branches(row, there, (), positive))
-
-
-def _one_that_holds(ways: list[tuple[Row, ...]]) -> list[tuple[Row, ...]]:
-    """The branches, or the one that says nothing, which holds the others."""
-    return [()] if () in ways else ways
 
 
 def _without_divisors(
@@ -193,20 +186,6 @@ def _branches(
     normal = normalise(changed, positive, True)
     ways = [tuple(Row(row.constraint, p) for p in (*b, *within)) for b in normal.branches]
     return ways or [(Row(row.constraint, Finite(ex.ONE)),)]
-
-
-def _divides(g: Expr, divisors: Sequence[Expr]) -> bool:
-    """Return whether what remains is a factor that an elimination multiplied with, and no relation of the row's."""
-    if not divisors or g == ex.ONE:
-        return False
-    ring = Ring([g, *divisors])
-    try:
-        nodes = [ring.node(e) for e in (g, *divisors)]
-        canon = Canon(ring)
-        numerator = canon.quotient(nodes[0])[0]
-        return any(not numerator.gcd(canon.quotient(n)[0]).is_constant() for n in nodes[1:])
-    except NoValueError:
-        return False
 
 
 def _rows_near(row: Row, rows: Sequence[Row]) -> list[Row]:

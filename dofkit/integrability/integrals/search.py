@@ -26,7 +26,6 @@ from dofkit.integrability.integrals.potentials import (
     Form,
     GivenUpError,
     Poly,
-    Quotient,
     as_power,
     potential,
     size,
@@ -214,7 +213,7 @@ def _constants(work: Algebra, form: Form, logs: list[Expr]) -> list[Expr] | None
     flat = [e for row in rows for e in row]
     canon, quotients = work.lowered(flat)
     fixed = frozenset(i for i, e in enumerate(canon.ring.var_expr) if e.symbols.isdisjoint(form))
-    system: list[list[Quotient]] = []
+    system: list[list[Poly]] = []
     width = len(logs) + 1
     for start in range(0, len(quotients), width):
         row = quotients[start : start + width]
@@ -226,7 +225,7 @@ def _constants(work: Algebra, form: Form, logs: list[Expr]) -> list[Expr] | None
     return None if solution is None else [canon.to_expr(a) / canon.to_expr(b) for a, b in solution]
 
 
-def _compared(polys: list[Poly], fixed: frozenset[int], canon: Canon) -> list[list[Quotient]]:
+def _compared(polys: list[Poly], fixed: frozenset[int], canon: Canon) -> list[list[Poly]]:
     """Return one equation for every monomial in the generators that are not ``fixed``."""
     count = len(canon.ring.vars)
     by_monomial: dict[tuple[int, ...], list[dict[tuple[int, ...], Any]]] = {}
@@ -235,7 +234,7 @@ def _compared(polys: list[Poly], fixed: frozenset[int], canon: Canon) -> list[li
             inside = tuple(int(k) if count - 1 - i in fixed else 0 for i, k in enumerate(exponents))
             outside = tuple(int(k) - j for k, j in zip(exponents, inside, strict=True))
             by_monomial.setdefault(outside, [{} for _ in polys])[column][inside] = coefficient
-    return [[(canon.ctx.from_dict(part), canon.unit) for part in row] for row in by_monomial.values()]
+    return [list(map(canon.ctx.from_dict, row)) for row in by_monomial.values()]
 
 
 #: (integral, factor).

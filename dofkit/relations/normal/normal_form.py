@@ -195,14 +195,18 @@ def normalise(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
     return _defined(velocity_form, _nonlinear(velocity_form, positive), positive)
 
 
-def _defined(e: Expr, normal: Normal, positive: frozenset[Expr]) -> Normal:
-    """What a relation in velocities says where, as it was written, it has a value at a configuration."""
+def _defined(e: Expr, normal: Normal, positive: frozenset[Expr], *more: DomainCondition) -> Normal:
+    """What a rewritten relation says where, as it was written, ``e``, it has a value at a configuration."""
     if normal.branches == ((Nonlinear(e),),):
         return normal
-    within = [c for c in conditions_of(e, positive) if not velocities_of(c.expr)]
-    if within and no_solution((), positive, [c.expr for c in within if c.sense != "!="]):
+    within = (*(c for c in conditions_of(e, positive) if not velocities_of(c.expr)), *more)
+    if no_solution((), positive, [c.expr for c in within if c.sense != "!="]):
         return Normal((), (NOWHERE_NOTE,))
     return normal._replace(branches=tuple((*b, *(c for c in within if c not in b)) for b in normal.branches))
+
+
+def _finite_branches(branches: Sequence[Conjunction], *notes: str) -> Normal:
+    return Normal(tuple(tuple(map(Finite, branch)) for branch in branches), notes)
 
 
 def _finite(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
@@ -214,23 +218,11 @@ def _finite(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
     branches, notes = zero_set(e, positive, _moving(e))
     if branches == ((e,),):
         return _squared(e, positive)
-    return _conditioned(e, branches, notes, positive)
+    return _defined(e, _finite_branches(branches, *notes), positive)
 
 
 def _moving(e: Expr) -> frozenset[Expr]:
     return frozenset(s for s in e.symbols if s.args[0] in ("coordinate", "time"))
-
-
-def _conditioned(
-    e: Expr, branches: Sequence[Conjunction], notes: Sequence[str], positive: frozenset[Expr], *more: DomainCondition
-) -> Normal:
-    """The branches of a relation that was rewritten, where it was one as written: ``e`` has a value there."""
-    conditions = (*conditions_of(e, positive), *more)
-    if any(c.sense != "!=" for c in conditions) and no_solution(
-        (), positive, [c.expr for c in conditions if c.sense != "!="]
-    ):
-        return Normal((), (NOWHERE_NOTE,))
-    return Normal(tuple((*map(Finite, branch), *conditions) for branch in branches), tuple(notes))
 
 
 def _by_signs(e: Expr, positive: frozenset[Expr]) -> Normal:
@@ -257,7 +249,7 @@ def _squared(e: Expr, positive: frozenset[Expr]) -> Normal:
         norm, condition = result
         branches, notes = zero_set(norm, positive, _moving(norm))
         if notes:
-            return _conditioned(e, branches, (SQUARED_NOTE, *notes), positive, condition)
+            return _defined(e, _finite_branches(branches, SQUARED_NOTE, *notes), positive, condition)
     return Normal(((Finite(e),),))
 
 
@@ -278,13 +270,9 @@ def _nonlinear(e: Expr, positive: frozenset[Expr]) -> Normal:
 
 def _velocity_pieces(e: Expr, positive: frozenset[Expr]) -> tuple[list[tuple[Piece, ...]], str]:
     """The branches of one irreducible relation in velocities, and what was done."""
-    velocities = velocities_of(e)
-    if not velocities:
-        return [(Finite(e),)], ""
-    form = linear_form(e)
-    if form is not None:
-        return [(form if form.coefficients else Finite(form.dt),)], ""
-    branches = linear_branches(e, velocities, positive)
+    if linear_form(e) is not None:
+        return [(_linear_piece(e),)], ""
+    branches = linear_branches(e, velocities_of(e), positive)
     if branches is None:
         return [(Nonlinear(e),)], ""
     return [tuple(map(_linear_piece, branch)) for branch in branches], QUADRATIC_NOTE
