@@ -12,7 +12,13 @@ from collections.abc import Mapping
 from functools import partial
 
 from dofkit.configuration.components import by_cases, of_largest_part
-from dofkit.configuration.generic_dimension import ALLOWING, near_real_point, real_point, variety_at
+from dofkit.configuration.generic_dimension import (
+    ALLOWING,
+    near_real_point,
+    near_singular_point,
+    real_point,
+    variety_at,
+)
 from dofkit.configuration.variety import (
     Variety,
     free_real_point,
@@ -63,7 +69,8 @@ def find(chart: Chart, pose: Mapping[Expr, Expr], seed: int = 0) -> Variety:
     )
     if by_case and not timed:
         variety = by_cases(chart, variety, look)
-    return of_largest_part(chart, variety, look, by_case or timed)
+    near = near_singular_point(chart, variety)
+    return of_largest_part(chart, near, look, near is variety and (by_case or timed))
 
 
 def _fixes_time(chart: Chart, variety: Variety) -> bool:

@@ -160,8 +160,7 @@ class RealSearch:
         return [float(at[n]) for n in self.nodes], [list(map(float, row)) for row in j]
 
     def refine(self, symbols: Mapping[Expr, float], j: list[list[float]] | None, seed: int) -> RealPoint | None:
-        """To high precision on independent rows of the Jacobian (None: it has none), and the interval Newton test.
-        """
+        """To high precision on independent rows of the Jacobian (None: it has none), and the interval Newton test."""
         if any(symbols[p] <= 0 for p in self.positive if p in symbols):
             return None
         with ctx.workprec(max(ctx.prec, precision())):
