@@ -138,13 +138,8 @@ def _of_block(block: Block, a: Answer, setting: Setting, rotations: Sequence[Rot
     drawn = None if whole or not turning else chosen_at_drawing(TurnedGroup(block, tuple(a.hidden)), setting, turning)
     if drawn is not None and len(drawn) == a.dof:
         return drawn
-    if len(block.coordinates) > MOST or expired():
+    if block.forms or block.nonlinear or len(block.coordinates) > MOST or expired():
         return whole
-    if block.forms or block.nonlinear:
-        if whole or not (block.finite or a.hidden):
-            return whole
-        finite = Block(block.coordinates, block.finite, block.conditions)
-        return tangent_spaces.nearby(finite, a.dof, setting, turning, a.hidden)
     orbit = None if turning else orbit_at_reference(block, a, setting)
     if orbit is not None:
         return orbit.chart_of()
