@@ -196,7 +196,7 @@ def lecture_count(study: Study) -> Count:
     reduced, outcome = study.reduced, study.outcome
     written = sum(all(isinstance(p, Finite) for p in normal.pieces) for r in reduced for normal in r.normals)
     hidden = sum(len(a.hidden) for a in outcome.answers)
-    return count(study.system, CountedFacts(written, outcome.dof, outcome.consistent, hidden, 0, study.entries))
+    return count(study.system, CountedFacts(written, outcome.dof, outcome.consistent, hidden, study.entries))
 
 
 def redundant(study: Study) -> Decided:

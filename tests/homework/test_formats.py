@@ -66,7 +66,7 @@ REFUSED = Result(student="ada", score=None, max_score=10.0, items=[], error="lin
 
 def streamed(name: str, prepared: Prepared, *results: Result) -> str:
     stream = io.StringIO()
-    FORMATS[name].write(iter(results), prepared, stream, None)
+    FORMATS[name].write(results, prepared, stream, None)
     return stream.getvalue()
 
 
@@ -208,7 +208,7 @@ def odd(text: str) -> Result:
 
 @pytest.mark.parametrize("name", DOCUMENTS)
 def test_documents_of_hostile_students(name: str, prepared: Prepared, tmp_path: Path) -> None:
-    FORMATS[name].write(map(odd, HOSTILE), prepared, tmp_path / "out", None)
+    FORMATS[name].write([*map(odd, HOSTILE)], prepared, tmp_path / "out", None)
     files = list((tmp_path / "out").iterdir())
     assert len(files) == len(HOSTILE)
     assert list(tmp_path.iterdir()) == [tmp_path / "out"]
@@ -223,18 +223,18 @@ def test_documents_of_hostile_students(name: str, prepared: Prepared, tmp_path: 
 @pytest.mark.parametrize("name", DOCUMENTS)
 def test_a_file_holds_one_student(name: str, prepared: Prepared, tmp_path: Path) -> None:
     target = tmp_path / "new" / "results.json"
-    FORMATS[name].write(iter([result("ada", RIGHT)]), prepared, target, None)
+    FORMATS[name].write([result("ada", RIGHT)], prepared, target, None)
     assert json.loads(target.read_text())
     with pytest.raises(FormatError, match="--out"):
-        FORMATS[name].write(iter([result("ada", RIGHT), result("bob", RIGHT)]), prepared, target, None)
+        FORMATS[name].write([result("ada", RIGHT), result("bob", RIGHT)], prepared, target, None)
     with pytest.raises(FormatError, match="no submission"):
-        FORMATS[name].write(iter([]), prepared, tmp_path / "none.json", None)
+        FORMATS[name].write([], prepared, tmp_path / "none.json", None)
 
 
 @pytest.mark.parametrize("name", FORMATS)
 def test_an_empty_run(name: str, prepared: Prepared, tmp_path: Path) -> None:
     target = tmp_path / ("out.csv" if name in ("canvas", "moodle", "native") else "out")
-    FORMATS[name].write(iter([]), prepared, target, None)
+    FORMATS[name].write([], prepared, target, None)
     expected = {"canvas": 2, "moodle": 1, "native": 0}
     if target.is_file():
         assert len(target.read_text().splitlines()) == expected[name]
@@ -267,7 +267,7 @@ class Page(HTMLParser):
 
 
 def pages(prepared: Prepared, folder: Path, results: Iterable[Result]) -> dict[str, Page]:
-    FORMATS["html"].write(iter(results), prepared, folder, None)
+    FORMATS["html"].write(list(results), prepared, folder, None)
     files = sorted(folder.rglob("*.html"))
     return {str(file.relative_to(folder)): Page(file.read_text(encoding="utf-8")) for file in files}
 

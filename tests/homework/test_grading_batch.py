@@ -57,7 +57,7 @@ def lines_of(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, 
 def read(path: Path, data: str | bytes) -> list[tuple[str, Any]]:
     """Every submission in a file: its student with its answers, or with its error."""
     path.write_bytes(data if isinstance(data, bytes) else data.encode())
-    found = [one for h in hand_ins([str(path)], KNOWN) for one in h.submissions(KNOWN)]
+    found = [h.submission(KNOWN) for h in hand_ins([str(path)], KNOWN)]
     return [(s.student, s.error.removeprefix(f"{path}") if s.error else dict(s.answers)) for s in found]
 
 
@@ -119,7 +119,7 @@ TABLES: dict[str, tuple[str | bytes, Any]] = {
     "one person's": ("p.f;p.q.a\n1;x\n", [("t", {"p": {"f": "1"}, "p.q": {"a": "x"}})]),
     "one person's of two": (
         "p.f\n1\n2\n",
-        [("t", ", line 1: its header has no column 'student', and there is more than one row")],
+        [("t", ", line 1: its header has no column 'student' but p.f")],
     ),
     "another name for the student": ("name,p.f\nana,1\n", [("ana", {"p": {"f": "1"}})]),
     "no student": ("who,p.f\nana,1\n", [("t", ", line 1: its header has no column 'student' but who, p.f")]),
@@ -146,8 +146,7 @@ DOCUMENTS = {
         ("ana", ", line 1, column 43: the number 1e999999999 is too large or too small (stay within 1e±1000)")
     ],
     "- {student: ana, answers: {}}\n- {student: bo, answers: 3}": [
-        ("ana", {}),
-        ("bo", ", line 2, column 26: 'answers' is a mapping of problems to mappings of questions to answers"),
+        ("s", f": a submission is a mapping with 'student' and 'answers' {SHAPE}")
     ],
     "student: ana\nanswers:\n  p: 3": [
         ("ana", ", line 3, column 6: the answers to problem 'p' are a mapping of questions to answers")
@@ -166,7 +165,6 @@ DOCUMENTS = {
     "answers: {p.f: 1, p: {g: 2}}": [("s", {"p": {"f": 1, "g": 2}})],
     "p: {f: 1}\nname: ana": [("s", ", line 1, column 1: unknown key 'p': there are 'student' and 'answers'")],
     "": [("s", f", line 1, column 1: the file is empty {SHAPE}")],
-    "[]": [("s", f": it contains no submission {SHAPE}")],
     "3": [("s", f": a submission is a mapping with 'student' and 'answers' {SHAPE}")],
 }
 
@@ -191,7 +189,7 @@ def test_a_folder_is_read_in_order_and_nobody_in_it_is_lost(tmp_path: Path) -> N
     (tmp_path / "d.pdf").write_bytes(b"%PDF")
     (tmp_path / "e.yaml").symlink_to("/etc/hostname")
     (tmp_path / ".DS_Store").write_text("")
-    found = [one for h in hand_ins([str(tmp_path), str(tmp_path / "no.csv")], KNOWN) for one in h.submissions(KNOWN)]
+    found = [h.submission(KNOWN) for h in hand_ins([str(tmp_path), str(tmp_path / "no.csv")], KNOWN)]
     assert [(s.student, s.error is None) for s in found] == [
         ("one", True), ("two", True), ("three", True), ("d", False), ("e", False), ("no", False),
     ]  # fmt: skip
@@ -393,7 +391,7 @@ def hostile(*answers: Mapping[str, str]) -> list[Handed]:
 
 def statuses(given: Sequence[Handed], workers: int) -> Iterator[tuple[str, list[str], list[str]]]:
     with Pool(workers) as pool:
-        for _, (line,) in in_order(pool, Keeper(orders(), pool).grade, given):
+        for _, line in in_order(pool, Keeper(orders(), pool).grade, given):
             result = json.loads(line)
             items = result["items"]
             yield result["student"], [item["status"] for item in items], [item["feedback"] for item in items]

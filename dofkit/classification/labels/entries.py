@@ -18,9 +18,9 @@ from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import TIME
 from dofkit.integrability.nonlinear_velocities import label_modulo_others
 from dofkit.integrability.traits import Traits, traits
-from dofkit.relations.answer import IDENTITY, Answer, Redundancies
+from dofkit.relations.answer import IDENTITY, Answer, HolonomyLabel, Redundancies
 from dofkit.relations.blocks import Block, Row, coordinates_of
-from dofkit.relations.normal.pieces import Clause, JointEquation, Nonlinear, Pfaffian, Reduced, piece_shape
+from dofkit.relations.normal.pieces import Clause, JointEquation, Nonlinear, Normal, Pfaffian, Reduced, piece_shape
 from dofkit.relations.setting import Setting
 from dofkit.report import ConstraintEntry, IntegrablePart
 
@@ -205,6 +205,9 @@ def by_itself(r: Reduced, labelled: Sequence[LabelledRow], answered: AnsweredBlo
         return None
     elif len(labelled) == 1 and labelled[0].label is not None and labelled[0].label.holonomic is False:
         return Answer(labels={0: labelled[0].label})
+    match r.normals:
+        case (Normal(branches=((Pfaffian() as form,),)),) if answered.is_curved(form):
+            return Answer(labels={0: HolonomyLabel(False, "proved")})
     mentioned = {name for n in r.normals for b in n.branches for p in b for name in coordinates_of(p)}
     setting = replace(answered.setting, roles=tuple(c for c in answered.setting.roles if c.name in mentioned))
     try:

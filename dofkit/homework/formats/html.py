@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 from dofkit.homework.answers.roster import Roster
 from dofkit.homework.assignment import Prepared
 from dofkit.homework.formats.base import Format, FormatError, Target
-from dofkit.homework.formats.pages import BADGES, asked_text, percent, rendered, student_page
+from dofkit.homework.formats.pages import MARKS, asked_text, percent, rendered, student_page
 from dofkit.homework.formats.review import queue_of, write_page
 from dofkit.homework.formats.wording import FileNames, number
 from dofkit.homework.result import Item, Result, Status
@@ -100,7 +100,7 @@ def _questions(prepared: Prepared, answers: dict[tuple[str, str], list[Item]]) -
         yield Question(
             f"{problem.id}.{question.id}",
             asked_text(question),
-            [(status, counts[status], 100 * counts[status] / len(items)) for status in BADGES if counts[status]],
+            [(status, counts[status], 100 * counts[status] / len(items)) for status in MARKS if counts[status]],
             mean(scores) if scores else None,
             float(question.points),
             mean(score >= question.points for score in scores) if scores else None,
@@ -117,7 +117,7 @@ def _bars(scores: Sequence[float], most: float) -> list[tuple[str, int, float]]:
     return [(label, counts[i], 100 * counts[i] / highest) for i, label in enumerate(labels)]
 
 
-def write(results: Iterator[Result], prepared: Prepared, target: Target, roster: Roster | None = None) -> None:
+def write(results: Sequence[Result], prepared: Prepared, target: Target, roster: Roster | None = None) -> None:
     """Write a folder of pages. Raises FormatError for what is no folder."""
     if not isinstance(target, Path) or (target.exists() and not target.is_dir()):
         raise FormatError("the format html writes a folder: give its name with --out")
