@@ -237,11 +237,8 @@ _TYPE_FACES = ("mathrm", "text", "operatorname", "mathit", "textrm", "rm", "math
 _PLAIN_HINT = "write plain text, such as `2*x*cos(theta)`"
 _SEVERAL = ("several equations stand in one text", r"give each line its own text, without `&` and `\\`")
 _REFUSED_COMMANDS: dict[str, tuple[str, str]] = {
-    **dict.fromkeys(("ne", "neq"), ("`≠` is not a constraint that can be read", "write `=`, `<=`, `>=`, `<` or `>`")),
-    **dict.fromkeys(("pm", "mp"), ("`±` stands for two relations", "write each of the two as a text of its own")),
-    "infty": ("infinity is not a number", "leave that bound out"),
-    "partial": ("`∂` is not read", "write a derivative as `diff(h(s), s)`"),
-    **dict.fromkeys(("begin", "end", "\\", "newline"), _SEVERAL),
+    "ne": _REFUSED["≠"], "neq": _REFUSED["≠"], "pm": _REFUSED["±"], "mp": _REFUSED["∓"], "infty": _REFUSED["∞"],
+    "partial": _REFUSED["∂"], **dict.fromkeys(("begin", "end", "\\", "newline"), _SEVERAL),
 }  # fmt: skip
 
 
