@@ -76,9 +76,13 @@ def document(name: str, prepared: Prepared, *results: Result) -> dict[str, Any]:
     return found
 
 
-@pytest.mark.parametrize("module", ["wording", "base", "gradebooks"])
+DOCUMENTED = ["review", "formats.wording", "formats.base", "formats.gradebooks", "answers.words", "answers.roster",
+              "answers.submission"]  # fmt: skip
+
+
+@pytest.mark.parametrize("module", DOCUMENTED)
 def test_documentation(module: str) -> None:
-    outcome = doctest.testmod(importlib.import_module(f"dofkit.homework.formats.{module}"))
+    outcome = doctest.testmod(importlib.import_module(f"dofkit.homework.{module}"))
     assert outcome.failed == 0
     assert outcome.attempted > 0
 

@@ -234,16 +234,6 @@ def test_a_result_for_everyone_in_order(assignment: str, tmp_path: Path, capsys:
     assert told[3]["error"] == f"{table}, line 5: the row has 2 cells, the header 5"
 
 
-def test_a_header_that_names_no_question_gives_nobody_zeros(
-    assignment: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    table = tmp_path / "t.csv"
-    table.write_text("student,p1\nana,1\nbo,2\n")
-    status, told, _ = lines_of(capsys, "grade", assignment, str(table), "--workers", "1")
-    assert (status, [line["score"] for line in told]) == (2, [None, None])
-    assert "names no question: write" in told[0]["error"]
-
-
 @pytest.mark.sweep
 def test_a_roster_says_whose_a_submission_is(
     assignment: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
@@ -344,27 +334,6 @@ def test_check_only_tells_how_answers_are_read(
     assert (status, read["f"], read["eq"]) == (0, ("read", "2"), ("unreadable", ""))
     assert read["label"] == ("read", "non-holonomic")
     assert told["score"] is None
-
-
-@pytest.mark.parametrize(
-    ("text", "said"),
-    [
-        ("title: t\n", "problems"),
-        ("title: t\nproblems: [{id: p, scene: no.yaml, questions: [{id: q, ask: dof}]}]", "no.yaml"),
-        ("title: t\nproblems: [{id: p, scene: {coordinates: [x]}, questions: [{id: q, ask: dof, points: -1}]}]", "-1"),
-        ('{"title": "t', "closed"),
-    ],
-)
-def test_what_is_no_assignment_is_told_with_its_place(
-    text: str, said: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    path = tmp_path / "a.yaml"
-    path.write_text(text)
-    status, told, err = lines_of(capsys, "grade", str(path), str(path))
-    assert (status, told) == (2, [])
-    assert err.startswith(f"{path}:")
-    assert said in err
-    assert "Traceback" not in err
 
 
 @pytest.mark.parametrize(
