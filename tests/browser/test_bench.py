@@ -240,7 +240,7 @@ def test_completion_offers_fields_types_and_names(served: Served, visit: Any) ->
         page.keyboard.press(key)
     page.keyboard.type(") dx + sin(theta) d")
     page.locator(".cm-tooltip-autocomplete").filter(has_text="dtheta").wait_for(timeout=SOON)
-    assert page.locator(".cm-tooltip-autocomplete li .cm-completionLabel").all_inner_texts() == ["dx", "dy", "dtheta"]
+    assert page.locator(".cm-tooltip-autocomplete li .cm-completionLabel").all_inner_texts() == ["dtheta", "dx", "dy"]
     page.keyboard.press("Escape")
     page.keyboard.type("y = 0")
     seen(page, "#report th", "edge")

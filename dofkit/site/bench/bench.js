@@ -167,7 +167,8 @@ async function derive() {
   say("Deriving the equations of motion", true);
   try {
     const { sheet: derived, faults } = await ask("equations", state.text);
-    const said = faults ? [element("p", { className: "care", textContent: `${faults[0].message} (${faults[0].hint})` })] : sheet(derived);
+    const said = faults ? [element("p", { className: "care", textContent: `${faults[0].message} (${faults[0].hint})` })]
+      : sheet(derived, "Facts of the motion");
     at("derived").replaceChildren(...said);
     say("");
   } catch (error) {
