@@ -7,10 +7,12 @@ from statistics import quantiles
 from typing import Any
 
 import pytest
-from shared.browsed import KNIFE, seen, write
+from shared.browsed import KNIFE, SOON, seen, write
 from shared.served import PageHandler, Served
 
 pytestmark = [pytest.mark.browser, pytest.mark.xdist_group("browser"), pytest.mark.timeout(900)]
+#: Milliseconds for Python to start, on a busy machine.
+WAIT = 4 * SOON
 ASK = """async ([url, texts]) => {
   const worker = new Worker(url, {type: "module"});
   const ask = (id, call, args) => new Promise((resolve) => {
@@ -89,7 +91,7 @@ def visited(page: Any, url: str, which: str) -> None:
     measured(f"{which} visit, page to report with picture", time.perf_counter() - start, "s")
     measured(f"{which} visit, transferred before the first report", sum(sizes) / 1e6, "MB")
     write(page, KNIFE)
-    seen(page, "#report th", "edge")
+    page.locator("#report th", has_text="edge").wait_for(timeout=WAIT)
     measured(f"{which} visit, page to the report on an edited scene", time.perf_counter() - start, "s")
     measured(f"{which} visit, transferred before the report on an edited scene", sum(sizes) / 1e6, "MB")
 
@@ -108,7 +110,7 @@ def test_the_first_visit_over_a_slow_line(served: Served, visit: Any, monkeypatc
     page.locator("#report table").first.wait_for()
     measured("first visit over 20 Mbit/s, page to report", time.perf_counter() - start, "s")
     write(page, KNIFE)
-    seen(page, "#report th", "edge")
+    page.locator("#report th", has_text="edge").wait_for(timeout=WAIT)
     measured("first visit over 20 Mbit/s, page to the report on an edited scene", time.perf_counter() - start, "s")
 
 
@@ -117,7 +119,7 @@ def test_a_keystroke_and_its_report(served: Served, visit: Any) -> None:
     page = visit.opened(f"{served.url}/bench/")
     texts = page.evaluate("fetch('catalog.json').then((a) => a.json()).then((all) => all.map((scene) => scene.text))")
     write(page, KNIFE)
-    seen(page, "#report th", "edge")
+    page.locator("#report th", has_text="edge").wait_for(timeout=WAIT)
     seen(page, "#no-picture", "numpy could not be loaded")
     times = []
     for text in texts[::3]:
