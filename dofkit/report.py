@@ -59,7 +59,7 @@ def decided(text: str) -> Any:
 
 
 class FieldVerdict(ReportModel):
-    """How certain a field is: the ``argument`` (a row of `classification/arguments.py`), and what it is ``about``.
+    """How certain a field is: the ``argument`` (a row of `classification/arguments.yaml`), and what it is ``about``.
 
     ``bound``: for ``probable`` the chance of an error (``2^-40``), for ``numeric`` the ratio that separates zero from
     non-zero. ``about``: ``reference``, the configurations near the reference configuration; ``component``, those near

@@ -220,6 +220,9 @@ def run_sheet(folder: Path, name: str, students: Sequence[str]) -> dict[str, int
             {"title": f"{name.capitalize()}", "feedback": "full", "problems": SHEETS[name]}, stream, sort_keys=False
         )
     dofkit(folder, "assignment", "vary", source, "--roster", "roster.csv", "--seed", SEED, "--out", name)
+    dofkit(
+        folder, "assignment", "handout", f"{name}/assignment.yaml", "--roster", "roster.csv", "--out", f"{name}/sheets"
+    )
     varied, answers, out = folder / name / "assignment.yaml", folder / f"{name}-answers", folder / f"{name}-results"
     early = students[: len(students) - len(students) // LATE]
     hand_ins(varied, answers, early, rng)
@@ -308,12 +311,12 @@ def too_wide(pages: Sequence[Path], folder: Path, width: int = 390) -> list[Path
 
 
 def pages_of(folder: Path) -> list[Path]:
-    """Pages of every kind: the overview, the review, two students, a sheet, and the table of variants."""
+    """Pages of every kind: the overview, the review, two students, and a sheet."""
     found = []
     for name in SHEETS:
         made = folder / f"{name}-html"
         found += [made / "index.html", made / "review.html", *sorted((made / "students").glob("*.html"))[:2]]
-        found += [*sorted((folder / name).glob("*.html"))[:1], *sorted((folder / name / "sheets").glob("*.html"))[:1]]
+        found += sorted((folder / name / "sheets").glob("*.html"))[:1]
     return found
 
 

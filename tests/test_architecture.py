@@ -142,7 +142,7 @@ _OTHER_WORDS = {
         "homework/questions/equations.py", "homework/starting.py",
     },
     "string": {
-        "homework/schemas.py", "scene/fields.py", "homework/key/facts.py", "scene/picture.py",
+        "scene/fields.py", "homework/key/facts.py", "scene/picture.py",
         "pictures/placed_shapes.py",
     },
     "fixed": {"scene/drawing.py"},

@@ -11,7 +11,7 @@ Verdict = Literal["proved", "probable", "numeric", "undecided"]
 #: Which points a claim speaks of: the part near the reference, that near the witness, all.
 About = Literal["reference", "component", "everywhere"]
 
-#: The arguments by which answers are given. Each is a row of the table in `classification/arguments.py`.
+#: The arguments by which answers are given. Each is a row of the table in `classification/arguments.yaml`.
 ArgumentKey = Literal[
     "nothing constrains",
     "regular point",
@@ -19,7 +19,6 @@ ArgumentKey = Literal[
     "graph",
     "generic fibre",
     "cases",
-    "isolated zeros",
     "joints that close no loop",
     "independent relations",
     "rigid to first order",

@@ -22,7 +22,7 @@ from dofkit.benchmark.record import Outcome, TrialLine
 from dofkit.benchmark.sentences import explained
 from dofkit.benchmark.statistics import grouped
 from dofkit.benchmark.tasks import TrialTask
-from dofkit.methods.table import Knobs, MethodReply
+from dofkit.methods.table import Knobs, Reply
 
 # In a worker
 
@@ -81,7 +81,7 @@ def timed_reply(asked: TrialQuestion) -> Json:
     return {**asdict(reply), "seconds": seconds}
 
 
-def _timed(function: Callable[..., MethodReply], asked: TrialQuestion) -> tuple[MethodReply, float]:
+def _timed(function: Callable[..., Reply], asked: TrialQuestion) -> tuple[Reply, float]:
     """Return the reply and its processor time. SymPy's cache is emptied first: each trial counts for itself."""
     if "sympy" in sys.modules:
         sys.modules["sympy"].core.cache.clear_cache()
@@ -94,7 +94,7 @@ def _timed(function: Callable[..., MethodReply], asked: TrialQuestion) -> tuple[
             raise
         except Exception as error:
             message = " ".join(str(error).split())[:200]
-            reply = MethodReply(None, f"it failed: {type(error).__name__}: {message}")
+            reply = Reply(None, reason=f"it failed: {type(error).__name__}: {message}")
         return reply, time.thread_time() - start
 
 

@@ -188,7 +188,7 @@ def _depend_plainly(evidence: CheckedEvidence, minor: CheckedMinor, others: set[
     every relation is linear or has a generic length that no other has, all ranks are constant near almost every point,
     and there is nothing to check.
     """
-    if not evidence.moving and all(_is_general(evidence, name) for name in evidence.finite):
+    if not others or (not evidence.moving and all(_is_general(evidence, name) for name in evidence.finite)):
         return
     for name in others:
         ways = [
@@ -310,9 +310,7 @@ def everywhere(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     refuse(timed or (not minor and (blocks or generic)), "t is given beside others, or a point is needed")
     if minor:
         verified[f"{claim['path']} at"] = evidence.is_about("here", minor.point)
-    if minor and rank > len(names):
-        constant = implied.issuperset(minor.rows) and all(_is_affine(evidence, row) for row in minor.rows)
-        refuse(not constant, "more rows than relations that are named do not have one rank on all of the set")
+    refuse(rank > len(names), "there are more rows than relations that are named")
     if rank < len(names):
         rows = [row for name in claim["covers"] for row in evidence.seen["covers", name]]
         refuse(blocks or order or sorted(rows) != sorted(names), "one cover of all holonomic equations is needed")
@@ -344,11 +342,6 @@ def _is_analytic(evidence: CheckedEvidence, name: str, graphic: bool) -> bool:
     checked = evidence.relation(name)
     quotient = not graphic or checked.kind != "finite"
     return evidence.has_value_everywhere(checked.tree, quotient) and not checked.tree.applied
-
-
-def _is_affine(evidence: CheckedEvidence, name: str) -> bool:
-    """Whether a relation has rational slopes: its differential is the same at all places."""
-    return all(evidence.ring.rational(evidence.slope(name, q)) for q in free_coordinates(evidence, name, {}))
 
 
 def _free(evidence: CheckedEvidence, order: list[list[str]], point: CheckedPoint | None) -> dict[str, frozenset[str]]:

@@ -105,7 +105,12 @@ def _canonical(value: Any, key: str, depth: int) -> Any:
 
 def sha256_of(document: object) -> str:
     """The hash of the canonical JSON of a document."""
-    text = json.dumps(canonical(document), sort_keys=True, separators=(",", ":"), ensure_ascii=False)
+    return sha256_of_canonical(canonical(document))
+
+
+def sha256_of_canonical(scene: Entry) -> str:
+    """The hash of a document in its canonical form."""
+    text = json.dumps(scene, sort_keys=True, separators=(",", ":"), ensure_ascii=False)
     return sha256(text.encode("utf-8", "surrogatepass")).hexdigest()
 
 
@@ -140,8 +145,12 @@ class CheckedProblem(NamedTuple):
 
 def read_problem(document: Mapping[str, Any], cayley: frozenset[str] = frozenset()) -> CheckedProblem:
     """The problem of a document; bodies in ``cayley`` are read with Cayley parameters in the place of angles."""
+    return problem_of_canonical(canonical(document), cayley)
+
+
+def problem_of_canonical(scene: Entry, cayley: frozenset[str] = frozenset()) -> CheckedProblem:
+    """The same of a document in its canonical form."""
     try:
-        scene = canonical(document)
         known_fields(scene, KEYS)
         world, coordinates, configured = _surroundings(scene, cayley)
         relations = tuple(_relations(world, scene, coordinates))

@@ -50,6 +50,7 @@ class CheckedTexts:
         self.seen, self.variables = dict[Any, Any](), (*problem.coordinates, "t")
         self.velocities = frozenset(name + "dot" for name in self.variables)
         self.chosen = frozenset((*problem.world.signs, *problem.world.generic))
+        self.known = self._known()
 
     def once(self, key: Any, look: Callable[[], Looked]) -> Looked:
         """What was looked at under a key before, or is now."""
@@ -63,14 +64,15 @@ class CheckedTexts:
 
         def read() -> Tree:
             self.effort.spend(10 * len(text) + 1)
-            values = {name: symbol(name) for name in (*sorted(self.chosen), "tdot", *extra)}
-            tree = parse(
-                text, KnownNames(frozenset(self.problem.coordinates), values, self.problem.world.names.functions)
-            )
+            tree = parse(text, self._known(extra) if extra else self.known)
             refuse("dt" in tree.symbols, "an expression holds velocities, and no differentials")
             return tree
 
         return self.once(("text", text, *extra), read)
+
+    def _known(self, extra: Iterable[str] = ()) -> KnownNames:
+        values = {name: symbol(name) for name in (*sorted(self.chosen), "tdot", *extra)}
+        return KnownNames(frozenset(self.problem.coordinates), values, self.problem.world.names.functions)
 
     def identity(self, first: Tree, second: Tree, what: str) -> None:
         """`CheckError` unless two trees are the same in the ring."""

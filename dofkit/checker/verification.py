@@ -13,7 +13,7 @@ from dofkit.checker import label_rules as labels
 from dofkit.checker.evidence import CheckedEvidence, take_cover
 from dofkit.checker.motion import motion
 from dofkit.checker.problem import CheckedProblem as Problem
-from dofkit.checker.problem import canonical, document_of, read_problem, sha256_of
+from dofkit.checker.problem import canonical, document_of, problem_of_canonical, sha256_of_canonical
 from dofkit.checker.relations import FAULTS, fault_text
 from dofkit.checker.trees import CheckError, Effort, refuse
 
@@ -96,11 +96,12 @@ class Verifier:
     """One certificate while it is verified."""
 
     def __init__(self, document: Any, certificate: Any, problem: Any = None) -> None:
-        self.document, self.certificate, self.effort = document, certificate, Effort()
-        other = certificate["scene"].get("sha256") != sha256_of(document)
+        self.document, self.certificate, self.effort = canonical(document), certificate, Effort()
+        self.name = str(certificate["scene"].get("name", document.get("name")))[:200]
+        other = certificate["scene"].get("sha256") != sha256_of_canonical(self.document)
         refuse(other, "the certificate is of another scene, or of this one before it was edited")
-        self.problem: Problem = problem or read_problem(document)
-        refuse("tolerance" in canonical(document), "what is measured up to a tolerance is not proved")
+        self.problem: Problem = problem or problem_of_canonical(self.document)
+        refuse("tolerance" in self.document, "what is measured up to a tolerance is not proved")
         self.evidences: dict[bool, CheckedEvidence] = {}
         self.verified: dict[str, Any] = {}
 
@@ -108,7 +109,7 @@ class Verifier:
         """The evidence in the plain reading, or with Cayley parameters."""
         if cayley not in self.evidences:
             bodies = frozenset(self.certificate["cayley"])
-            problem = read_problem(self.document, bodies) if cayley else self.problem
+            problem = problem_of_canonical(self.document, bodies) if cayley else self.problem
             self.evidences[cayley] = CheckedEvidence(problem, self.certificate, self.effort)
         return self.evidences[cayley]
 
@@ -124,10 +125,9 @@ class Verifier:
             except FAULTS as error:
                 failed.append({"path": path, "rule": rule, "why": fault_text(error)})
             seen.add(path)
-        name = str(self.certificate["scene"].get("name", self.document.get("name")))[:200]
         uncovered = uncovered + [str(claim.get("path"))[:200] for claim in whole if unread]
         trusted = self.certificate["scene"].get("readings", {})
-        return Verification(name, len(whole), len(claims) - len(failed), failed, uncovered, trusted)
+        return Verification(self.name, len(whole), len(claims) - len(failed), failed, uncovered, trusted)
 
     def check(self, claim: dict[str, Any]) -> None:
         """`CheckError` unless the claim is shown; what was verified before may be used."""

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import replace
 from functools import partial
 
 from dofkit.base.deadline import expired, unless_late
-from dofkit.base.verdicts import ArgumentKey, Claim, together
+from dofkit.base.verdicts import OPEN, ArgumentKey, Claim, together
 from dofkit.classification import tangent_spaces
 from dofkit.classification.freedom.bridged_blocks import with_still_parts
-from dofkit.classification.study import Study
+from dofkit.classification.study import Decided, Study, counted, decided
 from dofkit.classification.turned_coordinates import (
     TurnedGroup,
     are_coordinates,
@@ -19,115 +19,21 @@ from dofkit.classification.turned_coordinates import (
     rows_at_drawing,
     turned_together,
 )
-from dofkit.configuration.finite_blocks import dependent_names
 from dofkit.configuration.rigid_motions import RigidOrbit
-from dofkit.configuration.variety import field_jacobian, on_variety, pose_point
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.sparse import last_columns, rank_of_rows
 from dofkit.exact.zero import BOTH
 from dofkit.expressions import tree as ex
-from dofkit.expressions.renaming import shape_of
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import BITS, Answer
 from dofkit.relations.blocks import Block, make_chart
+from dofkit.relations.linear_relations import constant_coefficients, explicit_relations, number_coefficients
 from dofkit.relations.normal.pieces import Finite
 from dofkit.relations.setting import Setting
 from dofkit.system import Rotation
 
-#: Relations and coordinates up to so many are looked at.
+#: Coordinates up to so many are looked at.
 MOST = 120
-#: How a coordinate occurs: once, times a number; in the first degree; in the second; in no such way.
-PLAIN, LINEAR, QUADRATIC, OTHER = 0, 1, 2, 9
-
-
-def explicit(relations: Sequence[Expr], names: Sequence[str], count: int, most: int = LINEAR) -> list[str] | None:
-    """The coordinates that are left when ``count`` of the relations are solved for one each, one after another.
-
-    None where that does not go on until the end. What is solved most plainly goes first, then the last of ``names``;
-    ``most``: how a coordinate may occur that is solved for, only once in the second degree.
-    """
-    if len(relations) > MOST or len(names) > MOST:
-        return None
-    remaining = _readings(relations)
-    solved: set[str] = set()
-    while len(solved) < count:
-        open_ = [n for n in reversed(names) if n not in solved]
-        result = min(((r.of[n], k, i) for i, r in enumerate(remaining) for k, n in enumerate(open_) if n in r.of),
-                    default=(OTHER, 0, 0))  # fmt: skip
-        if result[0] > most:
-            return None
-        most = LINEAR if result[0] == QUADRATIC else most
-        relation = remaining.pop(result[2])
-        solved.add(open_[result[1]])
-        remaining = [r.without(open_[result[1]], relation) for r in remaining]
-    return [n for n in names if n not in solved]
-
-
-@dataclass(frozen=True)
-class _Reading:
-    """How each coordinate of a relation occurs in it."""
-
-    of: dict[str, int]
-
-    def without(self, name: str, by: _Reading) -> _Reading:
-        """After ``name`` was replaced by what the relation ``by`` gives."""
-        if name not in self.of:
-            return self
-        return _Reading({**{n: k for n, k in self.of.items() if n != name}, **{n: OTHER for n in by.of if n != name}})
-
-
-def _readings(relations: Iterable[Expr]) -> list[_Reading]:
-    """How coordinates occur in every relation; looked at once in those that are the same up to names."""
-    degrees_of: dict[Expr, list[tuple[int, int]]] = {}
-    result = []
-    for g in relations:
-        shape = shape_of(g)
-        if shape.skeleton not in degrees_of:
-            place = {name: k for k, name in enumerate(shape.names)}
-            degrees_of[shape.skeleton] = [(place[name], degree) for name, degree in _degrees(g).items()]
-        result.append(_Reading({shape.names[k]: degree for k, degree in degrees_of[shape.skeleton]}))
-    return result
-
-
-def _degrees(g: Expr) -> dict[str, int]:
-    """Every coordinate of ``g`` with how it occurs."""
-    memo: dict[int, dict[str, int]] = {}
-    stack = [g]
-    while stack:
-        node = stack.pop()
-        operands = ex.children(node)
-        waiting = [part for part in operands if id(part) not in memo]
-        if waiting:
-            stack += [node, *waiting]
-        else:
-            memo[id(node)] = _joined(node, [memo[id(part)] for part in operands])
-    return memo[id(g)]
-
-
-def _joined(e: Expr, operands: Sequence[dict[str, int]]) -> dict[str, int]:
-    """How coordinates occur in a node, by how they occur in its parts."""
-    if e.op == "sym":
-        return {str(e.args[1]): PLAIN} if e.args[0] == "coordinate" else {}
-    if e.op == "pow" and e.args[1] == ex.TWO:
-        return {n: QUADRATIC if k <= LINEAR else OTHER for n, k in operands[0].items()}
-    if e.op not in ("add", "mul"):
-        return {n: OTHER for part in operands for n in part}
-    single = e.op == "mul" and sum(p.op not in ("num", "const") for p in e.args) == 1
-    result: dict[str, int] = {}
-    for part in operands:
-        for name, k in part.items():
-            degree = k if single or e.op == "add" else max(k, LINEAR)
-            result[name] = degree if name not in result else _both(e.op, result[name], degree)
-    return result
-
-
-def _both(op: str, first: int, second: int) -> int:
-    """Of a coordinate in two terms, or in two factors."""
-    if op == "add":
-        return max(first, second, LINEAR)
-    return QUADRATIC if max(first, second) == LINEAR else OTHER
-
-
 #: Arguments by which every part of the set is as good as every other.
 ALIKE: frozenset[ArgumentKey | None] = frozenset(
     {
@@ -140,13 +46,12 @@ ALIKE: frozenset[ArgumentKey | None] = frozenset(
         "exact elimination",
     }
 )
-#: Coordinates up to so many are looked for on a tangent space.
-MAX_COLUMNS = 120
 
 
-def generalized_coordinates(study: Study) -> list[str] | None:
+def generalized_coordinates(study: Study) -> Decided:
     """Return an independent choice of ``dof`` coordinates: those that are not pivots of what integrates."""
-    return unless_late(partial(_of_system, study), None)
+    chosen = unless_late(partial(_of_system, study), None)
+    return decided(study, chosen, OPEN if chosen is None else claim_of_choice(study, chosen))
 
 
 def _of_system(study: Study) -> list[str] | None:
@@ -185,7 +90,7 @@ def _turned_groups(study: Study, chosen: Collection[str]) -> Iterable[TurnedGrou
     return turned_together(outcome.blocks, outcome.answers, outcome.untouched, turning) if turning else ()
 
 
-def claim_of_choice(study: Study, free: Claim, chosen: Sequence[str]) -> Claim:
+def claim_of_choice(study: Study, chosen: Sequence[str]) -> Claim:
     """Of the generalized coordinates: the others have independent rows, at the reference or at a generic point.
 
     Where the set may have several parts the point may lie on another one. At a singular reference the set is known
@@ -210,12 +115,7 @@ def claim_of_choice(study: Study, free: Claim, chosen: Sequence[str]) -> Claim:
     for group in _turned_groups(study, chosen):
         if not are_coordinates(group, chosen, study.setting, study.system.rotations):
             of_blocks.append(Claim("probable", "generic points", bits=BITS, about="component"))
-    return together(*of_blocks) if of_blocks else counted(free)
-
-
-def counted(claim: Claim) -> Claim:
-    """A number that is counted from another: a proof of it is a proof by counting."""
-    return Claim("proved", "count", claim.bits, claim.gap, claim.about) if claim.verdict == "proved" else claim
+    return together(*of_blocks) if of_blocks else counted(study.free)
 
 
 def _of_block(block: Block, a: Answer, setting: Setting, rotations: Sequence[Rotation]) -> list[str] | None:
@@ -226,7 +126,8 @@ def _of_block(block: Block, a: Answer, setting: Setting, rotations: Sequence[Rot
         return []
     block_coordinates = frozenset(block.coordinates)
     turning = [r for r in rotations if r.chart == "gibbs" and not block_coordinates.isdisjoint(r.names)]
-    dependent = set(a.dependent if a.answered_parts is None else _dependent_at_drawing(block, a, setting))
+    of_joints = partial(_dependent_at_drawing, TurnedGroup(block, ()), setting, places_first=not a.answered_parts)
+    dependent = set(a.dependent if a.answered_parts is None else of_joints())
     direct = _regular_at_reference(block, a, setting) or [c for c in block.coordinates if c not in dependent]
     if not turning and len(direct) == a.dof:
         chosen = _explicit(block, a.dof, setting)
@@ -237,13 +138,8 @@ def _of_block(block: Block, a: Answer, setting: Setting, rotations: Sequence[Rot
     drawn = None if whole or not turning else chosen_at_drawing(TurnedGroup(block, tuple(a.hidden)), setting, turning)
     if drawn is not None and len(drawn) == a.dof:
         return drawn
-    if len(block.coordinates) > MAX_COLUMNS or expired():
+    if block.forms or block.nonlinear or len(block.coordinates) > MOST or expired():
         return whole
-    if block.forms or block.nonlinear:
-        if whole or not (block.finite or a.hidden):
-            return whole
-        finite = Block(block.coordinates, block.finite, block.conditions)
-        return tangent_spaces.nearby(finite, a.dof, setting, turning, a.hidden)
     orbit = None if turning else orbit_at_reference(block, a, setting)
     if orbit is not None:
         return orbit.chart_of()
@@ -252,19 +148,18 @@ def _of_block(block: Block, a: Answer, setting: Setting, rotations: Sequence[Rot
     return result if result is not None or turning else whole
 
 
-def _dependent_at_drawing(block: Block, a: Answer, setting: Setting) -> tuple[str, ...]:
+def _dependent_at_drawing(group: TurnedGroup, setting: Setting, places_first: bool = False) -> tuple[str, ...]:
     """Coordinates that the rows at the reference can be solved for, the last ones where there is a choice.
 
-    Of bodies whose joints close no loop places are solved for before angles.
+    ``places_first``: places are solved for before angles.
     """
-    result = rows_at_drawing(TurnedGroup(block, ()), setting)
+    result = rows_at_drawing(group, setting)
     if result is None:
         return ()
-    block_names = frozenset(block.coordinates)
-    places = frozenset(
-        c.name for c in setting.roles if not a.answered_parts and c.name in block_names and c.role in ("x", "y", "z")
-    )
-    names = sorted(block.coordinates, key=places.__contains__)
+    names, block_names = group.block.coordinates, frozenset(group.block.coordinates)
+    if places_first:
+        places = frozenset(c.name for c in setting.roles if c.name in block_names and c.role in ("x", "y", "z"))
+        names = tuple(sorted(names, key=places.__contains__))
     place = {name: k for k, name in enumerate(names)}
     rows = [{place[name]: v for name, v in row.items()} for row in result.rows]
     return tuple(names[c] for c in last_columns(rows, len(place), result.p))
@@ -311,25 +206,29 @@ def _regular_at_reference(block: Block, a: Answer, setting: Setting) -> list[str
     """
     if setting.reference is None or not block.forms or "field" not in setting.engines:
         return None
-    chart = make_chart(block, setting, a.hidden)
-    point = pose_point(chart, {**setting.reference, ex.TIME: ex.ZERO}, 3)
-    if point is None or not on_variety(chart, point):
-        return None
-    dependent = dependent_names(field_jacobian(chart, point), chart, point.p)
-    return (
-        [c for c in block.coordinates if c not in dependent]
-        if len(block.coordinates) - len(dependent) == a.dof
-        else None
-    )
+    finite = Block(block.coordinates, block.finite, block.conditions)
+    dependent = _dependent_at_drawing(TurnedGroup(finite, tuple(a.hidden)), setting)
+    chosen = [c for c in block.coordinates if c not in dependent]
+    return chosen if len(chosen) == a.dof else None
 
 
 def _explicit(block: Block, dof: int, setting: Setting) -> list[str] | None:
     """Those by which the relations give all others at once: an angle rather than what it makes of lengths.
 
-    At a reference configuration a coefficient may be 0, so that only numbers are divided by there.
+    Where there is a choice the last of the block's coordinates are solved for. At a reference configuration a
+    coefficient may be 0, so that only numbers are divided by there.
     """
     if block.forms or block.nonlinear or len(block.coordinates) > MOST:
         return None
     relations = [p.expr for r in block.finite if isinstance(p := r.piece, Finite)]
-    most = QUADRATIC if setting.reference is None else PLAIN
-    return explicit(relations, block.coordinates, len(block.coordinates) - dof, most)
+    place = {ex.coordinate(name): k for k, name in enumerate(block.coordinates)}
+    coefficients = constant_coefficients if setting.reference is None else number_coefficients
+
+    def last(g: Expr) -> Mapping[Expr, Expr]:
+        slopes = coefficients(g)
+        numbers_last = sorted(slopes, key=lambda s: (slopes[s].op == "num", place[s]))
+        return {s: slopes[s] for s in numbers_last[-1:]}
+
+    solved = explicit_relations(relations, last).explicit
+    chosen = [name for name in block.coordinates if ex.coordinate(name) not in solved]
+    return chosen if len(chosen) == dof else None

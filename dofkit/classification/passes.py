@@ -2,29 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from functools import partial
 from typing import Any, NamedTuple
 
 from dofkit.base.deadline import DEFAULT_SECONDS, gc_rarely, limited, part, unless_late
-from dofkit.base.verdicts import OPEN, VERDICTS, ArgumentKey, Claim, least, together, weakest
+from dofkit.base.verdicts import OPEN, VERDICTS, Claim, together, weakest
 from dofkit.classification import study as fields
 from dofkit.classification.counts import counts_beside
 from dofkit.classification.feasibility.feasibility import inequalities_together
-from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.freedom.preparation import all_of
-from dofkit.classification.generalized_coordinates import claim_of_choice, counted, generalized_coordinates
+from dofkit.classification.generalized_coordinates import generalized_coordinates
 from dofkit.classification.special import special_cases
-from dofkit.classification.study import Study, study
+from dofkit.classification.study import Decided, Study, counted, decided, study
 from dofkit.exact.points.balls import precise_for
 from dofkit.exact.zero import BOTH, Engines
-from dofkit.integrability.lie_algebra import is_free
+from dofkit.expressions.text import to_text
 from dofkit.mobility.counts import without_drives
-from dofkit.relations.answer import BITS, DEFECTS
-from dofkit.relations.setting import ALL, Reductions, Setting
-from dofkit.report import ConstraintEntry, FieldVerdict, Mobility, Report
-from dofkit.system import System
+from dofkit.relations.answer import DEFECTS
+from dofkit.relations.setting import ALL, Reductions
+from dofkit.report import BRANCH_WARNING, ConstraintEntry, FieldVerdict, ForceEntry, Mobility, Report
+from dofkit.system import BINDING, System
 
 #: Fields of the entries that are withheld together with the redundancy of the report.
 OF_ENTRIES = ("independent", "circuit", "redundant_equations")
@@ -143,62 +142,17 @@ def _with_open_dependence(e: ConstraintEntry) -> ConstraintEntry:
     return e.model_copy(update={**dict.fromkeys(OF_ENTRIES), "verdict": "undecided", "verdicts": verdicts})
 
 
-#: Rows that depend on each other at points over GF(p), and what the others imply at drawn states.
-ROWS = Claim("probable", "rows at a point", bits=BITS)
-IMPLIED = Claim("probable", "implication", bits=BITS)
-#: Arguments that tell what depends on what as well.
-SETTLED: frozenset[ArgumentKey | None] = frozenset({"links in general position", "exact elimination"})
-LEFT_OUT = Claim("probable", "leaving out", bits=BITS)
-
-
-def claims(study: Study, values: Mapping[str, Any]) -> dict[str, Claim]:
-    """The claim of every field that the report decides, or leaves open."""
-    free = fields.freedom(study)
-    result = {"consistent": fields.consistency(study)}
-    if values["consistent"] is False:
-        result["conflicting"] = _conflict(study, result["consistent"])
-    else:
-        result |= {"dof": _unless(values["dof"], free), "velocity_dof": _unless(values["velocity_dof"], free)}
-        result["redundant_equations"] = _unless(values["redundant_equations"], counted(free))
-        result["redundant"] = _unless(values["redundant"], _dependence(study, free, bool(values["redundant"])))
-        result["redundancies"] = _unless(values["redundant"], _dependence(study, free, bool(values["redundancies"])))
-        claim = claim_of_choice(study, free, values["generalized_coordinates"] or ())
-        result["generalized_coordinates"] = _unless(values["generalized_coordinates"], claim)
-    if study.system.reference is not None and values["consistent"] is not False:
-        first = fields.first_order(study)
-        result["instantaneous_dof"] = _unless(values["instantaneous_dof"], first)
-        result["singular"] = _unless(values["singular"], together(first, free))
-    for name in ("holonomic", "scleronomic"):
-        result[name] = of_entries(values["constraints"], name, values[name])
-    if values["growth_vector"] is not None:
-        result["growth_vector"] = _growth(study, free, values["growth_vector"])
-    if values["integrable_part"] is not None:
-        result["integrable_part"] = free
-    return result
-
-
-def _unless(value: Any, claim: Claim) -> Claim:
-    """The claim; open where there is no value."""
-    return OPEN if value is None else claim
-
-
-def _conflict(study: Study, against: Claim) -> Claim:
-    """Of a minimal set that cannot hold together: without any one of them the others do, which may be proved."""
-    members, minimal = study.dependence.conflicting
-    if not members:
-        return OPEN
-    return against if minimal else together(against, LEFT_OUT)
-
-
-def of_entries(entries: Sequence[ConstraintEntry], name: str, value: bool | None) -> Claim:
-    """Of a label of the whole: all entries' where it is true, the surest that is false where it is not."""
+def of_entries(name: str, study: Study) -> Decided:
+    """A label of the system: all entries' where it is true, the surest that is false where it is not."""
+    entries = study.entries
+    value = all_of(getattr(e, name) for e in entries)
     if value is None:
-        return OPEN
+        return Decided(None, OPEN)
     if value:
         claim_of = {id(e.verdicts): _claim(e.verdicts[name]) for e in {id(e.verdicts): e for e in entries}.values()}
-        return together(*[claim_of[id(e.verdicts)] for e in entries])
+        return Decided(True, together(*[claim_of[id(e.verdicts)] for e in entries]))
     against = [e.verdicts[name] for e in entries if getattr(e, name) is False]
-    return _claim(min(against, key=lambda v: VERDICTS.index(v.verdict)))
+    return Decided(False, _claim(min(against, key=lambda v: VERDICTS.index(v.verdict))))
 
 
 def _claim(field: FieldVerdict) -> Claim:
@@ -210,32 +164,23 @@ def _claim(field: FieldVerdict) -> Claim:
     return Claim(field.verdict, field.argument, bits, gap, field.about or "everywhere")
 
 
-def _dependence(study: Study, free: Claim, some: bool) -> Claim:
-    """Of what depends on what: nothing does where the count says so; links in general position by their graph."""
-    if not some and study.redundant_equations == 0:
-        return counted(free)
-    copied = {study.names[i] for i in study.outcome.copies}
-    if {study.names[i] for r in study.dependence.dependent for i in r.redundant} <= copied:
-        return free
-    settled = {a.argument for a in study.outcome.answers if a.velocity_dof is not None} <= SETTLED
-    if settled:
-        return free
-    return replace(together(free, ROWS, IMPLIED), about=least(study.dependence.about, free.about))
-
-
-def _growth(study: Study, free: Claim, growth: Sequence[int]) -> Claim:
-    """Of the growth vector: its first and last numbers are those of the freedoms; others are ranks over GF(p).
-
-    Those are not too large where what is not 0 there is not 0; nor too small where no more brackets there are.
-    """
-    blocks = [
-        (a.growth, a.trusted) for b, a in zip(study.outcome.blocks, study.outcome.answers, strict=True) if b.forms
-    ]
-    if len(growth) == 1 or (len(growth) == 2 and all(trusted for _, trusted in blocks)):
-        return counted(free)
-    if free.verdict == "proved" and all(trusted and of_block and is_free(of_block) for of_block, trusted in blocks):
-        return replace(free, argument="free Lie algebra")
-    return together(free, Claim("probable", "brackets at points", bits=BITS))
+#: What decides each field that can be wrong, in the order of the report.
+DECIDED: Mapping[str, Callable[[Study], Decided]] = {
+    "consistent": fields.consistent,
+    "conflicting": fields.conflicting,
+    "dof": lambda study: decided(study, study.outcome.dof, study.free),
+    "velocity_dof": lambda study: decided(study, study.outcome.velocity_dof, study.free),
+    "redundant_equations": lambda study: decided(study, study.redundant_equations, counted(study.free)),
+    "redundant": fields.redundant,
+    "redundancies": fields.redundancies,
+    "generalized_coordinates": generalized_coordinates,
+    "instantaneous_dof": fields.instantaneous_dof,
+    "singular": fields.singular,
+    "holonomic": partial(of_entries, "holonomic"),
+    "scleronomic": partial(of_entries, "scleronomic"),
+    "growth_vector": fields.growth_vector,
+    "integrable_part": fields.largest_integrable_part,
+}
 
 
 #: Of the time, for the blocks of a scene.
@@ -249,33 +194,71 @@ Fill = Callable[[Study, Values], Values]
 def _generic_fields(study: Study, values: Values) -> Values:
     """Return the generic answer: every field that needs no second look at the scene, with the claim of each."""
     del values
-    entries, outcome, dependence = study.entries, study.outcome, study.dependence
-    answer: dict[str, Any] = {
+    answers = {name: decide(study) for name, decide in DECIDED.items()}
+    return {
         "scene": study.system.name,
-        "forces": fields.forces(study),
-        "consistent": outcome.consistent,
-        "conflicting": [study.names[i] for i in dependence.conflicting.members],
-        "dof": outcome.dof,
-        "velocity_dof": outcome.velocity_dof,
-        "instantaneous_dof": fields.instantaneous_dof(study),
-        "singular": fields.singular(study),
-        "redundant_equations": study.redundant_equations,
-        "redundant": fields.redundant(study),
-        "redundancies": fields.redundancies(study),
-        "constraints": entries,
-        "holonomic": all_of(e.holonomic for e in entries),
-        "scleronomic": all_of(e.scleronomic for e in entries),
+        "forces": [ForceEntry(name=f.name, reason=f.reason) for f in study.system.forces],
+        "constraints": study.entries,
         "count": fields.lecture_count(study),
-        "generalized_coordinates": generalized_coordinates(study),
         "joint_coordinates": fields.joint_coordinates(study),
-        "growth_vector": fields.growth_vector(outcome, entries),
-        "integrable_part": fields.largest_integrable_part(study),
         "witness": fields.witness(study),
         "method": fields.method(study),
-        "modelled": fields.modelled(study.system, outcome),
-        "warnings": fields.warnings(study),
+        "modelled": fields.modelled(study.system, study.outcome),
+        "warnings": _warnings(study),
+        **{name: field.value for name, field in answers.items()},
+        **_verdicts({name: field.claim for name, field in answers.items() if field.claim is not None}, study.entries),
     }
-    return {**answer, **_verdicts(claims(study, answer), entries)}
+
+
+def _warnings(study: Study) -> list[str]:
+    """Lines of text: what was noticed while reading, why something is open, and what is hidden."""
+    answer = list(study.system.warnings)
+    answer += [
+        f"not read, so the true freedom may be smaller: {t}" for t in study.system.left_out if t.startswith(BINDING)
+    ]
+    for r in study.reduced:
+        for normal in r.normals:
+            answer += [f"'{r.constraint.name}': {note}" for note in normal.notes]
+            if len(normal.branches) > 1:
+                answer.append(BRANCH_WARNING.format(name=r.constraint.name))
+        answer += [f"'{r.constraint.name}': {note}" for note in r.constraint.notes]
+    answer += [
+        f"'{study.names[i]}': whether it can be satisfied at all was not decided" for i in study.outcome.unsettled
+    ]
+    for a in study.outcome.answers:
+        answer += a.reasons
+        answer += [f"hidden geometric equation: {to_text(g)} = 0" for g in a.hidden]
+    if study.outcome.dof is None and study.outcome.consistent is not False:
+        answer += [
+            f"There is no reference configuration: give {missing}. With a reference configuration more can be decided."
+            for missing in _missing_reference(study.system)
+        ]
+    return list(dict.fromkeys(answer))
+
+
+def _about_branches(system: System, branches: Sequence[str]) -> Iterator[str]:
+    """Yield for each branch that alone has the report's freedom how the answer for another branch is obtained."""
+    for branch in branches:
+        for missing in _missing_reference(system):
+            yield (
+                f"The configuration space has branches of different dimension. The degrees of freedom, the redundancy "
+                f"and the coordinates are those of the largest branch, {branch}. To choose a branch, give {missing}."
+            )
+
+
+def _missing_reference(system: System) -> Iterator[str]:
+    """Yield what the scene has to give for a reference configuration, where it has none."""
+    placed = {str(symbol.args[1]) for symbol in system.pose}
+    if system.reference is not None or all(c.name in placed for c in system.coordinates):
+        return
+    owners = dict.fromkeys(c.owner for c in system.coordinates if c.owner in system.particles and c.name not in placed)
+    text = ", ".join([*owners][:8]) + (", ..." if len(owners) > 8 else "")
+    wanted = [f"`at` for {text}"] if owners else []
+    if system.bodies and system.generic:
+        wanted.append("`at` (and `axis`) for the joints")
+    if not wanted:
+        wanted = ["`configuration`, a value for each coordinate"]
+    yield " and ".join(wanted)
 
 
 def _verdicts(of_fields: Mapping[str, Claim], entries: Sequence[ConstraintEntry]) -> Values:
@@ -311,19 +294,19 @@ def _special(study: Study, values: Values) -> Values:
     """
     if study.system.reference is not None and not any(block.forms for block in study.outcome.blocks):
         return {}
-    again = partial(_studied, study.setting.reductions)
+    again = partial(fields.study, reductions=study.setting.reductions)
     search = partial(special_cases, study, Report(**values), again)
     late: Values = {"warnings": [*values["warnings"], NO_SPECIAL_CASES]}
     special = unless_late(search, late)
     branches = [case.where for case in special.get("special_cases", ()) if case.kind == "branch"]
-    warnings = [*special.get("warnings", values["warnings"]), *fields.about_branches(study.system, branches)]
+    warnings = [*special.get("warnings", values["warnings"]), *_about_branches(study.system, branches)]
     return {**special, "warnings": warnings}
 
 
 def _velocity_freedom(reductions: Reductions, released: System) -> Values:
     """Return the velocity freedom of a system whose drives are released, with its verdict; nothing if undecided."""
     answered = study(released, reductions=reductions)
-    number, verdict = answered.outcome.velocity_dof, fields.freedom(answered).verdict
+    number, verdict = answered.outcome.velocity_dof, answered.free.verdict
     return {} if number is None or verdict == "undecided" else {"undriven": number, "undriven_verdict": verdict}
 
 
@@ -341,31 +324,11 @@ def report_of(study: Study, passes: Sequence[Fill] = PASSES) -> Report:
     return Report(**agreed(values))
 
 
-def _studied(reductions: Reductions, system: System) -> Study:
-    """The blocks of another system, answered."""
-    return study(system, reductions=reductions)
+@dataclass(frozen=True)
+class Examined(Study):
+    """A system with its blocks' answers, and the report on it."""
 
-
-class Examined(NamedTuple):
-    """A system as the engines see it, with what they found of it."""
-
-    study: Study
     report: Report
-
-    @property
-    def system(self) -> System:
-        """The system."""
-        return self.study.system
-
-    @property
-    def setting(self) -> Setting:
-        """What the engines may assume."""
-        return self.study.setting
-
-    @property
-    def outcome(self) -> Outcome:
-        """The blocks with their answers."""
-        return self.study.outcome
 
 
 def examined(
@@ -379,11 +342,5 @@ def examined(
     with limited(seconds), precise_for(system.longest), gc_rarely():
         with part(SOLVING):
             result = study(system, engines, reductions)
-        return Examined(result, report_of(result, passes))
-
-
-def studied(system: System, budget: float | None = None) -> Examined:
-    """The generic answer for a system. Raises OutOfTimeError where there was no time for it."""
-    with limited(DEFAULT_SECONDS if budget is None else budget), precise_for(system.longest):
-        result = study(system)
-        return Examined(result, report_of(result, GENERIC))
+        report = report_of(result, passes)
+        return Examined(result.system, result.reduced, result.setting, result.outcome, report)

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from dofkit.base.deadline import part, unless_late
-from dofkit.base.verdicts import OPEN, VERDICTS, About, Claim, least, together
+from dofkit.base.verdicts import OPEN, VERDICTS, Claim, together
 from dofkit.base.wording import many, verb
 from dofkit.classification.dependence import redundancy
 from dofkit.classification.dependence.implied_constraints import Conflict, conflict
@@ -17,15 +17,15 @@ from dofkit.classification.freedom.preparation import prepared
 from dofkit.classification.labels.companions import Companionship
 from dofkit.classification.labels.entries import entries_of, integrable_part
 from dofkit.exact.zero import BOTH, Engines
-from dofkit.expressions.text import to_text
+from dofkit.integrability.lie_algebra import is_free
 from dofkit.mobility.counts import CountedFacts, count
 from dofkit.mobility.joint_tree import tree_coordinates
-from dofkit.relations.answer import Redundancies, undecided_dependence
+from dofkit.relations.answer import BITS, Redundancies, undecided_dependence
 from dofkit.relations.blocks import uses_time
 from dofkit.relations.normal.pieces import Finite, Reduced
 from dofkit.relations.setting import ALL, Reductions, Setting
-from dofkit.report import BRANCH_WARNING, ConstraintEntry, Count, ForceEntry, IntegrablePart, Redundancy
-from dofkit.system import BINDING, System
+from dofkit.report import ConstraintEntry, Count, Redundancy
+from dofkit.system import System
 
 #: Of the time that is left after the blocks: for what depends on what; the rest is for labels.
 DEPENDENCE = 0.5
@@ -37,13 +37,12 @@ class Dependence(NamedTuple):
     conflicting: Conflict
     dependent: list[Redundancies]
 
-    @property
-    def about(self) -> About:
-        """Of which points it is told that what is redundant can go: the narrowest of all parts with something that can.
 
-        That something is needed is told of every point near one, so of the whole.
-        """
-        return least(*(r.about for r in self.dependent if r.redundant))
+class Decided(NamedTuple):
+    """The value of a field of the report, with its claim; None for what cannot be wrong, or is not asked."""
+
+    value: Any
+    claim: Claim | None = None
 
 
 @dataclass(frozen=True)
@@ -59,6 +58,11 @@ class Study:
     def names(self) -> list[str]:
         """The constraints' names, by number."""
         return [c.name for c in self.system.constraints]
+
+    @cached_property
+    def free(self) -> Claim:
+        """Of the freedoms: the answers of all blocks together."""
+        return together(*(a.claim for a in self.outcome.answers))
 
     @property
     def equations(self) -> int:
@@ -110,10 +114,6 @@ class Study:
         """The constraints' entries, where this is known of what depends on what."""
         return entries_of(self.reduced, self.setting, self.outcome, dependent, self.company)
 
-    def by_name(self, labels: Sequence[bool | None]) -> Mapping[str, bool | None]:
-        """A label for each constraint, by its name."""
-        return dict(zip(self.names, labels, strict=True))
-
 
 def study(
     system: System, engines: Engines = BOTH, reductions: Reductions = ALL, grows: bool = True, flag: bool = False
@@ -130,22 +130,65 @@ def study(
 
 # fields of the report
 
+HOLDS = Claim("proved", "zero at the reference", about="reference")
 
-def instantaneous_dof(study: Study) -> int | None:
-    """Velocities allowed to first order at the reference configuration; None without one, or where branches cross."""
+
+def decided(study: Study, value: Any, claim: Claim) -> Decided:
+    """Return a field about the motions, undecided where it has no value; not asked where there are no motions."""
+    if study.outcome.consistent is False:
+        return Decided(value)
+    return Decided(value, OPEN if value is None else claim)
+
+
+def counted(claim: Claim) -> Claim:
+    """A number that is counted from another: a proof of it is a proof by counting."""
+    return Claim("proved", "count", claim.bits, claim.gap, claim.about) if claim.verdict == "proved" else claim
+
+
+def consistent(study: Study) -> Decided:
+    """That there is a motion: so the blocks say; that there is none: the surest of them that says so."""
     outcome = study.outcome
-    if study.system.reference is None or outcome.consistent is not True or outcome.crossing:
-        return None
+    if outcome.consistent is None:
+        return Decided(None, OPEN)
+    if outcome.consistent:
+        return Decided(True, together(*(HOLDS if a.exists else a.claim for a in outcome.answers)))
+    if outcome.impossible:
+        return Decided(False, Claim("proved", "inequality nowhere"))
+    against = [a.claim for a in outcome.answers if a.consistent is False]
+    return Decided(False, min(against, key=lambda c: VERDICTS.index(c.verdict)))
+
+
+def conflicting(study: Study) -> Decided:
+    """The names of a minimal set of constraints that cannot hold together."""
+    members, sure = study.dependence.conflicting
+    names = [study.names[i] for i in members]
+    if study.outcome.consistent is not False:
+        return Decided(names)
+    claim = consistent(study).claim or OPEN
+    return Decided(names, together(claim, sure) if members else OPEN)
+
+
+def instantaneous_dof(study: Study) -> Decided:
+    """Velocities allowed to first order at the reference configuration; None without one, or where branches cross.
+
+    Its claim is of ranks there, which are exact where no row depends on others.
+    """
+    outcome = study.outcome
+    if study.system.reference is None:
+        return Decided(None)
     freedoms = [a.instantaneous for a in outcome.answers]
-    if any(p is None for p in freedoms):
-        return None
-    return len(outcome.untouched) + sum(p for p in freedoms if p is not None)
+    number = None
+    if outcome.consistent is True and not outcome.crossing and None not in freedoms:
+        number = len(outcome.untouched) + sum(p for p in freedoms if p is not None)
+    claim = together(*(a.first_order for a in outcome.answers))
+    return decided(study, number, replace(claim, about="reference"))
 
 
-def singular(study: Study) -> bool | None:
-    """Return whether the reference allows other velocities than finite motions have; None without a reference."""
-    here, velocities = instantaneous_dof(study), study.outcome.velocity_dof
-    return None if here is None or velocities is None else here != velocities
+def singular(study: Study) -> Decided:
+    """Whether the reference allows other velocities than finite motions have; None without a reference."""
+    (here, claim), velocities = instantaneous_dof(study), study.outcome.velocity_dof
+    value = None if here is None or velocities is None else here != velocities
+    return Decided(value) if claim is None else decided(study, value, together(claim, study.free))
 
 
 def lecture_count(study: Study) -> Count:
@@ -153,29 +196,39 @@ def lecture_count(study: Study) -> Count:
     reduced, outcome = study.reduced, study.outcome
     written = sum(all(isinstance(p, Finite) for p in normal.pieces) for r in reduced for normal in r.normals)
     hidden = sum(len(a.hidden) for a in outcome.answers)
-    return count(study.system, CountedFacts(written, outcome.dof, outcome.consistent, hidden, 0, study.entries))
+    return count(study.system, CountedFacts(written, outcome.dof, outcome.consistent, hidden, study.entries))
 
 
-def redundant(study: Study) -> list[str] | None:
+def redundant(study: Study) -> Decided:
     """The names of what can be dropped together, in the scene's order; None where that was not decided."""
-    names, outcome = study.names, study.outcome
-    undecided = any(r.undecided for r in study.dependence.dependent)
+    dependent, outcome = study.dependence.dependent, study.outcome
+    undecided = any(r.undecided for r in dependent)
     if outcome.consistent is None or (outcome.consistent and (undecided or outcome.velocity_dof is None)):
-        return None
-    return [names[i] for i in sorted({i for r in study.dependence.dependent for i in r.redundant})]
+        return decided(study, None, OPEN)
+    gone = sorted({i for r in dependent for i in r.redundant})
+    return decided(study, [study.names[i] for i in gone], _of_dependence(study, bool(gone)))
 
 
-def redundancies(study: Study) -> list[Redundancy]:
-    """Return the groups of constraints that depend on each other, where a constraint or an equation is redundant.
+def redundancies(study: Study) -> Decided:
+    """The groups of constraints that depend on each other, where a constraint or an equation is redundant.
 
     In x^2 + y^2 = 0 and x^2 + z^2 = 0 none is, though x = 0 is stated twice.
     """
     names, sizes = study.names, [r.equations for r in study.reduced]
     dependent = [r for r in study.dependence.dependent if r.redundant or r.has_dependent_equations(sizes)]
-    return [
+    groups = [
         Redundancy(nullity=nullity, members=[names[i] for i in members])
         for nullity, members in redundancy.merged(dependent)
     ]
+    known = redundant(study).value is not None
+    return decided(study, groups, _of_dependence(study, bool(groups)) if known else OPEN)
+
+
+def _of_dependence(study: Study, some: bool) -> Claim:
+    """Of what depends on what: nothing does where the count says so."""
+    if not some and study.redundant_equations == 0:
+        return counted(study.free)
+    return together(study.free, *(r.claim for r in study.dependence.dependent if r.redundant))
 
 
 def joint_coordinates(study: Study) -> list[str] | None:
@@ -185,42 +238,55 @@ def joint_coordinates(study: Study) -> list[str] | None:
     return result if result is not None and len(result) == dof else None
 
 
-def largest_integrable_part(study: Study) -> IntegrablePart | None:
+def largest_integrable_part(study: Study) -> Decided:
     """What the forms say in finite relations; None where that is not known."""
     if not any(block.forms for block in study.outcome.blocks):
-        return None
-    return unless_late(partial(integrable_part, study.outcome, study.entries, study.company), None)
+        return Decided(None)
+    part = unless_late(partial(integrable_part, study.outcome, study.entries, study.company), None)
+    return Decided(part, None if part is None else study.free)
 
 
-def growth_vector(outcome: Outcome, entries: Sequence[ConstraintEntry]) -> list[int] | None:
+def growth_vector(study: Study) -> Decided:
     """Dimensions of D, D + [D, D], ... for the whole: blocks do not bracket with each other; they share only time."""
+    outcome = study.outcome
     if not outcome.consistent or not any(b.forms for b in outcome.blocks):
-        return None
+        return Decided(None)
     growths: list[tuple[int, ...]] = []
     timed = timeless = 0
     for block, a in zip(outcome.blocks, outcome.answers, strict=True):
         shared = uses_time(block)
         timed += shared
-        enters = {_time_enters(entries[r.constraint]) for r in block.rows} if shared else {False}
+        enters = {_time_enters(study.entries[r.constraint]) for r in block.rows} if shared else {False}
         timeless += shared and enters == {False}
         open_ = None in enters and True not in enters
         if open_ or block.nonlinear or (a.growth is None and block.forms) or a.velocity_dof is None:
-            return None
+            return Decided(None)
         growths.append(a.growth if a.growth is not None else (a.velocity_dof + shared,))
     length = max(len(g) for g in growths)
     base = len(outcome.untouched) - (timed if timed == timeless else max(0, timed - 1))
-    return [base + sum(g[min(k, len(g) - 1)] for g in growths) for k in range(length)]
+    growth = [base + sum(g[min(k, len(g) - 1)] for g in growths) for k in range(length)]
+    return Decided(growth, _claim_of_growth(study, growth))
+
+
+def _claim_of_growth(study: Study, growth: Sequence[int]) -> Claim:
+    """Of the growth vector: its first and last numbers are those of the freedoms; others are ranks over GF(p).
+
+    Those are not too large where what is not 0 there is not 0; nor too small where no more brackets there are.
+    """
+    pairs = zip(study.outcome.blocks, study.outcome.answers, strict=True)
+    blocks = [(a.growth, a.trusted) for block, a in pairs if block.forms]
+    if len(growth) == 1 or (len(growth) == 2 and all(trusted for _, trusted in blocks)):
+        return counted(study.free)
+    whole = all(trusted and of_block and is_free(of_block) for of_block, trusted in blocks)
+    if study.free.verdict == "proved" and whole:
+        return replace(study.free, argument="free Lie algebra")
+    return together(study.free, Claim("probable", "brackets at points", bits=BITS))
 
 
 def _time_enters(entry: ConstraintEntry) -> bool | None:
     """Return whether a constraint holds t or a term without velocities that cannot be divided out; None: undecided."""
     labels = (entry.scleronomic, *([entry.catastatic] if entry.form in ("pfaffian", "nonlinear") else []))
     return True if False in labels else None if None in labels else False
-
-
-def forces(study: Study) -> list[ForceEntry]:
-    """The forces: no constraints, with the reason."""
-    return [ForceEntry(name=f.name, reason=f.reason) for f in study.system.forces]
 
 
 def witness(study: Study) -> dict[str, str] | None:
@@ -290,83 +356,3 @@ def _looked_at(outcome: Outcome) -> Iterator[str]:
             "fewer coordinates for the finite motions (welded bodies and rigid clusters as one body, bodies that do "
             "not turn as particles, variables that a linear equation gives explicitly)"
         )
-
-
-def warnings(study: Study) -> list[str]:
-    """Lines of text: what was noticed while reading, why something is open, and what is hidden."""
-    answer = list(study.system.warnings)
-    answer += [
-        f"not read, so the true freedom may be smaller: {t}" for t in study.system.left_out if t.startswith(BINDING)
-    ]
-    for r in study.reduced:
-        for normal in r.normals:
-            answer += [f"'{r.constraint.name}': {note}" for note in normal.notes]
-            if len(normal.branches) > 1:
-                answer.append(BRANCH_WARNING.format(name=r.constraint.name))
-        answer += [f"'{r.constraint.name}': {note}" for note in r.constraint.notes]
-    answer += [
-        f"'{study.names[i]}': whether it can be satisfied at all was not decided" for i in study.outcome.unsettled
-    ]
-    for a in study.outcome.answers:
-        answer += a.reasons
-        answer += [f"hidden geometric equation: {to_text(g)} = 0" for g in a.hidden]
-    if study.outcome.dof is None and study.outcome.consistent is not False:
-        answer += [
-            f"There is no reference configuration: give {missing}. With a reference configuration more can be decided."
-            for missing in _missing_reference(study.system)
-        ]
-    return list(dict.fromkeys(answer))
-
-
-def about_branches(system: System, branches: Sequence[str]) -> Iterator[str]:
-    """Yield for each branch that alone has the report's freedom how the answer for another branch is obtained."""
-    for branch in branches:
-        for missing in _missing_reference(system):
-            yield (
-                f"The configuration space has branches of different dimension. The degrees of freedom, the redundancy "
-                f"and the coordinates are those of the largest branch, {branch}. To choose a branch, give {missing}."
-            )
-
-
-def _missing_reference(system: System) -> Iterator[str]:
-    """Yield what the scene has to give for a reference configuration, where it has none."""
-    placed = {str(symbol.args[1]) for symbol in system.pose}
-    if system.reference is not None or all(c.name in placed for c in system.coordinates):
-        return
-    owners = dict.fromkeys(c.owner for c in system.coordinates if c.owner in system.particles and c.name not in placed)
-    text = ", ".join([*owners][:8]) + (", ..." if len(owners) > 8 else "")
-    wanted = [f"`at` for {text}"] if owners else []
-    if system.bodies and system.generic:
-        wanted.append("`at` (and `axis`) for the joints")
-    if not wanted:
-        wanted = ["`configuration`, a value for each coordinate"]
-    yield " and ".join(wanted)
-
-
-# claims of the blocks
-
-HOLDS = Claim("proved", "zero at the reference", about="reference")
-
-
-def freedom(study: Study) -> Claim:
-    """Of the freedoms: the answers of all blocks together."""
-    return together(*(a.claim for a in study.outcome.answers))
-
-
-def consistency(study: Study) -> Claim:
-    """That there is a motion: so the blocks say; that there is none: the surest of them that says so."""
-    outcome = study.outcome
-    if outcome.consistent is None:
-        return OPEN
-    if outcome.consistent:
-        return together(*(HOLDS if a.exists else a.claim for a in outcome.answers))
-    if outcome.impossible:
-        return Claim("proved", "inequality nowhere")
-    against = [a.claim for a in outcome.answers if a.consistent is False]
-    return min(against, key=lambda c: VERDICTS.index(c.verdict))
-
-
-def first_order(study: Study) -> Claim:
-    """Of the velocities at the reference: ranks there, which are exact where no row depends on others."""
-    claims = [a.first_order for a in study.outcome.answers]
-    return replace(together(*claims), about="reference")

@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-import math
 import random
 from collections.abc import Sequence
 from typing import Any
 
-from dofkit.classification.turned_coordinates import ANYWHERE
+from flint import arb
+
+from dofkit.classification.turned_coordinates import ANYWHERE, angle_rates
 from dofkit.configuration.at_reference import ball_point
 from dofkit.configuration.variety import pose_point
-from dofkit.exact.matrices.dense import complement, cross, damped, dot, largest, pivoted, plus, rank, unit_rows
+from dofkit.exact.matrices.dense import complement, damped, dot, largest, pivoted, rank, unit_rows
 from dofkit.exact.points.balls import FloatPoint, jacobian
 from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.program import values
 from dofkit.expressions import tree as ex
-from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Block, Chart, make_chart
 from dofkit.relations.setting import Setting
@@ -35,11 +35,9 @@ DAMPED = (2, 1)
 ROUGH = 1e-5
 
 
-def nearby(
-    block: Block, dof: int, setting: Setting, turning: Sequence[Rotation], hidden: Sequence[Expr] = ()
-) -> list[str] | None:
+def nearby(block: Block, dof: int, setting: Setting, turning: Sequence[Rotation]) -> list[str] | None:
     """From the tangent space at a regular point near the reference, or anywhere where there is none."""
-    chart = make_chart(block, setting, hidden)
+    chart = make_chart(block, setting)
     start = _start(chart)
     drawn = _drawn_tangent(chart, start, dof)
     search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.setting.positive, chart.symbols)
@@ -172,36 +170,20 @@ def _groups(chart: Chart) -> list[list[int]]:
 
 
 def _in_angles(chart: Chart, symbols: dict[Expr, float], basis: Any, turning: Sequence[Rotation]) -> Any:
+    """The columns of Gibbs vectors turned into those of the Euler angles."""
     at = values(chart.ring, FloatPoint(symbols, 0))
     names = [str(s.args[1]) for s in chart.symbols if s != ex.TIME]
+    changed = [list(row) for row in basis]
     for rotation in turning:
-        basis = _euler_rates(basis, [names.index(n) for n in rotation.names if n in names], at, chart, rotation)
-    return basis
-
-
-def _euler_rates(basis: Any, places: Sequence[int], at: Any, chart: Chart, rotation: Rotation) -> Any:
-    """The columns of a Gibbs vector g turned into those of the Euler angles (phi, theta, psi), up to a factor each.
-
-    omega = 2 (gdot + g x gdot) / (1 + g.g) = phidot e_z + thetadot n + psidot R e_z, with n along e_z x R e_z.
-    Where the body keeps its z axis upright, psi stands for the turn about it, theta and phi for tilts.
-    """
-    if len(places) != 3:
-        return basis
-    g = [_value(at, chart, n) for n in rotation.names]
-    factor = 2 / (1 + dot(g, g))
-    phi, theta = (approximate(e) or 0.0 for e in rotation.initial[:2])
-    drawn = [math.sin(theta) * math.sin(phi), -math.sin(theta) * math.cos(phi), math.cos(theta)]
-    across = cross(g, drawn)
-    axis = plus(drawn, factor, plus(across, 1.0, cross(g, across)))
-    a, b, c = [0.0, 0.0, 1.0], cross([0.0, 0.0, 1.0], axis), axis
-    if abs(dot(a, cross(b, c))) < ZERO:
-        a, b, c = [0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]
-    volume, changed = dot(a, cross(b, c)), [list(row) for row in basis]
-    for row in changed:
-        rate = [row[place] for place in places]
-        omega = [factor * v for v in plus(rate, 1.0, cross(g, rate))]
-        for place, normal in zip(places, (cross(b, c), cross(c, a), cross(a, b)), strict=True):
-            row[place] = dot(normal, omega) / volume
+        places = [names.index(n) for n in rotation.names if n in names]
+        if len(places) != 3:
+            continue
+        gibbs = [arb(_value(at, chart, n)) for n in rotation.names]
+        rates = [[float(v.mid()) for v in row] for row in angle_rates(gibbs, rotation).tolist()]
+        for row in changed:
+            rate = [row[place] for place in places]
+            for place, of_angle in zip(places, rates, strict=True):
+                row[place] = dot(of_angle, rate)
     return changed
 
 

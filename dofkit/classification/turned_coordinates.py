@@ -7,6 +7,7 @@ angles are only read off where all three rates are solved for; a Gibbs vector ma
 from __future__ import annotations
 
 import math
+import random
 from collections.abc import Collection, Iterator, Sequence
 from fractions import Fraction
 from itertools import chain
@@ -16,10 +17,11 @@ from flint import arb, arb_mat
 
 from dofkit.base.errors import NoValueError
 from dofkit.base.libraries import nx
+from dofkit.configuration.at_reference import ball_point
 from dofkit.configuration.variety import field_jacobian, on_variety, pose_point
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.sparse import sparse_frame, without_time
-from dofkit.exact.points.real_search import RealPoint, RealSearch
+from dofkit.exact.points.real_search import RealPoint, RealSearch, are_joined
 from dofkit.expressions import tree as ex
 from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.tree import Expr
@@ -33,10 +35,12 @@ from dofkit.system import Rotation
 ANYWHERE = 0.3
 #: What is added to a number of floating point, so that the ball holds the number meant.
 NEARLY = arb(0, 1e-12)
+#: The least square of the sine of a tilt at which a body does not seem to stand upright.
+TILTED = 1e-7
 #: Coordinates at most of what is looked at where it is drawn, and where it is searched for.
 MOST_DRAWN, MOST_SEARCHED = 700, 60
-#: Points at which the angles are looked at.
-LOOKED = 4
+#: How far from the reference the angles are looked at.
+NEAR = (2**-6, 2**-10, 2**-16, 2**-24)
 
 
 class TurnedGroup(NamedTuple):
@@ -154,7 +158,7 @@ def _right_angles(e: Expr) -> int | None:
 
 
 def are_coordinates(group: TurnedGroup, chosen: Collection[str], setting: Setting, turning: Sequence[Rotation]) -> bool:
-    """Return whether the chosen coordinates are a local chart at some certified configuration.
+    """Return whether the chosen coordinates are a local chart at some certified configuration near the reference.
 
     Their differentials and the rows of the relations have full rank there: a minor's ball excludes 0.
     """
@@ -165,11 +169,7 @@ def are_coordinates(group: TurnedGroup, chosen: Collection[str], setting: Settin
     if len(group.block.coordinates) > MOST_SEARCHED:
         return False
     chart = make_chart(group.block, setting, group.hidden)
-    search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.setting.positive, chart.symbols)
-    for seed in range(LOOKED):
-        real = search.search(seed) if chart.nodes else None
-        if chart.nodes and (real is None or not real.certified or not real.consistent):
-            continue
+    for real in _near_reference(chart, len(group.block.coordinates) - len(names)):
         try:
             rows = _rows(group, chart, real, chosen, turning)
         except (NoValueError, ZeroDivisionError):
@@ -177,6 +177,26 @@ def are_coordinates(group: TurnedGroup, chosen: Collection[str], setting: Settin
         if ball_part(rows).rank == len(group.block.coordinates):
             return True
     return False
+
+
+def _near_reference(chart: Chart, rank: int) -> Iterator[RealPoint | None]:
+    """Certified configurations near the reference, each joined to it by a curve; None where nothing constrains.
+
+    At one on another part of the set other coordinates may be free.
+    """
+    if not chart.nodes:
+        yield None
+        return
+    start = ball_point(chart, {**(chart.setting.reference or {}), ex.TIME: ex.ZERO}, random.Random("dofkit near"))
+    if chart.setting.reference is None or start is None:
+        return
+    search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.setting.positive, chart.symbols)
+    for seed, away in enumerate(NEAR):
+        rng, initial = random.Random(f"dofkit near {seed}"), {s: float(v.mid()) for s, v in start.symbols.items()}
+        initial |= {s: initial[s] + away * rng.uniform(-1.0, 1.0) for s in search.unknowns}
+        real = search.search(seed, initial, starts=1)
+        if real and real.certified and real.consistent and are_joined(search, start.symbols, real, rank):
+            yield real
 
 
 def _rows(
@@ -197,27 +217,26 @@ def _rows(
         if set(r.names) <= place.keys() and not set(r.names).isdisjoint(chosen):
             values = [arb(ANYWHERE) if real is None else real.point.symbols.get(ex.coordinate(n)) for n in r.names]
             upright = group.fixed.issuperset(r.names[:2]) and all(e.is_zero for e in r.initial[:2])
-            solved = _rates([arb(ANYWHERE) if v is None else v for v in values], _drawn(r), upright)
+            solved = angle_rates([arb(ANYWHERE) if v is None else v for v in values], r, upright)
             rates |= {a: {g: solved[i, j] for j, g in enumerate(r.names)} for i, a in enumerate(r.names)}
     return [*rows, *([rates[name].get(c, arb(0)) for c in place] for name in place if name in chosen)]
 
 
-def _drawn(r: Rotation) -> list[arb]:
-    """Where the body's z axis is drawn, R0 e_z = (sin theta sin phi, -sin theta cos phi, cos theta)."""
-    phi, theta = (NEARLY + (approximate(e) or 0.0) if not e.is_zero else arb(0) for e in r.initial[:2])
-    return [theta.sin() * phi.sin(), -theta.sin() * phi.cos(), theta.cos()]
-
-
-def _rates(g: Sequence[arb], drawn: Sequence[arb], upright: bool) -> arb_mat:
+def angle_rates(g: Sequence[arb], r: Rotation, upright: bool | None = None) -> arb_mat:
     """The Euler angles' rates by the rates of the Gibbs vector. Raises ZeroDivisionError where they are singular.
 
-    Where the body keeps its z axis ``upright``, psi stands for the turn about it, theta and phi for tilts.
+    Where the body keeps its z axis ``upright``, psi stands for the turn about it, theta and phi for tilts; None: where
+    it seems to stand upright. Its z axis is drawn at R0 e_z = (sin theta sin phi, -sin theta cos phi, cos theta).
     """
     x, y, z = g
+    phi, theta = (NEARLY + (approximate(e) or 0.0) if not e.is_zero else arb(0) for e in r.initial[:2])
+    drawn = [theta.sin() * phi.sin(), -theta.sin() * phi.cos(), theta.cos()]
     cross = arb_mat([[0, -z, y], [z, 0, -x], [-y, x, 0]])
     identity = arb_mat([[1, 0, 0], [0, 1, 0], [0, 0, 1]])
     scale = 2 / (1 + x * x + y * y + z * z)
     axis = (identity + (cross + cross * cross) * scale) * arb_mat([[v] for v in drawn])
     a, b, c = (axis[i, 0] for i in range(3))
+    if upright is None:
+        upright = bool(a * a + b * b < TILTED)
     axes = arb_mat([[0, 1, 0], [1, 0, 0], [0, 0, 1]] if upright else [[0, -b, a], [0, a, b], [1, 0, c]])
     return axes.solve((identity + cross) * scale)

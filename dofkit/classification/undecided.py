@@ -16,7 +16,7 @@ def sketch(system: System, why: str) -> Report:
     """All that a system says without being computed with: names, texts, forms as written, the count of equations."""
     entries = [open_entry(c, why) for c in system.constraints]
     written = sum(e.equations for e in entries if e.form == "finite")
-    answer = count(system, CountedFacts(written, None, None, 0, 0, entries))
+    answer = count(system, CountedFacts(written, None, None, 0, entries))
     forces = [ForceEntry(name=f.name, reason=f.reason) for f in system.forces]
     return open_report(system.name, answer, entries, forces, [*system.warnings, why_nothing(why)])
 

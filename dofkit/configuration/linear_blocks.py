@@ -11,7 +11,6 @@ import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from fractions import Fraction
 from typing import Any
 
 from flint import fmpq
@@ -27,6 +26,7 @@ from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block
 from dofkit.relations.normal.pieces import Finite, Pfaffian, Piece
+from dofkit.relations.normal.semidefinite import fraction
 from dofkit.relations.setting import Setting
 
 METHOD = "exact elimination over the rationals"
@@ -77,7 +77,7 @@ def _sum_of_rests(rests: Sequence[Expr], finite: Sequence[bool], factors: Mappin
     """What is left of a sum of rows that is 0: of finite ones the rests, beside forms their rates."""
     rates = not all(finite[k] for k in factors)
     terms = ((v, diff(rests[k], ex.TIME) if rates and finite[k] else rests[k]) for k, v in factors.items())
-    return ex.add(*(ex.mul(ex.num(_fraction(v)), e) for v, e in terms if not e.is_zero))
+    return ex.add(*(ex.mul(ex.num(fraction(v)), e) for v, e in terms if not e.is_zero))
 
 
 def _linear_row(piece: Piece, place: Mapping[Expr, int]) -> tuple[RationalRow, Expr] | None:
@@ -120,13 +120,6 @@ def _entire(e: Expr) -> bool:
 
 def _number(value: Any) -> fmpq:
     return fmpq(value.numerator, value.denominator)
-
-
-def _fraction(value: fmpq) -> Fraction:
-    return Fraction(int(value.p), int(value.q))
-
-
-# -- an answer without points -----------------------------------------------------------------------
 
 
 def eliminated(block: Block, setting: Setting) -> Answer | None:

@@ -12,7 +12,7 @@ Mechanisms, in the order in which an equation meets them
        for.
     2. `calculus` substitutes and differentiates, relates differentials and velocities (dq = qdot dt), and lists the
        conditions under which powers and functions, as they were written, have a real value.
-    3. `terms` takes sums apart: linear terms, and symbols that occur in one linear combination only.
+    3. `terms` takes sums apart into linear terms.
     4. `rational_values` knows the rational values of roots and of trigonometric functions; `enclosures` gives every
        other constant as a certified interval.
     5. `renaming` finds expressions that are equal up to the names in them, so that work is done once for many copies,

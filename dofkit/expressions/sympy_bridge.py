@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from fractions import Fraction
+from importlib import import_module
 from typing import Any
 
 from dofkit.base.errors import DofkitError
@@ -14,11 +15,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
 
-_ELEMENTARY = {
-    "sin": "sin", "cos": "cos", "tan": "tan", "cot": "cot", "sec": "sec", "csc": "csc", "asin": "asin", "acos": "acos",
-    "atan": "atan", "atan2": "atan2", "sinh": "sinh", "cosh": "cosh", "tanh": "tanh", "exp": "exp", "log": "log",
-    "abs": "Abs",
-}  # fmt: skip
+_ELEMENTARY = {name: "Abs" if name == "abs" else name for name in ex.FUNCTIONS}
 _BACK = {sympy: name for name, sympy in _ELEMENTARY.items()}
 
 
@@ -177,6 +174,12 @@ _READ: dict[str, Callable[[Bridge, Any], Expr]] = {
     "Subs": Bridge.substituted,
     "sign": _sign,
 }  # fmt: skip
+
+
+def import_integrals() -> None:
+    """Import what `antiderivative_by_sympy` needs, so that a limit of its time does not count the import."""
+    for module in ("manualintegrate", "risch"):
+        import_module(f"sympy.integrals.{module}")
 
 
 def antiderivative_by_sympy(e: Expr, x: Expr, positive: frozenset[Expr]) -> Expr | None:

@@ -17,8 +17,8 @@ From a submission to points
        answers. `formats` writes results for gradebooks and platforms.
 
 `variants` gives each student a combination of the lecturer's lists of values. `starting` proposes an assignment,
-`handout` typesets it, `schemas` describes the files. `export` and `autograder` are for platforms that grade by
-themselves. A notebook submits with `hand_in`: nothing is ever judged in a student's own process.
+`handout` typesets it, `schemas` describes the files. `export` and `autograder` are for Gradescope, which grades by
+itself. A notebook submits with `hand_in`: nothing is ever judged in a student's own process.
 """
 
 from __future__ import annotations

@@ -6,6 +6,7 @@ import os
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from functools import cached_property
 from pathlib import Path
 from typing import Annotated, Any, Literal, NamedTuple
 
@@ -116,6 +117,11 @@ class Prepared:
     def most_points(self) -> dict[tuple[str, str], Fraction]:
         """Return how many points each question is worth."""
         return {(problem.id, question.id): question.points for problem, question in self.questions()}
+
+    @cached_property
+    def max_score(self) -> float:
+        """Return how many points there are in all."""
+        return float(sum(self.most_points().values()))
 
     def columns(self) -> dict[str, tuple[str, str]]:
         """The problem and the question of every column ``PROBLEM.QUESTION`` of a table of answers."""

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Generator, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from fractions import Fraction
 from itertools import islice
 from pathlib import Path
-from typing import Any, cast
+from typing import Any
 
 from flint import ctx
 
@@ -35,7 +35,7 @@ from dofkit.homework.judgement import (
 )
 from dofkit.homework.key.key import Key
 from dofkit.homework.problem import Problem
-from dofkit.homework.questions import NumberQuestion, QuestionBase
+from dofkit.homework.questions import Earlier, NumberQuestion, QuestionBase
 from dofkit.homework.result import Item, PossibleReading, Result
 from dofkit.homework.review import Decision, answer_id, read_table
 from dofkit.homework.sentences import Said, in_language, say
@@ -59,93 +59,80 @@ class Grader:
     ``check_only``: answers are read and not judged, so that there are no points.
     """
 
-    def __init__(
-        self,
-        prepared: Prepared,
-        seconds: float = ANSWER_SECONDS,
-        condemned: Mapping[Identity, str] | None = None,
-        check_only: bool = False,
-    ) -> None:
-        self.check_only = check_only
+    def __init__(self, prepared: Prepared, seconds: float = ANSWER_SECONDS, check_only: bool = False) -> None:
         self.prepared = prepared
         self.seconds = seconds
-        self.condemned = {} if condemned is None else condemned
-        self.max_score = sum((q.points for _, q in prepared.questions()), Fraction(0))
-        self._judgements: dict[Identity, tuple[Judgement, Fraction | None]] = {}
+        self.check_only = check_only
+        self.condemned: Mapping[Identity, str] = {}
+        self._judgements: dict[Identity, Judgement] = {}
         self._variants: dict[str, Grader] = {}
 
     def grade(self, submission: Submission) -> Result:
         """Every question with what the student answered, in the assignment's order; then what was not asked."""
-        steps = self.steps(submission)
-        while True:
-            try:
-                next(steps)
-            except StopIteration as stop:
-                return cast(Result, stop.value)
+        return next(step for step in self.steps(submission) if isinstance(step, Result))
 
-    def steps(self, submission: Submission) -> Generator[Identity, None, Result]:
-        """The same, telling of every answer that takes work that it comes next.
+    def steps(self, submission: Submission) -> Iterator[Identity | Result]:
+        """Yield every answer that takes work before it is judged, and at the end the result.
 
         What fails outside one answer is the error of this submission alone; nobody else loses a result by it.
         """
-        if submission.error is not None:
-            return self.refused(submission.student, submission.error)
+        error = submission.error
         try:
-            if self.prepared.combinations:
-                sheet = sheet_of(self.prepared, submission.student)
-                sheet_grader = Grader(sheet, self.seconds, check_only=self.check_only)
-                grader = self._variants.setdefault(sheet.variant, sheet_grader)
-                grader.condemned = self.condemned
-                return (yield from grader.steps(submission))
-            items: list[Item] = []
-            for problem in self.prepared.assignment.problems:
-                items += yield from self._problem(problem, submission.answers.get(problem.id, {}))
-            items += unasked(self.prepared, submission)
-            return self._total(submission.student, items)
-        except NobodysVariantError as error:
-            return self.refused(submission.student, str(error))
+            if error is None:
+                yield from self._of_variant(submission.student)._graded(submission)
+        except NobodysVariantError as nobody:
+            error = str(nobody)
         except MemoryError:
             raise
-        except Exception as error:
-            return self.refused(submission.student, f"an internal error occurred ({type(error).__name__})")
+        except Exception as failure:
+            error = f"an internal error occurred ({type(failure).__name__})"
+        if error is not None:
+            yield Result.refused(submission.student, self.prepared.max_score, error)
 
-    def refused(self, student: str, error: str) -> Result:
-        """The result of a submission that cannot be graded."""
-        return Result(student=student, score=None, max_score=float(self.max_score), items=[], error=error)
+    def _of_variant(self, student: str) -> Grader:
+        """Return the grader of a student's own sheet."""
+        if not self.prepared.combinations:
+            return self
+        sheet = sheet_of(self.prepared, student)
+        grader = self._variants.setdefault(sheet.variant, Grader(sheet, self.seconds, self.check_only))
+        grader.condemned = self.condemned
+        return grader
 
-    def _total(self, student: str, items: list[Item]) -> Result:
-        score = sum((Fraction(item.score) for item in items if item.score is not None), Fraction(0))
-        if self.check_only:
-            return Result(student=student, score=None, max_score=float(self.max_score), items=items)
-        review = sum(item.score is None for item in items)
-        return Result(
-            student=student, score=float(score), max_score=float(self.max_score), items=items, needs_review=review
+    def _graded(self, submission: Submission) -> Iterator[Identity | Result]:
+        items: list[Item] = []
+        for problem in self.prepared.assignment.problems:
+            for step in self._problem(problem, submission.answers.get(problem.id, {})):
+                if isinstance(step, Item):
+                    items.append(step)
+                else:
+                    yield step
+        items += unasked(self.prepared, submission)
+        score = float(sum((Fraction(item.score) for item in items if item.score is not None), Fraction(0)))
+        yield Result(
+            student=submission.student,
+            score=None if self.check_only else score,
+            max_score=self.prepared.max_score,
+            items=items,
+            needs_review=0 if self.check_only else sum(item.score is None for item in items),
         )
 
-    def _problem(self, problem: Problem, answers: Mapping[str, Given]) -> Generator[Identity, None, list[Item]]:
+    def _problem(self, problem: Problem, answers: Mapping[str, Given]) -> Iterator[Identity | Item]:
         earlier: dict[str, Fraction] = {}
-        items: list[Item] = []
         for question in problem.questions:
             answer = answers.get(question.id)
             if answer is None or says_nothing(answer):
-                items.append(self._item(problem, question, _MISSING))
-                continue
-            decision = self._decision(problem, question, answer)
-            if decision is not None:
-                items.append(self._decided(problem, question, decision, answer))
-                if (number := _number(question, answer, self.prepared.keys[problem.id])) is not None:
-                    earlier.setdefault(question.kind(), number)
-                continue
-            identity = _identity(problem, question, answer, earlier) + self.prepared.marks.get(
-                (problem.id, question.id), ""
-            )
-            if identity not in self._judgements and identity not in self.condemned:
-                yield identity
-            judgement, number = self.judge(identity, problem, question, answer, earlier)
-            items.append(self._item(problem, question, judgement, answer))
-            if number is not None:
-                earlier.setdefault(question.kind(), number)
-        return items
+                yield item_of(self.prepared, problem, question, _MISSING)
+            elif (decision := self._decision(problem, question, answer)) is not None:
+                yield self._decided(problem, question, decision, answer)
+            else:
+                mark = self.prepared.marks.get((problem.id, question.id), "")
+                identity = repr((problem.id, question.id, answer, *sorted(earlier.items()), mark))
+                if identity not in self._judgements and identity not in self.condemned:
+                    yield identity
+                judgement = self._judged(identity, problem, question, answer, earlier)
+                yield item_of(self.prepared, problem, question, judgement, answer)
+                if judgement.number is not None:
+                    earlier.setdefault(question.kind(), judgement.number)
 
     def _decision(self, problem: Problem, question: QuestionBase, answer: Given) -> Decision | None:
         """Return what a person decided about this answer, whoever gave it."""
@@ -158,31 +145,23 @@ class Grader:
         """An answer with the points that a person gave it."""
         share = decision.points / question.points if question.points else FULL
         judgement = partly(share, "", why=decision.remark or "A person has reviewed this answer.")
-        item = self._item(problem, question, judgement, answer)
+        item = item_of(self.prepared, problem, question, judgement, answer)
         return item.model_copy(update={"score": float(decision.points), "decided_by": decision.by})
 
-    def judge(
-        self,
-        identity: Identity,
-        problem: Problem,
-        question: QuestionBase,
-        answer: Given,
-        earlier: Mapping[str, Fraction],
-    ) -> tuple[Judgement, Fraction | None]:
-        """Return what an answer is worth, and its number; after the same earlier answers always the same."""
-        if identity in self.condemned:
-            return needs_review("", self.condemned[identity]), None
-        remembered = self._judgements.get(identity)
-        if remembered is None:
-            number = _number(question, answer, self.prepared.keys[problem.id])
-            remembered = self._judgement(problem, question, answer, earlier), number
-            if len(self._judgements) < MOST_REMEMBERED and len(identity) < LONGEST_REMEMBERED:
-                self._judgements[identity] = remembered
-        return remembered
-
-    def _judgement(
-        self, problem: Problem, question: QuestionBase, answer: Given, earlier: Mapping[str, Fraction]
+    def _judged(
+        self, identity: Identity, problem: Problem, question: QuestionBase, answer: Given, earlier: Earlier
     ) -> Judgement:
+        """Return what an answer is worth; after the same earlier answers always the same."""
+        if identity in self.condemned:
+            return needs_review("", self.condemned[identity])
+        judgement = self._judgements.get(identity)
+        if judgement is None:
+            judgement = self._judgement(problem, question, answer, earlier)
+            if len(self._judgements) < MOST_REMEMBERED and len(identity) < LONGEST_REMEMBERED:
+                self._judgements[identity] = judgement
+        return judgement
+
+    def _judgement(self, problem: Problem, question: QuestionBase, answer: Given, earlier: Earlier) -> Judgement:
         key = self.prepared.keys[problem.id]
         try:
             with by_processor(self.seconds), ctx.workprec(PRECISION):
@@ -197,7 +176,7 @@ class Grader:
         except Exception as error:
             return needs_review("", say("an internal error occurred ({error}).", error=type(error).__name__))
 
-    def _read(self, question: QuestionBase, answer: Given, key: Key, earlier: Mapping[str, Fraction]) -> Judgement:
+    def _read(self, question: QuestionBase, answer: Given, key: Key, earlier: Earlier) -> Judgement:
         """Return what an answer is worth, or why it is open if it cannot be read in one way."""
         try:
             readings = question.readings(answer, key.declared)
@@ -215,33 +194,34 @@ class Grader:
         except TextError as error:  # no scene can hold what it says
             return self._unread(error, answer)
         several = len({way.text for way in readings}) > 1
-        return replace(judgement, read_as=understood, certain=certain and not several)
+        number = readings[0].value if isinstance(question, NumberQuestion) else None
+        return replace(judgement, read_as=understood, certain=certain and not several, number=number)
 
     def _unread(self, error: TextError, answer: Given) -> Judgement:
         """Return that an answer could not be read, and where; of a list no place is known."""
         judgement = unreadable(error if isinstance(answer, str) else TextError(error.message, 1, error.hint))
         return judgement if self.prepared.assignment.unreadable == "review" else replace(judgement, share=NOTHING)
 
-    def _item(
-        self, problem: Problem, question: QuestionBase, judgement: Judgement, answer: Given | None = None
-    ) -> Item:
-        return Item(
-            problem=problem.id,
-            question=question.id,
-            score=_points(judgement.share, question),
-            max_score=float(question.points),
-            status=judgement.status,
-            codes=list(judgement.codes),
-            read_as=judgement.read_as,
-            feedback=judgement.feedback(self.prepared.assignment.language),
-            column=judgement.column,
-            answer=None if answer is None else shown_text(answer),
-            variant=self.prepared.marks.get((problem.id, question.id)),
-            certain=judgement.certain,
-            readings=[
-                PossibleReading(read_as=way.read_as, score=_points(way.share, question)) for way in judgement.ways
-            ],
-        )
+
+def item_of(
+    prepared: Prepared, problem: Problem, question: QuestionBase, judgement: Judgement, answer: Given | None = None
+) -> Item:
+    """Return what the result says of one answer."""
+    return Item(
+        problem=problem.id,
+        question=question.id,
+        score=_points(judgement.share, question),
+        max_score=float(question.points),
+        status=judgement.status,
+        codes=list(judgement.codes),
+        read_as=judgement.read_as,
+        feedback=judgement.feedback(prepared.assignment.language),
+        column=judgement.column,
+        answer=None if answer is None else shown_text(answer),
+        variant=prepared.marks.get((problem.id, question.id)),
+        certain=judgement.certain,
+        readings=[PossibleReading(read_as=way.read_as, score=_points(way.share, question)) for way in judgement.ways],
+    )
 
 
 def _points(share: Fraction | None, question: QuestionBase) -> float | None:
@@ -251,20 +231,6 @@ def _points(share: Fraction | None, question: QuestionBase) -> float | None:
 _MISSING = Judgement("missing", NOTHING, said=(Said("No answer was given."),))
 
 
-def _identity(problem: Problem, question: QuestionBase, answer: Given, earlier: Mapping[str, Fraction]) -> Identity:
-    return repr((problem.id, question.id, answer, *sorted(earlier.items())))
-
-
-def _number(question: QuestionBase, answer: Given, key: Key) -> Fraction | None:
-    """Return the number that an answer gives, for later questions; None where the question asks for none."""
-    if not isinstance(question, NumberQuestion):
-        return None
-    try:
-        return cast(Fraction, question.readings(answer, key.declared)[0].value)
-    except (TextError, ArithmeticError, ValueError):
-        return None
-
-
 _NO_PROBLEM = "There is no problem '{word}' ({hint})."
 _NO_QUESTION = "There is no question '{word}' ({hint})."
 
@@ -272,7 +238,6 @@ _NO_QUESTION = "There is no question '{word}' ({hint})."
 def unasked(prepared: Prepared, submission: Submission) -> Iterator[Item]:
     """Answers to questions that were not asked: they count nothing, and say what was meant."""
     asked: dict[str, list[str]] = {}
-    language = prepared.assignment.language
     for problem, question in prepared.questions():
         asked.setdefault(problem.id, []).append(question.id)
     places = (
@@ -282,16 +247,16 @@ def unasked(prepared: Prepared, submission: Submission) -> Iterator[Item]:
         if question not in asked.get(problem, ())
     )
     for problem_id, question_id in islice(places, MOST_UNASKED):
-        asked_there = asked.get(problem_id)
-        word, names = (problem_id, [*asked]) if asked_there is None else (question_id, asked_there)
-        what = "problem" if asked_there is None else "question"
+        what, word, names = "question", question_id, asked.get(problem_id)
+        if names is None:
+            what, word, names = "problem", problem_id, [*asked]
         near = nearest(word, names)
         hint = f"did you mean '{near}'?" if near else f"the {what}s are {', '.join(names[:12])}"
-        sentence = _NO_PROBLEM if asked_there is None else _NO_QUESTION
+        sentence = _NO_PROBLEM if what == "problem" else _NO_QUESTION
         yield Item(
             problem=problem_id[:LONGEST_NAME], question=question_id[:LONGEST_NAME], score=0.0, max_score=0.0,
             status="unreadable", codes=[], read_as="",
-            feedback=in_language(language, sentence, word=word[:LONGEST_NAME], hint=hint),
+            feedback=in_language(prepared.assignment.language, sentence, word=word[:LONGEST_NAME], hint=hint),
         )  # fmt: skip
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import unicodedata
 from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from itertools import product
@@ -14,6 +13,7 @@ from pydantic import BeforeValidator, Field, WrapValidator
 from dofkit.base.errors import Fault
 from dofkit.expressions.text import valid_name
 from dofkit.expressions.text.typesetting import typeset
+from dofkit.homework.answers.roster import plain_name
 from dofkit.homework.key.key import Key
 from dofkit.homework.questions import KINDS, AnyQuestion, Identifier, QuestionBase
 from dofkit.homework.questions.base import Points
@@ -171,11 +171,6 @@ class Variants(WrittenModel):
             if plain_name(text) in map(plain_name, (member.student, *member.known_as))
         ]
         return matches[0] if len(matches) == 1 else None
-
-
-def plain_name(text: str) -> str:
-    """A name as names are compared: capitals and spaces make no difference."""
-    return " ".join(unicodedata.normalize("NFC", text).casefold().split())
 
 
 def weighted(problem: Problem) -> Problem:

@@ -70,3 +70,8 @@ class Result(Displayed, ReportModel):
     needs_review: int = 0
     error: str | None = None
     doubt: str | None = None
+
+    @classmethod
+    def refused(cls, student: str, max_score: float, error: str) -> Result:
+        """Return the result of a submission that cannot be graded."""
+        return cls(student=student, score=None, max_score=max_score, items=[], error=error)

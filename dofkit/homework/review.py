@@ -1,8 +1,7 @@
 """The queue of a review: every different answer that waits for a person or was decided by one, and its identity.
 
-The identity of an answer stands for the question and for what was answered, not for the student. Vowels and digits do
-not occur in it, so that no spreadsheet takes it for a number, a date, a formula or a word; its last letter reveals a
-mistyped one.
+The identity of an answer stands for the question and for what was answered, not for the student. It begins with a
+letter, so that no spreadsheet takes it for a number, a date or a formula.
 """
 
 from __future__ import annotations
@@ -61,18 +60,13 @@ class ReviewRow:
         return self.decision is not None or bool(self.cells.get("remark"))
 
 
-_LETTERS = "bcdfghjkmnpqrstvwxz"
-_OF_QUESTION, _OF_ANSWER = 5, 10
-_SHAPE = re.compile(f"([{_LETTERS}]{{{_OF_QUESTION}}})-([{_LETTERS}]{{{_OF_ANSWER}}})-([{_LETTERS}])")
-
-
 def question_mark(problem: str, question: str) -> str:
     """The part of an identity that stands for the question.
 
     >>> question_mark("p", "f") != question_mark("p", "g")
     True
     """
-    return _letters(_OF_QUESTION, problem, question)
+    return f"q{_digest(problem, question)[:8]}"
 
 
 def answer_id(problem: str, question: str, text: str, variant: str = "") -> str:
@@ -82,26 +76,11 @@ def answer_id(problem: str, question: str, text: str, variant: str = "") -> str:
     True
     """
     said = " ".join(unicodedata.normalize("NFC", text).split())
-    body = f"{question_mark(problem, question)}-{_letters(_OF_ANSWER, problem, question, variant, said)}"
-    return f"{body}-{_letters(1, body)}"
+    return f"{question_mark(problem, question)}-{_digest(problem, question, variant, said)}"
 
 
-def mark_of(identity: str) -> str | None:
-    """The question's part of an identity; None of what is none.
-
-    >>> mark_of(answer_id("p", "f", "1")) == question_mark("p", "f"), mark_of("bcdfg-bcdfghjkmn-x")
-    (True, None)
-    """
-    match = _SHAPE.fullmatch(identity)
-    if match is None or _letters(1, f"{match[1]}-{match[2]}") != match[3]:
-        return None
-    return match[1]
-
-
-def _letters(count: int, *texts: str) -> str:
-    data = "\0".join(texts).encode("utf-8", "surrogatepass")
-    number = int.from_bytes(hashlib.blake2b(data, digest_size=16).digest(), "big")
-    return "".join(_LETTERS[number // len(_LETTERS) ** i % len(_LETTERS)] for i in range(count))
+def _digest(*texts: str) -> str:
+    return hashlib.blake2b("\0".join(texts).encode("utf-8", "surrogatepass"), digest_size=8).hexdigest()
 
 
 #: Students of one answer who are named.
@@ -195,7 +174,7 @@ def _who(queued: QueuedAnswer) -> dict[str, str]:
 #: What a person writes may be so long; faults of a table that are told; bytes that are read.
 MOST_REMARKED, MOST_FAULTS, MOST_BYTES = 2000, 50, 200_000_000
 _NEEDED = ("id", "points")
-_POINTS = re.compile(r"\d{1,9}(?:[.,]\d{1,9})?|\d{1,9}/[1-9]\d{0,8}")
+_POINTS = re.compile(r"[+-]?(?:\d{1,9}(?:[.,]\d{1,9})?|\d{1,9}/[1-9]\d{0,8})")
 
 #: The most points of every question of an assignment.
 Asked = Mapping[tuple[str, str], Fraction]
@@ -241,10 +220,8 @@ class _TableReader:
 
     def __init__(self, source: str, asked: Asked) -> None:
         self.source = source
-        self.marks = {question_mark(*place): place for place in asked}
-        self.asked = asked
+        self.most_points = {question_mark(*place): most for place, most in asked.items()}
         self.faults: list[Fault] = []
-        self.places: dict[str, int] = {}
         self.rows: dict[str, ReviewRow] = {}
 
     def table(self, text: str) -> FilledTable:
@@ -256,15 +233,9 @@ class _TableReader:
                 self._row(row.line, columns, row.cells)
             else:
                 self._fault(row.error, row.line, 1, "save the table as CSV again")
-        if not self.faults and self.rows and not any(self._is_asked(identity) for identity in self.rows):
-            hint = "name the review.csv that was written with this assignment's results"
-            self._fault("no row of it is about a question of this assignment", 1, 1, hint)
         if self.faults:
             raise ReviewError(tuple(self.faults[:MOST_FAULTS]), self.source)
         return FilledTable(self.rows, delimiter)
-
-    def _is_asked(self, identity: str) -> bool:
-        return mark_of(identity) in self.marks
 
     def _fault(self, message: str, line: int, column: int, hint: str | None = None) -> None:
         self.faults.append(Fault(message, (), line, column, hint))
@@ -286,32 +257,31 @@ class _TableReader:
     def _row(self, line: int, columns: Mapping[str, int], values: Sequence[str]) -> None:
         cells = {name: _bare(values[i]) if i < len(values) else "" for name, i in columns.items()}
         identity, before = cells["id"], len(self.faults)
-        if mark_of(identity) is None:
-            message = f"'{identity[:40]}' is not an id of a review" if identity else "the row has no id"
+        most = self.most_points.get(identity.partition("-")[0])
+        if most is None:
+            message = f"'{identity[:40]}' is not the id of an answer to this assignment"
             self._fault(message, line, columns["id"] + 1, "copy it from the review.csv that dofkit wrote")
-        decision = self._decision(line, columns, cells)
+        decision = self._decision(line, columns, cells, most)
         if len(self.faults) > before:
             return
-        row, first = ReviewRow(cells, decision), self.rows.get(identity)
-        if first is None or (decision is None and not row.filled):
-            self.rows.setdefault(identity, row)
-            self.places.setdefault(identity, line)
-        elif first.decision is not None and decision is not None and first.decision != decision:
-            message = f"this answer is decided differently in line {self.places[identity]}"
+        row, first = ReviewRow(cells, decision), self.rows.get(identity, ReviewRow({}))
+        if first.decision is not None and decision is not None and first.decision != decision:
+            message = "this answer is decided differently in another row"
             self._fault(message, line, columns["points"] + 1, "keep one of the two rows")
-        elif first.decision is None:
-            self.rows[identity], self.places[identity] = row, line
+        elif not first.cells or (first.decision is None and row.filled):
+            self.rows[identity] = row
 
-    def _decision(self, line: int, columns: Mapping[str, int], cells: Mapping[str, str]) -> Decision | None:
+    def _decision(
+        self, line: int, columns: Mapping[str, int], cells: Mapping[str, str], most: Fraction | None
+    ) -> Decision | None:
         text, remark = cells["points"], cells.get("remark", "")
         if len(remark) > MOST_REMARKED:
             message = f"the remark has {len(remark)} characters"
             self._fault(message, line, columns["remark"] + 1, f"at most {MOST_REMARKED}")
         if not text:
             return None
-        most = self.asked.get(self.marks.get(mark_of(cells["id"]) or "", ("", "")))
-        points = _number(text)
-        allowed = "write a number of points" if most is None else f"write 0 to {_points_text(most)}, or nothing"
+        points = Fraction(text.replace(",", ".")) if _POINTS.fullmatch(text) else None
+        allowed = "write a number of points" if most is None else f"write 0 to {float(most):g}, or nothing"
         if points is None:
             self._fault(f"'{text[:40]}' is not a number of points", line, columns["points"] + 1, allowed)
         elif most is not None and not 0 <= points <= most:
@@ -325,16 +295,3 @@ def _bare(cell: str) -> str:
     """A cell without the apostrophe that keeps spreadsheets from reading it as a formula or a number."""
     cell = cell.strip()
     return cell[1:] if cell.startswith("'") else cell
-
-
-def _number(text: str) -> Fraction | None:
-    """Points as people write them, with a comma or a dot; a sign is kept for the range to refuse."""
-    bare = text.removeprefix("+").removeprefix("-").strip()
-    if _POINTS.fullmatch(bare) is None:
-        return None
-    points = Fraction(bare.replace(",", "."))
-    return -points if text.startswith("-") else points
-
-
-def _points_text(number: Fraction) -> str:
-    return f"{float(number):g}"

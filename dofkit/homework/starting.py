@@ -1,4 +1,4 @@
-"""A starting assignment: of each scene the questions most worth asking, or all; and an empty submission to fill in."""
+"""A starting assignment: of each scene the questions most worth asking; and an empty submission to fill in."""
 
 from __future__ import annotations
 
@@ -27,16 +27,15 @@ _NOT_PLAIN = re.compile(r"[^\w-]+")
 _QUESTION: TypeAdapter[Any] = TypeAdapter(AnyQuestion)
 
 
-def starting(sources: Sequence[str], every: bool = False) -> str:
-    """The YAML of an assignment over these scenes: catalog names or paths; ``every`` question. Raises SceneError."""
+def starting(sources: Sequence[str]) -> str:
+    """The YAML of an assignment over these scenes: catalog names or paths. Raises SceneError."""
     problems: list[dict[str, Any]] = []
     for source in sources:
         scene = load(source)
         title = {} if scene.title is None else {"title": scene.title}
         name = _unused(scene.name or Path(source).stem, [p["id"] for p in problems])
         key = Key(scene)
-        asked = list(questions(key)) if every else list(best_questions(key))
-        problems.append({"id": name, **title, "scene": source, "questions": asked})
+        problems.append({"id": name, **title, "scene": source, "questions": list(best_questions(key))})
     assignment = {"title": "Assignment", "convention": "configuration", "problems": problems}
     return yaml.safe_dump(assignment, sort_keys=False, allow_unicode=True, width=110)
 

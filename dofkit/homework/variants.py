@@ -14,13 +14,16 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from dofkit.base.errors import DofkitError
-from dofkit.homework.answers.roster import Participant, Roster
+from dofkit.homework.answers.roster import Participant, Roster, plain_name
 from dofkit.homework.assignment import Combination, Prepared
 from dofkit.homework.key.key import Key
-from dofkit.homework.problem import Pick, StudentVariant, Variants, pick_text, plain_name
+from dofkit.homework.problem import Pick, StudentVariant, Variants, pick_text
 from dofkit.homework.questions import NumberQuestion, QuestionBase
 from dofkit.homework.questions.labels import LabelQuestion
 from dofkit.homework.sentences import say
+
+#: The least share of the points whose right answers should differ between two students.
+LEAST_DIFFERING = 0.5
 
 
 class NobodysVariantError(DofkitError):
@@ -100,7 +103,14 @@ def _solutions(question: QuestionBase, keys: Iterable[Key]) -> set[str]:
 
 
 def drawn(prepared: Prepared, roster: Roster, seed: str) -> Variants:
-    """Return who has which variant, picked by a keyed hash of the name. Raises VaryError for a roster of nobody."""
+    """Return who has which variant, picked by a keyed hash of the name.
+
+    Raises VaryError for an assignment in which nothing varies, or that has variants, and for a roster of nobody.
+    """
+    if prepared.assignment.variants is not None:
+        raise VaryError("it was made by `dofkit assignment vary`: vary what it was made from")
+    if not prepared.combinations:
+        raise VaryError("nothing varies in it: write `vary: {n: [2, 3, 5]}` in a problem")
     if not roster.members:
         raise VaryError("there is nobody in the roster: a row for each student is needed")
     students = []

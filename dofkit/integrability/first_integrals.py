@@ -14,12 +14,11 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from itertools import combinations_with_replacement
-from math import isqrt
 
 from dofkit.base.deadline import check
 from dofkit.base.errors import NoValueError
 from dofkit.configuration.variety import pose_point
-from dofkit.exact.matrices.sparse import Pivots, rank_of
+from dofkit.exact.matrices.sparse import Pivots, rank_of, reconstructed
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import field_frame, kernel, pairing
 from dofkit.exact.points.series import Series, SeriesPoint
@@ -32,13 +31,14 @@ from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.integrals.search import arranged, upright
 from dofkit.integrability.pfaffian_system import Codistribution
+from dofkit.relations.normal.semidefinite import fraction
 
 #: Products of up to so many functions, so many products, and so many functions in them at most.
 MAX_DEGREE, MAX_PRODUCTS, MAX_FUNCTIONS = 3, 170, 12
 #: Equations more than unknowns; fresh points at which an integral is checked where the minors are not written out.
 SPARE, CHECKS = 6, 4
-#: Rows of the bordered minors that are written out.
-MAX_ROWS = 5
+#: Rows of the bordered minors that are written out; the largest numbers in a coefficient of an integral.
+MAX_ROWS, LARGEST = 5, 1 << 20
 
 Monomial = tuple[int, ...]
 
@@ -51,12 +51,12 @@ class FirstIntegral:
     identically: bool
 
 
-def first_integrals(forms: Codistribution, number: int, seed: int = 0) -> list[FirstIntegral]:
+def first_integrals(forms: Codistribution, number: int) -> list[FirstIntegral]:
     """Return up to ``number`` independent f with df in the span of the rows, the simplest first.
 
     None of them is a consequence of the finite relations.
     """
-    search = IntegralSearch(forms, seed)
+    search = IntegralSearch(forms)
     integrals: list[FirstIntegral] = []
     bordered: BorderedMinors | None = None
     for degree in range(1, MAX_DEGREE + 1):
@@ -76,7 +76,7 @@ def first_integrals(forms: Codistribution, number: int, seed: int = 0) -> list[F
 
 def is_first_integral(forms: Codistribution, f: Expr) -> bool:
     """Return whether df is in the span of the rows at random points, modulo several primes."""
-    return IntegralSearch(forms, 0).holds(f)
+    return IntegralSearch(forms).holds(f)
 
 
 @dataclass(frozen=True)
@@ -118,13 +118,13 @@ class FormSample:
 class IntegralSearch:
     """The functions of some forms that are constant along D = ker I, among products of the functions in them."""
 
-    def __init__(self, forms: Codistribution, seed: int) -> None:
-        self.forms, self.seed = _with_all_symbols(forms), seed
+    def __init__(self, forms: Codistribution) -> None:
+        self.forms = _with_all_symbols(forms)
         chart = self.forms.chart
         self.ring = chart.ring
         self.functions = [v.index for v in self.ring.vars if v.kind not in ("sign", "pi")][:MAX_FUNCTIONS]
         self.constant = {i for i in self.functions if not _moves(self.ring.var_expr[i])}
-        self.solver = TriangularSolver(self.ring, list(chart.nodes), seed=seed) if chart.nodes else None
+        self.solver = TriangularSolver(self.ring, list(chart.nodes)) if chart.nodes else None
         self.points: list[FormSample] = []
         self._drawn = 0
 
@@ -194,7 +194,7 @@ class IntegralSearch:
             self._drawn += 1
             if self._drawn > 4 * MAX_PRODUCTS:
                 return None
-            sample = _sample_at(self.forms, self._point(3 * (self.seed + self._drawn)))
+            sample = _sample_at(self.forms, self._point(3 * self._drawn))
             if sample is not None and not sample.basis:
                 return None
             if sample is not None and (not self.points or sample.point.p == self.points[0].point.p):
@@ -228,10 +228,10 @@ class IntegralSearch:
         terms = []
         for m, weight in zip(monomials, weights, strict=True):
             if weight:
-                c = _rational(int(weight), p)
-                if c is None:
+                c = reconstructed(int(weight), p)
+                if max(abs(c.p), c.q) > LARGEST:
                     return None
-                terms.append(ex.mul(ex.num(c), *(self.ring.var_expr[i] for i in m)))
+                terms.append(ex.mul(ex.num(fraction(c)), *(self.ring.var_expr[i] for i in m)))
         return ex.add(*terms)
 
 
@@ -277,18 +277,6 @@ def _sample_of(
         return FormSample(base, frame, [at[node] for node in ring.var_node], gradients, basis, matrix)
     except NoValueError:
         return None
-
-
-def _rational(value: int, p: int) -> Fraction | None:
-    """Return the fraction with small terms that is ``value`` modulo p [Wang1981], or None where there is none."""
-    bound = isqrt(p // 2)
-    r0, r1, t0, t1 = p, value % p, 0, 1
-    while r1 > bound:
-        q = r0 // r1
-        r0, r1, t0, t1 = r1, r0 - q * r1, t1, t0 - q * t1
-    if t1 == 0 or abs(t1) > bound or r1 > 1 << 20 or abs(t1) > 1 << 20:
-        return None
-    return Fraction(r1, t1)
 
 
 class BorderedMinors:
@@ -353,7 +341,7 @@ def integral_by_row(forms: Codistribution, integrals: Sequence[FirstIntegral]) -
     f can stand for a row where df is not in the span of the others; a row takes one that no other has, if there is one,
     and that mentions the same symbols.
     """
-    search = IntegralSearch(forms, 0)
+    search = IntegralSearch(forms)
     sample = search.sample(0) if integrals else None
     if sample is None:
         return {}

@@ -22,9 +22,8 @@ from dofkit.base.deadline import check
 from dofkit.base.errors import NoValueError
 from dofkit.configuration.variety import Variety, on_variety, pose_point
 from dofkit.exact.analyticity import is_analytic
-from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.sparse import rank_of
-from dofkit.exact.points.frames import FormRows
+from dofkit.exact.points.frames import FormRows, rank_over
 from dofkit.exact.ring.canonical import Canon, determinant, divided, polynomials
 from dofkit.exact.ring.program import Point, Scalar, values
 from dofkit.expressions import tree as ex
@@ -112,20 +111,13 @@ def confinements(forms: Codistribution, variety: Variety) -> tuple[tuple[Expr, .
     """Ways in which motion is confined where dt lies in the span of the rows; None where it does not."""
     if len(forms.chart.symbols) == forms.n:
         return None
-    n = forms.n
-    if variety.samples:
-        point = variety.samples[0]
-        matrix = forms.rows.matrix(values(forms.chart.ring, point), point.number(ex.ZERO.args[0]))
-        free = rank_of([row[:n] for row in matrix], point.p) == rank_of(matrix, point.p)
-        return None if free else hidden_relation(forms.rows, n, point)
-    if variety.real is None:
+    point = variety.samples[0] if variety.samples else None if variety.real is None else variety.real.point
+    if point is None:
         return None
-    try:
-        balls = forms.rows.matrix(values(forms.chart.ring, variety.real.point), arb(0))
-    except NoValueError:
-        return None
-    free = ball_part([row[:n] for row in balls]).rank == ball_part(balls).rank
-    return None if free else hidden_relation(forms.rows, n, variety.real.point)
+    zero = point.number(ex.ZERO.args[0])
+    matrix = forms.rows.matrix(values(forms.chart.ring, point), zero)
+    free = rank_over([row[: forms.n] for row in matrix], zero) == rank_over(matrix, zero)
+    return None if free else hidden_relation(forms.rows, forms.n, point)
 
 
 def prolong(ways: Sequence[Sequence[Expr]], setting: Setting) -> tuple[tuple[Expr, ...], ...] | None:
@@ -164,7 +156,10 @@ def hidden_relation(rows: FormRows, n: int, point: Point) -> tuple[tuple[Expr, .
     at = values(rows.ring, point)
     zero = at[0] * 0
     numbers = rows.matrix(at, zero)
-    chosen = _independent(numbers, range(n + 1))
+    chosen: list[int] = []
+    for r, row in enumerate(numbers):
+        if rank_over([*(numbers[k] for k in chosen), row], zero) > len(chosen):
+            chosen.append(r)
     size = len(chosen)
     if size > MAX_SIZE:
         return ()
@@ -176,7 +171,7 @@ def hidden_relation(rows: FormRows, n: int, point: Point) -> tuple[tuple[Expr, .
         for columns in islice(combinations(range(n), size - 1), MAX_CHOICES):
             check()
             picked = (*columns, n)
-            if len(_independent([[numbers[r][c] for c in picked] for r in chosen], range(size))) < size:
+            if rank_over([[numbers[r][c] for c in picked] for r in chosen], zero) < size:
                 continue
             minor = determinant(canon, [[row[c] for c in picked] for row in table])
             common = minor if common is None else common.gcd(minor)
@@ -189,22 +184,6 @@ def hidden_relation(rows: FormRows, n: int, point: Point) -> tuple[tuple[Expr, .
         return ((canon.to_expr(common),), quotients)
     except NoValueError:
         return ()
-
-
-def _independent(matrix: Sequence[Sequence[Scalar]], columns: Sequence[int] | range) -> list[int]:
-    """The first rows, in order, that are independent on some columns; balls that hold 0 count as 0."""
-    kept: list[tuple[list[Scalar], int]] = []
-    numbers = []
-    for r, row in enumerate(matrix):
-        entries = [row[c] for c in columns]
-        for pivot_row, pivot in kept:
-            factor = entries[pivot] / pivot_row[pivot]
-            entries = [a - factor * b for a, b in zip(entries, pivot_row, strict=True)]
-        place = next((c for c, v in enumerate(entries) if is_nonzero(v)), None)
-        if place is not None:
-            kept.append((entries, place))
-            numbers.append(r)
-    return numbers
 
 
 def is_nonzero(value: Scalar) -> bool:

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import random
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
 
-from dofkit.base.errors import NoValueError
+from dofkit.base.errors import NoValueError, TextError
 from dofkit.base.verdicts import VERDICTS, Verdict, weakest
 from dofkit.exact.analyticity import is_analytic
 from dofkit.exact.points.real_search import RealPoint, RealSearch, at_another_time
@@ -18,7 +17,7 @@ from dofkit.exact.ring.ring import Ring
 from dofkit.exact.triangular import TriangularSolver
 from dofkit.exact.zero import BOTH, Engines, independent_on_set, is_proved_zero, odd_constants, zero_and_verdict
 from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import diff
+from dofkit.expressions.calculus import diff, differential_degree, substitute
 from dofkit.expressions.enclosures import interval_of
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.integrals import search
@@ -26,11 +25,11 @@ from dofkit.relations.normal.no_solution import no_solution
 from dofkit.relations.normal.normal_form import velocities_of
 from dofkit.relations.normal.pieces import Clause, Inequality, Nonlinear, Pfaffian
 from dofkit.relations.normal.zero_set import never_vanishes
+from dofkit.relations.setting import Setting
+from dofkit.relations.velocity_reductions import form_rate
 
 TraitAnswer = tuple[bool | None, Verdict]
 
-#: Points at which a degree is read off, the largest denominator that it has, and how close it comes.
-DRAWS, MAX_DEGREE, CLOSE = 8, 64, 1e-9
 #: Times at which a factor of time alone may rest at 0.
 TIMES = tuple(Fraction(n, 3) for n in (-80, -31, -14, -7, -2, 1, 4, 8, 11, 16, 29, 80))
 
@@ -64,7 +63,7 @@ def timeless(piece: Clause, positive: frozenset[Expr], engines: Engines = BOTH) 
     A piece is the zero set of a function of coordinates, velocities and time, or the side of it where the function is
     positive. What is left of t in the function does not matter where the set is the same at all times.
     """
-    e = piece.expr if not isinstance(piece, Pfaffian) else _rate(piece)
+    e = form_rate(piece) if isinstance(piece, Pfaffian) else piece.expr
     if ex.TIME not in e.symbols:
         return True, "proved"
     sided = isinstance(piece, Inequality)
@@ -123,11 +122,6 @@ def _rests_at_zero(f: Expr, positive: frozenset[Expr]) -> bool:
     return rests and acts
 
 
-def _rate(form: Pfaffian) -> Expr:
-    """Return what a form says of velocities: 0 for those that it allows."""
-    return ex.add(*(a * ex.velocity(name) for name, a in form.coefficients.items()), form.dt)
-
-
 def _factors_left(e: Expr, sided: bool, positive: frozenset[Expr]) -> list[Expr]:
     """Return the factors of the numerator, over the rationals, without those that can be taken out.
 
@@ -160,7 +154,7 @@ def _is_of_time_alone(e: Expr) -> bool:
 def _is_cone(e: Expr, positive: frozenset[Expr], engines: Engines) -> TraitAnswer:
     """Return whether e = 0 is homogeneous in the velocities where it holds: v . de/dv = 0 there (Euler)."""
     radial = ex.add(*(v * diff(e, v) for v in sorted(velocities_of(e), key=repr)))
-    return (True, "proved") if _homogeneous(e, radial) else vanishes_on(e, radial, positive, engines)
+    return (True, "proved") if _is_homogeneous(e) else vanishes_on(e, radial, positive, engines)
 
 
 def vanishes_on(
@@ -223,35 +217,19 @@ def _is_apart(ring: Ring, real: RealPoint, rate: int, others: list[int]) -> bool
     return not at[rate].contains(0) and (not others or any(not at[k].contains(0) for k in others))
 
 
-def _homogeneous(e: Expr, radial: Expr) -> bool:
-    """Euler's relation ``radial`` = v . de/dv = k e for some k, which is read off at a random point."""
-    degree = _ratio(radial, e)
-    return degree is not None and is_proved_zero(radial - ex.num(degree) * e, frozenset())
-
-
-def _ratio(a: Expr, b: Expr) -> Fraction | None:
-    """A rational number of small denominator that a/b is close to at a random point; None where there is none."""
-    symbols = sorted(a.symbols | b.symbols, key=repr)
-    rng = random.Random("dofkit degree")
-    for _ in range(DRAWS):
-        point = {s: Fraction(rng.randrange(64, 257), 97) for s in symbols}
-        above, below = interval_of(a, point), interval_of(b, point)
-        if above is None or below is None or below.contains(0):
-            continue
-        value = float((above / below).mid())
-        near = Fraction(value).limit_denominator(MAX_DEGREE)
-        return near if abs(value - near) < CLOSE else None
-    return None
+def _is_homogeneous(e: Expr) -> bool:
+    """Return whether an expression, as it is written, is homogeneous in the velocities."""
+    try:
+        differential_degree(substitute(e, {v: ex.differential(str(v.args[1])) for v in velocities_of(e)}))
+    except TextError:
+        return False
+    return True
 
 
 def exact(form: Pfaffian, positive: frozenset[Expr], engines: Engines = BOTH) -> TraitAnswer:
     """Closed as written: d(omega) = 0 in (q, t). Not integrability: x dy - y dx integrates and is not closed."""
-    items = list(form.items())
-    symbols = dict(items)
-    others = {s for _, e in items for s in e.symbols if s.args[0] in ("coordinate", "time")} - set(symbols)
-    everything = [*items, *((s, ex.ZERO) for s in others)]
     sure: Verdict = "proved"
-    for (s, a), (u, b) in combinations(everything, 2):
+    for (s, a), (u, b) in combinations(form.components.items(), 2):
         closed, verdict = zero_and_verdict(diff(b, s) - diff(a, u), positive, engines)
         if not closed:
             return closed, verdict
@@ -292,23 +270,24 @@ def proof(form: Pfaffian, positive: frozenset[Expr]) -> str | None:
     """Why the form integrates by itself, where that is proved; else None."""
     if exact(form, positive) == (True, "proved"):  # [PoincareLemma]
         return "it is closed, so locally it is the differential of a function"
-    items = list(form.items())
-    symbols = {s for s, _ in items} | {s for _, e in items for s in e.symbols if s.args[0] in ("coordinate", "time")}
-    if len(symbols) <= 2:  # [Frobenius1877]
+    if len(form.components) <= 2:  # [Frobenius1877]
         return "a form in two variables is always integrable"
-    if len(items) <= 5 and _frobenius(items):
+    if len(dict(form.items())) <= 5 and all(zero == (True, "proved") for zero in _curvature(form, positive)):
         return "d(omega) ^ omega = 0 identically"
     return None
 
 
-def _frobenius(items: list[tuple[Expr, Expr]]) -> bool:
-    """d(omega) ^ omega = 0 for every three variables [Frobenius1877]."""
-    symbols = {s for _, e in items for s in e.symbols if s.args[0] in ("coordinate", "time")} - {s for s, _ in items}
-    everything = [*items, *((s, ex.ZERO) for s in sorted(symbols, key=repr))]
-    for (s, a), (u, b), (w, c) in combinations(everything, 3):
+def is_curved(form: Pfaffian, setting: Setting) -> bool:
+    """Return whether d(omega) ^ omega is proved not to be 0 on an open dense set: alone the form does not integrate."""
+    analytic = all(is_analytic(e, e.symbols, setting.positive) for _, e in form.items())
+    asked = analytic and setting.engines == BOTH
+    return asked and (False, "proved") in _curvature(form, setting.positive)
+
+
+def _curvature(form: Pfaffian, positive: frozenset[Expr]) -> Iterator[TraitAnswer]:
+    """Yield whether d(omega) ^ omega is 0, component by component [Frobenius1877]."""
+    for (s, a), (u, b), (w, c) in combinations(form.components.items(), 3):
         total = a * (diff(c, u) - diff(b, w))
         total += b * (diff(a, w) - diff(c, s))
         total += c * (diff(b, s) - diff(a, u))
-        if zero_and_verdict(total, frozenset()) != (True, "proved"):
-            return False
-    return True
+        yield zero_and_verdict(total, positive)

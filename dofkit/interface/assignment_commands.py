@@ -28,13 +28,12 @@ Runtime = Annotated[
 @assignment_app.command("new")
 def new(
     scenes: Annotated[list[str], typer.Argument(metavar="SCENE...", help="Scenes: paths or catalog names.")],
-    every: Annotated[bool, options.flag("--all", "Include every question that fits the scenes.")] = False,
 ) -> None:
     """Print a first assignment with a question of each kind that fits the scenes."""
     with failures_of(None):
         from dofkit.homework.starting import starting
 
-        typer.echo(starting(scenes, every), nl=False)
+        typer.echo(starting(scenes), nl=False)
 
 
 @assignment_app.command("handout")
@@ -155,28 +154,30 @@ def vary(
     roster: Annotated[Path, typer.Option("--roster", metavar="TABLE.csv", help="The students of the course.")],
     seed: Annotated[str, typer.Option("--seed", metavar="TEXT", help="The seed of the variants: keep it.")],
     out: Annotated[Path, typer.Option("--out", metavar="FOLDER", callback=options.folder, help="The folder to write.")],
-    form: Annotated[
-        str, typer.Option("--format", metavar="NAME", help="The format of the handouts: html, md or page.")
-    ] = "html",
-    runtime: Runtime = None,
 ) -> None:
-    """Write a variant for every student.
+    """Pick a variant for every student.
 
     A problem lists what varies (`vary: {n: [2, 3, 5]}`); every combination is proved, and a keyed hash picks one for
-    each student. The folder gets a handout per student, one assignment that grades all of them (`dofkit grade
-    FOLDER/assignment.yaml ...`), and a table of the variants. With the same seed everyone keeps their variant when the
-    roster changes.
+    each student. The folder gets one assignment for all of them (`dofkit assignment handout FOLDER/assignment.yaml
+    --roster TABLE.csv`, `dofkit grade FOLDER/assignment.yaml ...`), and a table of the variants. With the same seed
+    everyone keeps their variant when the roster changes.
     """
     from dofkit.homework.answers.roster import load_roster
-    from dofkit.homework.handout.class_sheets import SHEETS, class_sheets, write_class
+    from dofkit.homework.assignment import load_assignment
+    from dofkit.homework.handout.class_sheets import ASSIGNMENT, write_variants
+    from dofkit.homework.variants import LEAST_DIFFERING, differing_share, drawn
 
     with failures_of(assignment):
-        made = class_sheets(assignment, load_roster(roster), seed, out)
-        write_class(made, form, drawing(), out)
-    for remark in made.remarks():
+        prepared = load_assignment(assignment)
+        variants = drawn(prepared, load_roster(roster), seed)
+        write_variants(prepared, variants, out)
+    if (share := differing_share(prepared)) < LEAST_DIFFERING:
+        remark = (
+            f"the right answers of two students differ for {100 * share:.0f} % of the points on average: more values "
+            "in `vary`, or questions whose answers depend on them, make copying less useful"
+        )
         typer.echo(f"{assignment}: {remark}", err=True)
-    with_runtime(form, out / SHEETS, runtime)
-    typer.echo(f"{out}: {len(made.variants.students)} sheets")
+    typer.echo(f"{out / ASSIGNMENT}: the variants of {len(variants.students)} students")
 
 
 def drawing() -> Callable[[Any, Any, str], str | None]:

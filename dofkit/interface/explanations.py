@@ -13,7 +13,7 @@ from pydantic import BaseModel
 
 from dofkit.base.errors import Fault, SceneError
 from dofkit.base.wording import closest, nearest, series
-from dofkit.classification.arguments import TABLE
+from dofkit.classification.arguments import arguments
 from dofkit.homework.sentences import meanings
 from dofkit.interface.show.assurance import VERDICT_MEANS
 from dofkit.report import ConstraintEntry, Report
@@ -151,7 +151,7 @@ def _shape(name: str, row: ShapeKeys) -> Explanation:
 
 
 def _arguments() -> Iterator[Explanation]:
-    for key, row in TABLE.items():
+    for key, row in arguments().items():
         theorem = f" Theorem: {row.theorem}." if row.theorem else ""
         yield Explanation(key, "argument", f"Claim: {row.claims}. Hypotheses: {row.hypotheses}.{theorem}")
 

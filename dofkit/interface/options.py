@@ -207,7 +207,7 @@ _CATALOG = "Words that occur in a scene; or `show` and the name of a scene."
 CatalogWords = Annotated[
     list[str] | None, Argument(metavar="WORD", show_default=False, help=_CATALOG, autocompletion=_catalogued)
 ]
-SchemaName = Annotated[str, Argument(metavar="WHAT", help="scene, assignment, submission, result or report.")]
+SchemaName = Annotated[str, Argument(metavar="WHAT", help="scene, assignment, result or report.")]
 
 # Of `chart`
 

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import Any, Protocol
 
 from dofkit.base.errors import TextError
+from dofkit.base.verdicts import Verdict
 from dofkit.exact.ring.program import Point, Scalar, gradient, values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import cleared, in_velocities
 from dofkit.expressions.tree import Expr
+from dofkit.methods.table import Knobs, Reply
 from dofkit.relations.normal.normal_form import linear_form, velocities_of
 from dofkit.relations.normal.pieces import Pfaffian
 from dofkit.scene.lowering import lower
@@ -113,11 +116,11 @@ class Decider(Protocol):
 class WrittenRows:
     """The equations of a scene as a program that can be run at points."""
 
-    def __init__(self, written: Written, more: Sequence[Expr] = ()) -> None:
+    def __init__(self, written: Written) -> None:
         self.written = written
         self.columns = [*written.coordinates, *([ex.TIME] if written.timed else [])]
         self.n = len(written.coordinates)
-        self.ring = Ring([*written.expressions, *more], written.positive)
+        self.ring = Ring(written.expressions, written.positive)
         place = {s: k for k, s in enumerate(self.columns)}
         self.finite = [(i, self.ring.node(g)) for i, g in written.finite]
         self.forms = [(i, {place[s]: self.ring.node(a) for s, a in f.items()}) for i, f in written.forms]
@@ -203,8 +206,9 @@ def freedom(sampled: SampledPoints, numbers: Decider) -> int:
     return min(n - numbers.rank([row[:n] for row in rows]) for rows in kept)
 
 
-def labels(samples: SampledPoints) -> dict[str, bool]:
+def labels(samples: SampledPoints, numbers: Decider) -> dict[str, bool]:
     """Whether each constraint is taken for holonomic."""
+    del numbers
     holonomic: dict[int, bool] = {}
     for (i, _), passes in zip(samples.rows.forms, samples.passing, strict=True):
         holonomic[i] = holonomic.get(i, True) and passes
@@ -212,28 +216,34 @@ def labels(samples: SampledPoints) -> dict[str, bool]:
 
 
 def droppable(sampled: SampledPoints, numbers: Decider) -> list[str]:
-    """Constraints without which the rank stays as it is, the last written first; finite ones are fixed by finite ones.
-
-    Inequalities and what is nonlinear in velocities are left in.
-    """
+    """Return the constraints without which the rank stays as it is."""
     sample, rows = sampled.samples[0], sampled.rows
-    owners = [i for i, _ in rows.finite], [i for i, _ in rows.forms]
-    kept = sorted({*owners[0], *owners[1]} - set(rows.written.others))
-    fixed = {*owners[0], *owners[1]} & set(rows.written.others)
 
-    def ranks(of: set[int]) -> tuple[int, int]:
-        finite = [row for i, row in zip(owners[0], sample.finite, strict=True) if i in of]
-        forms = [row for i, row in zip(owners[1], sample.forms, strict=True) if i in of]
-        return numbers.rank(finite), numbers.rank([*finite, *forms])
+    def ranks(finite: Sequence[int], forms: Sequence[int]) -> tuple[int, int]:
+        kept = [sample.finite[k] for k in finite]
+        return numbers.rank(kept), numbers.rank([*kept, *(sample.forms[k] for k in forms)])
 
-    whole = ranks({*kept, *fixed})
-    moving = set(owners[1])
-    dropped: set[int] = set()
-    for i in sorted(kept, key=lambda i: (i in moving, i), reverse=True):
-        if ranks(({*kept, *fixed} - dropped) - {i}) == whole:
+    return without_loss(rows.written, ranks)
+
+
+def without_loss(written: Written, ranks: Callable[[Sequence[int], Sequence[int]], tuple[int, int]]) -> list[str]:
+    """Return the constraints without which ``ranks`` stay, the last written first; finite ones fix finite ones.
+
+    ``ranks`` are those of some of the finite equations and forms, by number. Inequalities and what is nonlinear in
+    velocities are left in.
+    """
+    finite, forms = [i for i, _ in written.finite], [i for i, _ in written.forms]
+
+    def ranks_of(constraints: set[int]) -> tuple[int, int]:
+        kept = ([k for k, i in enumerate(owners) if i in constraints] for owners in (finite, forms))
+        return ranks(*kept)
+
+    everything, dropped = {*finite, *forms}, set[int]()
+    whole = ranks_of(everything)
+    for i in sorted(everything - set(written.others), key=lambda i: (i in forms, i), reverse=True):
+        if ranks_of(everything - dropped - {i}) == whole:
             dropped.add(i)
-    names = [c.name for c in rows.written.system.constraints]
-    return sorted(names[i] for i in dropped)
+    return sorted(written.system.constraints[i].name for i in dropped)
 
 
 def drawn_value(value: Expr, point: Any) -> Scalar:
@@ -253,3 +263,33 @@ def independent_at_reference(sampled: SampledPoints, numbers: Decider) -> bool:
         return False
     rows = sampled.samples[0].rows
     return numbers.rank([row[: sampled.rows.n] for row in rows]) == len(rows)
+
+
+Look = Callable[[Scene | System, Knobs], tuple[SampledPoints, Decider] | Reply]
+Answering = Callable[[Scene | System, Knobs], Reply]
+
+
+def questions_at_points(
+    look_at: Look, certainty: Callable[[SampledPoints, Decider], Verdict]
+) -> tuple[Answering, Answering, Answering]:
+    """Return a method's functions for the freedom, the labels and what is redundant, from the points it looks at.
+
+    ``certainty``: of the freedom where all equations are independent at the reference configuration.
+    """
+
+    def dof(scene: Scene | System, knobs: Knobs) -> Reply:
+        """Coordinates less the rank of the Jacobian, forms that pass Frobenius' test included."""
+        samples = look_at(scene, knobs)
+        if isinstance(samples, Reply):
+            return samples
+        sure = certainty(*samples) if independent_at_reference(*samples) else "undecided"
+        return Reply(freedom(*samples), verdict=sure)
+
+    def at_points(answer: Callable[[SampledPoints, Decider], Any], scene: Scene | System, knobs: Knobs) -> Reply:
+        """Return an answer from the points; where the constraints contradict each other there is none."""
+        samples = look_at(scene, knobs)
+        if isinstance(samples, Reply):
+            return replace(samples, value=None)
+        return Reply(answer(*samples))
+
+    return dof, partial(at_points, labels), partial(at_points, droppable)

@@ -7,14 +7,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from contextlib import nullcontext
-from dataclasses import dataclass
+from dataclasses import replace
 from typing import Any
 
 from flint import ctx
 
 from dofkit.base.deadline import DEFAULT_SECONDS, OUT_OF_TIME, OutOfTimeError, limited
 from dofkit.base.errors import ArgumentError
-from dofkit.base.verdicts import Verdict, weakest
+from dofkit.base.verdicts import weakest
 from dofkit.base.wording import description_of, require_one_of, seconds_of
 from dofkit.classification.dependence.equivalence import Sameness, compare
 from dofkit.classification.dependence.redundancy import all_needed, redundancies
@@ -24,7 +24,17 @@ from dofkit.classification.labels.entries import labels_in_system
 from dofkit.classification.study import Study, study
 from dofkit.exact.points.balls import balls_of, precise_for, precision
 from dofkit.exact.zero import BALLS, BOTH, Engines
-from dofkit.methods.table import METHODS, QUESTIONS, Knobs, MethodName, MethodReply, Question, cannot, function_of
+from dofkit.methods.table import (
+    CONTRADICTORY,
+    METHODS,
+    QUESTIONS,
+    Knobs,
+    MethodName,
+    Question,
+    Reply,
+    cannot,
+    function_of,
+)
 from dofkit.mobility.general_position import unprescribed_links
 from dofkit.mobility.graph.linkage import linkage
 from dofkit.relations.normal.domain import DomainCondition
@@ -36,30 +46,8 @@ from dofkit.scene.reading import SceneLike, load, scene_or_system
 from dofkit.scene.scene import Scene
 from dofkit.system import System
 
-CONTRADICTORY = -1
 #: What the equations of an answer are called in the scene that holds them.
 ANSWER = "the answer"
-
-
-@dataclass(frozen=True)
-class Reply:
-    """The answer to one question about a scene.
-
-    Attributes
-    ----------
-    value
-        For ``dof`` a number (-1 if the constraints contradict each other); for ``integrability`` a mapping from each
-        constraint to whether it is holonomic in the system (None: undecided); for ``redundancy`` the names of a maximal
-        redundant set, in the scene's order; for ``equivalence`` whether the two are equivalent. None: undecided.
-    verdict
-        How certain the value is.
-    reason
-        Why there is no value.
-    """
-
-    value: Any | None
-    verdict: Verdict
-    reason: str = ""
 
 
 def ask(
@@ -162,7 +150,7 @@ def _by_graph(system: System, question: Question) -> Reply | None:
     if pairs is None:
         return None
     link_answer = linkage([pair for _, pair in pairs], system.dimension)
-    sure = link_answer.proof("redundant").verdict
+    sure = link_answer.verdict
     if question == "dof":
         return Reply(len(system.coordinates) - link_answer.rank, sure)
     names = [system.constraints[pairs[k][0]].name for k in link_answer.redundant_places]
@@ -186,7 +174,7 @@ def _why(outcome: Outcome) -> str:
 
 def _integrability(studied: Study) -> Reply:
     labels_of_study = labels_in_system(studied.reduced, studied.setting, studied.outcome)
-    labels = studied.by_name([label for label, _ in labels_of_study])
+    labels = dict(zip(studied.names, (label for label, _ in labels_of_study), strict=True))
     sure = weakest(*(verdict for _, verdict in labels_of_study))
     reason = ""
     if None in labels.values():
@@ -243,7 +231,7 @@ def answered(
     method: MethodName,
     knobs: Knobs | None = None,
     answer: Mapping[str, str] | None = None,
-) -> MethodReply:
+) -> Reply:
     """Return the answer that a reader would believe who trusted this method alone, right or wrong.
 
     ``answer``: for ``equivalence``, ``{"constraint": NAME, "text": TEXT}``. Where the method cannot or does not
@@ -259,16 +247,15 @@ def answered(
         work = function_of(method, question)
         return work(read, settings, answer) if question == "equivalence" else work(read, settings)
     except OverflowError as error:
-        return MethodReply(None, f"a number that occurs is too large or too small to compute with ({error})")
+        return Reply(None, reason=f"a number that occurs is too large or too small to compute with ({error})")
     except FAILURES as error:
-        return MethodReply(None, str(error) or type(error).__name__)
+        return Reply(None, reason=str(error) or type(error).__name__)
 
 
 def _by_engines(
     engines: Engines, scene: Scene, question: Question, knobs: Knobs, answer: Mapping[str, str] | None
-) -> MethodReply:
+) -> Reply:
     """Return the answer of dofkit's engines; balls alone take the bits of their numbers."""
     with balls_of(knobs.bits) if engines == BALLS else nullcontext():
         reply = answered_by(scene, question, answer, engines=engines)
-    value = sorted(reply.value) if question == "redundancy" and reply.value is not None else reply.value
-    return MethodReply(value, reply.reason, verdict=reply.verdict)
+    return replace(reply, value=sorted(reply.value)) if question == "redundancy" and reply.value else reply

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dofkit.base.verdicts import weakest
 from dofkit.integrability.traits import exact
 from dofkit.methods.as_written import Written, as_written, labelled
-from dofkit.methods.table import Knobs, MethodReply
+from dofkit.methods.table import Knobs, Reply
 from dofkit.scene.scene import Scene
 from dofkit.system import GROUND, System
 
@@ -22,14 +22,14 @@ def naive(written: Written) -> int:
     return len(written.coordinates) - len(written.finite)
 
 
-def dof(scene: Scene | System, knobs: Knobs) -> MethodReply:
+def dof(scene: Scene | System, knobs: Knobs) -> Reply:
     """f = N d - k, each rigid body with d(d+1)/2 coordinates."""
     del knobs
     number = naive(as_written(scene))
-    return MethodReply(None, _BELOW.format(number)) if number < 0 else MethodReply(number)
+    return Reply(None, reason=_BELOW.format(number)) if number < 0 else Reply(number)
 
 
-def integrability(scene: Scene | System, knobs: Knobs) -> MethodReply:
+def integrability(scene: Scene | System, knobs: Knobs) -> Reply:
     """Closed forms are called holonomic, all others are not: equality of mixed partials, which is exactness."""
     del knobs
     written = as_written(scene)
@@ -39,10 +39,10 @@ def integrability(scene: Scene | System, knobs: Knobs) -> MethodReply:
         is_closed, verdict = exact(form, written.positive)
         closed[i] = closed.get(i, True) and bool(is_closed)
         verdicts += [verdict] if is_closed else []
-    return MethodReply(labelled(written, closed), verdict=weakest(*verdicts))  # [PoincareLemma]
+    return Reply(labelled(written, closed), verdict=weakest(*verdicts))  # [PoincareLemma]
 
 
-def redundancy(scene: Scene | System, knobs: Knobs) -> MethodReply:
+def redundancy(scene: Scene | System, knobs: Knobs) -> Reply:
     """Return no redundant constraint where the count leaves at least the freedom that is certain; else None.
 
     Certain is the motion of the whole as a rigid body, d(d+1)/2, where nothing holds it to the ground. A count that
@@ -52,9 +52,9 @@ def redundancy(scene: Scene | System, knobs: Knobs) -> MethodReply:
     written = as_written(scene)
     number, least = naive(written), least_freedom(written)
     if number >= least:
-        return MethodReply([])
+        return Reply([])
     why = f"the count leaves {number}, and at least {least} can move: something is redundant, but the count names none"
-    return MethodReply(None, why)
+    return Reply(None, reason=why)
 
 
 def least_freedom(written: Written) -> int:
@@ -66,11 +66,11 @@ def least_freedom(written: Written) -> int:
     return d * (d + 1) // 2
 
 
-def equivalence(scene: Scene, knobs: Knobs, answer: Mapping[str, str]) -> MethodReply:
+def equivalence(scene: Scene, knobs: Knobs, answer: Mapping[str, str]) -> Reply:
     """Are the texts the same, blanks and the sides' order aside?"""
     del knobs
     asked = next(c.text for c in as_written(scene).system.constraints if c.name == answer["constraint"])
-    return MethodReply(plain(asked) == plain(answer["text"]))
+    return Reply(plain(asked) == plain(answer["text"]))
 
 
 def plain(text: str) -> tuple[str, ...]:

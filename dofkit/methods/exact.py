@@ -3,33 +3,31 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from fractions import Fraction
+from functools import partial
 
 from flint import fmpq, fmpq_mat, fmpz
 
-from dofkit.base.errors import NoValueError, PoleError
-from dofkit.base.verdicts import Verdict
-from dofkit.exact.ring.program import Scalar, Var, raising_no_value, value_of
-from dofkit.exact.ring.ring import Ring
+from dofkit.base.errors import NoValueError
+from dofkit.exact.points.frames import pivots
+from dofkit.exact.ring.program import Scalar, Var, raising_no_value
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
 from dofkit.methods.as_written import (
+    Decider,
     Matrix,
     SampledPoints,
     Written,
     WrittenRows,
     as_written,
     drawn_value,
-    droppable,
-    freedom,
-    independent_at_reference,
-    labels,
     look,
+    questions_at_points,
 )
-from dofkit.methods.ask import CONTRADICTORY
-from dofkit.methods.table import Knobs, MethodReply, cannot
+from dofkit.methods.table import CONTRADICTORY, Knobs, Reply, cannot
+from dofkit.relations.linear_relations import explicit_relations
 from dofkit.scene.scene import Scene
 from dofkit.system import System
 
@@ -116,16 +114,13 @@ class Rationals:
 
     def kernel(self, matrix: Matrix, columns: int) -> Matrix:
         """A basis of what all rows vanish on."""
-        reduced, rank = fmpq_mat(matrix).rref() if matrix else (fmpq_mat(0, columns), 0)
-        pivots = [next(c for c in range(columns) if reduced[r, c] != 0) for r in range(rank)]
-        vectors = []
-        for free in sorted(set(range(columns)) - set(pivots)):
-            vector = [fmpq(0) for _ in range(columns)]
-            vector[free] = fmpq(1)
-            for r, c in enumerate(pivots):
-                vector[c] = -reduced[r, free]
-            vectors.append(vector)
-        return vectors
+        reduced = fmpq_mat(matrix).rref()[0] if matrix else fmpq_mat(0, columns)
+        place = {c: r for r, c in enumerate(pivots(reduced))}
+        return [
+            [-reduced[place[c], free] if c in place else fmpq(int(c == free)) for c in range(columns)]
+            for free in range(columns)
+            if free not in place
+        ]
 
     def vanishes(self, value: Scalar, scale: Sequence[Scalar]) -> bool:
         del scale
@@ -134,17 +129,14 @@ class Rationals:
     def points(self, written: Written, rows: WrittenRows, drawn: bool) -> list[RationalPoint]:
         if drawn:
             return [self._drawn(written)]
-        order = solvable(written)
-        if order is None and not _linear(written):
-            return []
-        for k in range(DRAWS):
+        movable = {*written.coordinates, *(ex.parameter(p) for p in written.system.generic)}
+        solution = explicit_relations((g for _, g in written.finite), partial(linear_symbols, movable))
+        if solution.contradictory:
+            raise ContradictionError("the linear equations contradict each other")
+        for k in range(0 if solution.implicit else DRAWS):
             point = RationalPoint(random.Random(f"dofkit rational 0 {k}"), free=True)
             try:
-                if order is None:
-                    solved_together(written, point)
-                else:
-                    solved(written, rows.ring, order, point)
-                value_of_all(rows, point)
+                give_values(point, solution.by_others, rows)
             except (IrrationalError, NoValueError):
                 continue
             return [point]
@@ -158,82 +150,21 @@ class Rationals:
         return point
 
 
+def linear_symbols(movable: Collection[Expr], g: Expr) -> dict[Expr, Expr]:
+    """Return the symbols in which a relation is linear, with their coefficients."""
+    slopes = ((s, diff(g, s)) for s in sorted(g.symbols.intersection(movable), key=repr))
+    return {s: slope for s, slope in slopes if s not in slope.symbols}
+
+
 @raising_no_value
-def value_of_all(rows: WrittenRows, point: RationalPoint) -> None:
-    """Run the program once, so that every generator has its value."""
+def give_values(point: RationalPoint, solved: Mapping[Expr, Expr], rows: WrittenRows) -> None:
+    """Give a point the values of the symbols that are solved for, and draw all others that the equations hold."""
+    point.values |= {s: drawn_value(value, point) for s, value in solved.items()}
     rows.at(point, fmpq(0))
 
 
-def solvable(written: Written) -> list[tuple[int, Expr]] | None:
-    """An order in which each finite equation gives one symbol, in which it is linear, by those that are known then."""
-    remaining = dict(enumerate(g for _, g in written.finite))
-    movable = {*written.coordinates, *(ex.parameter(p) for p in written.system.generic)}
-    order: list[tuple[int, Expr]] = []
-    while remaining:
-        ready = (
-            (i, s)
-            for i, g in remaining.items()
-            for s in _private_symbols(i, remaining, movable)
-            if s not in diff(g, s).symbols
-        )
-        step = next(ready, None)
-        if step is None:
-            return None
-        order.append(step)
-        del remaining[step[0]]
-    return order[::-1]
-
-
-def _private_symbols(i: int, remaining: Mapping[int, Expr], movable: set[Expr]) -> list[Expr]:
-    """Symbols that only this equation holds of those that are left, in a fixed order."""
-    mine = sorted(remaining[i].symbols & movable, key=repr)
-    return [s for s in mine if not any(s in g.symbols for j, g in remaining.items() if j != i)]
-
-
-@raising_no_value
-def solved(written: Written, ring: Ring, order: Sequence[tuple[int, Expr]], point: RationalPoint) -> None:
-    """Give values to the symbols that are solved for; raises PoleError where one cannot be."""
-    relations = [g for _, g in written.finite]
-    for i, symbol in order:
-        slope = Ring([diff(relations[i], symbol)], written.positive)
-        point.values[symbol] = fmpq(0)
-        start = value_of(ring, point, ring.node(relations[i]))
-        below = value_of(slope, point, slope.node(diff(relations[i], symbol)))
-        if below == 0:
-            raise PoleError
-        point.values[symbol] = -start / below
-
-
-def _linear(written: Written) -> bool:
-    """Are the finite equations linear in the coordinates together?"""
-    movable = set(written.coordinates)
-    slopes = (diff(g, s) for _, g in written.finite for s in written.coordinates if s in g.symbols)
-    return all(movable.isdisjoint(slope.symbols) for slope in slopes)
-
-
-@raising_no_value
-def solved_together(written: Written, point: RationalPoint) -> None:
-    """Solve linear equations A q = b; what is free is drawn. Raises PoleError where there is no solution."""
-    columns = written.coordinates
-    for s in columns:
-        point.values[s] = fmpq(0)
-    rows = []
-    for _, g in written.finite:
-        slopes = [diff(g, s) for s in columns]
-        ring = Ring([g, *slopes], written.positive)
-        rows.append([value_of(ring, point, ring.node(e)) for e in (*slopes, g)])
-    reduced, rank = fmpq_mat(rows).rref()
-    pivots = [next(c for c in range(len(columns) + 1) if reduced[r, c] != 0) for r in range(rank)]
-    if len(columns) in pivots:
-        raise ContradictionError("the linear equations contradict each other")
-    for c in set(range(len(columns))) - set(pivots):
-        point.values[columns[c]] = point.draw()
-    for r, c in enumerate(pivots):
-        moved = sum((reduced[r, k] * point.values[columns[k]] for k in range(c + 1, len(columns))), fmpq(0))
-        point.values[columns[c]] = -reduced[r, len(columns)] - moved
-
-
-def _look(scene: Scene | System) -> tuple[SampledPoints, Rationals] | MethodReply:
+def _look(scene: Scene | System, knobs: Knobs) -> tuple[SampledPoints, Decider] | Reply:
+    del knobs
     numbers = Rationals()
     written = as_written(scene)
     if written.system.tolerance is not None:
@@ -243,7 +174,7 @@ def _look(scene: Scene | System) -> tuple[SampledPoints, Rationals] | MethodRepl
     except IrrationalError as error:
         return cannot(str(error))
     except ContradictionError as error:
-        return MethodReply(CONTRADICTORY, str(error))
+        return Reply(CONTRADICTORY, reason=str(error))
     if sampled is None:
         return cannot(NOWHERE)
     if any(sampled.samples[0].residuals):
@@ -251,30 +182,4 @@ def _look(scene: Scene | System) -> tuple[SampledPoints, Rationals] | MethodRepl
     return sampled, numbers
 
 
-def dof(scene: Scene | System, knobs: Knobs) -> MethodReply:
-    """Coordinates less the rank of the Jacobian there, forms that pass Frobenius' test included."""
-    del knobs
-    samples = _look(scene)
-    if isinstance(samples, MethodReply):
-        return samples
-    sure: Verdict = "proved" if independent_at_reference(*samples) else "undecided"
-    return MethodReply(freedom(*samples), verdict=sure)
-
-
-def integrability(scene: Scene | System, knobs: Knobs) -> MethodReply:
-    """By Frobenius' test at that point."""
-    del knobs
-    samples = _look(scene)
-    return _unless_contradictory(samples) if isinstance(samples, MethodReply) else MethodReply(labels(samples[0]))
-
-
-def redundancy(scene: Scene | System, knobs: Knobs) -> MethodReply:
-    """By the ranks there with and without each constraint."""
-    del knobs
-    samples = _look(scene)
-    return _unless_contradictory(samples) if isinstance(samples, MethodReply) else MethodReply(droppable(*samples))
-
-
-def _unless_contradictory(reply: MethodReply) -> MethodReply:
-    """Where the constraints contradict each other there are no labels."""
-    return MethodReply(None, reply.reason, reply.cannot)
+dof, integrability, redundancy = questions_at_points(_look, lambda sampled, numbers: "proved")

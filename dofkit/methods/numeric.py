@@ -8,27 +8,23 @@ from typing import Any
 
 import numpy as np
 
-from dofkit.base.verdicts import Verdict
 from dofkit.exact.points.balls import FloatPoint
 from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.program import Scalar
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.methods.as_written import (
+    Decider,
     Matrix,
     SampledPoints,
     Written,
     WrittenRows,
     as_written,
     drawn_value,
-    droppable,
-    freedom,
-    independent_at_reference,
-    labels,
     look,
+    questions_at_points,
 )
-from dofkit.methods.ask import CONTRADICTORY
-from dofkit.methods.table import Knobs, MethodReply
+from dofkit.methods.table import CONTRADICTORY, Knobs, Reply
 from dofkit.scene.scene import Scene
 from dofkit.system import System
 
@@ -106,35 +102,13 @@ def singular_values(matrix: Matrix) -> Any:
     return np.linalg.svd(np.array(matrix, dtype=float), compute_uv=False)
 
 
-def _look(scene: Scene | System, knobs: Knobs) -> tuple[SampledPoints | None, Floats]:
+def _look(scene: Scene | System, knobs: Knobs) -> tuple[SampledPoints, Decider] | Reply:
     numbers = Floats(knobs.tolerance)
-    return look(as_written(scene), numbers), numbers
+    sampled = look(as_written(scene), numbers)
+    return Reply(CONTRADICTORY, reason=NOWHERE.format(STARTS)) if sampled is None else (sampled, numbers)
 
 
-def dof(scene: Scene | System, knobs: Knobs) -> MethodReply:
-    """Coordinates less the numeric rank, forms that pass Frobenius' test included."""
-    samples, numbers = _look(scene, knobs)
-    if samples is None:
-        return MethodReply(CONTRADICTORY, NOWHERE.format(STARTS))
-    sure: Verdict = (
-        "numeric" if _is_clear(samples, numbers) and independent_at_reference(samples, numbers) else "undecided"
-    )
-    return MethodReply(freedom(samples, numbers), verdict=sure)
-
-
-def integrability(scene: Scene | System, knobs: Knobs) -> MethodReply:
-    """By Frobenius' test within the tolerance, at a few points."""
-    samples, _ = _look(scene, knobs)
-    return MethodReply(None, NOWHERE.format(STARTS)) if samples is None else MethodReply(labels(samples))
-
-
-def redundancy(scene: Scene | System, knobs: Knobs) -> MethodReply:
-    """By the numeric ranks with and without each constraint."""
-    samples, numbers = _look(scene, knobs)
-    return MethodReply(None, NOWHERE.format(STARTS)) if samples is None else MethodReply(droppable(samples, numbers))
-
-
-def _is_clear(sampled: SampledPoints, numbers: Floats) -> bool:
+def _is_clear(sampled: SampledPoints, numbers: Decider) -> bool:
     """Return whether the equations are satisfied and no singular value lies between rounding and the smallest signal.
 
     A tolerance for the geometry, or a sign that rounding may turn, leaves nothing clear.
@@ -150,3 +124,8 @@ def _is_clear(sampled: SampledPoints, numbers: Floats) -> bool:
     singular = singular_values(matrix)
     largest = float(singular[0]) or 1.0
     return all(v / largest > SIGNAL or v / largest < ROUNDING for v in map(float, singular))
+
+
+dof, integrability, redundancy = questions_at_points(
+    _look, lambda sampled, numbers: "numeric" if _is_clear(sampled, numbers) else "undecided"
+)

@@ -19,7 +19,7 @@ from dofkit.classification.undecided import open_entry, open_report, sketch, why
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
-from dofkit.methods.table import METHODS, Knobs, MethodName, MethodReply, Question, function_of
+from dofkit.methods.table import METHODS, Knobs, MethodName, Question, Reply, function_of
 from dofkit.relations.answer import BITS, GAP, Answer
 from dofkit.relations.blocks import Block
 from dofkit.report import ConstraintEntry, Count, FieldVerdict, ForceEntry, Report
@@ -116,7 +116,7 @@ def report_of_method(system: System, method: MethodName) -> Report:
     """Return the report of a method that is no engine of dofkit. Raises OutOfTimeError."""
     base = sketch(system, f"{method} on its own does not decide")
     replies = {question: _reply(system, method, question) for question in ASKED if question in METHODS[method].uses}
-    dof, redundancy, labels = (replies.get(q, MethodReply(None)) for q in ("dof", "redundancy", "integrability"))
+    dof, redundancy, labels = (replies.get(q, Reply(None)) for q in ("dof", "redundancy", "integrability"))
     fields: dict[str, Any] = {}
     if dof.verdict != "undecided":
         fields |= {"consistent": True, "dof": dof.value}
@@ -146,17 +146,17 @@ def report_of_method(system: System, method: MethodName) -> Report:
     return base.model_copy(update={**changes, **fields, **whole})
 
 
-def _reply(system: System, method: MethodName, question: Question) -> MethodReply:
+def _reply(system: System, method: MethodName, question: Question) -> Reply:
     try:
-        reply: MethodReply = function_of(method, question)(system, Knobs())
+        reply: Reply = function_of(method, question)(system, Knobs())
     except OutOfTimeError:
         raise
     except (ArithmeticError, NotImplementedError, ValueError) as error:
-        return MethodReply(None, str(error) or type(error).__name__)
+        return Reply(None, reason=str(error) or type(error).__name__)
     return reply
 
 
-def _warning(method: MethodName, question: Question, reply: MethodReply) -> str:
+def _warning(method: MethodName, question: Question, reply: Reply) -> str:
     """Return a sentence about an answer that is not certain, or the empty text."""
     if reply.verdict != "undecided":
         return ""

@@ -15,8 +15,8 @@ import sympy
 from dofkit.expressions import tree as ex
 from dofkit.expressions.sympy_bridge import Bridge
 from dofkit.expressions.tree import Expr
-from dofkit.methods.as_written import Written, as_written, labelled
-from dofkit.methods.table import Knobs, MethodReply
+from dofkit.methods.as_written import Written, as_written, labelled, without_loss
+from dofkit.methods.table import Knobs, Reply
 from dofkit.scene.scene import Scene
 from dofkit.system import System
 
@@ -104,11 +104,11 @@ def passing(symbols: Symbols) -> list[bool]:
     return points
 
 
-def dof(scene: Scene | System, knobs: Knobs) -> MethodReply:
+def dof(scene: Scene | System, knobs: Knobs) -> Reply:
     """Coordinates less the rank that SymPy finds, forms that pass Frobenius' test included."""
     del knobs
     symbols = Symbols(as_written(scene))
-    return MethodReply(_freedom(symbols, passing(symbols)))
+    return Reply(_freedom(symbols, passing(symbols)))
 
 
 def _freedom(symbols: Symbols, passes: Sequence[bool]) -> int:
@@ -116,31 +116,22 @@ def _freedom(symbols: Symbols, passes: Sequence[bool]) -> int:
     return symbols.n - int(symbols.rows(range(len(symbols.finite)), kept).rank())
 
 
-def integrability(scene: Scene | System, knobs: Knobs) -> MethodReply:
+def integrability(scene: Scene | System, knobs: Knobs) -> Reply:
     """By wedge products."""
     del knobs
     symbols = Symbols(as_written(scene))
     labels: dict[int, bool] = {}
     for (i, _), passes in zip(symbols.forms, passing(symbols), strict=True):
         labels[i] = labels.get(i, True) and passes
-    return MethodReply(labelled(symbols.written, labels))
+    return Reply(labelled(symbols.written, labels))
 
 
-def redundancy(scene: Scene | System, knobs: Knobs) -> MethodReply:
+def redundancy(scene: Scene | System, knobs: Knobs) -> Reply:
     """Constraints without which the rank that SymPy finds stays as it is, the last written first."""
     del knobs
     symbols = Symbols(as_written(scene))
-    finite, forms = [i for i, _ in symbols.finite], [i for i, _ in symbols.forms]
 
-    def rank(of: set[int]) -> tuple[int, int]:
-        rows = [k for k, i in enumerate(finite) if i in of]
-        more = [k for k, i in enumerate(forms) if i in of]
-        return int(symbols.rows(rows, []).rank()), int(symbols.rows(rows, more).rank())
+    def ranks(finite: Sequence[int], forms: Sequence[int]) -> tuple[int, int]:
+        return int(symbols.rows(finite, []).rank()), int(symbols.rows(finite, forms).rank())
 
-    everything = {*finite, *forms}
-    whole, dropped = rank(everything), set[int]()
-    for i in sorted(everything - set(symbols.written.others), key=lambda i: (i in forms, i), reverse=True):
-        if rank(everything - dropped - {i}) == whole:
-            dropped.add(i)
-    names = [c.name for c in symbols.written.system.constraints]
-    return MethodReply(sorted(names[i] for i in dropped))
+    return Reply(without_loss(symbols.written, ranks))

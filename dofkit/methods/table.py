@@ -33,21 +33,20 @@ class Use:
 
 @dataclass(frozen=True)
 class Method:
-    """One way to answer: in one line; by question; what it cannot answer; its best verdict; the engines it may ask."""
+    """One way to answer: by question; what it cannot answer; its best verdict; the engines it may ask."""
 
-    summary: str
     uses: Mapping[Question, Use]
     cannot: str
     best: Verdict
     engines: Engines = frozenset()
 
 
-def function_of(method: MethodName, question: Question) -> Callable[..., MethodReply]:
+def function_of(method: MethodName, question: Question) -> Callable[..., Reply]:
     """Return the function of a method's module for a question of its row: (scene, knobs), for equivalence the answer.
 
     The module is imported where it is first asked for: some need SymPy or numpy.
     """
-    function: Callable[..., MethodReply] = getattr(import_module(f"dofkit.methods.{method}"), question)
+    function: Callable[..., Reply] = getattr(import_module(f"dofkit.methods.{method}"), question)
     return function
 
 
@@ -55,7 +54,6 @@ _BY_BLOCKS = "O(n^3) at random points, for each part that shares no coordinate w
 
 METHODS: Mapping[MethodName, Method] = {
     "auto": Method(
-        "the cheapest sound way for each part: graph, field and balls that check each other, and proofs",
         {
             "dof": Use("everything that it does not call undecided", _BY_BLOCKS + "; the graph alone where it decides"),
             "integrability": Use(
@@ -71,7 +69,6 @@ METHODS: Mapping[MethodName, Method] = {
         BOTH,
     ),
     "count": Method(
-        "the textbook count f = N d - k, closedness for integrability, texts for equivalence",
         {
             "dof": Use(
                 "independent, regular holonomic equations without differential constraints",
@@ -89,7 +86,6 @@ METHODS: Mapping[MethodName, Method] = {
         "proved",
     ),
     "graph": Method(
-        "generic counts of links and joints: pebble games, or ranks at random positions",
         {
             "dof": Use("links and joints whose geometry is in general position", "almost O(n) for links in the plane"),
             "integrability": Use("links and joints, which are holonomic", "O(m)"),
@@ -100,7 +96,6 @@ METHODS: Mapping[MethodName, Method] = {
         "proved",
     ),
     "field": Method(
-        "exact arithmetic at random points modulo random primes",
         {
             "dof": Use("zero, and so dependence, with a chance of an error below 10^-15 a point", _BY_BLOCKS),
             "integrability": Use(
@@ -119,7 +114,6 @@ METHODS: Mapping[MethodName, Method] = {
         FIELD,
     ),
     "balls": Method(
-        "interval arithmetic at real points that are certified",
         {
             "dof": Use("independence and full rank, which are proofs", "O(n^3) at real points, in 256 bits"),
             "integrability": Use("non-holonomy, which is a proof", "O(n^3 k) in 256 bits"),
@@ -132,7 +126,6 @@ METHODS: Mapping[MethodName, Method] = {
         BALLS,
     ),
     "exact": Method(
-        "the Jacobian in rational numbers at the reference configuration, or at one rational point",
         {
             "dof": Use(
                 "velocities at the reference configuration; the freedom where all equations are independent there",
@@ -146,8 +139,6 @@ METHODS: Mapping[MethodName, Method] = {
         "proved",
     ),
     "numeric": Method(
-        "floating point: singular values above a tolerance, at the reference configuration or at one "
-        "found by Newton's method",
         {
             "dof": Use("velocities at a configuration, where a clear gap separates the singular values", "O(n^3)"),
             "integrability": Use("nothing for sure: small is taken for 0", "O(n^3 k) at a few points"),
@@ -158,7 +149,6 @@ METHODS: Mapping[MethodName, Method] = {
         "numeric",
     ),
     "symbolic": Method(
-        "SymPy as one would use it: Jacobian().rank(), wedge products, simplify",
         {
             "dof": Use("matrices whose zeros SymPy sees, away from the constraints' own set", "grows exponentially"),
             "integrability": Use("what SymPy simplifies to 0 for one system of forms", "grows exponentially in k"),
@@ -184,19 +174,33 @@ class Knobs:
 
 
 @dataclass(frozen=True)
-class MethodReply:
-    """The answer of a method to a question; ``value`` is None where it gives none, with the reason.
+class Reply:
+    """The answer to one question about a scene.
 
-    ``cannot``: it never answers such a question, or one about such a scene. ``verdict``: how certain the value is by
-    the method's own argument; of a mapping of labels, how certain those are that are true.
+    Attributes
+    ----------
+    value
+        For ``dof`` a number (-1 if the constraints contradict each other); for ``integrability`` a mapping from each
+        constraint to whether it is holonomic in the system (None: undecided); for ``redundancy`` the names of a maximal
+        redundant set, in the scene's order; for ``equivalence`` whether the two are equivalent. None: undecided.
+    verdict
+        How certain the value is; of a method on its own, by its own argument, and of labels, those that are true.
+    reason
+        Why there is no value.
+    cannot
+        Whether a method never answers such a question, or one about such a scene.
     """
 
     value: Any | None
+    verdict: Verdict = "undecided"
     reason: str = ""
     cannot: bool = False
-    verdict: Verdict = "undecided"
 
 
-def cannot(reason: str) -> MethodReply:
+#: The freedom of constraints that contradict each other.
+CONTRADICTORY = -1
+
+
+def cannot(reason: str) -> Reply:
     """Return a reply without a value."""
-    return MethodReply(None, reason, cannot=True)
+    return Reply(None, reason=reason, cannot=True)

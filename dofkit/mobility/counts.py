@@ -214,7 +214,6 @@ class CountedFacts:
     dof: int | None
     consistent: bool | None
     hidden: int
-    redundant_rows: int
     entries: Sequence[ConstraintEntry]
 
 

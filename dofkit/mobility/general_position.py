@@ -16,6 +16,7 @@ from __future__ import annotations
 import random
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import combinations
 
 from dofkit.base.deadline import check
 from dofkit.base.errors import NoValueError
@@ -27,7 +28,7 @@ from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.renaming import coordinates_in
 from dofkit.expressions.tree import Expr
-from dofkit.mobility.graph.linkage import linkage, redundant_links
+from dofkit.mobility.graph.linkage import linkage
 from dofkit.mobility.placement import Placement, general_placement, rows_of
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, Row
@@ -37,6 +38,7 @@ from dofkit.system import System
 
 #: Random points that are tried.
 DRAWS = 40
+Pair = tuple[str, str]
 DIFFERENTIAL = "differential constraints have no general position, so no generic count is given"
 ANGLES = "equations use the Euler angles of spatial bodies, which have no general position when joints are present"
 NOWHERE = "the equations have no value at the random positions that were tried"
@@ -55,21 +57,20 @@ def in_general_position(system: System, rows: Sequence[Row], setting: Setting) -
     """Return the rank of the finite relations ``rows`` with all given geometry random."""
     if any(not isinstance(row.piece, Finite) for row in rows):
         return General(None, why=DIFFERENTIAL)
+    pairs = linked_particles(system) if "cheapest" in setting.reductions else None
+    if pairs is None:
+        return _of_rows(system, rows, setting)
+    rank = linkage([pair for _, pair in pairs], system.dimension).rank
+    return General(rank, "proved" if system.dimension < 3 else "probable")
+
+
+def linked_particles(system: System) -> list[tuple[int, Pair]] | None:
+    """Return the ends of every link, with its constraint; None where not only links join particles."""
     particles = set(system.particles)
-    by_graph = "cheapest" in setting.reductions
-    if by_graph and all(c.facts.bars and particles.issuperset(c.members) for c in system.connections):
-        return _of_links(system)
-    return _of_rows(system, rows, setting)
-
-
-def _of_links(system: System) -> General:
-    """Rigid links between particles, by their graph."""
-    pairs = []
-    for c in system.connections:
-        names = [point.carrier for point in c.points]
-        pairs += [(a, b) for i, a in enumerate(names) for b in names[i + 1 :]]
-    verdict: Verdict = "proved" if system.dimension < 3 else "probable"
-    return General(len(pairs) - len(redundant_links(pairs, system.dimension)), verdict)
+    if not all(c.facts.bars and particles.issuperset(c.members) for c in system.connections):
+        return None
+    ends = ((c.constraint, [point.carrier for point in c.points]) for c in system.connections)
+    return [(constraint, pair) for constraint, names in ends for pair in combinations(names, 2)]
 
 
 def _of_rows(system: System, finite: Sequence[Row], setting: Setting) -> General:
@@ -151,7 +152,6 @@ def _slopes(system: System, ring: Ring, nodes: Sequence[int], point: FieldPoint)
 
 # Blocks that are graphs of links
 
-Pair = tuple[str, str]
 METHOD = "graph of rigid links"
 
 
@@ -161,7 +161,7 @@ def framework_answer(block: Block, setting: Setting) -> Answer | None:
     if pairs is None:
         return None
     framework = linkage(pairs, setting.dimension)
-    proof = framework.proof("redundant")
+    proof = framework.proof
     p = prime_for(1, (), 0)
     matrix = _rows(pairs, block.coordinates, setting, p)
     dependent = set(framework.redundant_places)
@@ -188,18 +188,15 @@ def unprescribed_links(system: System) -> list[tuple[int, Pair]] | None:
     """
     if system.reference is not None or system.tolerance is not None or not system.constraints:
         return None
-    particles = frozenset(system.particles)
-    relations = sum(len(c.relations) for c in system.constraints)
+    particles, links = frozenset(system.particles), system.links
     free = frozenset(ex.parameter(p) for p in system.generic) - system.pose.keys()
-    if relations != len(system.links) or any(a == b or not {a, b} <= particles for _, a, b in system.links):
+    relations = [r for c in system.constraints for r in c.relations]
+    lengths = [frozenset(s for s in r.expr.symbols if s.args[0] != "coordinate") for r in relations]
+    left_out = all(r.sense == "=" and len(of) == 1 and of <= free for r, of in zip(relations, lengths, strict=True))
+    if not left_out or not len(set(lengths)) == len(relations) == len(links):
         return None
-    lengths = [s for c in system.constraints for r in c.relations if r.sense == "=" for s in r.expr.symbols & free]
-    if not len(lengths) == len(set(lengths)) == relations:
-        return None
-    parameters = {
-        s for c in system.constraints for r in c.relations for s in r.expr.symbols if s.args[0] != "coordinate"
-    }
-    return [(i, (a, b)) for i, a, b in system.links] if parameters == set(lengths) else None
+    joined = all(a != b and {a, b} <= particles for _, a, b in links)
+    return [(i, (a, b)) for i, a, b in links] if joined else None
 
 
 def _pairs(block: Block, setting: Setting) -> list[Pair] | None:

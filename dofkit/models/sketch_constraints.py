@@ -67,18 +67,12 @@ class Round(NamedTuple):
     ends: tuple[SketchPoint, SketchPoint] | None = None
 
 
-class Cubic(NamedTuple):
-    """A cubic curve: its tangents at its two ends."""
-
-    tangents: tuple[Arrow, Arrow]
-
-
 class SketchMentions(NamedTuple):
     """What a constraint of a sketch refers to: points, lines and curves, its number and its two choices."""
 
     points: tuple[SketchPoint, ...]
     lines: tuple[Arrow, ...]
-    curves: tuple[Round | Cubic, ...]
+    curves: tuple[Round, ...]
     value: float
     other: bool
     other2: bool
@@ -88,36 +82,25 @@ class SketchMentions(NamedTuple):
         """The first line."""
         return self.lines[0]
 
-    @property
-    def rounds(self) -> tuple[Round, ...]:
-        """Its circles and arcs."""
-        return tuple(curve for curve in self.curves if isinstance(curve, Round))
-
     def arms(self) -> tuple[Arrow, ...]:
         """Return the vector from the start of each line to each point, in pairs."""
         return tuple(Arrow(line.start, point) for line, point in zip(self.lines, self.points, strict=False))
 
-    def directions(self) -> tuple[Arrow, ...]:
-        """Return the directions where its curves meet: the radius of an arc, the tangent of a cubic."""
-        directions = []
-        for curve, end in zip(self.curves, (self.other, self.other2), strict=False):
-            if isinstance(curve, Cubic):
-                directions.append(curve.tangents[end])
-            elif curve.ends is not None:
-                directions.append(Arrow(curve.centre, curve.ends[end]))
-        return tuple(directions)
+    def radii(self) -> tuple[Arrow, ...]:
+        """Return the radii to the ends at which its arcs meet something; a circle has none."""
+        ends = zip(self.curves, (self.other, self.other2), strict=False)
+        return tuple(Arrow(curve.centre, curve.ends[end]) for curve, end in ends if curve.ends is not None)
 
 
 class SketchKind(NamedTuple):
     """A kind of constraint: its name in SolveSpace, what it needs, and the function that writes it.
 
-    ``needs``: numbers of points, lines and curves, with alternatives; ``curves``: the types that the curves may have.
+    ``needs``: numbers of points, lines and curves, with alternatives.
     """
 
     name: str
     needs: tuple[tuple[int, int, int], ...]
     writes: Callable[[SketchMentions], Iterable[Written]]
-    curves: tuple[type, ...] = (Round,)
 
 
 def cross(a: Arrow, b: Arrow) -> str:
@@ -227,7 +210,7 @@ def _midpoint(m: SketchMentions) -> Iterable[Written]:
 
 
 def _diameter(m: SketchMentions) -> Iterable[Written]:
-    (curve,) = m.rounds
+    (curve,) = m.curves
     if curve.ends is not None:
         yield _link(curve.centre, curve.ends[0], m.value / 2)
     else:
@@ -235,16 +218,16 @@ def _diameter(m: SketchMentions) -> Iterable[Written]:
 
 
 def _tangent_line(m: SketchMentions) -> Iterable[Written]:
-    """Yield a line is across the radius at the end of an arc, and along the tangent at the end of a cubic."""
-    for direction in m.directions():
-        yield f"{(dot if m.rounds else cross)(direction, m.line)} = 0"
+    """Yield a line is across the radius at the end of an arc."""
+    for radius in m.radii():
+        yield f"{dot(radius, m.line)} = 0"
 
 
-def _tangent_curves(m: SketchMentions) -> Iterable[Written]:
-    """Radii of arcs to where they meet are parallel, and so are tangents of cubics; one of each are perpendicular."""
-    directions = m.directions()
-    if len(directions) == len(m.curves):
-        yield f"{(dot if len(m.rounds) == 1 else cross)(*directions)} = 0"
+def _tangent_arcs(m: SketchMentions) -> Iterable[Written]:
+    """Yield the radii of two arcs to where they meet are parallel."""
+    radii = m.radii()
+    if len(radii) == len(m.curves):
+        yield f"{cross(*radii)} = 0"
 
 
 #: The kinds that are read, by their numbers in a file.
@@ -270,18 +253,18 @@ KINDS: Mapping[int, SketchKind] = {
     81: SketchKind("vertical", ((2, 0, 0), (0, 1, 0)), _level(0)),
     90: SketchKind("diameter", ((0, 0, 1),), _diameter),
     100: SketchKind("pt-on-circle", ((1, 0, 1),),
-                    lambda m: [f"{Arrow(m.rounds[0].centre, m.points[0]).squared} = {m.rounds[0].squared}"]),
+                    lambda m: [f"{Arrow(m.curves[0].centre, m.points[0]).squared} = {m.curves[0].squared}"]),
     120: SketchKind("angle", ((0, 2, 0),), lambda m: [at_angle(m.lines[0], m.lines[1], m.value)]),
     121: SketchKind("parallel", ((0, 2, 0),), lambda m: [f"{cross(*m.lines)} = 0"]),
     122: SketchKind("perpendicular", ((0, 2, 0),), lambda m: [f"{dot(*m.lines)} = 0"]),
     123: SketchKind("arc-line-tangent", ((0, 1, 1),), _tangent_line),
-    124: SketchKind("cubic-line-tangent", ((0, 1, 1),), _tangent_line, (Cubic,)),
-    125: SketchKind("curve-curve-tangent", ((0, 0, 2),), _tangent_curves, (Round, Cubic)),
-    130: SketchKind("eq-radius", ((0, 0, 2),), lambda m: [f"{m.rounds[0].squared} = {m.rounds[1].squared}"]),
+    125: SketchKind("curve-curve-tangent", ((0, 0, 2),), _tangent_arcs),
+    130: SketchKind("eq-radius", ((0, 0, 2),), lambda m: [f"{m.curves[0].squared} = {m.curves[1].squared}"]),
     200: SketchKind("lock-where-dragged", ((1, 0, 0),), lambda m: [{"type": "fixed", "point": m.points[0].written}]),
 }  # fmt: skip
-#: The kinds that are not read: those of space, and the length of an arc.
+#: The kinds that are not read: those of space, of cubics, and of the length of an arc.
 NOT_READ: Mapping[int, str] = {
     31: "pt-plane-distance", 33: "pt-face-distance", 34: "proj-pt-pt-distance", 41: "pt-in-plane", 43: "pt-on-face",
     55: "eq-line-len-arc-len", 60: "symmetric", 110: "same-orientation",
+    124: "cubic-line-tangent",
 }  # fmt: skip

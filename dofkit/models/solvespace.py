@@ -19,7 +19,7 @@ from dofkit.base.errors import Fault, SceneError
 from dofkit.base.wording import many
 from dofkit.expressions.text.characters import MAX_CHARACTERS
 from dofkit.models.model_document import COARSEST, FINEST, ModelDocument, ModelFile, SceneDraft, figures, listed, number
-from dofkit.models.sketch_constraints import KINDS, NOT_READ, Arrow, Cubic, Round, SketchMentions, SketchPoint, Written
+from dofkit.models.sketch_constraints import KINDS, NOT_READ, Arrow, Round, SketchMentions, SketchPoint, Written
 
 #: A file of more records is refused.
 MOST_RECORDS = 400_000
@@ -29,8 +29,6 @@ DERIVED = 0x80000000
 #: Types of entities.
 POINT_2D, POINTS, LINE, CIRCLE, ARC = 2001, range(2000, 3000), 11000, 13000, 14000
 CUBICS, RECTANGLES = (12000, 12001), (15000, 16000)
-#: The least and the largest number of points of a cubic.
-_CUBIC_POINTS = 4, 12
 #: Types of groups that are drawn, in space and in a workplane, and the handle of the group of the axes.
 DRAWN_GROUPS, REFERENCES = (5000, 5001), 1
 #: Names of the points of an entity.
@@ -69,13 +67,6 @@ class Record:
     def numbers(self, key: str, components: str) -> list[float]:
         """Return the components of a vector or a quaternion, named by a list such as ``x y z``."""
         return [self.number(f"{key}.{component}") for component in components.split()]
-
-    def corners(self) -> int:
-        """Return how many points define the entity; 0 where it is not read."""
-        kind, (least, most) = self.whole("type"), _CUBIC_POINTS
-        if kind == CUBICS[0]:
-            return min(max(least, least + self.whole("extraPoints")), most)
-        return 4 if kind in RECTANGLES else len(_ROLES.get(kind, ()))
 
     def fault(self, message: str, hint: str) -> Fault:
         """Return a fault in the line of this record."""
@@ -182,7 +173,7 @@ class _SketchScene:
     plane: int
     points: dict[int, SketchPoint] = field(default_factory=dict)
     lines: dict[int, Arrow] = field(default_factory=dict)
-    curves: dict[int, Round | Cubic] = field(default_factory=dict)
+    curves: dict[int, Round] = field(default_factory=dict)
     outside: int = 0
 
     def __post_init__(self) -> None:
@@ -202,10 +193,11 @@ class _SketchScene:
             if record.whole("type") in POINTS:
                 self._point(handle, record)
         for handle, record in self.file.entities.items():
-            points = [self.points.get(record.handle(f"point[{k}].v")) for k in range(record.corners())]
-            corners = [point for point in points if point is not None]
-            if corners and len(corners) == len(points):
-                self._drawn(handle, record, corners)
+            count = len(_ROLES.get(record.whole("type"), ()))
+            points = [self.points.get(record.handle(f"point[{k}].v")) for k in range(count)]
+            ends = [point for point in points if point is not None]
+            if ends and len(ends) == count:
+                self._drawn(handle, record, ends)
         for record in self.file.constraints.values():
             if record.whole("type") != _COMMENT:
                 self._constraint(record)
@@ -229,42 +221,22 @@ class _SketchScene:
             self.outside += drawn
 
     def _drawn(self, handle: int, record: Record, ends: list[SketchPoint]) -> None:
-        """Add a line, circle, arc, cubic or text; the ends of an arc have the same distance from its centre."""
+        """Add a line, circle or arc; the ends of an arc have the same distance from its centre."""
         kind = record.whole("type")
         if kind == LINE:
             self.lines[handle] = Arrow(ends[0], ends[1])
-        elif kind in CUBICS:
-            self.curves[handle] = Cubic((Arrow(ends[1], ends[0]), Arrow(ends[-2], ends[-1])))
-        elif kind in RECTANGLES:
-            self._rectangle(handle, record, ends)
         elif kind == ARC:
             first, second = Arrow(ends[0], ends[1]), Arrow(ends[0], ends[2])
             self.curves[handle] = Round(ends[0], first.squared, first.length, (ends[1], ends[2]))
             if is_drawn(handle) and not self._is_whole_circle(record):
-                self._equation(f"{drawn_name(handle)}-arc", record, f"{first.squared} = {second.squared}")
+                text = f"{first.squared} = {second.squared}"
+                self.draft.constraint(f"{drawn_name(handle)}-arc", "equation", record.line, text=text)
         else:
             distance = self.file.entities.get(record.handle("distance.v"))
             radius = f"radius_{drawn_name(handle)}"
             if distance is not None and is_drawn(handle):
                 self.draft.coordinate(radius, distance.number("actDistance"))
                 self.curves[handle] = Round(ends[0], f"{radius}^2", radius)
-
-    def _rectangle(self, handle: int, record: Record, ends: list[SketchPoint]) -> None:
-        """Corners a, o, b, c of a text or an image: b - o = c - a = k (a - o), turned right by a right angle."""
-        a, o, b, c = ends
-        up, over = Arrow(o, a), Arrow(o, b)
-        (x, y), (u, v) = up.drawn, over.drawn
-        ratio = figures((u * y - v * x) / ((x * x + y * y) or 1.0))
-        for name, side in (("bottom", over), ("top", Arrow(a, c))):
-            texts = (
-                f"{side.components[0]} = {ratio}*{up.components[1]}",
-                f"{side.components[1]} = -({ratio})*{up.components[0]}",
-            )
-            for axis, text in zip("uv", texts, strict=True):
-                self._equation(f"{drawn_name(handle)}-{name}-{axis}", record, text)
-
-    def _equation(self, name: str, record: Record, text: str) -> None:
-        self.draft.constraint(name, "equation", record.line, text=text)
 
     def _is_whole_circle(self, arc: Record) -> bool:
         """Return whether the ends of an arc are joined by a constraint of its group, so that it is a circle."""
@@ -313,8 +285,7 @@ class _SketchScene:
         mentions = self._mentions(record)
         counts = len(mentions.points), len(mentions.lines), len(mentions.curves)
         named = sum(bool(record.handle(f"{key}.v")) for key in _MENTIONS)
-        allowed = all(isinstance(curve, kind.curves) for curve in mentions.curves)
-        if counts not in kind.needs or sum(counts) != named or not allowed:
+        if counts not in kind.needs or sum(counts) != named:
             raise UnreadError("it refers to something outside the plane that is read")
         written = list(kind.writes(mentions))
         if not written:
@@ -343,8 +314,11 @@ class _SketchScene:
                 "the order of the groups: all constraints are enforced at once, whereas SolveSpace keeps earlier "
                 "groups as they were solved"
             )
-        if any(is_drawn(h) and e.whole("type") in CUBICS for h, e in self.file.entities.items()):
-            self.draft.leave_out("cubic curves: only their points and the tangents at their ends are read")
+        drawn = {e.whole("type") for h, e in self.file.entities.items() if is_drawn(h)}
+        if not drawn.isdisjoint(CUBICS):
+            self.draft.leave_out("cubic curves: only their points are read")
+        if not drawn.isdisjoint(RECTANGLES):
+            self.draft.leave_out("texts and images: their corners keep no shape", binding=True)
         groups = [g.values.get("name", "") for g in self.file.groups.values() if g.whole("type") not in DRAWN_GROUPS]
         if groups:
             self.draft.leave_out(f"{listed(groups)}: groups that are derived from sketches")

@@ -6,7 +6,6 @@ its centre of mass. A loop has to be closed there.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
@@ -62,22 +61,18 @@ def read(file: ModelFile) -> ModelDocument:
     places = [at.at for at in poses.pose.values()]
     size = float(max((max(c) - min(c) for c in zip(*places, strict=True)), default=1.0))
     tolerance = tolerance_of(_written(robot), size)
-    drawn, faults = drawn_joints(robot, poses, size, tolerance)
+    faults = [*faults_of_loops(robot, poses, size, tolerance)]
     if faults:
         raise SceneError(tuple(faults), file.name)
-    return _UrdfScene(robot, poses, drawn, SceneDraft(robot.name or file.name), file.limits).document(tolerance)
+    return _UrdfScene(robot, poses, SceneDraft(robot.name or file.name), file.limits).document(tolerance)
 
 
 @dataclass
 class _UrdfScene:
-    """The scene while it is written: ``stands`` has the body of each link, ``names`` the constraint of each joint.
-
-    ``drawn``: the joint values of the reference configuration.
-    """
+    """The scene while it is written: ``stands`` has the body of each link, ``names`` the constraint of each joint."""
 
     robot: Robot
     poses: Poses
-    drawn: Mapping[str, float]
     draft: SceneDraft
     limits: bool
     stands: dict[str, str] = field(default_factory=dict)
@@ -109,8 +104,7 @@ class _UrdfScene:
         for loop in robot.loops:
             self._loop(loop, poses.pose)
         self._mimics()
-        ranged = [joint for joint in robot.joints if joint.range and joint.kind in SCALAR]
-        self.draft.ranges([self._range(joint) for joint in ranged], self.limits)
+        self.draft.ranges([*self._joint_ranges()], self.limits)
         self._remarks()
         loops = bool(robot.loops or poses.closing)
         return self.draft.document(tolerance, loops)
@@ -164,9 +158,15 @@ class _UrdfScene:
             fields = relation(JointSum(((self.names[joint.name], 1.0),)), right, [0.0, joint.mimic.factor])
             self.draft.constraint(f"{joint.name} mimics {joint.mimic.joint}", "coupling", joint.mimic.line, **fields)
 
-    def _range(self, joint: RobotJoint) -> JointRange:
-        drawn, turns = self.drawn.get(joint.name, 0.0), joint.kind != "prismatic"
-        return JointRange(self.names[joint.name], turns, drawn, joint.range or (), joint.line)
+    def _joint_ranges(self) -> Iterator[JointRange]:
+        """Yield the ranges of the joints whose value in the reference configuration is known."""
+        drawn, closing = self.robot.drawn(), {joint.name for joint in self.poses.closing}
+        for joint in self.robot.joints:
+            if joint.range and joint.kind in SCALAR and joint.name in closing:
+                self.draft.leave_out(f"the range of {joint.name}: it closes a loop")
+            elif joint.range and joint.kind in SCALAR:
+                turns, value = joint.kind != "prismatic", drawn.get(joint.name, 0.0)
+                yield JointRange(self.names[joint.name], turns, value, joint.range, joint.line)
 
     def _remarks(self) -> None:
         if any(body.get("mass") for body in self.draft.bodies):
@@ -195,8 +195,8 @@ class Closure(NamedTuple):
     turned: bool
     line: int
 
-    def moved(self, size: float, tolerance: float) -> float | None:
-        """Return the joint value in the reference configuration, 0 for several; None where the ends do not meet.
+    def is_closed(self, size: float, tolerance: float) -> bool:
+        """Return whether the ends meet in the reference configuration.
 
         The drawing is right to within ``tolerance``, a fraction of its ``size``: lengths and angles to the last digit
         that is written, and places to what such angles move them by.
@@ -207,11 +207,7 @@ class Closure(NamedTuple):
         along = float(arm @ n)
         off = abs(along) if self.kind == "planar" else float(np.linalg.norm(arm - n * along * (self.kind in _SLIDING)))
         digit = SLACK * max(tolerance * size, FINEST)
-        if off > digit * max(size, 1.0) or self._twist(turn, n) > digit:
-            return None
-        if self.kind in _TURNING[:2]:
-            return _angle_about(turn, n)
-        return along if self.kind == "prismatic" else 0.0
+        return off <= digit * max(size, 1.0) and self._twist(turn, n) <= digit
 
     def _twist(self, turn: Array, axis: Array) -> float:
         """Return the size of the relative rotation that the joint does not allow."""
@@ -234,51 +230,27 @@ def closures(robot: Robot, poses: Poses) -> Iterator[Closure]:
             yield Closure(loop.name, loop.kind, *ends, loop.axis, turned, loop.line)
 
 
-def drawn_joints(robot: Robot, poses: Poses, size: float, tolerance: float) -> tuple[dict[str, float], list[Fault]]:
-    """Return the joint values of the reference configuration that are not 0, and the faults there.
-
-    The faults are links that no root carries, and loops that are open.
-    """
+def faults_of_loops(robot: Robot, poses: Poses, size: float, tolerance: float) -> Iterator[Fault]:
+    """Yield the faults of links that no root carries, of loops that are open, and of what mimics within a loop."""
     adrift = [name for name in robot.links if name not in poses.pose]
     if adrift:
         detail = f"the link '{adrift[0]}' is not connected to a root link: the joints above it form a cycle"
         hint = "let the joints lead from one root to every link"
-        return {}, [Fault(detail, line=robot.links[adrift[0]].line, column=1, hint=hint)]
-    drawn, faults = robot.drawn(), list[Fault]()
+        yield Fault(detail, line=robot.links[adrift[0]].line, column=1, hint=hint)
+        return
     for closure in closures(robot, poses):
-        moved = closure.moved(size, tolerance)
-        if moved is None:
+        if not closure.is_closed(size, tolerance):
             places = " and ".join(f"({', '.join(map(str, _short(f.at)))})" for f in (closure.first, closure.second))
             detail = f"its ends are at {places}, or in orientations that a {closure.kind} joint does not allow"
             message = f"the loop that '{closure.name}' closes is open where every joint is at 0: {detail}"
-            faults.append(Fault(message, line=closure.line, column=1, hint="change the origins so that its ends meet"))
-        else:
-            drawn[closure.name] = moved
-    return drawn, faults or [*_open_mimics(robot, poses, drawn, SLACK * max(tolerance * size, FINEST))]
+            yield Fault(message, line=closure.line, column=1, hint="change the origins so that its ends meet")
+    closing = {joint.name for joint in poses.closing}
+    for joint in robot.joints:
+        if joint.mimic is not None and not closing.isdisjoint((joint.name, joint.mimic.joint)):
+            message = f"'{joint.name}' mimics '{joint.mimic.joint}', and one of them closes a loop"
+            hint = "let another joint of the loop mimic, which the tree carries"
+            yield Fault(message, line=joint.mimic.line, column=1, hint=hint)
 
 
 def _short(values: Array) -> list[float | int]:
     return [float(f"{v:.6g}") for v in vector(values)]
-
-
-def _open_mimics(robot: Robot, poses: Poses, drawn: Mapping[str, float], gap: float) -> Iterator[Fault]:
-    """Yield a fault for each joint that closes a loop where what it mimics, or what mimics it, does not allow it."""
-    closing = {joint.name for joint in poses.closing}
-    for joint in robot.joints:
-        mimic = joint.mimic
-        if mimic is None or joint.kind == FIXED or closing.isdisjoint((joint.name, mimic.joint)):
-            continue
-        here, there = (drawn.get(name, 0.0) for name in (joint.name, mimic.joint))
-        wanted = mimic.factor * there + mimic.offset
-        if abs(here - wanted) > gap * max(1.0, abs(wanted)):
-            message = (
-                f"'{joint.name}' is at {here:.6g} in the reference configuration, but what it mimics puts it at "
-                f"{wanted:.6g}"
-            )
-            yield Fault(message, line=mimic.line, column=1, hint="change the origins, or the offset")
-
-
-def _angle_about(turn: Array, axis: Array) -> float:
-    """Return the angle of a rotation about the axis, right-handed."""
-    sine = float(axis @ np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]])) / 2
-    return math.atan2(sine, (float(np.trace(turn)) - 1) / 2)

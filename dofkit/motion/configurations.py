@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from itertools import islice
 
 import numpy as np
 
@@ -17,7 +16,7 @@ from dofkit.exact.points.balls import precise_for
 from dofkit.exact.points.real_search import RealSearch
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.motion.continuation import STRAIGHT, Follower, Reached, Ways
+from dofkit.motion.continuation import STILL, Follower, Ways, trail
 from dofkit.motion.poses import Array, Pose, PoseRelations, number
 from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian, Reduced
@@ -28,7 +27,6 @@ from dofkit.system import System
 
 #: Random configurations from which one is looked for where there is no reference.
 STARTS = 24
-STILL = 1e-6
 
 
 class NoMotionError(DofkitError):
@@ -180,33 +178,12 @@ class MotionSampler:
         self, follower: Follower, ways: Ways, steps: int, step: float, both: bool = True
     ) -> list[dict[str, float]]:
         ahead, back = ways
-        forward, closed = self._way(follower, ahead, steps, step)
-        backward = self._way(follower, back, steps, step)[0] if both and not closed else []
+        forward, closed = trail(follower, self.start, ahead, steps, step)
+        backward = trail(follower, self.start, back, steps, step)[0] if both and not closed else []
         if steps and not forward and not backward:
             raise NoMotionError("no motion was followed that leaves the first configuration")
         middle = self.values(self.start, {})
         return [*reversed(self._values_along(backward, middle)), middle, *self._values_along(forward, middle)]
-
-    def _way(self, follower: Follower, start: Reached | None, steps: int, step: float) -> tuple[list[Pose], bool]:
-        """The poses of one way, and whether it closes up."""
-        poses: list[Pose] = []
-        if start is None:
-            return poses, False
-        closing = follower.freedom == 1 and follower.clock is None and not self.relations.forms
-        for reached in islice(follower.path(start, step), steps):
-            if self._stopped(reached.pose):
-                break
-            poses.append(reached.pose)
-            if closing and len(poses) > 2 and float(reached.direction @ start.direction) > STRAIGHT:
-                back = self.relations.same(self.start, reached.pose)
-                if float(np.linalg.norm(self.relations.between(reached.pose, back))) < 0.75 * step:
-                    return [*poses[:-1], back], True
-        return poses, False
-
-    def _stopped(self, pose: Pose) -> bool:
-        """Return whether an inequality is violated that was satisfied at the beginning."""
-        pairs = zip(self.relations.margins(self.start), self.relations.margins(pose), strict=False)
-        return any(now < -STILL <= before for before, now in pairs)
 
     def _values_along(self, poses: Sequence[Pose], last: dict[str, float]) -> list[dict[str, float]]:
         configurations = []

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import islice
 
 import numpy as np
 
@@ -22,6 +23,8 @@ HELD, ROUNDS, EASY = 1e-12, 60, 8
 SMALL = 1e-7
 #: What a correction may add to a step, the least cosine between steps, and the least part of a step that is tried.
 SLACK, STRAIGHT, LEAST = 0.3, 0.9, 2.0**-12
+#: What a value is below 0 by that does not count.
+STILL = 1e-6
 #: The longest chord on which forms are integrated.
 CHORD = 1 / 100
 #: Directions in which a singular configuration is left, and how much of a step the first one is.
@@ -231,3 +234,25 @@ class Follower:
         opposite = self._reached(pose, -self.relations.between(pose, first.pose))
         last = min([*poses, *([opposite] if opposite else [])], key=lambda r: float(r.direction @ goal))
         return first if first.direction @ goal >= 0 else None, last if last.direction @ goal < 0 else None
+
+
+def trail(follower: Follower, start: Pose, first: Reached | None, steps: int, step: float) -> tuple[list[Pose], bool]:
+    """Return the poses of one way from a start, and whether it closes up.
+
+    It ends where an inequality is violated that was satisfied at the start.
+    """
+    poses: list[Pose] = []
+    if first is None:
+        return poses, False
+    closing = follower.freedom == 1 and follower.clock is None and not follower.relations.forms
+    margins = follower.relations.margins(start)
+    for reached in islice(follower.path(first, step), steps):
+        pairs = zip(margins, follower.relations.margins(reached.pose), strict=False)
+        if any(now < -STILL <= before for before, now in pairs):
+            break
+        poses.append(reached.pose)
+        if closing and len(poses) > 2 and float(reached.direction @ first.direction) > STRAIGHT:
+            back = follower.relations.same(start, reached.pose)
+            if float(np.linalg.norm(follower.relations.between(reached.pose, back))) < 0.75 * step:
+                return [*poses[:-1], back], True
+    return poses, False

@@ -8,8 +8,9 @@ integral keeps its value.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from itertools import combinations
 
 import numpy as np
@@ -21,8 +22,9 @@ from dofkit.system import System
 
 #: Corners of a loop, the loops that are followed at most, and the steps of differences.
 CORNERS, MOST_LOOPS, OUTER, INNER = 72, 2, 1e-3, 1e-4
-#: The least part of the largest column that makes a column one of those that are moved.
-LEAST = 0.2
+#: The least velocity of a column that makes it one of those that are moved.
+LEAST = 1e-4
+Field = Callable[[Array], Array]
 ONE_FIELD = "a loop needs two free velocities: with one, every motion runs back along itself"
 
 
@@ -54,7 +56,9 @@ class LoopSampler:
         basis = self.follower.null_space(self.start)
         if len(basis) != self.follower.freedom:
             raise NoMotionError("a loop needs a regular configuration")
-        self.chosen = _independent_columns(basis, len(self.relations.plain))
+        plain, columns = len(self.relations.plain), range(self.relations.columns)
+        order = [*by_size(basis, columns[:plain]), *by_size(basis, columns[plain:])]
+        self.chosen = sorted(by_pivots(basis, order)[1])
         pairs = combinations([c for c in self.chosen if c < len(self.relations.plain)], 2)
         size = {pair: float(np.linalg.norm(self.bracket(pair, self.start))) for pair in pairs}
         self.pairs = sorted(size, key=lambda pair: -round(size[pair], 6))[:MOST_LOOPS]
@@ -65,8 +69,7 @@ class LoopSampler:
 
     def fields(self, pose: Pose) -> Array:
         """Return the fields X_k at a pose, as rows."""
-        basis = self.follower.null_space(pose)[: len(self.chosen)]
-        return np.asarray(np.linalg.solve(basis[:, self.chosen].T, np.eye(len(self.chosen))).T @ basis)
+        return by_pivots(self.follower.null_space(pose)[: len(self.chosen)], self.chosen)[0]
 
     def loops(self, size: float) -> list[Loop]:
         """Return a loop for each pair of chosen coordinates, as far as they can be followed, largest bracket first."""
@@ -118,32 +121,48 @@ class LoopSampler:
         return {self.columns[c]: float(units[c] * step[c]) for c in others}
 
     def bracket(self, pair: tuple[int, int], pose: Pose) -> Array:
-        """Return [X, Y] = DY X - DX Y of the fields of two columns at a pose, by differences."""
+        """Return the bracket of the fields of two columns at a pose, in the chart of steps from the pose."""
 
         def field(number: int, at: Array) -> Array:
-            """Return a field in the chart of steps from the pose."""
             moved = self.relations.moved(pose, at)
             vector = INNER * self.fields(moved)[number]
             ends = (self.relations.between(pose, self.relations.moved(moved, s * vector)) for s in (1, -1))
             return np.asarray(np.subtract(*ends) / (2 * INNER))
 
-        def along(number: int, way: Array) -> Array:
-            return (field(number, OUTER * way) - field(number, -OUTER * way)) / (2 * OUTER)
-
-        first, second = (self.chosen.index(column) for column in pair)
-        x, y = self.fields(pose)[[first, second]]
-        return along(second, x) - along(first, y)
+        first, second = (partial(field, self.chosen.index(column)) for column in pair)
+        return bracket(first, second, OUTER)(np.zeros(self.relations.columns))
 
 
-def _independent_columns(basis: Array, plain: int) -> list[int]:
-    """Return as many independent columns as there are rows: of the first ``plain`` ones where that is possible."""
-    remainder, columns = basis.copy(), []
-    for _ in range(len(basis)):
-        sizes = np.linalg.norm(remainder, axis=0)
-        column = int(np.argmax(sizes[:plain])) if plain else 0
-        if not plain or sizes[column] < LEAST * np.max(sizes):
-            column = int(np.argmax(sizes))
-        direction = remainder[:, column] / sizes[column]
-        remainder = remainder - np.outer(direction, direction @ remainder)
-        columns.append(column)
-    return sorted(columns)
+def by_pivots(basis: Array, order: Sequence[int]) -> tuple[Array, list[int]]:
+    """Return the basis reduced so that each row alone moves one column, the first possible in an order; and these."""
+    rows = basis.copy()
+    pivots: list[int] = []
+    for column in order:
+        k = len(pivots)
+        if k == len(rows):
+            break
+        best = k + int(np.argmax(np.abs(rows[k:, column])))
+        if abs(rows[best, column]) < LEAST:
+            continue
+        rows[[k, best]] = rows[[best, k]]
+        rows[k] /= rows[k, column]
+        factors = rows[:, column].copy()
+        factors[k] = 0.0
+        rows -= np.outer(factors, rows[k])
+        pivots.append(column)
+    return rows, pivots
+
+
+def by_size(basis: Array, columns: Sequence[int]) -> list[int]:
+    """Return some columns in the order of their sizes, the largest first."""
+    sizes = np.round(np.linalg.norm(basis, axis=0), 6)
+    return sorted(columns, key=lambda column: -sizes[column])
+
+
+def bracket(x: Field, y: Field, step: float) -> Field:
+    """Return [X, Y] = DY X - DX Y, by differences along both."""
+
+    def along(f: Field, q: Array, v: Array) -> Array:
+        return np.asarray((f(q + step * v) - f(q - step * v)) / (2 * step))
+
+    return lambda q: along(y, q, x(q)) - along(x, q, y(q))

@@ -157,8 +157,8 @@ class PoseRelations:
             return step
         for k, r in enumerate(self.rotations):
             if name in r.names:
-                here = _matrix(pose.turns[k]) @ _from_euler(*map(number, r.initial))
-                phi, _, _ = _euler(here, [0.0, 0.0, 0.0])
+                here = matrix_of(pose.turns[k]) @ from_euler(*map(number, r.initial))
+                phi, _, _ = euler_angles(here, [0.0, 0.0, 0.0])
                 axes = np.array([[0.0, 0.0, 1.0], [math.cos(phi), math.sin(phi), 0.0], here[:, 2]])
                 step[len(self.plain) + 3 * k :][:3] = axes[r.names.index(name)]
         return step
@@ -218,7 +218,7 @@ class PoseRelations:
         for r, q in zip(self.rotations, pose.turns, strict=True):
             initial = [number(e) for e in r.initial]
             near = [last.get(n, v) for n, v in zip(r.names, initial, strict=True)]
-            coordinates.update(zip(r.names, _euler(_matrix(q) @ _from_euler(*initial), near), strict=True))
+            coordinates.update(zip(r.names, euler_angles(matrix_of(q) @ from_euler(*initial), near), strict=True))
         if self.timed:
             coordinates["t"] = float(pose.plain[-1])
         return {n: v + 0.0 for n, v in coordinates.items()}
@@ -260,23 +260,26 @@ def _times(p: Array, q: Array) -> Array:
     return np.asarray(product / np.linalg.norm(product))
 
 
-def _matrix(q: Array) -> Array:
+def matrix_of(q: Array) -> Array:
+    """Return the rotation that a unit quaternion stands for."""
     w, v = q[0], q[1:]
     cross = np.array([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
     return np.asarray(np.eye(3) + 2 * w * cross + 2 * cross @ cross)
 
 
-def _from_euler(phi: float, theta: float, psi: float) -> Array:
-    return _about(2, phi) @ _about(0, theta) @ _about(2, psi)
+def from_euler(phi: float, theta: float, psi: float) -> Array:
+    """Return the rotation by z-x-z Euler angles."""
+    return about(2, phi) @ about(0, theta) @ about(2, psi)
 
 
-def _about(axis: int, angle: float) -> Array:
+def about(axis: int, angle: float) -> Array:
+    """Return the rotation about a coordinate axis."""
     q = np.zeros(4)
     q[0], q[1 + axis] = math.cos(angle / 2), math.sin(angle / 2)
-    return _matrix(q)
+    return matrix_of(q)
 
 
-def _euler(r: Array, last: Sequence[float]) -> list[float]:
+def euler_angles(r: Array, last: Sequence[float]) -> list[float]:
     """z-x-z Euler angles; where z stays upright phi is as it was. Full turns are added to stay near ``last``."""
     theta = math.atan2(math.hypot(r[0, 2], r[1, 2]), r[2, 2])
     if math.hypot(r[0, 2], r[1, 2]) < 1e-9:

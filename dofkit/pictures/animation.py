@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 from dofkit.pictures.files import (
+    DrawnSketch,
     ExtraMissingError,
+    Writer,
     draw_marks,
     figure_of,
-    png_of,
     require_matplotlib,
-    saved,
-    svg_of,
-    write_pdf,
 )
 from dofkit.pictures.joints import with_long_guides
 from dofkit.pictures.layout import Standpoint, page_of, standpoint_of
@@ -24,7 +23,7 @@ from dofkit.pictures.motion_clips import ClipMaker
 from dofkit.pictures.paper import Page
 from dofkit.pictures.planar_program import PlanarProgram, planar_program
 from dofkit.pictures.player import framed, page_height, page_html
-from dofkit.pictures.shapes import Clip, Shape, Sketch, Switch, fixed
+from dofkit.pictures.shapes import Clip, Shape, Switch, fixed
 from dofkit.pictures.still import staged, whole_sketch, with_report
 from dofkit.pictures.words import can_hold
 from dofkit.report import Report
@@ -36,29 +35,20 @@ NO_FFMPEG = "an mp4 needs the program ffmpeg, which is not on the path: install 
 STILL, NOT_SHOWN = "Nothing moves.", "No motion was found that could be shown."
 
 
-@dataclass(frozen=True)
-class Animation:
+@dataclass(frozen=True, repr=False)
+class Animation(DrawnSketch):
     """A moving picture; a notebook shows it with a slider and a button that plays it.
 
     ``clips`` are its motions: finite ones that were sampled, and infinitesimal ones. ``switches`` leave out
     constraints; ``program`` lets a page drag the points of a planar scene.
     """
 
-    sketch: Sketch
-    clips: tuple[Clip, ...]
+    clips: tuple[Clip, ...] = ()
     program: PlanarProgram | None = None
     switches: tuple[Switch, ...] = ()
 
-    def __repr__(self) -> str:
-        return f"Animation({self.alternative!r}, clips={[clip.name for clip in self.clips]})"
-
-    @property
-    def alternative(self) -> str:
-        """What the picture says, in words."""
-        return self.sketch.alternative
-
     def html(self) -> str:
-        """Return a page that needs no network: a slider, a button, and a choice of motions."""
+        """Return a page that needs no network, with a slider, a button, and a choice of motions."""
         return page_html(self.sketch, self.clips, self.program, self.switches)
 
     def pages(self) -> Iterator[Page]:
@@ -73,7 +63,7 @@ class Animation:
                 yield self._page(clip, number, standpoint, traced=clip.loop)
 
     @property
-    def last_page(self) -> Page:
+    def page(self) -> Page:
         """The end of the first motion, in its largest size, on paper, with the paths that lead there."""
         if not self.clips:
             return page_of(self.sketch)
@@ -90,12 +80,9 @@ class Animation:
         sketch = replace(self.sketch, answer=f"{self.sketch.answer}; {clip.text or clip.name}", shapes=drawn)
         return page_of(sketch, clip.frames[number], standpoint)
 
-    def save(self, path: str | Path) -> Path:
-        """Write it as html, gif or mp4, or its end as svg, png or pdf, by the path's ending.
-
-        Raises ArgumentError for any other ending, ExtraMissingError if matplotlib or ffmpeg is missing, OSError.
-        """
-        return saved(self, path, _WRITERS)
+    def writers(self) -> Mapping[str, Writer]:
+        """Return what writes a file of each ending: pictures of its end, pages and films."""
+        return {**super().writers(), "gif": partial(_write_gif, self), "mp4": partial(_write_mp4, self)}
 
     def _repr_html_(self) -> str:
         return framed(self.html(), page_height(self.sketch, self.clips, self.switches))
@@ -185,13 +172,3 @@ def _write_mp4(animation: Animation, path: Path) -> None:
     metadata = {"title": animation.sketch.title, "comment": animation.alternative}
     flags = ["-pix_fmt", "yuv420p", "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2"]
     _write_film(animation, path, FFMpegWriter(fps=RATE, metadata=metadata, extra_args=flags))
-
-
-_WRITERS: Mapping[str, Callable[[Animation, Path], object]] = {
-    "html": lambda animation, path: path.write_text(animation.html(), encoding="utf-8"),
-    "gif": _write_gif,
-    "mp4": _write_mp4,
-    "svg": lambda animation, path: path.write_text(svg_of(animation.last_page), encoding="utf-8"),
-    "png": lambda animation, path: path.write_bytes(png_of(animation.last_page)),
-    "pdf": lambda animation, path: write_pdf(animation.last_page, path),
-}

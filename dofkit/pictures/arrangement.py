@@ -15,22 +15,23 @@ from typing import NamedTuple
 import networkx as nx
 import numpy as np
 
-from dofkit.base.errors import DofkitError
+from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import DT, TIME, Expr, coordinate, differential, parameter, velocity
-from dofkit.motion.configurations import configurations
-from dofkit.pictures.evaluation import by_pivots, derivatives, evaluated, kernel, values_at, with_unit_rows
-from dofkit.pictures.placed_shapes import ShapePlacement
-from dofkit.pictures.shapes import AT_REST, Array, Displacement, Place, about, place
-from dofkit.system import GROUND, PARTICLE_ROLES, Coordinate, System
+from dofkit.motion.loops import by_pivots
+from dofkit.motion.poses import euler_angles, from_euler, matrix_of
+from dofkit.pictures.evaluation import derivatives, evaluated, kernel, values_at, with_unit_rows
+from dofkit.pictures.placed_shapes import ShapePlacement, carrier_placements
+from dofkit.pictures.shapes import AT_REST, Array, Displacement, Place, place
+from dofkit.system import GROUND, PARTICLE_ROLES, Rotation, System
 
 #: Rounds of Newton's method, the residual that counts as 0, and the number of starting points.
 ROUNDS, MET, STARTS = 60, 1e-9, 8
+#: The angle between points that are spread over a sphere from below.
+GOLDEN = math.pi * (3 - math.sqrt(5))
 #: More coordinates than this are not moved onto the equations.
 MOST_COORDINATES = 400
 #: The least velocity, of a unit velocity, that counts as motion.
 MOVES = 1e-5
-#: What carries the point that stands for the configuration of a scene of coordinates.
-POINT = "configuration"
 EXAMPLES = "The scene gives no positions: those drawn are examples."
 CHOSEN = "The scene gives no positions: those drawn were chosen to satisfy its constraints."
 SCHEMATIC = "Schematic: no positions were found that satisfy all constraints."
@@ -53,11 +54,16 @@ class Arrangement:
 
     def poses_at(self, numbers: Mapping[Expr, float], *, gibbs: bool) -> dict[str, Displacement]:
         """Return where every carrier is at some numbers; ``gibbs``: rotations are in the system's own charts."""
-        poses = poses_of(self.system, numbers, gibbs=gibbs)
-        moving = {name: placement for name, placement in self.placements.items() if placement.moves}
-        if moving and gibbs:
-            numbers = {**numbers, **_euler_values(self.system, poses, numbers)}
-        return poses | {name: placement.pose(numbers) for name, placement in moving.items()}
+        poses = {GROUND: AT_REST, **_spatial_poses(self.system, numbers, gibbs)}
+        values = dict(numbers)
+        for r in (r for r in self.system.rotations if gibbs and r.chart == "gibbs"):
+            turn = poses[r.body].turn @ _initial(r, numbers)
+            values |= zip(map(coordinate, r.names), euler_angles(turn, [0.0, 0.0, 0.0]), strict=True)
+        return poses | {name: placement.pose(values) for name, placement in self._moving.items()}
+
+    @cached_property
+    def _moving(self) -> dict[str, ShapePlacement]:
+        return {name: placement for name, placement in self.placements.items() if placement.moves}
 
     def along(self, path: Iterable[Mapping[str, float]]) -> Iterator[dict[Expr, float]]:
         """Yield the numbers at some configurations, which have the Euler angles of bodies in space."""
@@ -93,24 +99,16 @@ def finite_relations(system: System, senses: Sequence[str] = ("=",)) -> list[Exp
 def arrangement_of(system: System) -> Arrangement:
     """Return the reference configuration, else positions that satisfy the equations, else a schematic."""
     numbers: dict[Expr, float] = {parameter(p): 1.0 for p in (*system.parameters, *system.generic)} | {TIME: 0.0}
+    placements = carrier_placements(system)
     if system.reference is not None:
-        return Arrangement(system, numbers | _finite_values(system.reference, numbers), None, True)
+        return Arrangement(system, numbers | _finite_values(system.reference, numbers), None, True, placements)
     posed = _finite_values(system.pose, numbers)
     for seed in range(STARTS):
         solved = onto(system, numbers | _start(system, seed) | posed)
         if solved is not None:
-            return Arrangement(
-                system, solved, CHOSEN if any(c.relations for c in system.constraints) else EXAMPLES, True
-            )
-    try:
-        sample = configurations(system, steps=0)[0]
-    except DofkitError:
-        return Arrangement(system, numbers | _start(system, 0) | posed, SCHEMATIC, False)
-    # a body whose rotation is in the Gibbs chart stays as the reference configuration has it
-    names = {c.name for c in system.coordinates} - {n for r in system.rotations for n in r.names}
-    numbers |= {(coordinate if n in names else parameter)(n): v for n, v in sample.items()}
-    met = bool(np.all(values_at(finite_relations(system, (">=", ">")), numbers) >= -MET))
-    return Arrangement(system, numbers, CHOSEN if met else SCHEMATIC, met)
+            note = CHOSEN if any(c.relations for c in system.constraints) else EXAMPLES
+            return Arrangement(system, solved, note, True, placements)
+    return Arrangement(system, numbers | _start(system, 0) | posed, SCHEMATIC, False, placements)
 
 
 def _finite_values(exprs: Mapping[Expr, Expr], numbers: Mapping[Expr, float]) -> dict[Expr, float]:
@@ -162,13 +160,19 @@ def _spots(system: System) -> dict[str, Array]:
     if not system.particles:
         return {}
     if len(system.particles) == 1 and not fixed:
-        return {system.particles[0]: np.array([0.62, 0.5, 0.55])}
+        down = np.where(np.arange(3) == d - 1, -1.0, 1.0) if finite_relations(system) else np.ones(3)
+        return {system.particles[0]: down * np.array([0.9, 0.7, 0.8])}
     if d == 1:
         return {name: np.array([1.0 + 1.5 * k]) for k, name in enumerate(system.particles)}
     if fixed and nx.is_forest(graph):
         return _hanging(graph, fixed, d)
-    if not graph.edges and d == 2:
-        return {str(n): 1.5 * np.asarray(p) for n, p in nx.circular_layout(graph).items()}
+    if not graph.edges:
+        heights = [(2 * k + 1) / len(graph) - 1 if d == 3 else 0.0 for k in range(len(graph))]
+        turn = GOLDEN if d == 3 else 2 * math.pi / len(graph)
+        return {
+            n: 1.5 * np.array([math.sqrt(1 - z * z) * math.cos(k * turn), math.sqrt(1 - z * z) * math.sin(k * turn), z])
+            for k, (n, z) in enumerate(zip(graph, heights, strict=True))
+        }
     if len(graph) > MOST_COORDINATES:
         return {str(n): np.append(p, 0.0) for n, p in nx.circular_layout(graph).items()}
     laid = nx.spring_layout(graph, dim=d, seed=7, pos=fixed or None, fixed=list(fixed) or None, scale=1.6)
@@ -189,7 +193,8 @@ def _links(system: System) -> tuple[nx.Graph, dict[str, list[float]]]:
                 at = [float(evaluated(e, {})) for e in point.at]
                 nodes.append(f"@{at}")
                 fixed[nodes[-1]] = at
-        graph.add_edges_from(combinations(nodes, 2) if connection.facts.complete else pairwise(nodes))
+        if not connection.facts.shared:
+            graph.add_edges_from(combinations(nodes, 2) if connection.facts.complete else pairwise(nodes))
     for name in (n for n in graph if n in fixed and graph.degree(n) == 0):
         fixed.pop(name)
     graph.remove_nodes_from([n for n in graph if str(n).startswith("@") and n not in fixed])
@@ -211,61 +216,24 @@ def _hanging(graph: nx.Graph, fixed: Mapping[str, Sequence[float]], d: int) -> d
 # Poses
 
 
-def poses_of(system: System, numbers: Mapping[Expr, float], *, gibbs: bool) -> dict[str, Displacement]:
-    """Return where every carrier is; ``gibbs``: rotations are in the system's own charts, not Euler's angles."""
-    poses = {GROUND: AT_REST}
-    rotations = {r.body: r for r in system.rotations}
-    owned: dict[str | None, list[Coordinate]] = {}
-    for c in system.coordinates:
-        owned.setdefault(c.owner, []).append(c)
-
-    def values(coordinates: Sequence[Coordinate]) -> list[float]:
-        return [float(numbers.get(coordinate(c.name), 0.0)) for c in coordinates]
-
-    for body in system.bodies:
-        at = values(owned[body])
-        start = np.array(place([float(evaluated(e, numbers)) for e in system.starts[body]]))
-        turn = np.eye(3)
-        if system.dimension == 2:
-            initial = system.pose.get(coordinate(owned[body][-1].name))
-            turn = about(2, at[-1] - (float(evaluated(initial, numbers)) if initial is not None else 0.0))
-        elif system.dimension == 3 and body in rotations:
-            r = rotations[body]
-            if gibbs and r.chart == "gibbs":
-                turn = _from_gibbs(np.array(at[3:]))
-            else:
-                turn = _from_euler(at[3:]) @ _from_euler([float(evaluated(e, numbers)) for e in r.initial]).T
-        poses[body] = Displacement(turn, np.array(place(at[: system.dimension])) - turn @ start)
-    carried: dict[str, Sequence[Coordinate]] = {particle: owned[particle] for particle in system.particles}
-    if not system.bodies and not system.particles:
-        carried = {POINT: system.coordinates[:3]}
-    return poses | {name: Displacement(np.eye(3), np.array(place(values(cs)))) for name, cs in carried.items()}
-
-
-def _from_euler(angles: Sequence[float]) -> Array:
-    phi, theta, psi = angles
-    return about(2, phi) @ about(0, theta) @ about(2, psi)
-
-
-def _euler_values(
-    system: System, poses: Mapping[str, Displacement], numbers: Mapping[Expr, float]
-) -> dict[Expr, float]:
-    """Return the Euler angles of the bodies whose rotations are in the Gibbs chart."""
-    angles: dict[Expr, float] = {}
+def _spatial_poses(system: System, numbers: Mapping[Expr, float], gibbs: bool) -> dict[str, Displacement]:
+    """Return where the bodies of space are; ``gibbs``: rotations are in the system's own charts, not Euler's angles."""
+    poses = {}
     for r in system.rotations:
-        if r.chart == "gibbs":
-            turn = poses[r.body].turn @ _from_euler([float(evaluated(e, numbers)) for e in r.initial])
-            tilt = math.acos(min(1.0, max(-1.0, turn[2, 2])))
-            level = math.sin(tilt) < 1e-9
-            phi = math.atan2(turn[1, 0], turn[0, 0]) if level else math.atan2(turn[0, 2], -turn[1, 2])
-            psi = 0.0 if level else math.atan2(turn[2, 0], turn[2, 1])
-            angles |= dict(zip(map(coordinate, r.names), (phi, tilt, psi), strict=True))
-    return angles
+        at = np.array([numbers.get(coordinate(c.name), 0.0) for c in system.coordinates if c.owner == r.body])
+        start = np.array(place([float(evaluated(e, numbers)) for e in system.starts[r.body]]))
+        if gibbs and r.chart == "gibbs":
+            quaternion = np.array([1.0, *at[3:]])
+            turn = matrix_of(quaternion / np.linalg.norm(quaternion))
+        else:
+            turn = from_euler(*at[3:]) @ _initial(r, numbers).T
+        poses[r.body] = Displacement(turn, at[:3] - turn @ start)
+    return poses
 
 
-def _from_gibbs(g: Array) -> Array:
-    cross = np.array([[0, -g[2], g[1]], [g[2], 0, -g[0]], [-g[1], g[0], 0]])
-    return np.asarray(np.eye(3) + 2 * (cross + cross @ cross) / (1 + g @ g))
+def _initial(rotation: Rotation, numbers: Mapping[Expr, float]) -> Array:
+    """Return the rotation of a body in the reference configuration."""
+    return from_euler(*(float(evaluated(e, numbers)) for e in rotation.initial))
 
 
 # Infinitesimal motions
@@ -322,17 +290,11 @@ def velocity_rows(system: System, numbers: Mapping[Expr, float]) -> tuple[Array,
     return np.vstack([derivatives(finite, columns, numbers), rows]), columns
 
 
-def is_linear(arrangement: Arrangement) -> bool:
-    """Return whether all relations with velocities are linear in them, as far as two velocities show."""
-    system = arrangement.system
-    rates = [velocity(c.name) for c in system.coordinates]
-    written = [r.expr for c in system.constraints for r in c.relations if r.expr.symbols & set(rates)]
-    if not written:
-        return True
-    random = np.random.default_rng(1)
-    at_rest = derivatives(written, rates, arrangement.numbers)
-    moving = {rate: float(random.standard_normal()) for rate in rates}
-    return bool(np.allclose(derivatives(written, rates, {**arrangement.numbers, **moving}), at_rest, atol=1e-5))
+def is_linear(system: System) -> bool:
+    """Return whether all relations with velocities are linear in them."""
+    written = [r.expr for c in system.constraints for r in c.relations]
+    slopes = (diff(e, s) for e in written for s in e.symbols if s.args[0] == "velocity")
+    return not any(s.args[0] == "velocity" for slope in slopes for s in slope.symbols)
 
 
 def movers(arrangement: Arrangement, motions: Sequence[FreeMotion]) -> frozenset[str]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import product
 from typing import NamedTuple
 
@@ -10,8 +10,9 @@ import numpy as np
 
 from dofkit.base.errors import DofkitError
 from dofkit.expressions.tree import TIME, Expr, coordinate
+from dofkit.motion.loops import Field, bracket, by_pivots, by_size
 from dofkit.pictures.arrangement import Arrangement, is_linear, velocity_rows
-from dofkit.pictures.evaluation import by_pivots, kernel
+from dofkit.pictures.evaluation import kernel
 from dofkit.pictures.mechanism import notes_of
 from dofkit.pictures.shapes import AT_REST, Array, Role, Shape, Sketch, circle, fixed, place
 from dofkit.pictures.stage import StagedScene
@@ -25,8 +26,6 @@ PLANE, CORNERS = 11, 24
 HALF, LONG, STEP = 1.2, 0.75, 1e-3
 #: The least sine of the angle of a new direction, and the depth of brackets.
 NEW, DEEPEST = 2e-2, 4
-
-Field = Callable[[Array], Array]
 
 
 class NoFormsError(DofkitError):
@@ -55,8 +54,7 @@ class Distribution:
         self.start = np.array([arrangement.numbers.get(s, 0.0) for s in self.symbols])
         self.timed = TIME in velocity_rows(arrangement.system, arrangement.numbers)[1]
         basis = self.basis(self.start)
-        largest = np.argsort(-np.round(np.linalg.norm(basis, axis=0), 6), kind="stable")
-        self.pivots = sorted(by_pivots(basis, [int(column) for column in largest])[1])
+        self.pivots = sorted(by_pivots(basis, by_size(basis, range(len(self.names))))[1])
         self.fields = len(basis)
 
     def values(self, q: Array) -> Mapping[Expr, float]:
@@ -71,8 +69,7 @@ class Distribution:
 
     def at(self, q: Array) -> Array:
         """Return the vector fields at q: each moves one of the pivots at unit speed and no other pivot."""
-        basis = self.basis(q)[: self.fields]
-        return np.asarray(np.linalg.lstsq(basis[:, self.pivots], basis, rcond=1e-6)[0])
+        return by_pivots(self.basis(q)[: self.fields], self.pivots)[0]
 
 
 def element(q: Iterable[float], directions: Array, size: float, role: Role = "field") -> Iterator[Shape]:
@@ -112,7 +109,7 @@ def phase_sketch(stage: StagedScene) -> Sketch:
     report, system = stage.report, stage.system
     if len(system.coordinates) < 2 or not any(e.form in ("pfaffian", "nonlinear") for e in report.constraints):
         raise NoFormsError("a picture of directions needs differential constraints and at least two coordinates")
-    if not is_linear(stage.arrangement):
+    if not is_linear(system):
         raise NoFormsError("a picture of directions needs constraints that are linear in the velocities")
     distribution = Distribution(stage.arrangement)
     if not distribution.fields:
@@ -171,24 +168,15 @@ def directions_of(distribution: Distribution) -> list[Direction3]:
             for other, y in level:
                 if order == 2 and other <= name:
                     continue
-                bracket = _bracket(x, y, STEP * 4.0 ** (order - 2))
-                vector = bracket(start)
-                following.append((f"[{name}, {other}]", bracket))
+                field_of_both = bracket(x, y, STEP * 4.0 ** (order - 2))
+                vector = field_of_both(start)
+                following.append((f"[{name}, {other}]", field_of_both))
                 if _adds(directions, vector):
                     directions.append(Direction3(f"[{name}, {other}]", vector, order))
         level = following
         if len(directions) == len(start) or not any(d.order >= order - 1 for d in directions):
             break
     return directions
-
-
-def _bracket(x: Field, y: Field, step: float) -> Field:
-    """Return [X, Y] = DY X - DX Y, by differences along both."""
-
-    def along(f: Field, q: Array, v: Array) -> Array:
-        return np.asarray((f(q + step * v) - f(q - step * v)) / (2 * step))
-
-    return lambda q: along(y, q, x(q)) - along(x, q, y(q))
 
 
 def _adds(directions: Sequence[Direction3], vector: Array) -> bool:

@@ -7,10 +7,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from fractions import Fraction
 
 import numpy as np
 
-from dofkit.expressions.tree import Expr
+from dofkit.expressions.tree import PI, ZERO, Expr, children, fn, nodes, num, rebuild
 from dofkit.pictures.shapes import Array
 
 Values = Mapping[Expr, Array | float]
@@ -44,7 +45,7 @@ def _value(e: Expr, values: Values, memo: dict[Expr, Array]) -> Array | float:
     if e.op == "sym":
         return values.get(e, _DEFAULT.get(e.args[0], 0.0))
     if e.op == "call":
-        return _example(e, values, memo)
+        return evaluated(example_of(e), values, memo)
     operands = [evaluated(operand, values, memo) for operand in e.args if isinstance(operand, Expr)]
     if e.op == "add":
         return np.asarray(sum(operands))
@@ -55,25 +56,30 @@ def _value(e: Expr, values: Values, memo: dict[Expr, Array]) -> Array | float:
     return np.asarray(_FUNCTIONS[e.args[0]](*operands))
 
 
-def _example(e: Expr, values: Values, memo: dict[Expr, Array]) -> Array:
-    """Return the values of the function that is drawn for an unknown one: sums of u/2 + 0.4 sin(w u + p).
+def example_of(call: Expr) -> Expr:
+    """Return what is drawn for an unknown function or its derivative: sums of u/2 + 0.4 sin(w u + p).
 
-    The sum is over its arguments u, the phase p comes from its name; a derivative is that of the same function.
+    The sum is over its arguments u; the phase p comes from its name.
     """
-    name, orders, arguments = e.args
-    phase = 0.7 * (sum(map(ord, name)) % 9)
-    total = np.asarray(0.0)
-    if sum(order > 0 for order in orders) > 1:
-        return total
-    for k, (order, argument) in enumerate(zip(orders, arguments, strict=True)):
-        if any(orders) and not order:
-            continue
-        wave = 1.1 + 0.3 * k
-        inner = evaluated(argument, values, memo)
-        total = total + 0.4 * wave**order * np.sin(wave * inner + phase + order * math.pi / 2)
-        if order < 2:
-            total = total + (0.5 if order else 0.5 * inner)
-    return total
+    name, orders, arguments = call.args
+    phase = num(Fraction(7 * (sum(map(ord, name)) % 9), 10))
+    terms = []
+    for k, (order, u) in enumerate(zip(orders, arguments, strict=True)):
+        wave = num(Fraction(11 + 3 * k, 10))
+        if sum(orders) == order:
+            sine = fn("sin", wave * u + phase + num(Fraction(order, 2)) * PI)
+            terms.append(num(Fraction(2, 5)) * wave**order * sine)
+            terms.append(num(Fraction(1, 2)) * (u if order == 0 else num(int(order == 1))))
+    return sum(terms, ZERO)
+
+
+def with_examples(e: Expr) -> Expr:
+    """Return an expression with what is drawn for unknown functions in their place."""
+    memo: dict[Expr, Expr] = {}
+    for node in nodes(e):
+        new = rebuild(node, tuple(memo[child] for child in children(node)))
+        memo[node] = example_of(new) if new.op == "call" else new
+    return memo[e]
 
 
 def values_at(exprs: Sequence[Expr], values: Values) -> Array:
@@ -110,23 +116,3 @@ def kernel(rows: Array, columns: int, dimension: int | None = None) -> Array:
     _, singular, right = np.linalg.svd(with_unit_rows(rows))
     rank = int(np.sum(singular > SMALL)) if dimension is None else max(0, columns - dimension)
     return np.asarray(right[rank:])
-
-
-def by_pivots(basis: Array, order: Sequence[int]) -> tuple[Array, list[int]]:
-    """Return the basis reduced so that each row alone moves one column, the first possible in an order; and these."""
-    rows = basis.copy()
-    pivots: list[int] = []
-    for column in order:
-        k = len(pivots)
-        if k == len(rows):
-            break
-        best = k + int(np.argmax(np.abs(rows[k:, column])))
-        if abs(rows[best, column]) < 1e-4:
-            continue
-        rows[[k, best]] = rows[[best, k]]
-        rows[k] /= rows[k, column]
-        factors = rows[:, column].copy()
-        factors[k] = 0.0
-        rows -= np.outer(factors, rows[k])
-        pivots.append(column)
-    return rows, pivots

@@ -4,19 +4,20 @@ from __future__ import annotations
 
 import io
 import re
-from collections.abc import Callable, Iterator, Mapping
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from importlib.util import find_spec
+from itertools import pairwise
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 from xml.sax.saxutils import escape, quoteattr
 
 from dofkit.base.display import schemes
 from dofkit.base.errors import DofkitError
 from dofkit.base.wording import format_of_path
-from dofkit.pictures.paper import Mark, Page
-from dofkit.pictures.shapes import ON_DARK
-
-Drawn = TypeVar("Drawn")
+from dofkit.pictures.paper import Mark, Page, Spot
+from dofkit.pictures.shapes import ON_DARK, Sketch
 
 #: The class of everything that is drawn, for its style.
 CLASS = "dofkit-picture"
@@ -37,14 +38,54 @@ class ExtraMissingError(DofkitError):
     """What was asked needs a package that is not installed; the message says which to install."""
 
 
-def saved(picture: Drawn, path: str | Path, writers: Mapping[str, Callable[[Drawn, Path], object]]) -> Path:
-    """Write a picture with the one of the ``writers`` that the path's ending asks for, and return the path.
+Writer = Callable[[Path], object]
 
-    Raises ArgumentError for any other ending, and what the writer raises.
-    """
-    target = Path(path)
-    writers[format_of_path(target, writers)](picture, target)
-    return target
+
+@dataclass(frozen=True)
+class DrawnSketch(ABC):
+    """A sketch as notebooks show it and files hold it."""
+
+    sketch: Sketch
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({self.alternative!r})"
+
+    @property
+    def alternative(self) -> str:
+        """What the picture says, in words, with the answer."""
+        return self.sketch.alternative
+
+    @property
+    @abstractmethod
+    def page(self) -> Page:
+        """The picture on paper."""
+
+    @abstractmethod
+    def html(self) -> str:
+        """Return a page that needs no network."""
+
+    def svg(self) -> str:
+        """Return the picture as the text of an SVG."""
+        return svg_of(self.page)
+
+    def save(self, path: str | Path) -> Path:
+        """Write a file by the path's ending, and return the path: svg, png, pdf or html, of a motion also gif or mp4.
+
+        Raises ArgumentError for any other ending, ExtraMissingError if matplotlib or ffmpeg is missing, OSError.
+        """
+        target = Path(path)
+        writers = self.writers()
+        writers[format_of_path(target, writers)](target)
+        return target
+
+    def writers(self) -> Mapping[str, Writer]:
+        """Return what writes a file of each ending."""
+        return {
+            "svg": lambda path: path.write_text(self.svg(), encoding="utf-8"),
+            "png": lambda path: path.write_bytes(png_of(self.page)),
+            "pdf": lambda path: write_pdf(self.page, path),
+            "html": lambda path: path.write_text(self.html(), encoding="utf-8"),
+        }
 
 
 # SVG
@@ -58,7 +99,8 @@ def svg_of(page: Page, width: float | None = None, script: str = "") -> str:
     on_screen = page.width if width is None else width
     head = (
         f'<svg xmlns="http://www.w3.org/2000/svg" class="{CLASS}" viewBox="0 0 {page.width:g} {page.height:g}" '
-        f'width="{on_screen:g}" height="{on_screen * page.height / page.width:g}" role="img" font-family="{FONT}">'
+        f'width="{on_screen:g}" height="{on_screen * page.height / page.width:g}" role="img" '
+        f'font-family="{FONT}" stroke-linejoin="round">'
     )
     words = f"<title>{escape(page.title)}</title><desc>{escape(page.alternative)}</desc>"
     ground = f'<rect width="{page.width:g}" height="{page.height:g}" fill="#FFFFFF"/>'
@@ -85,17 +127,25 @@ def _element(mark: Mark, height: float) -> str:
         weight = ' font-weight="bold"' if mark.bold else ""
         return (
             f'<text x="{x:.1f}" y="{height - y:.1f}" font-size="{mark.size:g}" text-anchor="{mark.align}"{weight}'
-            f' fill="{mark.ink.line}" stroke="#FFFFFF" stroke-width="2.4" stroke-linejoin="round" '
+            f' fill="{mark.ink.line}" stroke="#FFFFFF" stroke-width="2.4" '
             f'paint-order="stroke"{owner}>{escape(mark.text)}</text>'
         )
-    path = f"M{'L'.join(f'{x:.1f} {height - y:.1f}' for x, y in mark.spots)}{'Z' if mark.closed else ''}"
+    path = f"M{_steps(mark.spots, height)}{'z' if mark.closed else ''}"
     return "".join(f'<path d="{path}" {attributes}{owner}/>' for attributes in _paints(mark))
+
+
+def _steps(spots: Sequence[Spot], height: float) -> str:
+    """Return a first place and the steps from one place to the next, in tenths of a point, as a path has them."""
+    tenths = [(round(10 * x), round(10 * (height - y))) for x, y in spots]
+    pairs = [tenths[0], *((c - a, d - b) for (a, b), (c, d) in pairwise(tenths))]
+    first, *others = (f"{x / 10:g}{'' if y < 0 else ' '}{y / 10:g}" for x, y in pairs)
+    return f"{first}l{' '.join(others)}"
 
 
 def _paints(mark: Mark) -> Iterator[str]:
     ink = mark.ink
     dash = f' stroke-dasharray="{" ".join(f"{d:g}" for d in ink.dash)}"' if ink.dash else ""
-    line = f'stroke="{ink.line}" stroke-width="{ink.width:g}" stroke-linejoin="round"{dash}'
+    line = f'stroke="{ink.line}" stroke-width="{ink.width:g}"{dash}'
     fill = f'fill="{ink.fill}" fill-opacity="{ink.dense:g}"' if mark.closed and ink.fill else 'fill="none"'
     yield f"{fill} {line}"
     if mark.closed and ink.hatch:

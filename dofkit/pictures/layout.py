@@ -58,11 +58,16 @@ def standpoint_of(sketch: Sketch, every: Sequence[Poses] = ()) -> Standpoint:
     return Standpoint(view, fit, tuple(_offsets(sketch, view, fit)))
 
 
-def page_of(sketch: Sketch, poses: Poses | None = None, standpoint: Standpoint | None = None) -> Page:
-    """Return a sketch on paper, with everything where ``poses`` put it (by default the sketch's own)."""
+def page_of(
+    sketch: Sketch, poses: Poses | None = None, standpoint: Standpoint | None = None, margins: Margins | None = None
+) -> Page:
+    """Return a sketch on paper, with everything where ``poses`` put it (by default the sketch's own).
+
+    ``margins`` are what stands around it; the sheet ends at the height of what stands above.
+    """
     here = sketch.poses if poses is None else poses
     view, fit, offsets = standpoint or standpoint_of(sketch)
-    margins = margins_of(sketch)
+    margins, height = (margins_of(sketch), HEIGHT) if margins is None else (margins, margins.high)
     drawn = [(s, mark_of(sketch, s, here, view, fit)) for s in sketch.shapes if s.kind != "words"]
     if sketch.dimension == 3:
         nearness = {id(s): float(np.mean([view.seen(sketch.at(v, here))[2] for v in s.vertices])) for s, _ in drawn}
@@ -71,7 +76,7 @@ def page_of(sketch: Sketch, poses: Poses | None = None, standpoint: Standpoint |
     axes = [*axes_marks(sketch, view, margins), *_ruler_marks(sketch, fit, margins)]
     layers = sorted((mark for _, mark in drawn), key=lambda mark: mark.ink.layer)
     marks = [*layers, *axes, *names, *margins.above, *margins.below]
-    return Page(WIDTH, HEIGHT, tuple(marks), sketch.title, sketch.alternative)
+    return Page(WIDTH, height, tuple(marks), sketch.title, sketch.alternative)
 
 
 def margins_of(sketch: Sketch) -> Margins:

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from functools import cache
-from itertools import pairwise
+from itertools import pairwise, takewhile
 from typing import Any
 
 import numpy as np
 
 from dofkit.expressions.tree import Expr, coordinate
+from dofkit.motion.continuation import Follower, trail
+from dofkit.motion.poses import PoseRelations
 from dofkit.pictures.arrangement import Arrangement
-from dofkit.pictures.evaluation import derivatives, evaluated, values_at, with_unit_rows
+from dofkit.pictures.evaluation import evaluated, with_examples
 from dofkit.pictures.files import require_matplotlib
 from dofkit.pictures.shapes import Array, Role, Shape, fixed
 from dofkit.pictures.stage import StagedScene
@@ -19,7 +21,7 @@ from dofkit.system import Connection, Relation
 
 #: Points of a grid in the plane, and in each slice of space; slices in each direction; points of a line in the
 #: plane, and in a slice.
-GRID, SLICE_GRID, SLICES, DRAWN, FEW_DRAWN = 161, 41, 7, 40, 28
+GRID, SLICE_GRID, SLICES, DRAWN, FEW_DRAWN = 161, 41, 6, 40, 22
 #: Steps of a curve in space to either side.
 STEPS = 220
 
@@ -105,7 +107,7 @@ def _alone(stage: StagedScene, owner: str, relations: Sequence[Relation]) -> Ite
     for relation in relations:
         curve_role = relation.sense == "=" and len(equations) < len(symbols) == 2
         role: Role = "locus" if curve_role else "surface"
-        for line in lines_of(stage.arrangement, relation.expr, symbols, _half(stage)):
+        for line in lines_of(stage.arrangement, relation.expr, symbols, half_of(stage)):
             yield Shape("line", fixed(*line), role)
 
 
@@ -121,12 +123,12 @@ def meeting_shapes(stage: StagedScene) -> Iterator[Shape]:
                 surfaces.setdefault(owners[0], []).append(relation.expr)
     for owner, exprs in surfaces.items():
         symbols = [coordinate(c.name) for c in stage.system.coordinates if c.owner == owner][:3]
-        line = curve(stage.arrangement, exprs, symbols, 2 * _half(stage)) if len(exprs) > 1 else []
+        line = curve(stage.arrangement, exprs, symbols, 2 * half_of(stage)) if len(exprs) > 1 else []
         if len(line) > 1:
             yield Shape("line", fixed(*line), "locus", owner=owner)
 
 
-def _half(stage: StagedScene) -> float:
+def half_of(stage: StagedScene) -> float:
     """Return half the side of a cube about the origin that contains the picture."""
     origins = (pose.moved((0.0, 0.0, 0.0)) for pose in stage.arrangement.poses.values())
     reach = [np.zeros(3), np.array(stage.centre), *origins]
@@ -161,41 +163,20 @@ def _slice(
 
 def curve(arrangement: Arrangement, exprs: Sequence[Expr], symbols: Sequence[Expr], limit: float) -> list[Array]:
     """Return the curve in which surfaces meet, from where the point is until it closes or leaves the picture."""
-    start = np.array([arrangement.numbers.get(s, 0.0) for s in symbols])
-    halves = []
-    for sign in (1.0, -1.0):
-        point, way, points = start, None, []
-        for k in range(STEPS):
-            point, way = _ahead(arrangement, exprs, symbols, (point, way, sign * limit / 60))
-            if way is None or float(np.max(np.abs(point))) > limit:
-                break
-            points.append(point)
-            if k > 4 and float(np.linalg.norm(point - start)) < limit / 70:
-                return [start, *points, start]
-        halves.append(points)
-    return [*reversed(halves[1]), start, *halves[0]]
-
-
-def _ahead(
-    arrangement: Arrangement, exprs: Sequence[Expr], symbols: Sequence[Expr], state: tuple[Array, Array | None, float]
-) -> tuple[Array, Array | None]:
-    """Return the point after one step along a curve in space and back onto it, and the direction of the step."""
-    point, way, step = state
-
-    def at(p: Array) -> dict[Expr, float]:
-        return {**arrangement.numbers, **dict(zip(symbols, p, strict=True))}
-
-    _, singular, right = np.linalg.svd(with_unit_rows(derivatives(exprs, symbols, at(point))))
-    if len(singular) > 2 and singular[2] > 1e-4:
-        return point, None
-    ahead = right[2] if way is None or right[2] @ way >= 0 else -right[2]
-    moved = point + step * ahead
-    for _ in range(4):
-        gaps, slopes = values_at(exprs, at(moved)), derivatives(exprs, symbols, at(moved))
-        if not np.all(np.isfinite(gaps)):
-            return point, None
-        moved = moved - np.linalg.lstsq(slopes, gaps, rcond=None)[0]
-    return moved, ahead
+    relations = PoseRelations(arrangement.system, list(map(with_examples, exprs)), (), frozenset())
+    relations.constants |= arrangement.numbers
+    columns = [relations.plain.index(s) for s in symbols]
+    others = np.delete(np.eye(relations.columns), columns, axis=0)
+    follower, step = Follower(relations, 1, others), limit / 60 / arrangement.system.size
+    start = follower.onto(relations.pose(arrangement.numbers))
+    if start is None:
+        return []
+    ahead, back = follower.begin(start, None, step)
+    poses, closed = trail(follower, start, ahead, STEPS, step)
+    before = [] if closed else trail(follower, start, back, STEPS, step)[0]
+    halves = [[pose.plain[columns] for pose in half] for half in (before, poses)]
+    ends = [list(takewhile(lambda p: float(np.max(np.abs(p))) <= limit, half)) for half in halves]
+    return [*reversed(ends[0]), start.plain[columns], *ends[1]]
 
 
 def profile(stage: StagedScene, number: int, connection: Connection) -> Iterator[Shape]:

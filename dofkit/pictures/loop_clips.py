@@ -71,7 +71,8 @@ def traces(sketch: Sketch, clip: Clip, frame: int) -> Iterator[Shape]:
         yield shape._replace(vertices=corners, role="ghost", state="plain")
     for vertex in sketch.traced:
         path = [sketch.at(vertex, poses) for poses in clip.frames[: frame + 1]]
-        yield Shape("line", fixed(*path), "trace")
+        whole = clip.closed and frame == len(clip.frames) - 1
+        yield Shape("line", fixed(*path, *path[:whole]), "trace")
         gap = float(np.linalg.norm(path[-1] - path[0]))
-        if frame == len(clip.frames) - 1 and gap > 1e-6 * sketch.size:
+        if clip.loop and frame == len(clip.frames) - 1 and gap > 1e-6 * sketch.size:
             yield Shape("arrow", fixed(path[0], path[-1]), "arrow", size=0.04 * sketch.size)

@@ -8,11 +8,12 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from dofkit.expressions.tree import parameter
+from dofkit.motion.poses import about
 from dofkit.pictures.joints import joint_shapes, name_of, run_shapes
 from dofkit.pictures.loci import meeting_shapes
 from dofkit.pictures.placed_shapes import faces, picture_shapes
-from dofkit.pictures.shapes import SQUARE, Place, Shape, Sketch, State, Vertex, about, carried_by, fixed, place
-from dofkit.pictures.stage import StagedScene, axis_of, force_ends
+from dofkit.pictures.shapes import SQUARE, Place, Shape, Sketch, State, Vertex, carried_by, fixed, place
+from dofkit.pictures.stage import POINT, StagedScene, axis_of, force_ends
 from dofkit.pictures.words import alternative, answer
 from dofkit.system import GROUND, System
 
@@ -144,7 +145,7 @@ def _particle_shapes(stage: StagedScene) -> Iterator[Shape]:
     for particle in stage.system.particles:
         vertex, state = stage.origin(particle), stage.state_of_body(particle)
         yield Shape("ball", (vertex,), "point", state, particle, 0.42 * stage.unit)
-        if len(stage.system.particles) <= MOST_PARTICLES:
+        if len(stage.system.particles) <= MOST_PARTICLES and particle != POINT:
             yield name_of(stage, particle, (vertex,), state)
 
 

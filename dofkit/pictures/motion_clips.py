@@ -9,10 +9,11 @@ from dataclasses import replace
 import numpy as np
 
 from dofkit.base.errors import DofkitError
-from dofkit.expressions.tree import Expr
+from dofkit.expressions.tree import TIME, Expr
 from dofkit.motion.configurations import MotionSampler, sampling
+from dofkit.motion.loops import by_pivots
 from dofkit.pictures.arrangement import MOVES, FreeMotion, displaced, free_motions, moved_numbers
-from dofkit.pictures.evaluation import by_pivots, kernel
+from dofkit.pictures.evaluation import kernel
 from dofkit.pictures.shapes import Array, Clip, Poses, Sketch, Switch, place
 from dofkit.pictures.stage import StagedScene
 from dofkit.pictures.words import can_hold, sure
@@ -23,7 +24,7 @@ from dofkit.system import GROUND
 #: Steps of a sampled motion to either side, their length, and the most frames that are kept.
 STEPS, STEP, FRAMES = 160, 0.1, 96
 #: Steps and frames of each motion if there are several, and their frames together.
-SHORT, FEW, MOST_FRAMES = 25, 40, 120
+SHORT, FEW, MOST_FRAMES = 25, 28, 84
 #: How far beyond the picture a motion is shown, by the picture's size; a closed one returns to within this part of it.
 FAR, BACK = 0.5, 0.05
 #: The number of points of a sketch by which two poses are compared.
@@ -33,13 +34,14 @@ MANY, LEAST = 3000, 10
 #: The time limit of the finite motions.
 SECONDS = 12.0
 #: Frames of an infinitesimal motion to both sides, its extent by the picture's size, and its largest rotation.
-SWING, REACH, TURN = 24, 0.22, 0.6
+SWING, REACH, TURN = 16, 0.22, 0.6
 #: The number of motions, and of constraints with a switch, that are shown.
 MOST_MOTIONS, MOST_SWITCHES = 12, 8
 GOES_ON = "This infinitesimal motion goes on: it was followed as a finite motion."
 ENDS = "This infinitesimal motion does not go on: "
 NONE_FOUND, NO_MOTION = "no finite motion in its direction was found.", "no finite motion is possible{}."
 NOT_SAMPLED = "No finite motion was sampled: {}"
+RESTS = "Time goes on, and the coordinates rest."
 UNCHANGED = "{} is redundant{}: without it the motion goes on unchanged."
 IMPLIED = "{} is implied by the others as long as {} in use: without it the motion goes on unchanged."
 NEEDED = "{} is needed: without it this motion is possible too."
@@ -57,9 +59,22 @@ class ClipMaker:
         self.moves = can_hold(stage.report) and bool(vertices)
 
     def clips(self) -> list[Clip]:
-        """Return the finite motions, where they could be followed, and infinitesimal ones in the place of others."""
+        """Return finite motions where they could be followed, infinitesimal ones in the place of others, and time."""
         if not self.moves:
             return []
+        return [*self._motions(), *self._time()]
+
+    def _time(self) -> Iterator[Clip]:
+        """Yield what only the picture shows of time: shapes that move as it goes on while the coordinates rest."""
+        arrangement = self.stage.arrangement
+        written = {s for c in self.stage.system.constraints for r in c.relations for s in r.expr.symbols}
+        if TIME not in written and any(p.depends_on("time") for p in arrangement.placements.values()):
+            path = [{**arrangement.numbers, TIME: t} for t in np.linspace(0.0, 2 * math.pi, self.few)]
+            frames = tuple(arrangement.poses_at(numbers, gibbs=True) for numbers in path)
+            yield Clip("time", frames, tuple(path), text=RESTS)
+
+    def _motions(self) -> list[Clip]:
+        """Return finite motions, or infinitesimal ones in their place."""
         with sampling(self.stage.system, SECONDS):
             try:
                 sampler = MotionSampler(self.stage.system, self.stage.arrangement.first_values)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from itertools import combinations
+from itertools import combinations, pairwise
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -17,6 +17,8 @@ DIRECTIONS = ((-55.0, 24.0), (-35.0, 24.0), (-70.0, 20.0), (35.0, 24.0), (60.0, 
 MOST_POINTS = 40
 #: Turns of a coil, points of a bow, and of a circle.
 TURNS, BOW, ROUND = 6, 17, 32
+#: Through so many points a line is smooth as it is.
+ENOUGH = 40
 #: A character's width and a line's height, by the size of the text.
 WIDE, HIGH = 0.56, 1.25
 
@@ -128,6 +130,8 @@ def outline(sketch: Sketch, shape: Shape, poses: Poses, view: View) -> Array:
             return _arrow(seen[0], seen[1], shape.size)
         case "bow":
             return _bow(seen[0], seen[1], shape.size)
+        case "curve":
+            return _smooth(seen)
     return seen
 
 
@@ -172,6 +176,20 @@ def _arrow(first: Array, last: Array, head: float) -> Array:
     back = arm * min(head / max(length, 1e-12), 0.5)
     barb = side * float(np.linalg.norm(back)) * 0.45
     return np.array([first, last, last - back + barb, last, last - back - barb])
+
+
+def _smooth(points: Array) -> Array:
+    """Return points of a smooth line through points: the spline of Catmull and Rom."""
+    if not 2 < len(points) < ENOUGH:
+        return points
+    slopes = np.gradient(points, axis=0)
+    if np.allclose(points[0], points[-1]):
+        slopes[0] = slopes[-1] = (points[1] - points[-2]) / 2
+    spots = []
+    for (p, q), (u, v) in zip(pairwise(points), pairwise(slopes), strict=True):
+        arm = q - p
+        spots += [p + t * (u + t * (3 * arm - 2 * u - v + t * (u + v - 2 * arm))) for t in (0.0, 0.25, 0.5, 0.75)]
+    return np.array([*spots, points[-1]])
 
 
 def _bow(first: Array, last: Array, high: float) -> Array:

@@ -14,8 +14,9 @@ from typing import NamedTuple
 import numpy as np
 
 from dofkit.expressions.calculus import substitute
-from dofkit.expressions.tree import Expr, num
+from dofkit.expressions.tree import ZERO, Expr, coordinate, fn, num
 from dofkit.expressions.vectors import Vec
+from dofkit.motion.poses import about
 from dofkit.pictures.evaluation import Values, evaluated
 from dofkit.pictures.shapes import (
     SQUARE,
@@ -25,13 +26,12 @@ from dofkit.pictures.shapes import (
     Role,
     Shape,
     Vertex,
-    about,
     circle,
     fixed,
     place,
 )
 from dofkit.scene.picture import PlacedPicture, PlacedShape
-from dofkit.system import GROUND
+from dofkit.system import GROUND, System
 
 #: Points of a curve that rests and of one that moves, lines of a surface in each direction and their points, corners
 #: of a disc, strokes of the ground.
@@ -39,14 +39,22 @@ CURVE, MOVING_CURVE, MESH, MESH_POINTS, RIM, STROKES = 61, 15, 9, 25, 40, 12
 #: Shapes that are one line or dot: its kind and role, and its size in symbols where no radius is given.
 _LINES: Mapping[str, tuple[Kind, Role, float]] = {
     "rod": ("line", "bar", 0.0), "string": ("line", "rope", 0.0), "spring": ("coil", "force", 0.8),
-    "arrow": ("arrow", "arrow", 0.8), "point": ("ball", "point", 0.42), "curve": ("line", "guide", 0.0),
+    "arrow": ("arrow", "arrow", 0.8), "point": ("ball", "point", 0.42), "curve": ("curve", "guide", 0.0),
 }  # fmt: skip
 #: The sides of the ground, of axes and of a blade whose size is not given.
 SIDE, AXIS, BLADE = 4.0, 1.0, 0.8
+#: The rim of a blade, seen from above in the plane and from the side in space, for half its length.
+BLADES = {
+    2: [(-1, 0, 0), (-0.5, -0.2, 0), (0.5, -0.2, 0), (1, 0, 0), (0.5, 0.2, 0), (-0.5, 0.2, 0)],
+    3: [(-1, 0, 0.5), (-0.7, 0, 0), (0.7, 0, 0), (1, 0, 0.5)],
+}
 
 
 class ShapePlacement(NamedTuple):
-    """Where a carrier is: a place, and in space its axis or heading, and its turn about that."""
+    """Where a carrier is: a place, and in space its axis or heading, and its turn about that.
+
+    ``start`` is the point of the carrier that is at the place.
+    """
 
     at: Vec
     axis: Vec | None = None
@@ -54,12 +62,17 @@ class ShapePlacement(NamedTuple):
     turn: Expr | None = None
     #: Whether a heading is that of a wheel that stands upright in space.
     upright: bool = False
+    start: Vec = ()
+
+    def depends_on(self, *kinds: str) -> bool:
+        """Return whether it depends on symbols of some kinds."""
+        exprs = [*self.at, *(self.axis or ()), *(e for e in (self.heading, self.turn) if e is not None)]
+        return any(s.args[0] in kinds for e in exprs for s in e.symbols)
 
     @property
     def moves(self) -> bool:
         """Whether it depends on coordinates or time."""
-        exprs = [*self.at, *(self.axis or ()), *(e for e in (self.heading, self.turn) if e is not None)]
-        return any(s.args[0] in ("coordinate", "time") for e in exprs for s in e.symbols)
+        return self.depends_on("coordinate", "time")
 
     def pose(self, values: Values) -> Displacement:
         """Return the displacement of the carrier, whose own frame has its axis along z and its mark along y."""
@@ -74,8 +87,30 @@ class ShapePlacement(NamedTuple):
         elif self.upright and self.heading is not None:
             across = np.array([-math.sin(heading), math.cos(heading), 0.0])
         else:
-            return Displacement(about(2, heading + turn), shift)
+            rotation = about(2, heading + turn)
+            return Displacement(rotation, shift - rotation @ np.array(place(number(e) for e in self.start)))
         return Displacement(_frame(across) @ about(2, turn), shift)
+
+    def planar(self) -> tuple[Expr, ...]:
+        """Return the shift of a carrier of the plane, and if it rotates the cosine and sine of its angle."""
+        (x, y), (a, b) = ((*at, ZERO, ZERO)[:2] for at in (self.at, self.start))
+        angles = [e for e in (self.heading, self.turn) if e is not None]
+        if not angles:
+            return x - a, y - b
+        c, s = fn("cos", sum(angles, ZERO)), fn("sin", sum(angles, ZERO))
+        return x - c * a + s * b, y - s * a - c * b, c, s
+
+
+def carrier_placements(system: System) -> dict[str, ShapePlacement]:
+    """Return the placements of particles, and of the bodies of a line or plane, by their names."""
+    placements: dict[str, ShapePlacement] = {}
+    flat = system.bodies if system.dimension < 3 else ()
+    for carrier in (*flat, *system.particles):
+        symbols = tuple(coordinate(c.name) for c in system.coordinates if c.owner == carrier)
+        angles = [q - system.pose.get(q, ZERO) for q in symbols[system.dimension :]]
+        at, start = symbols[: system.dimension], system.starts.get(carrier, ())
+        placements[carrier] = ShapePlacement(at, turn=angles[0] if angles else None, start=start)
+    return placements
 
 
 def _frame(across: Array) -> Array:
@@ -227,9 +262,7 @@ class _Drawing(NamedTuple):
         up = up / max(float(np.linalg.norm(up)), 1e-12)
         along = half * np.array([up[1], -up[0], 0.0])
         yield self._made("line", self._in_frame([-along, along]), "ground")
-        for part in np.linspace(-1, 1, STROKES):
-            foot = part * along - 0.9 * self.unit * (up + along / max(half, 1e-12))
-            yield self._made("line", self._in_frame([part * along, foot]), "hatch")
+        yield self._made("line", self._in_frame(hatching(self.unit, np.zeros(3), along, -up, STROKES)), "hatch")
 
     def _box(self) -> Iterator[Shape]:
         half = np.array(self._sizes(3, 1.0)) / 2
@@ -237,22 +270,15 @@ class _Drawing(NamedTuple):
             yield self._made("area", self._in_frame([half * corner for corner in np.array(face)]), "body")
 
     def _blade(self, half: float) -> Iterator[Shape]:
-        wide = half / 5
-        if self.dimension == 2:
-            rim = [
-                (-half, 0.0),
-                (-half / 2, -wide),
-                (half / 2, -wide),
-                (half, 0.0),
-                (half / 2, wide),
-                (-half / 2, wide),
-            ]
-        else:
-            rim = [(-half, half / 2), (-0.7 * half, 0.0), (0.7 * half, 0.0), (half, half / 2)]
-            upright = [(along, 0.0, up) for along, up in rim]
-            yield self._made("area", self._in_frame(upright), "body")
-            return
-        yield self._made("area", self._in_frame(rim), "body")
+        yield self._made("area", self._in_frame(half * np.array(BLADES[self.dimension])), "body")
+
+
+def hatching(unit: float, middle: Array, half: Array, side: Array, ticks: int) -> list[Array]:
+    """Return short strokes along a line, on one side of it, as one zigzag; ``unit``: the size of symbols."""
+    way = half / max(float(np.linalg.norm(half)), 1e-12)
+    slant = (side - way) * max(0.55 * unit, 0.07 * float(np.linalg.norm(half)))
+    roots = [middle + half * (2 * (k + 0.7) / ticks - 1) for k in range(ticks)]
+    return [spot for root in roots for spot in (root, root + slant, root)]
 
 
 def faces(half: Array) -> list[list[Array]]:

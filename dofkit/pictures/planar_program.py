@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
-from dofkit.expressions.tree import TIME, ZERO, Expr, coordinate, fn
-from dofkit.pictures.arrangement import POINT, finite_relations
+from dofkit.expressions.tree import TIME, ZERO, Expr, coordinate
+from dofkit.pictures.arrangement import finite_relations
 from dofkit.pictures.evaluation import evaluated
 from dofkit.pictures.stage import StagedScene
 from dofkit.system import GROUND
@@ -100,7 +100,7 @@ def planar_program(stage: StagedScene, dimension: int) -> PlanarProgram | None:
         columns=tuple(columns),
         scales=(*(system.size if c.role in ("x", "y", "z") else 1.0 for c in system.coordinates), 0.0),
         numbers=stage.arrangement.numbers,
-        poses=_poses(stage),
+        poses={GROUND: (ZERO, ZERO), **{name: p.planar() for name, p in stage.arrangement.placements.items()}},
         relations=tuple((name, e) for name, e in equations if e in finite),
         limits=tuple(finite_relations(system, (">=", ">"))),
         can_drag=bool(stage.motions) and all(e in finite for _, e in equations),
@@ -110,27 +110,3 @@ def planar_program(stage: StagedScene, dimension: int) -> PlanarProgram | None:
     except UnknownStepError:
         return None
     return program
-
-
-def _poses(stage: StagedScene) -> dict[str, tuple[Expr, ...]]:
-    """Return the shift of each carrier, and the cosine and sine of its angle."""
-    system = stage.system
-    poses: dict[str, tuple[Expr, ...]] = {GROUND: (ZERO, ZERO)}
-    owned = {owner: [coordinate(c.name) for c in system.coordinates if c.owner == owner] for owner in system.bodies}
-    for body, symbols in owned.items():
-        start = [*system.starts[body], ZERO][:2]
-        at = [*symbols[: system.dimension], ZERO][:2]
-        if system.dimension < 2:
-            poses[body] = (at[0] - start[0], ZERO)
-            continue
-        angle = symbols[-1] - system.pose.get(symbols[-1], ZERO)
-        c, s = fn("cos", angle), fn("sin", angle)
-        poses[body] = (at[0] - c * start[0] + s * start[1], at[1] - s * start[0] - c * start[1], c, s)
-    for particle in system.particles or () if system.bodies or system.particles else (POINT,):
-        symbols = [coordinate(c.name) for c in system.coordinates if particle == POINT or c.owner == particle]
-        poses[particle] = ((*symbols, ZERO, ZERO)[0], (*symbols, ZERO, ZERO)[1])
-    for name, placement in stage.arrangement.placements.items():
-        angles = [e for e in (placement.heading, placement.turn) if e is not None]
-        turn = sum(angles, ZERO)
-        poses[name] = (placement.at[0], placement.at[1], *((fn("cos", turn), fn("sin", turn)) if angles else ()))
-    return poses

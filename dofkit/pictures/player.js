@@ -61,7 +61,21 @@
 
   function poses() {
     const clip = data.clips[state.clip];
-    return state.free ? planar.placed(state.free) : clip ? posesOf(clip)[state.frame] : still;
+    return state.free ? planar.placed(state.free) : clip ? posesAt(clip, state.frame) : still;
+  }
+
+  /* The poses of a clip at a frame, or between two: there on the straight line from one to the other. */
+  function posesAt(clip, frame) {
+    const all = posesOf(clip), k = Math.floor(frame), part = frame - k;
+    return part ? all[k].map(function (pose, c) { return blended(pose, all[(k + 1) % all.length][c], part); }) : all[k];
+  }
+
+  function blended(a, b, part) {
+    function mixed(key) { return a[key].map(function (x, k) { return x + part * (b[key][k] - x); }); }
+    function unit(v) { const size = Math.hypot(...v) || 1; return v.map(function (x) { return x / size; }); }
+    function cross(u, v) { return [0, 1, 2].map(function (k) { return u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3]; }); }
+    const turn = mixed("turn"), x = unit(turn.slice(0, 3)), z = unit(cross(x, turn.slice(3, 6)));
+    return { turn: [...x, ...cross(z, x), ...z], shift: mixed("shift") };
   }
 
   /* A vertex on the panel: to the right, down, and how near. */
@@ -132,7 +146,7 @@
       arrow(onPanel(from, view), onPanel(to, view), 8);
       paint(["#D55E00", 2, [], null], false);
     }
-    const until = clip.loop ? state.frame + 1 : clip.frames.length;
+    const until = clip.loop ? Math.floor(state.frame) + 1 : clip.frames.length;
     for (const vertex of controls.paths.checked || clip.loop ? data.traced : []) {
       const path = posesOf(clip).slice(0, until).map(function (here) { return seen(vertex, here, view); });
       trace(path, Boolean(clip.closed));
@@ -165,6 +179,22 @@
     pen.stroke();
   }
 
+  /* A smooth line through points: the spline of Catmull and Rom. */
+  function smooth(points) {
+    const last = points.length - 1, closed = Math.hypot(points[0][0] - points[last][0], points[0][1] - points[last][1]) < 1e-3;
+    function slope(k, c) {
+      if (closed && k % last === 0) { return (points[1][c] - points[last - 1][c]) / 6; }
+      const a = Math.max(k - 1, 0), b = Math.min(k + 1, last);
+      return (points[b][c] - points[a][c]) / (b - a) / 3;
+    }
+    pen.beginPath();
+    pen.moveTo(points[0][0], points[0][1]);
+    for (let k = 0; k < last; k++) {
+      const p = points[k], q = points[k + 1];
+      pen.bezierCurveTo(p[0] + slope(k, 0), p[1] + slope(k, 1), q[0] - slope(k + 1, 0), q[1] - slope(k + 1, 1), q[0], q[1]);
+    }
+  }
+
   function drawShape(shape, points, look) {
     if (shape.k === "ball") {
       pen.beginPath();
@@ -178,6 +208,9 @@
       paint(look, false);
     } else if (shape.k === "arrow") {
       arrow(points[0], points[1], shape.s * data.scale);
+      paint(look, false);
+    } else if (shape.k === "curve") {
+      smooth(points);
       paint(look, false);
     } else if (shape.k === "bow") {
       trace(bow(points[0], points[1], shape.s), false);
@@ -202,15 +235,17 @@
   }
 
   function drawAxes(view) {
-    const root = [data.margin + 26, data.height - data.margin - 22];
+    const ways = data.axes.map(function (_, k) { return [view[0][k], -view[1][k]]; });
+    const root = [data.margin + 8 - 20 * Math.min(0, ...ways.map(function (way) { return way[0]; })),
+      data.height - 14 - 20 * Math.max(0, ...ways.map(function (way) { return way[1]; }))];
     data.axes.forEach(function (name, k) {
-      const way = [view[0][k], -view[1][k]];
+      const way = ways[k];
       pen.strokeStyle = tone("#6E6E6E");
       pen.lineWidth = 1;
       pen.setLineDash([]);
-      trace([root, [root[0] + 18 * way[0], root[1] + 18 * way[1]]], false);
+      trace([root, [root[0] + 20 * way[0], root[1] + 20 * way[1]]], false);
       pen.stroke();
-      if (Math.hypot(way[0], way[1]) > 0.15) { write(name, root[0] + 25 * way[0], root[1] + 25 * way[1], "#6E6E6E", 8); }
+      if (Math.hypot(way[0], way[1]) > 0.15) { write(name, root[0] + 27 * way[0], root[1] + 27 * way[1], "#6E6E6E", 8); }
     });
   }
 
@@ -275,7 +310,7 @@
   const box = document.querySelector(".controls"), said = document.getElementById("seen");
   const controls = {
     play: make("button", { type: "button", id: "play", textContent: "Play" }),
-    slider: make("input", { type: "range", id: "slider", min: "0", value: "0", ariaLabel: "position along the motion" }),
+    slider: make("input", { type: "range", id: "slider", min: "0", step: "any", value: "0", ariaLabel: "position along the motion" }),
     clip: make("select", { id: "clip", ariaLabel: "motion" }),
     size: make("input", { type: "range", id: "size", min: "0", value: "0" }),
     speed: make("select", { id: "speed" }, new Option("0.5"), new Option("1", "1", true, true), new Option("2")),
@@ -290,17 +325,10 @@
   /* The clips of a name, which differ by their size. */
   function sizes(name) { return data.clips.filter(function (clip) { return clip.name === name; }); }
 
-  /* The frame that is nearest to the picture that stands still. */
-  function nearest(frames) {
-    const gaps = frames.map(function (here) { return here.reduce(function (sum, pose, k) { return sum + gap(pose, still[k]); }, 0); });
-    return gaps.indexOf(Math.min(...gaps));
-  }
-
   /* The phase of a motion there and back at which it is at a frame. */
   function wayTo(frame, count) { return Math.acos(1 - 2 * frame / Math.max(1, count - 1)); }
 
   function choose(clip) {
-    clip.start = clip.loop ? 0 : nearest(posesOf(clip));
     Object.assign(state, { clip: data.clips.indexOf(clip), frame: clip.start, free: null });
     way = wayTo(clip.start, clip.frames.length);
     controls.slider.max = String(clip.frames.length - 1);
@@ -334,16 +362,19 @@
     draw();
   }
 
-  function advance() {
+  /* So many frames of the clip further; a loop rests at its end. */
+  function advance(frames) {
     const clip = data.clips[state.clip], count = clip.frames.length;
     if (clip.loop && state.frame === count - 1) {
-      rest = (rest + 1) % 30;
-      if (!rest) { state.frame = 0; }
-    } else if (clip.closed || clip.loop) {
-      state.frame = (state.frame + 1) % count;
+      rest += frames;
+      if (rest > 30) { rest = state.frame = 0; }
+    } else if (clip.loop) {
+      state.frame = Math.min(state.frame + frames, count - 1);
+    } else if (clip.closed) {
+      state.frame = (state.frame + frames) % count;
     } else {
-      way = (way + Math.PI / count) % (2 * Math.PI);  /* there and back, slowest at the ends */
-      state.frame = Math.round((count - 1) * (1 - Math.cos(way)) / 2);
+      way = (way + frames * Math.PI / count) % (2 * Math.PI);  /* there and back, slowest at the ends */
+      state.frame = (count - 1) * (1 - Math.cos(way)) / 2;
     }
     controls.slider.value = String(state.frame);
     draw();
@@ -351,8 +382,9 @@
 
   function tick(time) {
     if (!state.playing) { return; }
-    const pace = 40 * Math.max(1, 36 / data.clips[state.clip].frames.length);
-    if (time - last > pace / Number(controls.speed.value)) { last = time; advance(); }
+    const pace = 40 * Math.max(1, 36 / data.clips[state.clip].frames.length), past = Math.min(Math.max(time - last, 0), 100);
+    last = time;
+    advance(past * Number(controls.speed.value) / pace);
     window.requestAnimationFrame(tick);
   }
 
@@ -361,6 +393,7 @@
     controls.play.textContent = on ? "Pause" : "Play";
     if (on) {
       way = wayTo(state.frame, data.clips[state.clip].frames.length);
+      last = performance.now();
       window.requestAnimationFrame(tick);
     }
   }
@@ -419,7 +452,7 @@
   const residual = make("span", { id: "residual", textContent: "Drag a point, or move it by the arrow keys (N takes the next point)." });
 
   function drag(grip, target) {
-    const clip = data.clips[state.clip], from = state.free || (clip ? clip.frames[state.frame] : program.start);
+    const clip = data.clips[state.clip], from = state.free || (clip ? clip.frames[Math.floor(state.frame)] : program.start);
     setPlaying(false);
     const now = planar.pulled(from, grip, target, state.off);
     state.free = now.q;
@@ -480,6 +513,10 @@
   }
   window.addEventListener("resize", draw);
   night.addEventListener("change", function () { hatch = makeHatch(); draw(); });
+  /* The picture that stood here before this script ran makes room for the canvas. */
+  const first = document.getElementById("first");
+  if (first) { first.remove(); }
+  canvas.hidden = false;
   draw();
   canvas.dataset.opened = String(performance.now() - opened);
 })();

@@ -5,16 +5,28 @@ from __future__ import annotations
 import json
 import math
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterator, Sequence
 from html import escape
 from importlib.resources import files
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from dofkit.base.display import schemes
-from dofkit.pictures.files import CLASS, dark_style
-from dofkit.pictures.layout import MARGIN, WIDTH, Standpoint, margins_of, name_size, ruler_of, standpoint_of
+from dofkit.pictures.files import CLASS, dark_style, svg_of
+from dofkit.pictures.layout import (
+    MARGIN,
+    WIDTH,
+    Margins,
+    PaperScale,
+    Standpoint,
+    margins_of,
+    name_size,
+    page_of,
+    ruler_of,
+    standpoint_of,
+)
+from dofkit.pictures.paper import Page
 from dofkit.pictures.planar_program import PlanarProgram
 from dofkit.pictures.shapes import (
     AT_REST,
@@ -23,7 +35,6 @@ from dofkit.pictures.shapes import (
     Clip,
     Displacement,
     Ink,
-    Poses,
     Shape,
     Sketch,
     Switch,
@@ -36,6 +47,8 @@ from dofkit.pictures.shapes import (
 FRAME, EDGE, LINE = int(WIDTH * 1.5), 12.0, 22.0
 #: Part of the panel that a sketch of space fills, so that it can be turned.
 FILL = 0.94
+#: How far above the panel's edge its axes and its ruler stand, beyond what stands below a picture on paper.
+LOW = 6.0
 _COMMENT = re.compile(r"^ +/\*.*?\*/\n", re.MULTILINE | re.DOTALL)
 DRAG = "Drag the picture, or use the arrow keys, to turn it."
 
@@ -45,24 +58,27 @@ def page_html(
 ) -> str:
     """Return a page with a sketch that can be played, and turned if it is spatial, or else dragged."""
     package = files("dofkit.pictures")
-    contents = player_data(sketch, clips, program, switches)
+    panel = panel_of(sketch, clips)
+    contents = player_data(sketch, clips, program, switches, panel)
     data = json.dumps(contents, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
     pieces = {
         "title": escape(sketch.title),
         "answer": escape(sketch.answer),
         "alternative": escape(sketch.alternative, quote=True),
+        "first": svg_of(first_frame(sketch, panel)).replace("<svg", '<svg id="first"', 1),
         "legend": _legend(sketch),
         "notes": "".join(f"<p>{escape(note)}</p>" for note in _notes(sketch)),
         "data": data,
-        "script": player_script(),
+        "script": player_script(drags=program is not None),
     }
     frame = (package / "player.html").read_text(encoding="utf-8")
     return re.sub("@([a-z]+)@", lambda match: pieces[match[1]], frame)
 
 
-def player_script() -> str:
-    """Return the script that plays, turns and drags pictures, without indentation and inner comments."""
-    texts = [(files("dofkit.pictures") / name).read_text(encoding="utf-8") for name in ("planar.js", "player.js")]
+def player_script(drags: bool = True) -> str:
+    """Return the script that plays and turns pictures and ``drags`` points, without indentation and inner comments."""
+    names = ("planar.js", "player.js") if drags else ("player.js",)
+    texts = [(files("dofkit.pictures") / name).read_text(encoding="utf-8") for name in names]
     script = _COMMENT.sub("", "".join(texts))
     return "\n".join(line.strip() for line in script.splitlines() if line.strip())
 
@@ -96,31 +112,55 @@ def page_height(sketch: Sketch, clips: Sequence[Clip], switches: Sequence[Switch
     return panel + LINE * sum(lines) + 4 * EDGE
 
 
+class Panel(NamedTuple):
+    """The part of a page that a script draws on: its height, where it is seen from, and what is in its middle."""
+
+    height: float
+    standpoint: Standpoint
+    middle: Array
+
+
+def panel_of(sketch: Sketch, clips: Sequence[Clip]) -> Panel:
+    """Return the panel on which a sketch fits wherever it moves; one of space fits however it is turned."""
+    every = [sketch.poses, *(frame for clip in clips for frame in clip.frames)]
+    standpoint, margins = standpoint_of(sketch, every), margins_of(sketch)
+    height, fit = margins.high - margins.low, standpoint.fit
+    if sketch.dimension < 3:
+        fit = fit._replace(shift=fit.shift - np.array([0.0, margins.low]))
+        return Panel(height, standpoint._replace(fit=fit), np.zeros(3))
+    reached = np.array([sketch.at(v, poses) for poses in every for s in sketch.shapes for v in s.vertices])
+    middle = (np.min(reached, axis=0) + np.max(reached, axis=0)) / 2
+    radius = max(float(np.max(np.linalg.norm(reached - middle, axis=1))), 1e-9)
+    scale = FILL * min(WIDTH, height) / 2 / radius
+    shift = np.array([WIDTH / 2, height / 2]) - scale * standpoint.view.seen(middle)[:2]
+    return Panel(height, standpoint._replace(fit=PaperScale(scale, shift)), middle)
+
+
+def first_frame(sketch: Sketch, panel: Panel) -> Page:
+    """Return what the panel shows before the script runs."""
+    page = page_of(sketch, None, panel.standpoint, Margins((), (), panel.height, LOW))
+    return page._replace(marks=tuple(mark._replace(owner="") for mark in page.marks))
+
+
 def player_data(
-    sketch: Sketch, clips: Sequence[Clip], program: PlanarProgram | None = None, switches: Sequence[Switch] = ()
+    sketch: Sketch,
+    clips: Sequence[Clip],
+    program: PlanarProgram | None = None,
+    switches: Sequence[Switch] = (),
+    panel: Panel | None = None,
 ) -> dict[str, Any]:
     """Return what the script needs: shapes on their carriers, poses frame by frame or as a program, and the view."""
-    every = [frame for clip in clips for frame in clip.frames]
-    standpoint = standpoint_of(sketch, every)
+    panel = panel or panel_of(sketch, clips)
+    view, fit, named = panel.standpoint
     carriers = list(dict.fromkeys(v.carrier for s in sketch.shapes for v in s.vertices))
-    looks: dict[Ink, int] = {}
-    offsets = iter(standpoint.offsets)
     digits = max(0, 4 - math.floor(math.log10(sketch.size)))
-    owners = {switch.name for switch in switches}
+    looks: dict[Ink, int] = {}
+    owners = frozenset(switch.name for switch in switches)
+    offsets = iter(named)
     shapes = []
     for shape in sketch.shapes:
-        entry: dict[str, Any] = {
-            "k": shape.kind,
-            **_vertex_data(shape, carriers, digits),
-            "i": looks.setdefault(ink_of(shape), len(looks)),
-        }
-        if shape.size:
-            entry["s"] = _number(shape.size)
-        if shape.owner in owners:
-            entry["c"] = shape.owner
-        if shape.kind == "words":
-            entry |= {"t": shape.text, "o": _rounded(next(offsets))}
-        shapes.append(entry)
+        entry = {"k": shape.kind, "i": looks.setdefault(ink_of(shape), len(looks))}
+        shapes.append(entry | _vertex_data(shape, carriers, digits) | _shape_data(shape, owners, offsets))
     return {
         "dimension": sketch.dimension,
         "axes": list(sketch.axes[: sketch.dimension]),
@@ -130,15 +170,32 @@ def player_data(
         "names": name_size(sketch),
         "traced": [[carriers.index(v.carrier), *_rounded(v.at)] for v in sketch.traced if v.carrier in carriers],
         "still": [_pose_row(sketch.poses.get(c, AT_REST)) for c in carriers],
-        "clips": [_clip_data(clip, carriers, program, digits) for clip in clips],
+        "clips": [_clip_data(sketch, clip, carriers, program, digits) for clip in clips],
         "switches": [switch._asdict() for switch in switches],
         "program": None if program is None else program.data(carriers),
-        **_panel(sketch, standpoint, every),
+        "width": WIDTH,
+        "height": panel.height,
+        "margin": MARGIN,
+        "centre": _rounded(panel.middle),
+        "scale": _number(fit.scale),
+        "shift": _rounded(fit.shift + fit.scale * view.seen(panel.middle)[:2]),
+        "view": [view.azimuth, view.elevation],
+        "ruler": ruler_of(sketch, fit),
     }
+
+
+def _shape_data(shape: Shape, owners: frozenset[str], offsets: Iterator[Array]) -> dict[str, Any]:
+    """Return the size of a shape, the constraint with a switch that it shows, and of a name its text and offset."""
+    entry: dict[str, Any] = {"s": _number(shape.size)} if shape.size else {}
+    if shape.owner in owners:
+        entry["c"] = shape.owner
+    return entry | ({"t": shape.text, "o": _rounded(next(offsets))} if shape.kind == "words" else {})
 
 
 def _vertex_data(shape: Shape, carriers: Sequence[str], digits: int) -> dict[str, Any]:
     """Return the vertices of a shape: of one carrier its number and all components in a row, else one by one."""
+    if shape.role in ("surface", "mesh"):
+        digits -= 1
     places = [[round(x, digits) for x in v.at] for v in shape.vertices]
     numbers = [carriers.index(v.carrier) for v in shape.vertices]
     if len(set(numbers)) == 1:
@@ -146,11 +203,14 @@ def _vertex_data(shape: Shape, carriers: Sequence[str], digits: int) -> dict[str
     return {"v": [[number, *p] for number, p in zip(numbers, places, strict=True)]}
 
 
-def _clip_data(clip: Clip, carriers: Sequence[str], program: PlanarProgram | None, digits: int) -> dict[str, Any]:
+def _clip_data(
+    sketch: Sketch, clip: Clip, carriers: Sequence[str], program: PlanarProgram | None, digits: int
+) -> dict[str, Any]:
     """Return a clip, whose frames are values of the program's columns if there is one, else poses of all carriers.
 
-    ``digits`` after the point are as many as can be seen.
+    ``digits`` after the point are as many as can be seen; ``start`` is the frame that is nearest to the sketch.
     """
+    gaps = [sum(far(frame.get(c, AT_REST), sketch.poses.get(c, AT_REST)) for c in carriers) for frame in clip.frames]
     entry: dict[str, Any] = {"name": clip.name, "closed": clip.closed, "loop": clip.loop, "text": clip.text}
     if program is not None:
         frames: list[Any] = [[round(v, max(4, digits)) for v in program.values(numbers)] for numbers in clip.path]
@@ -158,33 +218,13 @@ def _clip_data(clip: Clip, carriers: Sequence[str], program: PlanarProgram | Non
         rows = ([_pose_row(frame.get(c, AT_REST)) for c in carriers] for frame in clip.frames)
         frames = [[[*(round(v, digits) for v in p[:3]), *(round(v, 4) for v in p[3:])] for p in row] for row in rows]
     arrows = [[_rounded(a), _rounded(b)] for a, b in clip.arrows]
-    return entry | {"dropped": clip.dropped, "size": clip.size, "arrows": arrows, "frames": frames}
+    start = 0 if clip.loop else gaps.index(min(gaps))
+    return entry | {"dropped": clip.dropped, "size": clip.size, "arrows": arrows, "start": start, "frames": frames}
 
 
-def _panel(sketch: Sketch, standpoint: Standpoint, every: Iterable[Poses]) -> dict[str, Any]:
-    """Return the panel's size, and the scale of the sketch on it."""
-    margins = margins_of(sketch)
-    width, height = WIDTH, margins.high - margins.low
-    view, fit, _ = standpoint
-    if sketch.dimension == 3:
-        reached = [sketch.at(v, p) for p in (sketch.poses, *every) for s in sketch.shapes for v in s.vertices]
-        low, high = np.min(reached, axis=0), np.max(reached, axis=0)
-        middle = (low + high) / 2
-        radius = max(float(np.max(np.linalg.norm(np.array(reached) - middle, axis=1))), 1e-9)
-        scale = FILL * min(width, height) / 2 / radius
-        shift = np.array([width / 2, height / 2])
-    else:
-        middle, scale, shift = np.zeros(3), fit.scale, fit.shift - np.array([0.0, margins.low])
-    return {
-        "width": width,
-        "height": height,
-        "margin": MARGIN,
-        "centre": _rounded(middle),
-        "scale": _number(scale),
-        "shift": _rounded(shift),
-        "view": [view.azimuth, view.elevation],
-        "ruler": ruler_of(sketch, fit._replace(scale=scale)),
-    }
+def far(first: Displacement, last: Displacement) -> float:
+    """Return how far two displacements of a carrier are apart: the largest difference of their numbers."""
+    return float(max(np.max(np.abs(first.turn - last.turn)), np.max(np.abs(first.shift - last.shift))))
 
 
 def _pose_row(pose: Displacement) -> list[float]:

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from fractions import Fraction
 from itertools import product
 
 import numpy as np
 
-from dofkit.expressions.tree import PI, ZERO, Expr, coordinate, num
+from dofkit.expressions.tree import PI, ZERO, coordinate, num
 from dofkit.pictures.arrangement import velocity_rows
 from dofkit.pictures.evaluation import kernel
 from dofkit.pictures.shapes import Array
@@ -20,12 +19,12 @@ from dofkit.system import System
 SAMPLES, SAME = 5, 1e-6
 
 
-def recognised(system: System, numbers: Mapping[Expr, float]) -> PlacedPicture | None:
+def recognised(system: System) -> PlacedPicture | None:
     """Return the picture of a disc or blade at x, y, if every admissible direction moves it along one heading."""
     names = [c.name for c in system.coordinates]
     if not {"x", "y"} <= set(names) or len(names) < 3:
         return None
-    samples = _samples(system, names, numbers)
+    samples = _samples(system, names)
     headings = product([n for n in names if n not in ("x", "y")], (1, -1), (0, 1))
     heading = next((h for h in headings if _fits(samples, names, h)), None)
     if heading is None:
@@ -45,13 +44,13 @@ def recognised(system: System, numbers: Mapping[Expr, float]) -> PlacedPicture |
     return PlacedPicture((blade,), 2, frozenset())
 
 
-def _samples(system: System, names: list[str], numbers: Mapping[Expr, float]) -> list[tuple[Array, Array]]:
+def _samples(system: System, names: list[str]) -> list[tuple[Array, Array]]:
     """Return random configurations with bases of the admissible directions there."""
     random = np.random.default_rng(5)
     samples = []
     for _ in range(SAMPLES):
         q = random.uniform(-1.5, 1.5, len(names))
-        rows, _ = velocity_rows(system, {**numbers, **dict(zip(map(coordinate, names), map(float, q), strict=True))})
+        rows, _ = velocity_rows(system, dict(zip(map(coordinate, names), map(float, q), strict=True)))
         samples.append((q, kernel(rows[:, : len(names)], len(names))))
     return samples
 

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from math import cos, sin
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
@@ -18,10 +17,10 @@ from dofkit.system import GROUND
 Array = np.ndarray[Any, Any]
 Place = tuple[float, float, float]
 
-#: ``line`` and ``area``: through the vertices; ``hull``: around them, rounded by ``size``; ``ball``: a disc on paper of
-#: radius ``size``; ``coil``: a spring between two; ``bow``: an arc between two, as high as ``size`` of its length;
-#: ``arrow``: from one to another, with a head of ``size``; ``words``: a text beside the vertex.
-Kind = Literal["line", "area", "hull", "ball", "coil", "bow", "arrow", "words"]
+#: ``line`` and ``area``: through the vertices; ``curve``: a smooth line through them; ``hull``: around them, rounded by
+#: ``size``; ``ball``: a disc on paper of radius ``size``; ``coil``: a spring between two; ``bow``: an arc between two,
+#: as high as ``size`` of its length; ``arrow``: from one to another, with a head of ``size``; ``words``: a text there.
+Kind = Literal["line", "area", "curve", "hull", "ball", "coil", "bow", "arrow", "words"]
 #: What a shape is part of.
 Role = Literal[
     "body", "joint", "guide", "bar", "rope", "ground", "hatch", "axis", "locus", "trace", "tie", "force", "point",
@@ -147,15 +146,6 @@ def circle(count: int, closed: bool = False) -> Array:
     """Return points of the unit circle as rows (x, y, 0); ``closed``: the first also stands at the end."""
     angles = 2 * np.pi * np.arange(count + closed) / count
     return np.column_stack([np.cos(angles), np.sin(angles), np.zeros(len(angles))])
-
-
-def about(axis: int, angle: float) -> Array:
-    """Return the rotation about a coordinate axis."""
-    c, s = cos(angle), sin(angle)
-    i, j = [(1, 2), (2, 0), (0, 1)][axis]
-    turn = np.eye(3)
-    turn[i, i], turn[i, j], turn[j, i], turn[j, j] = c, -s, s, c
-    return turn
 
 
 def quaternion(turn: Array) -> Array:

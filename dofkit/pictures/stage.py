@@ -13,6 +13,7 @@ from dofkit.pictures.arrangement import (
     Arrangement,
     FreeMotion,
     arrangement_of,
+    finite_relations,
     free_motions,
     is_linear,
     movers,
@@ -24,7 +25,7 @@ from dofkit.pictures.words import can_hold, meanings, state_of
 from dofkit.report import Report
 from dofkit.scene.lowering import lower
 from dofkit.scene.names import vocabulary_of
-from dofkit.scene.parts import BodyPoint, Force
+from dofkit.scene.parts import BodyPoint, Force, Particle
 from dofkit.scene.picture import PlacedPicture, picture_of
 from dofkit.scene.scene import Scene
 from dofkit.scene.symbols import Symbol
@@ -34,6 +35,8 @@ from dofkit.system import GROUND, Connection, System
 SYMBOL, CROWDED, LEAST = 0.032, 0.2, 0.014
 #: The distance in symbols between joints whose position is free.
 APART = 7.0
+#: The particle whose place is the configuration of a scene of coordinates.
+POINT = "configuration"
 #: With more coordinates than this, it is not determined what moves.
 MOST_COLUMNS = 300
 TOO_MANY = f"More than {MOST_COLUMNS} coordinates: which parts move was not determined."
@@ -151,10 +154,12 @@ def stage_of(scene: Scene, report: Report) -> StagedScene:
     """Return a scene with its positions. Raises SceneError as `lower` does."""
     system = lower(scene)
     picture = picture_of(scene, vocabulary_of(scene), [])
-    arrangement = arrangement_of(system)
     if not (system.bodies or system.particles or picture.shapes):
-        picture = recognised(system, arrangement.numbers) or picture
-    arrangement = replace(arrangement, placements=placements_of(picture))
+        picture = recognised(system) or picture
+        if not picture.shapes and has_set(system):
+            system = lower(as_particle(scene))
+    arrangement = arrangement_of(system)
+    arrangement = replace(arrangement, placements={**arrangement.placements, **placements_of(picture)})
     written = [_written_place(arrangement, c) for c in system.connections]
     points = _points(scene, arrangement, written)
     sizes = [s for s in picture_shapes(picture, arrangement.numbers, 0.0) if s.kind != "words"]
@@ -164,7 +169,7 @@ def stage_of(scene: Scene, report: Report) -> StagedScene:
     points += drawn
     places, schematic = _all_places(scene, arrangement, written, unit)
     size, centre = _extent([*points, *(p for p, w in zip(places, written, strict=True) if p and w is None)])
-    unseen = None if is_linear(arrangement) else NOT_LINEAR
+    unseen = None if is_linear(system) else NOT_LINEAR
     if len(system.coordinates) > MOST_COLUMNS:
         unseen = TOO_MANY
     motions = () if unseen or not can_hold(report) else _motions(arrangement, report)
@@ -185,6 +190,18 @@ def stage_of(scene: Scene, report: Report) -> StagedScene:
         unseen=unseen,
         picture=picture,
     )
+
+
+def has_set(system: System) -> bool:
+    """Return whether the constraints of coordinates alone describe a set that can be seen: curves, surfaces, lines."""
+    count = len(system.coordinates)
+    return (count == 2 and bool(system.constraints)) or (count == 3 and bool(finite_relations(system)))
+
+
+def as_particle(scene: Scene) -> Scene:
+    """Return a scene of two or three coordinates as one of a particle that has them."""
+    particle = Particle(name=POINT, coordinates=scene.coordinates, at=None, mass=None)
+    return scene.model_copy(update={"particles": (particle,), "coordinates": (), "dimension": len(scene.coordinates)})
 
 
 def _motions(arrangement: Arrangement, report: Report) -> tuple[FreeMotion, ...]:

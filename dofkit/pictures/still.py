@@ -2,26 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from html import escape
-from pathlib import Path
 
 import numpy as np
 
 from dofkit.base.wording import many
 from dofkit.methods.classify import classify
 from dofkit.pictures.constraint_graph import graph_sketch, hover_script
-from dofkit.pictures.coordinates import coordinate_sketch, has_set
+from dofkit.pictures.coordinates import coordinate_sketch
 from dofkit.pictures.directions import phase_sketch
-from dofkit.pictures.files import has_matplotlib, png_of, saved, svg_of, write_pdf
+from dofkit.pictures.files import DrawnSketch, has_matplotlib, png_of, svg_of
 from dofkit.pictures.layout import WIDTH, page_of
 from dofkit.pictures.mechanism import FREE_PLACES, is_bare, sketch_of
 from dofkit.pictures.paper import Page
 from dofkit.pictures.player import framed, page_height, page_html
 from dofkit.pictures.shapes import Sketch
-from dofkit.pictures.stage import StagedScene, stage_of
+from dofkit.pictures.stage import POINT, StagedScene, stage_of
 from dofkit.report import Report
 from dofkit.scene.reading import SceneLike, load
 from dofkit.scene.scene import Scene
@@ -48,23 +47,11 @@ def without_text(sketch: Sketch) -> Sketch:
     return replace(sketch, title="", answer="", notes=(), axes=(), shapes=shapes, meanings=None, measurable=False)
 
 
-@dataclass(frozen=True)
-class Picture:
-    """A still picture; a notebook shows it, and spatial ones can be rotated there.
+@dataclass(frozen=True, repr=False)
+class Picture(DrawnSketch):
+    """A still picture; a notebook shows it, and spatial ones can be rotated there."""
 
-    ``alternative`` says in words what it shows and the answer.
-    """
-
-    sketch: Sketch
     script: str = ""
-
-    def __repr__(self) -> str:
-        return f"Picture({self.alternative!r})"
-
-    @property
-    def alternative(self) -> str:
-        """What the picture says, in words."""
-        return self.sketch.alternative
 
     @cached_property
     def page(self) -> Page:
@@ -81,13 +68,6 @@ class Picture:
             return page_html(self.sketch, ())
         return _PAGE.format(title=escape(self.sketch.title), body=self.svg())
 
-    def save(self, path: str | Path) -> Path:
-        """Write it as svg, png, pdf or html, by the path's ending.
-
-        Raises ArgumentError for any other ending, ExtraMissingError if matplotlib is needed and missing, OSError.
-        """
-        return saved(self, path, _WRITERS)
-
     def _repr_html_(self) -> str:
         if self.sketch.dimension == 3:
             return framed(self.html(), page_height(self.sketch, ()))
@@ -95,14 +75,6 @@ class Picture:
 
     def _repr_png_(self) -> bytes | None:
         return png_of(self.page) if has_matplotlib() else None
-
-
-_WRITERS: Mapping[str, Callable[[Picture, Path], object]] = {
-    "svg": lambda picture, path: path.write_text(picture.svg(), encoding="utf-8"),
-    "png": lambda picture, path: path.write_bytes(png_of(picture.page)),
-    "pdf": lambda picture, path: write_pdf(picture.page, path),
-    "html": lambda picture, path: path.write_text(picture.html(), encoding="utf-8"),
-}
 
 
 def draw(scene: SceneLike, report: Report | None = None) -> Picture:
@@ -158,10 +130,10 @@ def staged(scene: Scene, report: Report) -> StagedScene:
 
 def whole_sketch(stage: StagedScene) -> tuple[Sketch, str]:
     """Return the sketch of a scene of any kind, and the script that goes with it."""
+    if stage.system.particles == (POINT,):
+        return coordinate_sketch(stage), ""
     if not is_bare(stage.system) or stage.picture.shapes:
         return sketch_of(stage), ""
-    if has_set(stage.system):
-        return coordinate_sketch(stage), ""
     reason = NO_AXES if stage.system.coordinates else NOTHING
     return graph_sketch(stage.scene, stage.system, stage.report, reason), hover_script(stage.report)
 
@@ -234,11 +206,11 @@ def svg(scene: SceneLike, report: Report | None = None, width: float = WIDTH) ->
 
 
 def unanswered(scene: Scene, report: Report, title: str) -> Picture | None:
-    """Return the picture for an assignment, or None for a scene of coordinates only. Raises as `draw`.
+    """Return the picture for an assignment, or None for coordinates without a `picture`. Raises as `draw`.
 
     It shows nothing that the report says: neither equations nor what moves, is redundant or contradicts others.
     """
-    if not (scene.particles or scene.bodies):
+    if not (scene.particles or scene.bodies or scene.picture):
         return None
     stage = staged(scene, report)
     sketch = sketch_of(stage)
@@ -255,4 +227,6 @@ def _contents(scene: Scene) -> Iterator[str]:
         yield many(len(scene.bodies), "body")
     if scene.particles:
         yield many(len(scene.particles), "particle")
+    if scene.coordinates:
+        yield many(len(scene.coordinates), "coordinate")
     yield many(len(scene.constraints), "constraint")

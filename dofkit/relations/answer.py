@@ -144,6 +144,10 @@ class Answer:
         return Claim(sure, "rank at the reference", self.bits, self.gap, "reference")
 
 
+#: Of what the freedom tells, and of what is seen as it is written.
+COUNTED, IDENTITY = Claim("proved", "count"), Claim("proved", "identity")
+
+
 @dataclass(frozen=True)
 class Redundancies:
     """Which constraints of some that share coordinates depend on which, by their numbers.
@@ -153,7 +157,7 @@ class Redundancies:
     is not known whether they can be dropped.
     ``equations``: which scalar equations of a constraint follow from those before them, where that is known.
     ``uncounted``: constraints of which it is not known how many of their equations do; ``seen``: of which some were
-    seen in numbers to do. ``about``: the points for which this is valid; ``verdict``: of what is redundant, at best.
+    seen in numbers to do. ``claim``: of what is redundant and of how many equations are independent, given the freedom.
     """
 
     independent: dict[int, int]
@@ -164,8 +168,7 @@ class Redundancies:
     equations: Mapping[int, tuple[int, ...]] = field(default_factory=dict)
     uncounted: tuple[int, ...] = ()
     seen: tuple[int, ...] = ()
-    about: About = "everywhere"
-    verdict: Verdict = "proved"
+    claim: Claim = COUNTED
 
     @property
     def needed(self) -> set[int]:

@@ -50,14 +50,12 @@ class Setting:
 
     ``grows``: the growth vector; ``flag``: the derived flag.
     ``distances``: those that constraints hold, by constraint, in a world of ``dimension``; ``links``: the particles
-    that rigid links join, by constraint; ``reductions``: those in use; ``welds``: the constraints that weld;
+    that rigid links join, by constraint; ``reductions``: those in use;
     ``geometric``: those that are no texts, whose numbers are measured where there is a ``tolerance``; then ``arms`` are
     the vectors from the bodies' origins to their material points at the scene's centre. ``tilts``: the second of the
     Euler angles of bodies whose angles texts name; where its sine is 0 the other two turn alike. ``bridges``: the
-    joints that close no loop;
-    ``afloat``: the constraints that hold after any motion of all that they hold, without these, as one;
-    ``within``: what is asked of hangs by such joints on more. ``joint_rows``: of constraints at the drawing, where the
-    geometry of joints alone tells them.
+    joints that close no loop. ``joint_rows``: of constraints at the drawing, where the geometry of joints alone tells
+    them.
     """
 
     positive: frozenset[Expr]
@@ -74,11 +72,8 @@ class Setting:
     distances: Mapping[int, Sequence[Distance]] = field(default_factory=dict)
     links: Mapping[int, Sequence[tuple[str, str]]] = field(default_factory=dict)
     reductions: Reductions = ALL
-    welds: frozenset[int] = frozenset()
     geometric: frozenset[int] = frozenset()
     arms: Mapping[str, tuple[Expr, ...]] = field(default_factory=dict)
     tilts: frozenset[str] = frozenset()
     bridges: frozenset[int] = frozenset()
-    afloat: frozenset[int] = frozenset()
-    within: bool = False
     joint_rows: Callable[[Iterable[int]], NamedRows | None] | None = None

@@ -17,7 +17,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.terms import linear_terms
 from dofkit.expressions.tree import Expr
-from dofkit.relations.blocks import Row, coordinates_of
+from dofkit.relations.blocks import Row, coordinates_of, split
 from dofkit.relations.linear_relations import explicit_relations, number_coefficients
 from dofkit.relations.normal.domain import DomainCondition, conditions_of
 from dofkit.relations.normal.normal_form import linear_form, normalise, velocities_of
@@ -156,18 +156,11 @@ def _ways(row: Row, rows: Sequence[Row], positive: frozenset[Expr]) -> _Rewritin
             result = _branches(row, *_without_divisors(row.piece.expr, changed, divisors, positive), positive)
         except NoValueError:  # what was put in leaves 0 to a power, which has no value
             return _Rewriting([(row,)])
-        sound = [
-            b for b in result if not any(isinstance(r.piece, Finite) and _divides(r.piece.expr, divisors) for r in b)
-        ]
-        ways, divided = _one_that_holds(sound or result), not all(never_vanishes(d, positive) for d in divisors)
+        divided = not all(never_vanishes(d, positive) for d in divisors)
+        ways = [b for b in result if not b] or result  # the branch that says nothing holds the others
         if not (divided and any(isinstance(r.piece, Nonlinear) for w in ways for r in w)):
             return _Rewriting(ways, divided)
     return _Rewriting([(row,)] if there == row.piece.expr else _branches(row, there, (), positive))
-
-
-def _one_that_holds(ways: list[tuple[Row, ...]]) -> list[tuple[Row, ...]]:
-    """The branches, or the one that says nothing, which holds the others."""
-    return [()] if () in ways else ways
 
 
 def _without_divisors(
@@ -195,35 +188,11 @@ def _branches(
     return ways or [(Row(row.constraint, Finite(ex.ONE)),)]
 
 
-def _divides(g: Expr, divisors: Sequence[Expr]) -> bool:
-    """Return whether what remains is a factor that an elimination multiplied with, and no relation of the row's."""
-    if not divisors or g == ex.ONE:
-        return False
-    ring = Ring([g, *divisors])
-    try:
-        nodes = [ring.node(e) for e in (g, *divisors)]
-        canon = Canon(ring)
-        numerator = canon.quotient(nodes[0])[0]
-        return any(not numerator.gcd(canon.quotient(n)[0]).is_constant() for n in nodes[1:])
-    except NoValueError:
-        return False
-
-
 def _rows_near(row: Row, rows: Sequence[Row]) -> list[Row]:
     """The finite and linear rows that are joined to a row through coordinates."""
-    names = set(coordinates_of(row.piece))
-    result: list[Row] = []
-    growing = True
-    while growing:
-        new = [
-            r
-            for r in rows
-            if r not in result and not isinstance(r.piece, Nonlinear) and coordinates_of(r.piece) & names
-        ]
-        growing = bool(new)
-        result += new
-        names |= {n for r in new for n in coordinates_of(r.piece)}
-    return result
+    others = [r for r in rows if not isinstance(r.piece, Nonlinear)]
+    blocks, _ = split(sorted({name for r in others for name in coordinates_of(r.piece)}), others)
+    return [r for b in blocks if not coordinates_of(row.piece).isdisjoint(b.coordinates) for r in b.rows]
 
 
 def _rates_of(rows: Sequence[Row]) -> list[Expr]:

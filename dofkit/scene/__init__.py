@@ -8,7 +8,8 @@ Types
 Mechanisms, in the order of reading
     1. `catalog` finds the bytes; `reading` makes a `Scene` of a file, a text or a mapping and collects all faults with
        line and column. `synonyms` rewrites other words into the standard ones, `hints` say what to write instead, and
-       `fields` reads exact numbers and texts and states the faults of Pydantic in English.
+       `fields` reads exact numbers and texts and states the faults of Pydantic in English. `mending` finds the faults
+       that a fault of shape hides.
     2. `parts` are points, particles, bodies, forces and energies; `constraints` has one class for each constraint
        type, with its equations, symbol and example in one file.
     3. `lowering` goes from what is written to a `System`: first `names`, then the `drawing` with its frames, then

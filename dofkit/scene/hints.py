@@ -32,26 +32,18 @@ _ENOUGH = re.compile(
 )
 #: The differential or a velocity of a name.
 _RATE = re.compile(rf"d((?:[a-zA-Z]|{'|'.join(LETTERS_OF_NAMES)})(?:_\w+)?)|(\w+?)d{{0,2}}dot")
-_SUGGESTED = re.compile(r"did you mean '(\w+)'\?")
+SUGGESTED = re.compile(r"did you mean '(\w+)'\?")
 _MEANT_NAME = re.compile(r"did you mean `(.+)`\?")
 _FORCES = ("spring", "damper", "force", "gravity")
-#: A line by the key that it gives; of some keys one for each dimension.
-LINES: dict[str, str | tuple[str, str, str]] = {
-    "at": ("at: [0]", "at: [0, 0]", "at: [0, 0, 0]"),
-    "axis": ("axis: [1]", "axis: [1, 0]", "axis: [0, 0, 1]"),
-    "axes": "axes: [[1, 0, 0], [0, 1, 0]]", "between": "between: [A, B]", "members": "members: [A, B, C]",
-    "along": ("along: [A, [0], B]", "along: [A, [0, 0], B]", "along: [A, [0, 0, 0], B]"),
-    "length": "length: 2", "radius": "radius: 1", "ratio": "ratio: -2", "pitch": "pitch: 2", "drive": 'drive: "2 t"',
-    "joints": "joints: [shoulder, elbow]", "carrier": "carrier: arm", "point": "point: A", "body": "body: crank",
-    "text": 'text: "x^2 + y^2 = 4"', "surface": 'surface: "y - x^2"', "curve": 'curve: ["y - x^2"]',
+#: A line by the section of a scene, or the key of what is declared in one, that it gives.
+LINES: dict[str, str] = {
     "coordinates": "coordinates: [x, y]", "particles": "particles: [A, B]", "bodies": "bodies: [crank]",
     "parameters": "parameters: {l: positive, b: 3/2}", "functions": "functions: {f: [t]}",
     "configuration": "configuration: {theta: 0}", "dimension": "dimension: 2", "tolerance": "tolerance: 1e-6",
     "constraints": 'constraints: ["x^2 + y^2 = 4"]', "forces": "forces: [{type: spring, between: [A, B]}]",
     "energies": 'energies: {kinetic: "1/2 m xdot^2", potential: "m g x"}', "expect": "expect: {dof: 1}",
     "picture": "picture: [{rod: l, from: [0, 0], to: [x, y]}, {ball: m, at: [x, y], radius: 1/10}]",
-    "kinetic": 'kinetic: "1/2 m xdot^2"', "potential": 'potential: "m g x"', "mass": "mass: m", "inertia": "inertia: J",
-    "name": "name: pendulum", "title": 'title: "A pendulum"',
+    "mass": "mass: m", "inertia": "inertia: J", "name": "name: pendulum", "title": 'title: "A pendulum"',
 }  # fmt: skip
 #: So many names are listed in a line that declares them.
 MOST_DECLARED = 12
@@ -71,7 +63,7 @@ def without_echoes(faults: Iterable[Fault], value: Mapping[str, Any]) -> list[Fa
     meant = {
         (fault.where[:-1], match[1])
         for fault in faults
-        if fault.message.startswith(UNKNOWN_KEY) and (match := _SUGGESTED.fullmatch(fault.hint or ""))
+        if fault.message.startswith(UNKNOWN_KEY) and (match := SUGGESTED.fullmatch(fault.hint or ""))
     }
     kept = [
         fault
@@ -115,26 +107,14 @@ def _undeclared_at_once(faults: list[Fault], value: Mapping[str, Any]) -> list[F
     return faults
 
 
-def meant_section(fault: Fault) -> str | None:
-    """Return the section that an unknown key of a scene should be, where one is meant."""
-    suggested = _SUGGESTED.match(fault.hint or "")
-    unknown = len(fault.where) == 1 and fault.message.startswith(UNKNOWN_KEY)
-    return suggested[1] if unknown and suggested else None
-
-
 def type_advice(word: object, entry: Mapping[str, Any]) -> str | None:
     """Return what to write instead of a word that is no constraint type, or of none, where that is known."""
     if isinstance(word, str) and word in _FORCES:
         return f"write it under `forces`: `forces: [{{type: {word}, between: [A, B]}}]`; a force is not a constraint"
     kinds = likely_types(word, entry)
-    fields = tuple(TYPES[kinds[0]].model_fields) if kinds else ()
-    is_untyped = word is None and all(str(key).lower() != "type" for key in entry)
-    misspelt = [key for key in entry if key not in fields and str(key).lower() != "type"]
-    meant = ", ".join(str(meant_key(key, fields)) for key in misspelt)
     if len(kinds) == 1:
-        return f"did you mean '{meant if meant and is_untyped else kinds[0]}'?"
-    listed = f"the types with these keys are {', '.join(kinds)}" if kinds else None
-    return f"did you mean '{meant}'? {listed}" if misspelt and kinds else listed
+        return f"did you mean '{kinds[0]}'?"
+    return f"the types with these keys are {', '.join(kinds)}" if kinds else None
 
 
 def likely_types(word: object, entry: Mapping[str, Any]) -> list[str]:
@@ -178,7 +158,7 @@ def with_hint(fault: Fault, value: Mapping[str, Any] | None = None) -> Fault:
 def _see(fault: Fault, value: Mapping[str, Any]) -> str | None:
     """Return the type of constraint or the section of a scene that a fault is about, where there is one."""
     where = fault.where
-    suggested = _SUGGESTED.match(fault.hint or "")
+    suggested = SUGGESTED.match(fault.hint or "")
     if where[:1] == ("constraints",) and len(where) > 1:
         kind = _type_at(value, where[1]) or (suggested[1] if suggested else None)
         entry = _entry_at(value, where[1])
@@ -189,7 +169,7 @@ def _see(fault: Fault, value: Mapping[str, Any]) -> str | None:
             kind = kinds[0] if len(kinds) == 1 else None
         kind = Equation.kind() if isinstance(entry, str) else kind
         return kind if kind in TYPES else None
-    section = meant_section(fault) or next(iter(where), None)
+    section = suggested[1] if suggested and len(where) == 1 else next(iter(where), None)
     return section if section in SECTIONS else None
 
 
@@ -234,36 +214,17 @@ def _direction(fault: Fault, value: Mapping[str, Any]) -> str | None:
 def _line(fault: Fault, hint: str, value: Mapping[str, Any]) -> str | None:
     """Return a line that would work in the place of a fault: of a constraint, or of a key."""
     where, d = fault.where, dimension_of(value)
-    suggested = _SUGGESTED.fullmatch(hint)
-    unknown = len(where) == 1 and fault.message.startswith(UNKNOWN_KEY) and not suggested
-    unknown = unknown or (bool(hint) and where[:1] == ("picture",))
-    if not where or unknown or (suggested and suggested[1] not in TYPES and suggested[1] not in LINES):
-        return None
+    suggested = SUGGESTED.fullmatch(hint)
     if "a point of a body" in fault.message:
-        return ("{on: crank, at: [0]}", "{on: crank, at: [0, 0]}", "{on: crank, at: [0, 0, 0]}")[d - 1]
-    missing = re.search(r"needs [`'](\w+)[`']", fault.message)
+        return f"{{on: crank, at: [{', '.join('0' * d)}]}}"
     if where[:1] == ("constraints",) and len(where) > 1:
         kind = suggested[1] if suggested and suggested[1] in TYPES else _type_at(value, where[1])
-        whole = missing or len(where) == 2 or where[-1] in ("type", "text") or fault.message.startswith(UNKNOWN_KEY)
-        if kind is None or d not in TYPES[kind].dimensions:
-            return TYPES[_likely(_entry_at(value, where[1]), d)].example(d)
-        if whole:
-            return TYPES[kind].example(d)
-    keys = [key for key in where if isinstance(key, str) and key in LINES]
-    key = suggested[1] if suggested and suggested[1] in LINES else (keys[-1] if keys else "constraints")
-    line = LINES[key]
-    if key == "between" and (kind := _type_at(value, where[1])):
-        ends = re.search(r"between: \[[^]]*\]", TYPES[kind].example(d))
-        line = ends[0] if ends else line
-    return line if isinstance(line, str) else line[d - 1]
-
-
-def _likely(entry: Any, dimension: int) -> str:
-    """Return the first type of a dimension that has all the keys of an entry; an equation where none has."""
-    keys = set(entry) - {"type"} if isinstance(entry, Mapping) else set()
-    able = [(kind, cls.model_fields.keys()) for kind, cls in TYPES.items() if dimension in cls.dimensions]
-    named = (kind for kind, fields in able if keys and keys <= fields)
-    return next(named, Equation.kind())
+        return TYPES[kind].example(d) if kind is not None and d in TYPES[kind].dimensions else None
+    unknown = len(where) == 1 and fault.message.startswith(UNKNOWN_KEY) and not suggested
+    if unknown or (hint and where[:1] == ("picture",)):
+        return None
+    keys = [suggested[1]] if suggested else [key for key in reversed(where) if key in LINES]
+    return LINES.get(str(next(iter(keys), "")))
 
 
 def _entry_at(value: Mapping[str, Any], index: object) -> Any:

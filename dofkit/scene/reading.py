@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import copy
 import os
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -20,10 +19,10 @@ from dofkit.base.wording import description_of
 from dofkit.models.formats import is_model, read_model
 from dofkit.models.model_document import ModelFile
 from dofkit.scene.catalog import find
-from dofkit.scene.constraints.base import as_equation
 from dofkit.scene.fields import faults_of
-from dofkit.scene.hints import UNKNOWN_KEY, UNKNOWN_TYPE, meant_section, with_hint, without_echoes
+from dofkit.scene.hints import UNKNOWN_KEY, UNKNOWN_TYPE, with_hint, without_echoes
 from dofkit.scene.lowering import check
+from dofkit.scene.mending import faults_hidden_by
 from dofkit.scene.scene import Scene
 from dofkit.scene.synonyms import StandardWords, standard_words
 from dofkit.system import System
@@ -32,12 +31,6 @@ __all__ = ["SceneFile", "SceneLike", "load", "loads", "scene_or_system"]
 
 #: More faults than this are counted, not listed.
 MOST_FAULTS = 200
-#: Parts of a scene without which its other parts can still be checked.
-_DROPPED_WHOLE = frozenset(
-    {"name", "title", "source", "notes", "left_out", "expect", "energies", "configuration", "tolerance"}
-)
-#: Keys of a particle or a body that no text of a constraint depends on.
-_OF_NO_TEXT = frozenset({"at", "mass", "inertia"})
 _TAKEN = "a Scene, a path, a catalog name or a mapping"
 
 
@@ -168,7 +161,7 @@ class SceneFile:
             scene = Scene.model_validate(value)
         except ValidationError as error:
             structural = faults_of(error)
-            raise self.error([*faults, *structural, *_faults_of_sound_part(value, structural)]) from None
+            raise self.error([*faults, *structural, *faults_hidden_by(structural, value)]) from None
         if checked or faults:
             faults += check(scene)
         if faults:
@@ -244,67 +237,3 @@ def _too_deep(source: object) -> tuple[str | int, ...] | None:
 
 def _is_collection(value: object) -> bool:
     return isinstance(value, (dict, list, tuple, Mapping))
-
-
-def _faults_of_sound_part(value: Mapping[str, Any], faults: Sequence[Fault]) -> Iterator[Fault]:
-    """Yield the faults of a scene without its faulty parts, and with its misspelt sections under their names.
-
-    Nothing is yielded where the remaining parts would not make sense without the faulty ones.
-    """
-    sound: Any = copy.deepcopy(dict(value))
-    dropped: dict[str, set[int]] = {"constraints": set(), "forces": set(), "picture": set()}
-    sections: dict[str, str] = {}
-    for fault in faults:
-        first, second = (*fault.where, None, None)[:2]
-        meant = meant_section(fault)
-        path = _path_of_no_text(fault, sound)
-        if first in dropped and isinstance(second, int):
-            dropped[str(first)].add(second)
-        elif meant is not None and meant not in sound:
-            sections[meant] = str(first)
-            sound[meant] = sound.pop(first)
-        elif path is not None:
-            owner = sound
-            for key in path[:-1]:
-                owner = owner[key]
-            owner.pop(path[-1], None)
-        else:
-            return
-    kept = {key: [i for i in range(len(sound[key])) if i not in gone] for key, gone in dropped.items() if gone}
-    names = {str(entry["name"]) for key in kept for i in dropped[key] if "name" in (entry := _as_entry(sound, key, i))}
-    for key, indices in kept.items():
-        sound[key] = [_as_entry(sound, key, i) for i in indices]
-    try:
-        remaining = check(Scene.model_validate(standard_words(sound).value if sections else sound))
-    except ValidationError:
-        return
-    functions = [f"`{fault.where[1]}`" for fault in faults if fault.where[:1] == ("functions",) and fault.where[1:]]
-    missing_joints = {f"there is no joint '{name}'" for name in names}
-    for fault in remaining:
-        if fault.message not in missing_joints and not any(function in fault.message for function in functions):
-            first, *inner = fault.where or ("",)
-            if first in kept and inner and isinstance(inner[0], int):
-                inner[0] = kept[str(first)][inner[0]]
-            yield replace(fault, where=(sections.get(str(first), first), *inner) if fault.where else ())
-
-
-def _path_of_no_text(fault: Fault, scene: Mapping[str, Any]) -> tuple[str | int, ...] | None:
-    """Return the path of what is faulty, where the texts of a scene mean the same without it."""
-    where = fault.where
-    first = next(iter(where), None)
-    if first in _DROPPED_WHOLE or (first == "dimension" and not (scene.get("particles") or scene.get("bodies"))):
-        return where[:1]
-    if first in ("particles", "bodies") and where[2:] and where[2] in _OF_NO_TEXT:
-        return where[:3]
-    if first == "functions" and where[1:] and isinstance(scene["functions"], dict):
-        return where[:2]
-    return where if fault.message.startswith(UNKNOWN_KEY) else None
-
-
-def _as_entry(value: Any, key: str, index: int) -> Any:
-    """Return an entry of a list; one that is known by its position is named by it."""
-    entry = as_equation(value[key][index])
-    name = f"{key[0]}{index + 1}"
-    if key == "picture":
-        return dict(entry) if isinstance(entry, dict) else {}
-    return {**entry, "name": entry.get("name") or name} if isinstance(entry, dict) else {"name": name}

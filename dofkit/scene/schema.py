@@ -1,8 +1,4 @@
-"""The JSON Schema of a scene, for editors: values are recognized by their type, so that a fault is one line.
-
-Pydantic's ``anyOf`` answers "is not valid under any of the given schemas". Here the kinds of JSON values that are taken
-are a list under ``type``, and the branch of each follows by ``if`` and ``then``; a constraint's by its own ``type``.
-"""
+"""The JSON Schema of a scene, for editors: that of Pydantic, with the other words that are read."""
 
 from __future__ import annotations
 
@@ -12,7 +8,6 @@ from typing import Any
 from pydantic import TypeAdapter
 
 from dofkit.scene.constraints import TYPES
-from dofkit.scene.constraints.base import Equation
 from dofkit.scene.picture import SHAPES, PictureShape
 from dofkit.scene.scene import Scene
 from dofkit.scene.synonyms import other_keys, synonyms
@@ -20,7 +15,6 @@ from dofkit.scene.synonyms import other_keys, synonyms
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
 _TEXT: dict[str, Any] = TypeAdapter(str).json_schema()
 _AXIS = {**_TEXT, "pattern": "^[-+]?[xyz]$"}
-_CONSTRAINT = "Constraint"
 
 
 def identified(schema: Mapping[str, Any], name: str) -> dict[str, Any]:
@@ -36,75 +30,9 @@ def scene_schema() -> dict[str, Any]:
         definitions[cls.__name__] = _with_other_words(definitions[cls.__name__], cls.kind())
     definitions["Force"]["properties"]["direction"] = _with_letters(definitions["Force"]["properties"]["direction"])
     definitions[PictureShape.__name__] = _any_shape(definitions[PictureShape.__name__])
-    constraints = {**schema["properties"]["constraints"], "items": {"$ref": f"#/$defs/{_CONSTRAINT}"}}
-    schema["properties"]["constraints"] = constraints
+    constraints = schema["properties"]["constraints"]
     schema["properties"]["joints"] = {**constraints, "description": "another section of constraints"}
-    schema_by_type: dict[str, Any] = by_kind_of_value(schema)
-    schema_by_type["$defs"][_CONSTRAINT] = _any_constraint()
-    return identified(schema_by_type, "scene")
-
-
-def by_kind_of_value(schema: Any) -> Any:
-    """Return a schema in which the kind of JSON value decides between the members of every union."""
-    if isinstance(schema, list):
-        return [by_kind_of_value(part) for part in schema]
-    if not isinstance(schema, dict):
-        return schema
-    union = next((key for key in ("anyOf", "oneOf") if key in schema), None)
-    plain = {key: by_kind_of_value(part) for key, part in schema.items() if key != union}
-    return plain if union is None else {**plain, **_union([by_kind_of_value(branch) for branch in schema[union]])}
-
-
-def _union(branches: list[dict[str, Any]]) -> dict[str, Any]:
-    """Return one schema for several, of which each takes another kind of JSON values."""
-    kinds = [_kinds(branch) for branch in branches]
-    if len({kind for group in kinds for kind in group}) < sum(map(len, kinds)):
-        return {"anyOf": branches}
-    branches_by_type = [
-        {"if": {"type": group if len(group) > 1 else group[0]}, "then": branch}
-        for group, branch in zip(kinds, branches, strict=True)
-        if branch.keys() - {"type"}
-    ]
-    return {
-        "type": [kind for group in kinds for kind in group],
-        **({"allOf": branches_by_type} if branches_by_type else {}),
-    }
-
-
-def _kinds(branch: Mapping[str, Any]) -> list[str]:
-    """Return the kinds of JSON values that a schema takes; what it refers to is an object."""
-    kinds = branch.get("type", "object" if "$ref" in branch else "any")
-    return [kinds] if isinstance(kinds, str) else list(kinds)
-
-
-def _any_constraint() -> dict[str, Any]:
-    """Return a text, or a mapping of which its `type` says the keys."""
-    words: dict[str, list[str]] = {kind: [kind] for kind in TYPES}
-    for word, kind in synonyms().items():
-        words[kind].append(word)
-    by_type = [
-        {
-            "if": {"properties": {"type": {"enum": words[kind]}}, "required": ["type"]},
-            "then": {"$ref": f"#/$defs/{cls.__name__}"},
-        }
-        for kind, cls in TYPES.items()
-    ]
-    untyped = {"not": {"required": ["type"]}}
-    equation = {
-        "if": {"required": ["text"], **untyped},
-        "then": {"$ref": f"#/$defs/{Equation.__name__}"},
-        "else": {"required": ["type"]},
-    }
-    mapping = {
-        "properties": {"type": {"enum": [word for group in words.values() for word in group]}},
-        "allOf": [{"if": untyped, "then": equation}, *by_type],
-    }
-    return {
-        "description": "a text is an equation; a mapping gives its `type`",
-        "type": [_TEXT["type"], "object"],
-        "if": {"type": "object"},
-        "then": mapping,
-    }
+    return identified(schema, "scene")
 
 
 def _any_shape(schema: Mapping[str, Any]) -> dict[str, Any]:
@@ -115,10 +43,7 @@ def _any_shape(schema: Mapping[str, Any]) -> dict[str, Any]:
     for kind, row in SHAPES.items():
         properties[kind] = {"type": [_TEXT["type"], "number", "null"], "description": row.meaning}
         by_shape += [
-            {
-                "if": {"required": [kind]},
-                "then": {"propertyNames": {"enum": [kind, *row.needs, *row.may, "show"]}},
-            },
+            {"if": {"required": [kind]}, "then": {"propertyNames": {"enum": [kind, *row.needs, *row.may, "show"]}}},
             {"if": {"required": [kind], "not": {"required": ["show"]}}, "then": {"required": list(row.needs)}},
         ]
     no_shape = {"if": {"propertyNames": {"not": {"enum": list(SHAPES)}}}, "then": False}

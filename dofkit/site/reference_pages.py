@@ -14,7 +14,7 @@ import typer.main
 from pydantic import BaseModel
 
 from dofkit.base.wording import series
-from dofkit.classification.arguments import TABLE
+from dofkit.classification.arguments import arguments
 from dofkit.expressions.text.printing import to_text
 from dofkit.homework.sentences import meanings
 from dofkit.interface.cli import app
@@ -236,7 +236,7 @@ def _fields(model: type[BaseModel]) -> str:
 
 def _arguments() -> str:
     rows = []
-    for key, row in TABLE.items():
+    for key, row in arguments().items():
         theorem = f"[{row.theorem}](../{THEOREMS}#{anchor(row.theorem)})" if row.theorem else ""
         rows.append((prose(key), prose(row.claims), prose(row.hypotheses), theorem))
     return table(("argument", "what it shows", "hypotheses", "theorem"), rows)

@@ -45,6 +45,21 @@ def test_bodies_that_turn_together_have_their_own_angles() -> None:
     assert (report.dof, report.generalized_coordinates) == (2, ["theta_ring", "theta_left"])
 
 
+def test_an_angle_of_another_part_of_the_set_is_not_proved_to_be_one_near_the_reference() -> None:
+    """A body on a ball joint whose point (1, 0, 0) may be there, or near (1, g, 2 g), and nowhere else.
+
+    With u = y^2 - g y and w = z - 2 y: u + 5 w = 0 and w + 2 u = 0, so that both are 0. As drawn the body turns about
+    the x axis: theta changes alone, phi and psi do not. On the other part phi changes.
+    """
+    surfaces = ["y^2 - y/100 + 5 (z - 2 y)", "z - 2 y + 2 (y^2 - y/100)"]
+    ball = {"type": "spherical", "between": ["ground", "b"], "at": [0, 0, 0]}
+    held = {"type": "on", "members": [{"on": "b", "at": [1, 0, 0]}], "curve": surfaces}
+    report = dofkit.classify({"bodies": ["b"], "constraints": [ball, held]})
+    assert report.dof == 1
+    sure = report.verdicts["generalized_coordinates"].verdict == "proved"
+    assert report.generalized_coordinates == ["theta_b"] or not sure
+
+
 def test_a_body_drawn_turned_has_the_angles_of_its_drawing() -> None:
     """Drawn with theta = 90 degrees its z axis lies level; about the vertical it turns by phi."""
     scene = hinged([0, 0, 1]) | {"configuration": {"theta_door": "pi/2"}}

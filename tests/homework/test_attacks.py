@@ -123,8 +123,10 @@ def test_what_is_seen_before_points_does_not_tell_right_from_wrong(question: str
     shown = []
     for answer in (right, wrong):
         result = dofkit.grade(sheet, {"student": "eve", "answers": {"p": {question: answer}}})
-        grades = prairielearn.document(result)
-        early = [test for test in gradescope.document(result, "hidden")["tests"] if test["visibility"] == "visible"]
+        grades = prairielearn.document(result, sheet)
+        early = [
+            test for test in gradescope.document(result, sheet, "hidden")["tests"] if test["visibility"] == "visible"
+        ]
         shown.append(json.dumps([grades.get("gradable"), grades.get("format_errors"), early]).replace(answer, "..."))
     for text, other in zip(*(re.split(r"Read as: [^\"]*|declared: [^\"]*", text) for text in shown), strict=True):
         assert text == other
@@ -138,7 +140,7 @@ def test_nothing_is_had_for_an_answer_that_commits_to_nothing(question: str, ans
     scene = {"coordinates": ["x", "y"], "constraints": ["x^2 + y^2 = 1"]}
     sheet = load_assignment({"title": "One", "problems": [{"id": "p", "scene": scene, "questions": asked}]})
     result = dofkit.grade(sheet, {"student": "eve", "answers": {"p": {question: answer}}})
-    assert (result.score, coursera.document(result)["fractionalScore"]) == (0, 0)
+    assert (result.score, coursera.document(result, sheet)["fractionalScore"]) == (0, 0)
 
 
 def test_a_line_of_json_holds_no_end_of_line(tmp_path: Path) -> None:

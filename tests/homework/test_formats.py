@@ -20,6 +20,7 @@ from dofkit.homework.formats import FORMATS, FormatError
 from dofkit.homework.formats.base import MOST_CHARACTERS, cell
 from dofkit.homework.formats.html import Submitted, overview
 from dofkit.homework.formats.prairielearn import MOST_BYTES
+from dofkit.homework.formats.review import queue_of, write_page
 from dofkit.homework.formats.wording import identity
 from dofkit.homework.result import Item, Result, Status
 
@@ -66,7 +67,7 @@ REFUSED = Result(student="ada", score=None, max_score=10.0, items=[], error="lin
 
 def streamed(name: str, prepared: Prepared, *results: Result) -> str:
     stream = io.StringIO()
-    FORMATS[name].write(iter(results), prepared, stream, None)
+    FORMATS[name].write(results, prepared, stream, None)
     return stream.getvalue()
 
 
@@ -208,7 +209,7 @@ def odd(text: str) -> Result:
 
 @pytest.mark.parametrize("name", DOCUMENTS)
 def test_documents_of_hostile_students(name: str, prepared: Prepared, tmp_path: Path) -> None:
-    FORMATS[name].write(map(odd, HOSTILE), prepared, tmp_path / "out", None)
+    FORMATS[name].write([*map(odd, HOSTILE)], prepared, tmp_path / "out", None)
     files = list((tmp_path / "out").iterdir())
     assert len(files) == len(HOSTILE)
     assert list(tmp_path.iterdir()) == [tmp_path / "out"]
@@ -223,18 +224,18 @@ def test_documents_of_hostile_students(name: str, prepared: Prepared, tmp_path: 
 @pytest.mark.parametrize("name", DOCUMENTS)
 def test_a_file_holds_one_student(name: str, prepared: Prepared, tmp_path: Path) -> None:
     target = tmp_path / "new" / "results.json"
-    FORMATS[name].write(iter([result("ada", RIGHT)]), prepared, target, None)
+    FORMATS[name].write([result("ada", RIGHT)], prepared, target, None)
     assert json.loads(target.read_text())
     with pytest.raises(FormatError, match="--out"):
-        FORMATS[name].write(iter([result("ada", RIGHT), result("bob", RIGHT)]), prepared, target, None)
+        FORMATS[name].write([result("ada", RIGHT), result("bob", RIGHT)], prepared, target, None)
     with pytest.raises(FormatError, match="no submission"):
-        FORMATS[name].write(iter([]), prepared, tmp_path / "none.json", None)
+        FORMATS[name].write([], prepared, tmp_path / "none.json", None)
 
 
 @pytest.mark.parametrize("name", FORMATS)
 def test_an_empty_run(name: str, prepared: Prepared, tmp_path: Path) -> None:
     target = tmp_path / ("out.csv" if name in ("canvas", "moodle", "native") else "out")
-    FORMATS[name].write(iter([]), prepared, target, None)
+    FORMATS[name].write([], prepared, target, None)
     expected = {"canvas": 2, "moodle": 1, "native": 0}
     if target.is_file():
         assert len(target.read_text().splitlines()) == expected[name]
@@ -267,7 +268,10 @@ class Page(HTMLParser):
 
 
 def pages(prepared: Prepared, folder: Path, results: Iterable[Result]) -> dict[str, Page]:
-    FORMATS["html"].write(iter(results), prepared, folder, None)
+    given = list(results)
+    FORMATS["html"].write(given, prepared, folder, None)
+    if (queue := queue_of(given, prepared)).open_answers():
+        write_page(queue, [], prepared, folder / "review.html", "review.csv")
     files = sorted(folder.rglob("*.html"))
     return {str(file.relative_to(folder)): Page(file.read_text(encoding="utf-8")) for file in files}
 
@@ -328,7 +332,7 @@ def test_the_overview(prepared: Prepared, tmp_path: Path) -> None:
     assert "3 submissions by points. 1 with answers awaiting review is not included" in shown
     assert "p.f How many degrees of freedom does the system have? 1 / 2 ✓ 2 correct ✗ 2 incorrect" in shown
     assert " 2.67 / 8 ◐ 2 partly correct ? 1 not readable … 1 awaiting review" in shown
-    assert "2 The solutions are correct, but the gradient vanishes on all of them" in shown
+    assert "2 × The solutions are correct, but the gradient vanishes on all of them" in shown
     assert "p.rod 8 points The time was not enough. d Points" in shown
 
 

@@ -58,7 +58,7 @@ def roster(text: str, folder: Path) -> Roster:
 def tables(name: str, prepared: Prepared, folder: Path, *results: Result, known: Roster | None = None) -> Any:
     """The rows of the table, and those of the one beside it."""
     out = folder / "grades.csv"
-    FORMATS[name].write(iter(results), prepared, out, known)
+    FORMATS[name].write(results, prepared, out, known)
     apart = apart_path(out)
     return [list(csv.reader(io.StringIO(path.read_text(encoding="utf-8"), newline=""))) if path.exists() else []
             for path in (out, apart)]  # fmt: skip
@@ -117,10 +117,10 @@ def test_moodle_without_a_roster(prepared: Prepared, tmp_path: Path) -> None:
         ["useremail", "Sheet 1", "Sheet 1 (feedback)"],
         ["ada@uni.example", "2", "Points: 2 of 10.\n\np.f: 2 of 2. Correct.\nRead as: 1"],
     ]
-    assert [row[0] for row in apart[1:]] == ["S2", "0", "b@uni.example"]
+    assert [row[0] for row in apart[1:]] == ["b@uni.example", "S2", "0"]
     found, apart = tables("moodle", prepared, tmp_path, result("S2"), result("0"), REFUSED)
     assert [row[0] for row in found] == ["useridnumber", "S2"]
-    assert [row[0] for row in apart[1:]] == ["0", "ada"]
+    assert [row[0] for row in apart[1:]] == ["ada", "0"]
 
 
 def test_moodle_by_what_everyone_has(prepared: Prepared, tmp_path: Path) -> None:

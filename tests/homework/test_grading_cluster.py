@@ -35,8 +35,8 @@ def handed(number: int) -> list[Handed]:
 def test_a_lost_worker_loses_no_result(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     made, given = Orders.of(dofkit.load_assignment(ASSIGNMENT)), handed(60)
     with Pool(1) as pool:
-        one_by_one = [lines for _, lines in in_order(pool, Keeper(made, pool).grade, given)]
-    assert sum(json.loads(line)["items"][1]["status"] == "right" for (line,) in one_by_one) == 40
+        one_by_one = [line for _, line in in_order(pool, Keeper(made, pool).grade, given)]
+    assert sum(json.loads(line)["items"][1]["status"] == "right" for line in one_by_one) == 40
     silent = {"silence_logs": 50, "dashboard_address": None}
     with distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True, **silent) as machines:
         with distributed.Client(machines.scheduler_address, set_as_default=False) as client:
@@ -44,8 +44,8 @@ def test_a_lost_worker_loses_no_result(tmp_path: Path, capsys: pytest.CaptureFix
         assert len(processes) == 2
         told = []
         with Cluster(machines.scheduler_address) as cluster:
-            for i, (_, lines) in enumerate(in_order(cluster, partial(grade_there, made), given)):
-                told.append(lines)
+            for i, (_, line) in enumerate(in_order(cluster, partial(grade_there, made), given)):
+                told.append(line)
                 if i == 3:
                     os.kill(processes[0], signal.SIGKILL)
         assert told == one_by_one
@@ -54,4 +54,4 @@ def test_a_lost_worker_loses_no_result(tmp_path: Path, capsys: pytest.CaptureFix
         paths[1].write_text("".join(json.dumps(h.data) + "\n" for h in given[:5]))
         arguments = ["grade", *map(str, paths), "--scheduler", machines.scheduler_address]
         cli.app(arguments, standalone_mode=False)
-    assert capsys.readouterr().out.splitlines() == [line for (line,) in one_by_one[:5]]
+    assert capsys.readouterr().out.splitlines() == one_by_one[:5]

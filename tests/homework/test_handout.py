@@ -102,7 +102,9 @@ def test_an_equation_that_is_asked_for_is_not_told() -> None:
     assert "$y = x^4$" in written_sheet(labelled, drawing()).markdown
 
 
-@pytest.mark.parametrize("name", ["four-bar-linkage", "five-particles-ten-links", "simple-pendulum-link"])
+@pytest.mark.parametrize(
+    "name", ["four-bar-linkage", "five-particles-ten-links", "simple-pendulum-link", "disc-rolling-on-plane"]
+)
 def test_a_picture_tells_nothing_of_the_answer(name: str) -> None:
     scene = dofkit.load(name)
     picture = unanswered(scene, dofkit.classify(scene), "Problem")

@@ -56,9 +56,9 @@ def test_a_template_is_a_submission_with_every_question(tmp_path: Path) -> None:
     path = tmp_path / "sheet.yaml"
     path.write_text(starting(["x-dy-plus-y-dx"]))
     sheet = load_assignment(path)
-    (empty,) = of_text(template(sheet, "yaml"), "ada", FilePlace(), sheet.columns())
+    empty = of_text(template(sheet, "yaml"), "ada", FilePlace(), sheet.columns())
     assert (empty.student, empty.error, empty.answers) == ("ada", None, {"x-dy-plus-y-dx": {}})
     filled = template(sheet, "yaml").replace('"dof":', '"dof": 1')
-    (one,) = of_text(filled, "ada", FilePlace(), sheet.columns())
+    one = of_text(filled, "ada", FilePlace(), sheet.columns())
     assert one.answers == {"x-dy-plus-y-dx": {"dof": 1}}
     assert template(sheet, "csv").split(",")[:2] == ["student", "x-dy-plus-y-dx.dof"]

@@ -136,7 +136,9 @@ def test_a_class_keeps_its_variants(tmp_path: Path) -> None:
             assert variants is not None
             picks.append({one.student: one.picks for one in variants.students})
         assert [picks[0][name] == picks[1][name] for name in ("ada@x", "cy@x")] == [True, True]
-        assert len(list((tmp_path / "class" / "sheets").iterdir())) >= 3
+        written = ["assignment", "handout", "class/assignment.yaml", "--roster", "roster.csv", "--out", "class/sheets"]
+        assert runner.invoke(app, written).exit_code == 0
+        assert len(list((tmp_path / "class" / "sheets").iterdir())) == 3
         table = list(csv.DictReader((tmp_path / "class" / TABLE).open(encoding="utf-8-sig")))
         assert {row["student"] for row in table} == {"ada@x", "cy@x", "dee@x"}
         answers = {"chain": {"f": 1}}

@@ -120,7 +120,7 @@ def test_every_known_difference_is_one() -> None:
 def test_the_table_is_complete() -> None:
     assert tuple(METHODS) == get_args(MethodName)
     assert METHODS["auto"].engines == BOTH
-    assert all(m.summary and m.uses and m.cannot and m.best in VERDICTS for m in METHODS.values())
+    assert all(m.uses and m.cannot and m.best in VERDICTS for m in METHODS.values())
 
 
 def told(method: MethodName, *constraints: str, **more: Any) -> Report:

@@ -83,7 +83,7 @@ CASES: list[Case] = [
     ("two values for one", "dof", scene("x = 1", "x = 2"), -1,
      {"count": 1, "field": -1, "balls": -1, "exact": -1, "numeric": -1, "symbolic": 2}),
     ("a square and its root", "dof", scene("(x - y)^2 = 0", "x = y"), 2,
-     {"count": 1, "field": 2, "balls": 2, "numeric": 2, "symbolic": 2}),
+     {"count": 1, "field": 2, "balls": 2, "exact": 2, "numeric": 2, "symbolic": 2}),
     ("a sum of squares", "dof", scene("x^2 + y^2 = 0"), 1,
      {"count": 2, "field": 1, "balls": 1, "numeric": 2, "symbolic": 2}),
     ("links are finite", "integrability", BRACED, dict.fromkeys(("AB", "BC", "CD", "DA", "AC", "BD"), True),

@@ -32,8 +32,8 @@ P = 2**61 - 1
 class Known(NamedTuple):
     """A graph and its answers.
 
-    ``inner``: the freedom without that of one body; ``clusters`` and ``hinges``: how many joints each has; ``groups``:
-    redundant and all links of each.
+    ``inner``: the freedom without that of one body; ``clusters``: how many joints each has; ``groups``: redundant and
+    all links of each.
     """
 
     links: list[Link]
@@ -42,7 +42,6 @@ class Known(NamedTuple):
     inner: int
     clusters: tuple[int, ...]
     groups: tuple[tuple[int, int], ...] = ()
-    hinges: tuple[int, ...] = ()
 
 
 def complete(names: Iterable[Any]) -> list[Link]:
@@ -86,36 +85,36 @@ KNOWN = {
     "K5 in the plane": Known(complete("ABCDE"), 2, 7, 0, (5,), ((3, 10),)),
     "K5 in space": Known(complete("ABCDE"), 3, 9, 0, (5,), ((1, 10),)),
     "K6 in space": Known(complete("ABCDEF"), 3, 12, 0, (6,), ((3, 15),)),
-    "a square in the plane": Known(SQUARE, 2, 4, 1, (2, 2, 2, 2), (), (1, 1, 1, 1)),
-    "a square in space": Known(SQUARE, 3, 4, 2, (2, 2, 2, 2), (), (1, 1, 1, 1)),
-    "two triangles at a joint": Known(BOWTIE, 2, 6, 1, (3, 3), (), (1,)),
-    "two triangles at a joint in space": Known(BOWTIE, 3, 6, 3, (3, 3), (), (1,)),
-    "two triangles at a link in space": Known(read("AB BC CA BD CD"), 3, 5, 1, (3, 3), (), (2,)),
+    "a square in the plane": Known(SQUARE, 2, 4, 1, (2, 2, 2, 2)),
+    "a square in space": Known(SQUARE, 3, 4, 2, (2, 2, 2, 2)),
+    "two triangles at a joint": Known(BOWTIE, 2, 6, 1, (3, 3)),
+    "two triangles at a joint in space": Known(BOWTIE, 3, 6, 3, (3, 3)),
+    "two triangles at a link in space": Known(read("AB BC CA BD CD"), 3, 5, 1, (3, 3)),
     # two K4 that share a joint: each has its own redundant link
-    "two K4 at a joint": Known(complete("ABCD") + complete("DEFG"), 2, 10, 1, (4, 4), ((1, 6), (1, 6)), (1,)),
+    "two K4 at a joint": Known(complete("ABCD") + complete("DEFG"), 2, 10, 1, (4, 4), ((1, 6), (1, 6))),
     # two K4 that share two joints: the shared link comes twice, and all depends on all
     "two K4 at a link": Known(complete("ABCD") + complete("CDEF"), 2, 9, 0, (6,), ((3, 12),)),
     "K33 in the plane": Known(bipartite(3, 3), 2, 9, 0, (6,)),
     # its joints have three links each, so all are independent, also with one link more
-    "K33 in space": Known(bipartite(3, 3), 3, 9, 3, (2,) * 9, (), (1,) * 6),
+    "K33 in space": Known(bipartite(3, 3), 3, 9, 3, (2,) * 9),
     # Bolker and Roth 1980: stresses of K_mn are products of affine dependences, and those by quadrics through all
     "K44 in the plane": Known(bipartite(4, 4), 2, 13, 0, (8,), ((3, 16),)),
     "K46 in space": Known(bipartite(4, 6), 3, 24, 0, (10,)),
     "K55 in space": Known(bipartite(5, 5), 3, 24, 0, (10,), ((1, 25),)),
     "a prism": Known(PRISM, 2, 9, 0, (6,)),
-    "a prism in space": Known(PRISM, 3, 9, 3, (3, 3, 2, 2, 2), (), (1,) * 6),
+    "a prism in space": Known(PRISM, 3, 9, 3, (3, 3, 2, 2, 2)),
     "Moser's spindle": Known(MOSER, 2, 11, 0, (7,)),
     "an octahedron": Known(OCTAHEDRON, 3, 12, 0, (6,)),
     "an octahedron in the plane": Known(OCTAHEDRON, 2, 9, 0, (6,), ((3, 12),)),
-    "a cube": Known(CUBE, 3, 12, 6, (2,) * 12, (), (1,) * 8),
+    "a cube": Known(CUBE, 3, 12, 6, (2,) * 12),
     # 18 = 3 8 - 6 links, yet each half is K5 less the same link, which would have been redundant once
-    "a double banana": Known(BANANAS, 3, 17, 1, (5, 5), ((1, 18),), (2,)),
+    "a double banana": Known(BANANAS, 3, 17, 1, (5, 5), ((1, 18),)),
     # a door ABFG on the hinge AB of one body; at F it carries another: F is a cut joint, and was lost to the door
     "a body on a door": Known(
         [*complete("ABCDE"), *read("AF BF AG BG FG"), *complete("HIJKL"), *read("FH FI FJ")],
-        3, 26, 4, (5, 4, 6), ((1, 10), (1, 10)), (2, 1),
+        3, 26, 4, (5, 4, 6), ((1, 10), (1, 10)),
     ),
-    "a double banana with its hinge": Known([*BANANAS, ("A", "B")], 3, 17, 1, (5, 5), ((2, 19),), (2,)),
+    "a double banana with its hinge": Known([*BANANAS, ("A", "B")], 3, 17, 1, (5, 5), ((2, 19),)),
     "a double banana across": Known([*BANANAS, ("c", "f")], 3, 18, 0, (8,), ((1, 18),)),
 }  # fmt: skip
 
@@ -128,19 +127,14 @@ def test_known_graphs(known: Known) -> None:
     assert len(told.redundant) == len(known.links) - known.rank
     assert sorted(map(len, told.clusters)) == sorted(known.clusters)
     assert sorted((g.nullity, len(g.members)) for g in told.redundancies) == sorted(known.groups)
-    assert sorted(len(h.joints) for h in told.hinges) == sorted(known.hinges)
     assert told.verdict == "proved"
 
 
 def test_the_double_banana_by_name() -> None:
     told = dofkit.linkage(BANANAS, 3)
-    assert told.maxwell == 6  # as if it were rigid
     assert told.redundant == [("g", "h")]  # the last written
     assert told.circuit(("h", "g")) == BANANAS[:-1]
     assert told.clusters == [list("AcdeB"), list("ABfgh")]  # joints as they first occur
-    assert [(hinge.joints, hinge.clusters) for hinge in told.hinges] == [(("A", "B"), (0, 1))]
-    assert told.moves("c", "f")
-    assert not told.moves("A", "B")
 
 
 def test_the_last_written_is_redundant() -> None:
@@ -230,7 +224,6 @@ def answers(told: dofkit.Linkage) -> dict[str, Any]:
         "circuits": told.circuit_places,
         "redundancies": told.redundancies,
         "clusters": told.clusters,
-        "hinges": told.hinges,
         "verdict": told.verdict,
     }
 
@@ -354,11 +347,9 @@ def test_graphs_with_joints_of_their_own() -> None:
     told = dofkit.linkage(graph, 2)
     assert (told.rank, told.freedom, told.redundant) == (2, 6, [("A", "B")])
     assert told.clusters == [["A", "B"], ["B", "C"], ["D"]]
-    assert told.moves("D", "A")
-    assert not told.moves("D", "D")
     for d in (1, 2, 3):
         empty = dofkit.linkage(nx.Graph(), d)
-        assert (empty.rank, empty.freedom, empty.redundant, empty.clusters, empty.hinges) == (0, 0, [], [], [])
+        assert (empty.rank, empty.freedom, empty.redundant, empty.clusters) == (0, 0, [], [])
         assert dofkit.linkage(np.empty((0, 2), dtype=int), d, "AB").freedom == 2 * d
 
 
@@ -392,15 +383,13 @@ def test_what_is_not_in_the_graph() -> None:
     told = dofkit.linkage(read("AB BC"), 2)
     with pytest.raises(LinkageError, match="is not a redundant link"):
         told.circuit(("A", "B"))
-    with pytest.raises(LinkageError, match="'D' is not a joint"):
-        told.moves("A", "D")
 
 
 def test_a_dependence_that_no_count_proves_is_probable(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(space, "hinged_bound", lambda _: 10**9)
     told = dofkit.linkage(BANANAS, 3)
     assert (told.rank, told.verdict) == (17, "probable")
-    assert "chance of error below" in told.proof("redundant").reason
+    assert "chance of error below" in told.proof.reason
 
 
 def test_a_large_part_that_is_not_rigid_is_not_separated(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -416,7 +405,7 @@ def test_every_run_gives_the_same() -> None:
         "import dofkit, random; rng = random.Random(5); names = [chr(65 + i) for i in range(20)]\n"
         "for d in (1, 2, 3):\n"
         "    told = dofkit.linkage([tuple(rng.sample(names, 2)) for _ in range(20 * d)], d)\n"
-        "    print(told, told.redundant, told.circuit_places, told.redundancies, told.clusters, told.hinges)\n"
+        "    print(told, told.redundant, told.circuit_places, told.redundancies, told.clusters)\n"
     )
     told = {
         subprocess.run(

@@ -9,7 +9,7 @@ import pytest
 
 import dofkit
 from dofkit.expressions.tree import coordinate
-from dofkit.pictures.arrangement import SCHEMATIC, arrangement_of, free_motions, movers, poses_of
+from dofkit.pictures.arrangement import SCHEMATIC, Arrangement, arrangement_of, free_motions, movers
 from dofkit.scene.lowering import lower
 
 
@@ -47,7 +47,7 @@ def test_what_cannot_be_met_is_a_schematic() -> None:
 def test_a_body_of_space_turns_by_its_gibbs_vector() -> None:
     system = lower(dofkit.load({"bodies": ["b"]}))
     values = dict(zip([coordinate(c.name) for c in system.coordinates], [0, 0, 0, 0, 0, 1.0], strict=True))
-    pose = poses_of(system, values, gibbs=True)["b"]  # g = tan(45 deg) e_z: a right angle
+    pose = Arrangement(system, values, None, True).poses["b"]  # g = tan(45 deg) e_z: a right angle
     assert pose.moved((1, 0, 0)) == pytest.approx([0, 1, 0])
     assert pose.back(pose.moved((1, 2, 3))) == pytest.approx((1, 2, 3))
 

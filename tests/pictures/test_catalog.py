@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import dofkit
-from dofkit.pictures.arrangement import POINT
+from dofkit.pictures.stage import POINT
 
 NAMES = dofkit.catalog_names()
 #: What is abstract: a relation between coordinates that mean nothing further.

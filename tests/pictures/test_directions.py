@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
+from shared.documented import written_to
 
 import dofkit
 from dofkit.pictures.arrangement import arrangement_of
 from dofkit.pictures.directions import Distribution, NoFormsError, directions_of
-from dofkit.pictures.files import svg_of
+from dofkit.pictures.files import DrawnSketch
 from dofkit.scene.lowering import lower
 
 HEISENBERG: dict[str, Any] = {"coordinates": ["x", "y", "z"], "constraints": ["dz = x dy - y dx"]}
@@ -85,13 +87,20 @@ def test_what_is_not_linear_in_velocities_has_no_directions(text: str) -> None:
     assert not any("infinitesimal" in clip.name for clip in dofkit.animate(scene).clips)
 
 
-@pytest.mark.parametrize("name", ["loop", "four-bar"])
-def test_the_pictures_of_the_first_pages_are_of_today(name: str) -> None:
+#: The pictures of the README and the tutorial, which are drawn of the catalog or of the tutorial's scenes.
+SHOWN: dict[str, Callable[[Path], DrawnSketch]] = {
+    "loop": lambda folder: dofkit.animate("disc-rolling-on-plane", loop=True),
+    "four-bar": lambda folder: dofkit.draw("four-bar-linkage"),
+    "motion": lambda folder: dofkit.animate("four-bar-linkage"),
+    "mended": lambda folder: dofkit.draw(folder / "mended.yaml"),
+    "directions": lambda folder: dofkit.phase(folder / "disc.yaml"),
+}
+
+
+@pytest.mark.parametrize("name", SHOWN)
+def test_the_pictures_of_the_first_pages_are_of_today(name: str, tmp_path: Path) -> None:
     kept = (Path(dofkit.__file__).parent / "site" / "pages" / f"{name}.svg").read_text(encoding="utf-8")
-    loop = name == "loop"
-    drawn = svg_of(
-        dofkit.animate("disc-rolling-on-plane", loop=True).last_page if loop else dofkit.draw("four-bar-linkage").page
-    )
+    drawn = SHOWN[name](written_to(tmp_path)).svg()
     for part in (r"<desc>.*?</desc>", r"<style>.*?</style>", r">[^<>]+</text>"):
         assert re.findall(part, kept) == re.findall(part, drawn)
 

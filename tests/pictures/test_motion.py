@@ -158,6 +158,15 @@ def test_what_is_placed_by_coordinates_moves_with_them() -> None:
     assert max(abs(frame["shape 1.0"].shift[0] - frames[0]["shape 1.0"].shift[0]) for frame in frames) > 0.5
 
 
+def test_time_goes_on_where_only_the_picture_knows_of_it() -> None:
+    place = ["sin(theta) cos(t)", "sin(theta) sin(t)", "-cos(theta)"]
+    clips = dofkit.animate({"coordinates": ["theta"], "picture": [{"ball": "m", "at": place, "radius": 1}]}).clips
+    assert [clip.name for clip in clips] == ["a finite motion", "time"]
+    at = [float(np.linalg.norm(frame["shape 0.0"].shift)) for frame in clips[1].frames]
+    assert at == pytest.approx([1.0] * len(at))
+    assert len({round(float(frame["shape 0.0"].shift[2]), 9) for frame in clips[1].frames}) == 1
+
+
 def test_a_graph_does_not_move() -> None:
     free = dofkit.animate({"coordinates": ["a", "b", "c", "d"]})
     assert free.clips == ()
@@ -201,7 +210,7 @@ def data_of(found: Animation) -> dict[str, Any]:
 
 
 def test_other_endings_are_told(tmp_path: Path) -> None:
-    with pytest.raises(ArgumentError, match=r"the endings are \.html, \.gif, \.mp4, \.svg, \.png, \.pdf$"):
+    with pytest.raises(ArgumentError, match=r"the endings are \.svg, \.png, \.pdf, \.html, \.gif, \.mp4$"):
         dofkit.animate("crank-held-at-angle").save(tmp_path / "a.avi")
 
 

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from shared.browsed import AXE, violations
 
 import dofkit
 from dofkit.pictures.player import FRAME, page_height
@@ -64,7 +65,7 @@ def test_a_click_on_play_moves_a_body(viewer: Viewer, name: str, tmp_path: Path)
     viewer.page.wait_for_timeout(600)
     viewer.page.click("#play")
     assert viewer.shot() != before
-    assert int(viewer.page.input_value("#slider")) > 0
+    assert float(viewer.page.input_value("#slider")) > 0
     assert viewer.page.inner_text("#play") == "Play"
     assert viewer.said == []
 
@@ -99,8 +100,30 @@ def test_another_motion_can_be_chosen(viewer: Viewer, tmp_path: Path) -> None:
     viewer.show(dofkit.animate("planetary-gear-bodies").save(tmp_path / "a.html"))
     assert viewer.page.locator("#clip option").count() == 2
     viewer.page.select_option("#clip", index=1)
-    assert viewer.page.get_attribute("#slider", "max") == "39"
+    assert viewer.page.get_attribute("#slider", "max") == "27"
     assert viewer.said == []
+
+
+@pytest.mark.parametrize("name", ["four-bar-linkage", "five-particles-ten-links", "disc-rolling-on-plane"])
+def test_axe_finds_nothing(viewer: Viewer, name: str, tmp_path: Path) -> None:
+    """Of pages with points to drag, with switches, and with a loop and its size."""
+    if not AXE.exists():
+        pytest.skip("axe-core comes with the bench: npm install in dofkit/site/bench")
+    viewer.show(dofkit.animate(name, loop=name.startswith("disc")).save(tmp_path / "a.html"))
+    assert violations(viewer.page) == []
+
+
+def test_the_first_frame_needs_no_script(viewer: Viewer, tmp_path: Path) -> None:
+    """Without scripts a picture of the four-bar stands where the canvas will be."""
+    path = dofkit.animate("four-bar-linkage").save(tmp_path / "a.html")
+    context = viewer.page.context.browser.new_context(java_script_enabled=False, viewport={"width": 760, "height": 800})
+    still = context.new_page()
+    still.goto(path.as_uri())
+    first = still.locator("#first").bounding_box()
+    viewer.show(path)
+    assert viewer.page.locator("#first").count() == 0
+    assert viewer.page.locator("canvas").bounding_box() == pytest.approx(first, abs=1)
+    context.close()
 
 
 def test_a_loop_has_a_size_and_says_what_is_displaced(viewer: Viewer, tmp_path: Path) -> None:

@@ -9,18 +9,19 @@ from pathlib import Path
 from typing import Any, get_args
 from xml.etree import ElementTree
 
+import numpy as np
 import pytest
 
 import dofkit
 from dofkit.base.errors import ArgumentError
 from dofkit.pictures import stage
 from dofkit.pictures.arrangement import SCHEMATIC
-from dofkit.pictures.coordinates import POINT
 from dofkit.pictures.files import ExtraMissingError
 from dofkit.pictures.layout import page_of
 from dofkit.pictures.mechanism import FREE_PLACES
-from dofkit.pictures.paper import HIGH, Page, width_of
+from dofkit.pictures.paper import FLAT, HIGH, Page, outline, width_of
 from dofkit.pictures.shapes import ON_DARK, WHITE, Role, Shape, State, ink_of, keys_of
+from dofkit.pictures.stage import POINT
 from dofkit.pictures.still import Picture
 from dofkit.report import FieldVerdict
 
@@ -211,6 +212,15 @@ def test_surfaces_of_space_meet_in_a_curve() -> None:
     assert len(curve) > 30
     assert all(x * x + y * y == pytest.approx(0.2919, abs=1e-3) for x, y, _ in curve)  # cos(1)^2
     assert all(z == pytest.approx(0.8415, abs=1e-3) for _, _, z in curve)
+
+
+def test_a_moving_curve_is_smooth() -> None:
+    """A circle through fifteen points: its outline stays within 1/200 of it, where chords would leave 1/40."""
+    hoop = {"curve": "hoop", "at": ["x + sin(u)", "cos(u)"], "range": {"u": [0, "2 pi"]}}
+    sketch = dofkit.draw({"coordinates": ["x"], "configuration": {"x": 0}, "picture": [hoop]}).sketch
+    (curve,) = (s for s in sketch.shapes if s.kind == "curve")
+    far = np.linalg.norm(outline(sketch, curve, sketch.poses, FLAT), axis=1)
+    assert np.max(np.abs(far - 1)) < 1 / 200
 
 
 @pytest.mark.parametrize("odd", [{"dimension": 2}, {"coordinates": ["x"], "constraints": ["x^2 = 4"]}])

@@ -181,7 +181,7 @@ def test_all_faults_come_at_once_in_the_order_of_the_file() -> None:
         "coordinates: [x]\n"
         "notes: !!python/name:os.system ''\n"
     )
-    assert [fault.line for fault in found] == [1, 2, 4, 5, 6, 7, 8, 9, 10]
+    assert [fault.line for fault in found] == [1, 2, 4, 4, 5, 6, 7, 7, 8, 9, 10]
     told = [re.split(r";? (?:for|write) ", fault.hint)[0] for fault in found if fault.hint]
     assert [hint for hint in told if "did you mean" in hint] == [
         "did you mean 'between'?",
@@ -295,8 +295,13 @@ def test_a_file_that_may_not_be_read(tmp_path: Path) -> None:
 def test_mappings_are_scenes_too() -> None:
     assert load({"coordinates": ["x"], "configuration": {"x": 0.1}}).configuration == {"x": Fraction(1, 10)}
     with pytest.raises(SceneError) as caught:
-        load({"coordinates": ["theta"], "constraints": ["thta = 1", {"type": "link", "betwen": []}]})
-    assert [fault.where for fault in caught.value.faults] == [("constraints", 0, "text"), ("constraints", 1, "betwen")]
+        load(
+            {"coordinates": ["theta"], "constraints": ["thta = 1", {"type": "link", "betwen": [[0], [1]], "length": 1}]}
+        )
+    assert [fault.where[:3] for fault in caught.value.faults][:2] == [
+        ("constraints", 0, "text"),
+        ("constraints", 1, "betwen"),
+    ]
     assert all(fault.hint for fault in caught.value.faults)
     endless: dict[str, object] = {}
     endless["expect"] = endless
@@ -342,3 +347,44 @@ def test_a_length_that_cannot_be_read_is_a_fault_of_every_link() -> None:
 )
 def test_a_faulty_declaration_hides_no_fault_of_a_text(text: str, lines: list[int]) -> None:
     assert [fault.line for fault in faults(text)] == lines
+
+
+#: Scenes with a fault of shape and faults in names and texts -> (line, what it says) of each.
+SLED = "dimension: 2\nbodies: [sled]\nparticles: [A, B]\n"
+HIDDEN = {
+    "a misspelt key, an undeclared coordinate elsewhere": (
+        SLED + "constraints:\n- {type: link, between: [A, B], lenght: 2}\n- sin(theta) dx_sled = dy_sled",
+        [(5, "'lenght'"), (6, "`theta`")],
+    ),
+    "both in one constraint": (
+        SLED + "constraints:\n- {type: equation, txt: x_sledd = 0}\n", [(5, "'txt'"), (5, "`x_sledd`")],
+    ),
+    "a misspelt type": (
+        SLED + "constraints:\n- {type: slott, point: C, body: sled}\n- x_A = q\n",
+        [(5, "'slott'"), (5, "'C'"), (6, "`q`")],
+    ),
+    "a misspelt key of a body": (
+        "dimension: 2\nbodies: [{nam: sled}]\nconstraints: [x_sled = q]\n", [(2, "'nam'"), (3, "`q`")],
+    ),
+    "a misspelt section, with a misspelt key in it": (
+        "dimension: 2\nparticles: [A, B]\nconstrains:\n- {type: link, betwen: [A, C]}\n- x_A = q\n",
+        [(3, "'constrains'"), (4, "'betwen'"), (4, "'C'"), (5, "`q`")],
+    ),
+    "a section that is no list": (SLED + "forces: 3\nconstraints: [x_A = q]\n", [(4, "list"), (5, "`q`")]),
+    "a joint that cannot be read hides no fault of the coupling": (
+        "dimension: 2\nbodies: [a, b]\njoints:\n- {name: p, type: pin, between: [ground]}\n"
+        "- {name: q, type: pin, between: [ground, b], at: [1, 0]}\n- {type: coupling, joints: [p, r], text: p = r}\n",
+        [(4, "2 entries"), (6, "'r'")],
+    ),
+    "an entry whose names are not known": (
+        "coordinates: [x, 3]\nconstraints: [x = y, x = 2 +]\n", [(2, "something is missing")],
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", HIDDEN)
+def test_a_fault_of_shape_hides_no_other_fault(case: str) -> None:
+    text, expected = HIDDEN[case]
+    found = [fault for fault in faults(text) if fault.line != 1]
+    assert [fault.line for fault in found] == [line for line, _ in expected]
+    assert all(word in fault.message for fault, (_, word) in zip(found, expected, strict=True)), found

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import re
 from pathlib import Path
 from typing import Any
 
@@ -143,7 +142,7 @@ SHOWN: dict[str, tuple[str, str]] = {
     "a spring": ("particles: [A, B]\nconstraints: [{type: spring, between: [A, B]}]", "forces: [{type: spring,"),
     "no type": ("{A}[{name: c, between: [a, b]}]", "the types with these keys are link, revolute,"),
     "a misspelt text and no type": ('coordinates: [x, y]\nconstraints: [{txt: "x dy = 0"}]', "are equation"),
-    "an unknown type and a misspelt key": ("{B}[{type: foo, betwen: [A, A]}]", "did you mean 'between'?"),
+    "an unknown type and a misspelt key": ("{B}[{type: foo, betwen: [A, A]}]", "the types with these keys are link"),
     "members of a link": ("particles: [A, B]\nconstraints: [{type: link, members: [A, B]}]", "did you mean 'between'?"),
     "bodies of a joint": ("bodies: [a, b]\nconstraints: [{type: weld, bodies: [a, b]}]", "did you mean 'between'?"),
     "members held": ("particles: [A]\nconstraints: [{type: fixed, members: [A]}]", "`{type: fixed, point: A}`"),
@@ -161,16 +160,16 @@ SHOWN: dict[str, tuple[str, str]] = {
     ),
     "time in a place": ("{A}[{type: ball, between: [ground, a], at: [t, 0, 0]}]", "`x_A = cos(t)`"),
     "a negative length": ("particles: [A, B]\nconstraints: [{type: link, between: [A, B], length: -2}]", "`length: 2`"),
-    "one end": ("{A}[{type: hinge, between: [a], at: [0, 0, 0]}]", "`between: [ground, crank]`"),
-    "one end of a link": ("particles: [A]\nconstraints: [{type: link, between: [A]}]", "`between: [A, B]`"),
+    "one end": ("{A}[{type: hinge, between: [a], at: [0, 0, 0]}]", "between: [ground, crank]"),
+    "one end of a link": ("particles: [A]\nconstraints: [{type: link, between: [A]}]", "between: [A, B]"),
     "a place in space": ("dimension: 2\n{A}[{type: pin, between: [ground, a], at: [0, 1, 0]}]", "`at: [0, 1]`"),
     "a place in the plane": ("{A}[{type: ball, between: [ground, a], at: [0, 1]}]", "`at: [0, 1, 0]`"),
     "an axis that is no direction": (
-        "{A}[{type: hinge, between: [ground, a], at: [0, 0, 0], axis: w}]", "`axis: [0, 0, 1]`",
+        "{A}[{type: hinge, between: [ground, a], at: [0, 0, 0], axis: w}]", "axis: [0, 0, 1]",
     ),
     "an axis out of the plane": (
         "dimension: 2\n{A}[{type: slider, between: [ground, a], axis: z}]",
-        "a direction is x or y, or its components; for example `axis: [1, 0]`",
+        "a direction is x or y, or its components; for example `{type: prismatic, ",
     ),
     "no axis": ("{A}[{type: hinge, between: [ground, a], at: [0, 0, 0]}]", "`axis: [0, 0, 1]`"),
     "a body for a point": ("{B}[{type: link, between: [a, A]}]", "`{on: a, at: [0, 0, 0]}`"),
@@ -183,7 +182,7 @@ SHOWN: dict[str, tuple[str, str]] = {
         "`direction` is a synonym of `axis`",
     ),
     "a joint of space in the plane": (
-        "dimension: 2\n{A}[{type: ball, between: [ground, a], at: [0, 0]}]", "`{type: revolute, between",
+        "dimension: 2\n{A}[{type: ball, between: [ground, a], at: [0, 0]}]", "in the plane use revolute,",
     ),
     "a length that contradicts": (
         "dimension: 1\nparticles: [{name: A, at: [0]}, {name: B, at: [5]}]\n"
@@ -226,8 +225,5 @@ def test_the_example_of_a_type_is_a_scene(kind: str) -> None:
 
 def test_the_line_of_a_key_is_a_scene() -> None:
     for key in ("coordinates", "particles", "bodies", "parameters", "functions", "dimension", "tolerance", "expect"):
-        line = LINES[key]
-        assert isinstance(line, str)
-        assert dofkit.loads(line).name == "scene"
+        assert dofkit.loads(LINES[key]).name == "scene"
     assert dofkit.loads(f"coordinates: [theta]\n{LINES['configuration']}").configuration == {"theta": 0}
-    assert re.search(r"\[0, 0\]", LINES["at"][1])

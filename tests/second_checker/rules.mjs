@@ -361,7 +361,7 @@ export class Rules {
     }
     let rank = placed.length;
     if (minor) {
-      if (minor.rows.length > placed.length) uncovered("more rows than relations");
+      refuse(minor.rows.length > placed.length, "more rows than relations");
       if (minor.rows.length < placed.length) {
         refuse(list(claim.covers ?? []).length !== 1, "the minor has another number of rows");
         refuse(this.e.cover(claim.covers[0]).rows.length !== placed.length, "a cover of all is needed");

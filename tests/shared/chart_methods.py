@@ -8,12 +8,12 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from dofkit.benchmark.trials.construction import Trial
-from dofkit.methods.table import Knobs, MethodReply
+from dofkit.methods.table import Knobs, Reply
 
 
 def answered(
     scene: Mapping[str, Any], question: str, method: str, knobs: Knobs, answer: Mapping[str, str] | None
-) -> MethodReply:
+) -> Reply:
     """What each of them tells; the truth is 2."""
     del question, answer
     size = scene.get("size", 1)
@@ -27,11 +27,11 @@ def answered(
     if method == "raises":
         raise KeyError("x")
     if method == "process":
-        return MethodReply(os.getpid())
+        return Reply(os.getpid())
     if method == "coarse":
-        return MethodReply(2 if knobs.tolerance < 1e-3 else 3)
+        return Reply(2 if knobs.tolerance < 1e-3 else 3)
     told = {"wrong": 3, "undecided": None, "cannot": None}.get(method, 2)
-    return MethodReply(told, "" if told else f"it is {method}", method == "cannot")
+    return Reply(told, reason="" if told else f"it is {method}", cannot=method == "cannot")
 
 
 def family(quick: bool) -> Iterator[Trial]:

@@ -11,7 +11,7 @@ import yaml
 from shared.documented import ROOT, SITE
 
 import dofkit
-from dofkit.classification.arguments import TABLE
+from dofkit.classification.arguments import arguments
 from dofkit.interface.explanations import all_explanations
 from dofkit.report import ConstraintEntry, Report
 from dofkit.scene.constraints import TYPES
@@ -73,7 +73,7 @@ def test_every_field_and_verdict_is_told_of() -> None:
     glossary = next(page.text for page in report_pages(WRITTEN_GLOSSARY) if page.path == GLOSSARY)
     assert all(f"| `{field}` |" in glossary for field in {*Report.model_fields, *ConstraintEntry.model_fields})
     assert all(f"| `{v}` |" in glossary for v in ("proved", "probable", "numeric", "undecided"))
-    assert all(prose(key) in glossary for key in TABLE)
+    assert all(prose(key) in glossary for key in arguments())
     explained = [word for word in all_explanations() if word.kind in ("term", "feedback code")]
     assert {word.kind for word in explained} == {"term", "feedback code"}
     assert all(prose(word.word) in glossary or f"`{word.word}`" in glossary for word in explained)

@@ -11,13 +11,16 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from dofkit.base.deadline import check
+from dofkit.base.verdicts import Claim, together
 from dofkit.classification.dependence.implication import Everywhere, NearDrawing, SufficientSets
 from dofkit.classification.dependence.minimal_sets import largest_redundant_set, minimal_set
 from dofkit.exact.matrices.sparse import SparseRow, Supports, components, echelon, rank_of_rows, transposed, vanishing
-from dofkit.relations.answer import Redundancies
+from dofkit.relations.answer import BITS, Redundancies
 
 #: Sets of constraints are searched exhaustively up to this many members of a group.
 SEARCHED = 12
+#: Rows that depend on each other at points over GF(p).
+ROWS = Claim("probable", "rows at a point", bits=BITS)
 #: Up to this many are removed one after the other; then so many are given back, one at a time.
 REMOVED, EXCHANGES = 60, 200
 
@@ -28,7 +31,8 @@ class OwnedRows:
 
     ``equations[i]`` is the number of the scalar equation that row i is of; -1 where it is not known.
     ``supports``: what each row depends on, of those before it, where something else than the matrix tells it.
-    ``implication`` tells what rows say of each other; without it what is dependent is taken to follow.
+    ``implication`` tells what rows say of each other; without it what is dependent is taken to follow; ``claim``: of
+    what depends on what.
     """
 
     matrix: Sequence[SparseRow]
@@ -38,6 +42,7 @@ class OwnedRows:
     equations: Sequence[int] = ()
     supports: Supports | None = None
     implication: NearDrawing | Everywhere | None = None
+    claim: Claim = ROWS
 
     def of(self, owners: frozenset[int] | set[int], finite_only: bool = False) -> list[SparseRow]:
         """The rows that some constraints wrote."""
@@ -66,7 +71,10 @@ def analyse(matrices: Sequence[OwnedRows], needed: Collection[int] = ()) -> Redu
     circuits = {owner: _circuit(matrices, order, owner, bases, rows_of[owner] == 1) for owner in decided}
     uncounted = tuple(sorted(set[int]().union(*(b.uncounted for b in bases))))
     equations = {o: e for o, e in _equations(matrices, bases).items() if o not in uncounted}
-    return Redundancies(independent, sorted(redundant), groups, circuits, equations=equations, uncounted=uncounted)
+    claim = together(*(part.claim for part, basis in zip(matrices, bases, strict=True) if basis.supports))
+    return Redundancies(
+        independent, sorted(redundant), groups, circuits, equations=equations, uncounted=uncounted, claim=claim
+    )
 
 
 def _equations(matrices: Sequence[OwnedRows], bases: Sequence[_Basis]) -> dict[int, tuple[int, ...]]:

@@ -19,6 +19,7 @@ from itertools import product as cartesian
 from typing import NamedTuple
 
 from dofkit.base.deadline import OutOfTimeError, check
+from dofkit.base.verdicts import Claim
 from dofkit.classification.dependence.minimal_sets import minimal_set
 from dofkit.classification.freedom.branches import in_time
 from dofkit.classification.freedom.preparation import all_of, branches_at_reference, conditional
@@ -30,7 +31,7 @@ from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import vanishes
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.relations.answer import Answer
+from dofkit.relations.answer import BITS, Answer
 from dofkit.relations.blocks import Block, Row, coordinates_of, make_chart, split
 from dofkit.relations.linear_relations import linear, solve_linear
 from dofkit.relations.normal.domain import DomainCondition, conditions_of
@@ -39,6 +40,8 @@ from dofkit.relations.normal.pieces import Finite, Nonlinear, Normal, Pfaffian, 
 from dofkit.relations.setting import Setting
 from dofkit.relations.velocity_reductions import MAX_WAYS, Way, form_rate, ways_of
 
+#: What the others imply at drawn states.
+IMPLIED = Claim("probable", "implication", bits=BITS)
 #: No coordinate has this name.
 SLACK = "_s"
 RELATIONS = (Finite, Pfaffian, Nonlinear)

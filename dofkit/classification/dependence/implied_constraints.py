@@ -8,12 +8,12 @@ from functools import partial
 from typing import NamedTuple
 
 from dofkit.base.deadline import limited, unless_late
-from dofkit.base.verdicts import About
-from dofkit.classification.dependence.implication import follows
+from dofkit.base.verdicts import About, Claim
+from dofkit.classification.dependence.implication import IMPLIED, follows
 from dofkit.classification.dependence.minimal_sets import largest_redundant_set, minimal_set
 from dofkit.classification.freedom.branches import AnsweredBlocks, Outcome, solve
 from dofkit.classification.freedom.preparation import all_of
-from dofkit.relations.answer import Redundancies, undecided_dependence
+from dofkit.relations.answer import BITS, Redundancies, undecided_dependence
 from dofkit.relations.normal.pieces import Finite, Normal, Reduced
 from dofkit.relations.setting import Setting
 
@@ -44,7 +44,8 @@ def _by_implication(reduced: Sequence[Reduced], setting: Setting, numbers: Seque
     independent, more = _equation_by_equation(reduced, setting, numbers, kept)
     decided = {i: n for i, n in independent.items() if i not in undecided}
     about: About = "everywhere" if setting.reference is None else "reference"
-    return Redundancies(decided, dropped, [*groups, *more], circuits, tuple(undecided), about=about)
+    claim = replace(IMPLIED, about=about)
+    return Redundancies(decided, dropped, [*groups, *more], circuits, tuple(undecided), claim=claim)
 
 
 def _equation_by_equation(
@@ -124,13 +125,15 @@ def _needed(
 
 #: Seconds spent on leaving constraints out.
 CONFLICT_SECONDS = 5.0
+#: Without any one of them the others can be satisfied.
+MINIMAL, LEFT_OUT = Claim("proved", "leaving out"), Claim("probable", "leaving out", bits=BITS)
 
 
 class Conflict(NamedTuple):
-    """Constraints that cannot hold together; ``minimal``: it is proved that none of them can be left out."""
+    """Constraints that cannot hold together; ``claim``: none of them can be left out."""
 
     members: list[int]
-    minimal: bool = False
+    claim: Claim = LEFT_OUT
 
 
 def conflict(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome) -> Conflict:
@@ -140,19 +143,20 @@ def conflict(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome) -> 
     checks are undecided; it is then perhaps not minimal.
     """
     if outcome.impossible:
-        return Conflict([outcome.impossible[0]], True)
+        return Conflict([outcome.impossible[0]], MINIMAL)
     plain = replace(setting, grows=False, flag=False)
     guilty = next(b for b, a in zip(outcome.blocks, outcome.answers, strict=True) if a.consistent is False)
     kept = sorted({row.constraint for row in guilty.rows})
     members = next(a.conflict for a in outcome.answers if a.consistent is False)
     if members and set(members) <= set(kept):
-        return Conflict(list(members), True)
+        return Conflict(list(members), MINIMAL)
     sets = ConstraintSets(reduced, plain)
     if not sets.inconsistent(kept):
         kept = [i for i, r in enumerate(reduced) if r.normals]
     with limited(CONFLICT_SECONDS):
         kept = minimal_set(kept, sets.inconsistent_in_time, len(kept) // 2 or 1)
-    return Conflict(kept, all(sets.consistent(kept[:k] + kept[k + 1 :]) for k in range(len(kept))))
+    minimal = all(sets.consistent(kept[:k] + kept[k + 1 :]) for k in range(len(kept)))
+    return Conflict(kept, MINIMAL if minimal else LEFT_OUT)
 
 
 class ConstraintSets:

@@ -3,26 +3,21 @@
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from typing import Literal
 
 from dofkit.base.deadline import unless_late
-from dofkit.base.errors import NoValueError
-from dofkit.base.verdicts import About
+from dofkit.base.verdicts import About, least, together
 from dofkit.classification.dependence import removal
-from dofkit.classification.dependence.circuits import OwnedRows, analyse
-from dofkit.classification.dependence.implication import SLACK, implication_of
+from dofkit.classification.dependence.circuits import ROWS, OwnedRows, analyse
+from dofkit.classification.dependence.implication import IMPLIED, implication_of
 from dofkit.classification.dependence.implied_constraints import MAX_CHOICES, constraint_follows, implied
 from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.freedom.preparation import algebraic, all_of, branches_at_reference
-from dofkit.exact.ideals import dimension_of
 from dofkit.exact.matrices.sparse import SparseRow, components
-from dofkit.exact.ring.canonical import Canon
-from dofkit.exact.ring.ring import Ring
-from dofkit.expressions import tree as ex
-from dofkit.relations.answer import Answer, Redundancies, undecided_dependence
+from dofkit.relations.answer import IDENTITY, Answer, Redundancies, undecided_dependence
 from dofkit.relations.blocks import Block, coordinates_of
 from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.pieces import Finite, Inequality, Nonlinear, Normal, Reduced
@@ -50,7 +45,8 @@ def redundancies(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome)
     apart = outcome.bridged
     result += [_independent(apart)] if apart else []
     for numbers in _connected(reduced, outcome, apart):
-        result += _or_open(partial(_of_part, reduced, setting, blocks, numbers), numbers)
+        work = partial(_of_part, reduced, setting, blocks, numbers)
+        result += unless_late(work, [undecided_dependence(numbers)])
     return result
 
 
@@ -62,12 +58,6 @@ def _is_region(r: Reduced) -> bool:
 def _is_conditional(n: Normal) -> bool:
     """Return whether an equation only states where it is satisfied, on all its branches."""
     return bool(n.branches) and all(b and all(isinstance(p, DomainCondition) for p in b) for b in n.branches)
-
-
-def _or_open(work: Callable[[], list[Redundancies]], numbers: Sequence[int]) -> list[Redundancies]:
-    """What is found of some constraints; where there is no time for it they are left open."""
-    result = unless_late(work, None)
-    return [undecided_dependence(numbers)] if result is None else result
 
 
 def all_needed(dependent: Sequence[Redundancies], reduced: Sequence[Reduced], outcome: Outcome) -> list[Redundancies]:
@@ -140,7 +130,12 @@ def _of_relations(
         return [*settled, _as_free(implied(reduced, setting, numbers), reduced, blocks)]
     if scope is None:
         return _agreed([*settled, *(_undecided_redundancy(r) for r in by_rank)])
-    return [replace(r, about=scope) for r in _agreed([*settled, *by_rank])]
+    return [_within(r, scope) for r in _agreed([*settled, *by_rank])]
+
+
+def _within(r: Redundancies, scope: About) -> Redundancies:
+    """Return the same about fewer points."""
+    return replace(r, claim=replace(r.claim, about=least(r.claim.about, scope)))
 
 
 def _undecided_redundancy(r: Redundancies) -> Redundancies:
@@ -155,9 +150,9 @@ def _scope(
     """Return for which points the redundancy by rank is valid; False where it fails on some component.
 
     x^2 + y^2 = 1, x = 1, y = 0: the first two have one gradient at the solution, but without x = 1 there is x = -1.
-    Only few algebraic equations are examined on all components; otherwise the answer is about the point at which the
-    rank was taken. Finite equations beside forms are compared with each other: of sin(z) = 0 and z = 0 the first is
-    redundant. None: undecided.
+    Only few algebraic equations are examined at drawn points of all components, which may miss one; so the answer is
+    about the component on which the rank was taken. Finite equations beside forms are compared with each other: of
+    sin(z) = 0 and z = 0 the first is redundant. None: undecided.
     """
     dropped = {i for r in by_rank for i in r.redundant}
     if setting.reference is not None:
@@ -173,35 +168,7 @@ def _scope(
     follow = all_of(constraint_follows(reduced, i, kept, setting) for i in dropped if i in finite)
     if len(finite) < len(numbers):
         return False if follow is False else "component"
-    if not follow:
-        return follow
-    fails = [_fails_on_a_component(reduced, i, kept, setting) for i in dropped]
-    return None if True in fails else "component" if None in fails else "everywhere"
-
-
-def _fails_on_a_component(reduced: Sequence[Reduced], i: int, kept: Sequence[int], setting: Setting) -> bool | None:
-    """Return whether an equation is not satisfied at some complex point of the others, which drawn points may miss.
-
-    There is one where s g = 1 has a solution [Rabinowitsch1929]. Two minors of a matrix imply the third, but not where
-    the column that they share is 0. None where the ideal is too large to tell.
-    """
-    others = [p.expr for j in kept for n in reduced[j].normals for p in n.pieces if isinstance(p, Finite)]
-    dimensions: list[int | None] = []
-    for g in (p.expr for n in reduced[i].normals for p in n.pieces if isinstance(p, Finite)):
-        relations = [*others, ex.coordinate(SLACK) * g - ex.ONE]
-        ring = Ring(relations, setting.positive)
-        nodes = [ring.node(e) for e in relations]
-        symbols = {s for e in relations for s in e.symbols if s.args[0] != "parameter"}
-        moving = [k for s in symbols if (k := ring.var_index(s)) is not None]
-        try:
-            canon = Canon(ring)
-            numerators = [canon.quotient(node)[0] for node in nodes]
-            dimensions.append(dimension_of(canon, numerators, moving))
-        except NoValueError:
-            dimensions.append(None)
-    if any(d is not None and d >= 0 for d in dimensions):
-        return True
-    return None if None in dimensions else False
+    return "component" if follow else follow
 
 
 def _is_restricted(r: Reduced) -> bool:
@@ -279,7 +246,8 @@ def _of_block(
     else:
         finite = _finite_rows(block)
         implied = None if a.supports is not None or nullity <= 0 else implication_of(block, a, setting)
-        yield OwnedRows(matrix, owners, finite, a.modulus, equations, a.supports, implied)
+        claim = together(ROWS, IMPLIED) if a.supports is None and not a.linear else a.claim
+        yield OwnedRows(matrix, owners, finite, a.modulus, equations, a.supports, implied, claim)
 
 
 def _joined(matrices: Sequence[OwnedRows]) -> list[list[OwnedRows]]:
@@ -328,6 +296,7 @@ def copied(reduced: Sequence[Reduced], outcome: Outcome) -> list[Redundancies]:
             [(reduced[i].equations, sorted((i, j)))],
             {i: [j]},
             equations={i: tuple(range(reduced[i].equations))},
+            claim=IDENTITY,
         )
         for i, j in outcome.copies.items()
     ]
@@ -357,5 +326,5 @@ def _void(reduced: Sequence[Reduced]) -> list[Redundancies]:
             redundant = [i] if len(void) == r.equations else []
             circuits: dict[int, list[int]] = {i: [] for i in redundant}
             named = {} if partly else {i: void}
-            result.append(Redundancies({i: 0}, redundant, [(idle, [i])], circuits, equations=named))
+            result.append(Redundancies({i: 0}, redundant, [(idle, [i])], circuits, equations=named, claim=IDENTITY))
     return result

@@ -24,14 +24,14 @@ from itertools import groupby
 from typing import NamedTuple
 
 from dofkit.base.deadline import OutOfTimeError, check, limited, unless_late
-from dofkit.base.verdicts import Verdict, weakest
+from dofkit.base.verdicts import Claim, Verdict, weakest
 from dofkit.classification.dependence.implication import Everywhere, NearDrawing, SufficientSets, is_drawn
 from dofkit.classification.dependence.implied_constraints import LEAVING_SECONDS
 from dofkit.classification.dependence.minimal_sets import largest_redundant_set, minimal_set
 from dofkit.classification.freedom.block import answer
 from dofkit.classification.freedom.preparation import all_of
 from dofkit.exact.matrices.sparse import components, echelon
-from dofkit.relations.answer import Answer, Redundancies
+from dofkit.relations.answer import BITS, GAP, Answer, Redundancies
 from dofkit.relations.blocks import Block, Row, split
 from dofkit.relations.setting import Setting
 
@@ -50,17 +50,21 @@ def by_removal(block: Block, setting: Setting, a: Answer, nullity: int, numbered
     nullity = max(nullity, sum(o in largest.members for o in owners))
     groups = [(nullity, sorted(order))] if largest.members else []
     undecided = tuple(largest.undecided)
-    answer = Redundancies({}, largest.members, groups, circuits, undecided, verdict=removal.verdict)
+    answer = Redundancies({}, largest.members, groups, circuits, undecided, claim=_claim(removal.verdict))
     count = counted(block, setting, a, numbered) if is_drawn(block, a, setting) else None
     if count is not None:
-        verdict = weakest(answer.verdict, "numeric" if count.seen else "proved")
+        claim = _claim(weakest(removal.verdict, "numeric" if count.seen else "probable"))
         counts = replace(answer, independent=count.independent, equations=count.equations, seen=count.seen)
-        return replace(counts, groups=groups or count.groups, verdict=verdict)
+        return replace(counts, groups=groups or count.groups, claim=claim)
     independent = {o: 0 for o, circuit in circuits.items() if circuit and max(circuit) < o}
     open_ = {*largest.members, *largest.undecided}
     independent |= {o: 1 for o in order if owners.count(o) == 1 and o not in open_}
     uncounted = tuple(o for o in order if o not in independent and o not in undecided)
     return replace(answer, independent=independent, uncounted=uncounted)
+
+
+def _claim(verdict: Verdict) -> Claim:
+    return Claim(verdict, "implication", BITS, GAP)
 
 
 def _circuits(removal: Removal, order: Sequence[int], redundant: Sequence[int]) -> dict[int, list[int]]:
@@ -87,7 +91,7 @@ class Removal:
     block: Block
     setting: Setting
     whole: Answer
-    verdict: Verdict = "proved"
+    verdict: Verdict = "probable"
     _answers: dict[tuple[frozenset[int], frozenset[int]], bool | None] = field(default_factory=dict)
     _dofs: dict[frozenset[int], int | None] = field(default_factory=dict)
 
@@ -123,15 +127,11 @@ class Removal:
             [i for i, r in enumerate(self.block.rows) if r.constraint in constraints] for constraints in (removed, kept)
         )
         if not is_drawn(self.block, self.whole, self.setting):
-            self.verdict = weakest(self.verdict, "probable")
             return all_of(Everywhere(self.block, self.setting).follows(i, others) for i in rows)
         near = NearDrawing(self.block, self.setting)
-        if near.is_orbit(others, self._dof(kept)):
+        if near.is_orbit(others, self._dof(kept)) or near.imply(others, rows, self.whole):
             return True
-        if near.imply(others, rows, self.whole):
-            self.verdict = weakest(self.verdict, "probable")
-            return True
-        self.verdict = weakest(self.verdict, "numeric")
+        self.verdict = "numeric"
         return near.seem_to_imply(others, rows) or None
 
 

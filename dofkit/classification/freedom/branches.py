@@ -21,11 +21,12 @@ from dofkit.classification.freedom.preparation import (
 from dofkit.configuration.linear_blocks import confirmed
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.nonlinear_velocities import NOT_EQUIVALENT, with_reductions_checked
+from dofkit.integrability.traits import is_curved
 from dofkit.relations.answer import Answer, AnsweredPart
 from dofkit.relations.blocks import Block, Row, blocks_of
 from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.no_solution import holds_somewhere
-from dofkit.relations.normal.pieces import JointEquation, Nonlinear, Reduced
+from dofkit.relations.normal.pieces import JointEquation, Nonlinear, Pfaffian, Reduced
 from dofkit.relations.setting import Setting
 from dofkit.relations.velocity_reductions import MAX_WAYS, RewrittenRow, Way, ways_of, with_boundaries
 
@@ -247,6 +248,7 @@ class AnsweredBlocks:
         self._answers: dict[Hashable, tuple[Block, Answer]] = {}
         self._alike: dict[Hashable, AnsweredBlock] = {}
         self._shapes: set[Hashable] = set()
+        self._curved: dict[int, tuple[Pfaffian, bool]] = {}
 
     def know(self, outcome: Outcome) -> None:
         """Keep the answers of an outcome that are decided."""
@@ -269,6 +271,12 @@ class AnsweredBlocks:
             result = self._twin(block, likenesses) if twins and likenesses else in_time(block, self.setting)
             self._answers[same] = block, result
         return self._answers[same][1]
+
+    def is_curved(self, form: Pfaffian) -> bool:
+        """Return whether it is proved that a form does not integrate on its own."""
+        if id(form) not in self._curved:
+            self._curved[id(form)] = form, is_curved(form, self.setting)
+        return self._curved[id(form)][1]
 
     def _twin(self, block: Block, likenesses: Likenesses) -> Answer:
         key, names = likenesses.of(block)

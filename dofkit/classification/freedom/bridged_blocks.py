@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from dofkit.base.verdicts import VERDICTS, weakest
-from dofkit.configuration.variety import field_jacobian, of_reference, pose_point
+from dofkit.configuration.variety import of_reference
 from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import substitute
 from dofkit.expressions.vectors import difference
 from dofkit.relations.answer import Answer, AnsweredPart, FollowedClasses, Size
-from dofkit.relations.blocks import Block, Row, coordinates_of, make_chart, split, uses_time
+from dofkit.relations.blocks import Block, Row, split, uses_time
 from dofkit.relations.normal.pieces import Finite, JointEquation
 from dofkit.relations.setting import Setting
 
@@ -32,50 +30,12 @@ def bridged_answer(block: Block, setting: Setting, solve: Callable[[Block, Setti
         return None
     rows = [row for row in block.rows if row.constraint not in setting.bridges]
     cores, loose = split(block.coordinates, rows)
-    within = replace(setting, within=True)
-    answered = [AnsweredPart(core, _core_answer(core, within, solve)) for core in cores]
+    answered = [AnsweredPart(core, solve(core, setting)) for core in cores]
     if any(p.answer.consistent is not True or p.answer.about != "reference" for p in answered):
         return None
     result = _together(block, setting, answered, len(loose) - len(joints))
     moves = result.dof if setting.reference is None else result.instantaneous
     return replace(result, looked=_looked(block, answered)) if moves else None
-
-
-def _core_answer(core: Block, setting: Setting, solve: Callable[[Block, Setting], Answer]) -> Answer:
-    """The answer of a part; of one that nothing ties to the ground as it is seen from one of its bodies.
-
-    There the set is that of the body's own coordinates times what is left where they are as drawn: all is moved along.
-    """
-    host = _host(core, setting)
-    if host is None:
-        return solve(core, setting)
-    drawn = {s: (setting.reference or {})[s] for s in map(ex.coordinate, host)}
-    rows = [
-        Row(r.constraint, Finite(substitute(r.piece.expr, drawn))) for r in core.finite if isinstance(r.piece, Finite)
-    ]
-    seen, loose = split([name for name in core.coordinates if name not in host], rows)
-    answered = [AnsweredPart(block, solve(block, setting)) for block in seen]
-    chart = make_chart(core, setting)
-    point = pose_point(chart, {**(setting.reference or {}), ex.TIME: ex.ZERO}, 3)
-    if point is None or any(p.answer.consistent is not True or p.answer.about != "reference" for p in answered):
-        return solve(core, setting)
-    result = _together(core, setting, answered, len(loose) + len(host))
-    looked = _looked(core, answered)
-    return replace(result, looked=looked, answered_parts=None, matrix=field_jacobian(chart, point), modulus=point.p)
-
-
-def _host(core: Block, setting: Setting) -> tuple[str, ...] | None:
-    """The coordinates of the body that most is said of; None where something ties the part to the ground."""
-    if any(row.constraint not in setting.afloat for row in core.rows):
-        return None
-    mentioned = frozenset(core.coordinates)
-    owners = {c.name: c for c in setting.roles if c.name in mentioned}
-    turned = {c.owner for c in owners.values() if c.role not in ("x", "y", "z")}
-    said = Counter(owner for row in core.rows for owner in {owners[q].owner for q in coordinates_of(row.piece)})
-    host = max((owner for owner in said if owner in turned), key=lambda owner: said[owner], default=None)
-    host_coordinates = tuple(name for name, c in owners.items() if c.owner == host)
-    whole = {2: 3, 3: 6}.get(setting.dimension)
-    return host_coordinates if len(host_coordinates) == whole else None
 
 
 def _is_eligible(block: Block, joints: Sequence[Row], setting: Setting) -> bool:
@@ -87,7 +47,7 @@ def _is_eligible(block: Block, joints: Sequence[Row], setting: Setting) -> bool:
     if block.forms or block.nonlinear:
         return False
     written = not any(isinstance(row.piece, JointEquation) for row in joints)
-    if written and (len(block.coordinates) <= FEW or _moves_as_one(joints, setting)):
+    if written and len(block.coordinates) <= FEW:
         return False
     others = tuple(row for row in block.rows if row.constraint not in setting.bridges)
     return not uses_time(Block(block.coordinates, others))
@@ -96,15 +56,6 @@ def _is_eligible(block: Block, joints: Sequence[Row], setting: Setting) -> bool:
 def _is_open_tree(block: Block, joints: Sequence[Row], setting: Setting) -> bool:
     """Return whether there are only equations of drawn joints, and no Euler angles, whose charts may be left."""
     return len(joints) == len(block.rows) and setting.tilts.isdisjoint(block.coordinates)
-
-
-def _moves_as_one(joints: Sequence[Row], setting: Setting) -> bool:
-    """Return whether all joints but one to the ground weld."""
-    free = {row.constraint: row for row in joints if row.constraint not in setting.welds}
-    if len(free) != 1:
-        return not free
-    mentioned = coordinates_of(next(iter(free.values())).piece)
-    return len({c.owner for c in setting.roles if c.name in mentioned}) == 1
 
 
 def _together(block: Block, setting: Setting, answered: Sequence[AnsweredPart], free: int) -> Answer:

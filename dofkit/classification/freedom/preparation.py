@@ -19,7 +19,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.renaming import Renaming, Unwritten, kinds_in, shape_of
 from dofkit.expressions.tree import Expr
-from dofkit.mobility.joint_tree import Bridges, bridges
+from dofkit.mobility.joint_tree import bridges
 from dofkit.mobility.placement import RowsAtReference
 from dofkit.relations.blocks import Block, Row, coordinates_of, make_chart
 from dofkit.relations.normal.domain import DomainCondition, arguments_of, holds_at
@@ -51,8 +51,8 @@ def prepared(system: System, reductions: Reductions = ALL) -> tuple[list[Reduced
     generic = tuple([ex.parameter(p) for p in system.generic])
     positive |= frozenset([p for p in generic if p.args[1].startswith("_L")])
     exact = system.joints and system.tolerance is None
-    apart = bridges(system) if "bridges" in reductions and exact else Bridges()
-    reduced = reduce_all(system, positive, apart.joints)
+    apart = bridges(system) if "bridges" in reductions and exact else frozenset[int]()
+    reduced = reduce_all(system, positive, apart)
     setting = Setting(
         positive,
         generic,
@@ -65,13 +65,11 @@ def prepared(system: System, reductions: Reductions = ALL) -> tuple[list[Reduced
         distances={} if system.tolerance else system.distances,
         links=_links(system),
         reductions=reductions,
-        welds=frozenset(i for i, c in enumerate(system.constraints) if c.facts.welded),
         geometric=frozenset(i for i, c in enumerate(system.constraints) if not c.facts.written or c.facts.contact),
         arms=system.arms,
         tilts=frozenset(r.names[1] for r in system.rotations if r.chart == "euler"),
-        bridges=apart.joints,
-        afloat=apart.afloat,
-        joint_rows=RowsAtReference(system, positive).of if apart.joints else None,
+        bridges=apart,
+        joint_rows=RowsAtReference(system, positive).of if apart else None,
     )
     return reduced, setting
 

@@ -102,6 +102,9 @@ class Companionship:
                 i for i, r in enumerate(part.rows) if r.constraint == constraint and isinstance(r.piece, Pfaffian)
             ]
             if linear:
+                first = part.rows[0].piece
+                if len(part.rows) == 1 and isinstance(first, Pfaffian) and self.answered.is_curved(first):
+                    return False
                 result = self.answered.of(part)
                 if not result.consistent or any(not _true(result, i) for i in linear):
                     return False

@@ -8,7 +8,7 @@ from dataclasses import replace
 from functools import partial
 
 from dofkit.base.deadline import OutOfTimeError, check
-from dofkit.base.verdicts import Verdict, weakest
+from dofkit.base.verdicts import Claim, Verdict, together, weakest
 from dofkit.classification.freedom.branches import AnsweredBlocks, Outcome, solve
 from dofkit.classification.labels.companions import Companionship
 from dofkit.classification.labels.entry import Evidence, LabelledRow, entry, label_in_system, unfinished
@@ -18,9 +18,9 @@ from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import TIME
 from dofkit.integrability.nonlinear_velocities import label_modulo_others
 from dofkit.integrability.traits import Traits, traits
-from dofkit.relations.answer import Answer, Redundancies
+from dofkit.relations.answer import IDENTITY, Answer, HolonomyLabel, Redundancies
 from dofkit.relations.blocks import Block, Row, coordinates_of
-from dofkit.relations.normal.pieces import Clause, JointEquation, Nonlinear, Pfaffian, Reduced, piece_shape
+from dofkit.relations.normal.pieces import Clause, JointEquation, Nonlinear, Normal, Pfaffian, Reduced, piece_shape
 from dofkit.relations.setting import Setting
 from dofkit.report import ConstraintEntry, IntegrablePart
 
@@ -126,17 +126,20 @@ def _dependences(
     uncounted = {i for result in dependent for i in result.uncounted}
     counted = independent.keys() - _unmeasured(outcome) - uncounted
     circuits = {i: c for result in dependent for i, c in result.circuits.items() if all(j < i for j in c)}
-    redundant = {i: result.verdict for result in dependent for i in result.redundant}
+    redundant = {i for result in dependent for i in result.redundant}
     undecided = dict.fromkeys(uncounted, UNCOUNTED) | {i: OPEN for result in dependent for i in result.undecided}
     seen = {i for result in dependent for i in result.seen}
-    on_component = {i for result in dependent if result.about == "component" for i in result.redundant}
+    claims: dict[int, list[Claim]] = {}
+    for result in dependent:
+        for i in (*result.independent, *result.undecided):
+            claims.setdefault(i, []).append(result.claim)
     for i, rows in enumerate(labelled):
         number = independent[i] if i in counted else None if rows else 0
         circuit = [names[j] for j in circuits[i]] if i in circuits else None
-        yield EntryDependence(
-            number, circuit, redundant.get(i), undecided.get(i, ""), following.get(i),
-            i in seen, i in on_component, i in outcome.copies,
-        )  # fmt: skip
+        unlike = [c for c in claims.get(i, ()) if c != IDENTITY]
+        claim = together(*unlike) if unlike else IDENTITY
+        said = undecided.get(i, "")
+        yield EntryDependence(number, circuit, i in redundant, said, following.get(i), i in seen, claim)
 
 
 def labels_in_system(
@@ -202,6 +205,9 @@ def by_itself(r: Reduced, labelled: Sequence[LabelledRow], answered: AnsweredBlo
         return None
     elif len(labelled) == 1 and labelled[0].label is not None and labelled[0].label.holonomic is False:
         return Answer(labels={0: labelled[0].label})
+    match r.normals:
+        case (Normal(branches=((Pfaffian() as form,),)),) if answered.is_curved(form):
+            return Answer(labels={0: HolonomyLabel(False, "proved")})
     mentioned = {name for n in r.normals for b in n.branches for p in b for name in coordinates_of(p)}
     setting = replace(answered.setting, roles=tuple(c for c in answered.setting.roles if c.name in mentioned))
     try:

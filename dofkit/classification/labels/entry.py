@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from dofkit.base.verdicts import OPEN, VERDICTS, Claim, Verdict, weakest
+from dofkit.base.verdicts import OPEN, Claim, weakest
 from dofkit.classification.labels.reasons import (
     EntryDependence,
     EntryLabels,
@@ -24,15 +24,12 @@ from dofkit.classification.labels.reasons import (
 )
 from dofkit.classification.undecided import open_entry
 from dofkit.exact.zero import BOTH
-from dofkit.integrability.traits import Integrability, Traits, integrability
+from dofkit.integrability.traits import Integrability, TraitAnswer, Traits, all_of, integrability
 from dofkit.relations.answer import GAP, Answer, HolonomyLabel
 from dofkit.relations.blocks import Block, Row
 from dofkit.relations.normal.pieces import Clause, Finite, Nonlinear, Normal, Pfaffian, Reduced
 from dofkit.relations.setting import Setting
 from dofkit.report import FORMS, ConstraintEntry, FieldVerdict, Form
-
-#: Whether something is holonomic, and how certain that is.
-HolonomyVerdict = tuple[bool | None, Verdict]
 
 
 class LabelledRow(NamedTuple):
@@ -108,7 +105,7 @@ def entry(reduced: Reduced, evidence: Evidence, setting: Setting, consistent: bo
         equations=reduced.equations,
         independent=dependence.of(reduced.equations),
         redundant_equations=implied,
-        verdict=weakest(sure, dependence.redundant or "proved"),
+        verdict=weakest(sure, dependence.claim.verdict if dependence.redundant else "proved"),
         verdicts={name: FieldVerdict.of(claim) for name, claim in claims.items()},
         reason="".join(sentences),
     )
@@ -212,7 +209,7 @@ def _claims(
     dependence = evidence.dependence
     if dependence.independent is not None:
         all_needed = dependence.circuit is None and dependence.independent >= len(evidence.rows)
-        claims["independent"] = claim_of_dependence(ground, all_needed, dependence.copied)
+        claims["independent"] = claim_of_dependence(ground, dependence, all_needed)
     if dependence.circuit is not None:
         claims["circuit"] = claims.get("independent", OPEN)
     if dependence.open:
@@ -259,29 +256,20 @@ def label_in_system(
     inequalities: Sequence[Clause],
     proofs: Sequence[Integrability],
     forms: Sequence[Pfaffian],
-) -> HolonomyVerdict:
+) -> TraitAnswer:
     """Return whether all rows are consequences of finite equations, which an inequality never is."""
     if inequalities:
         return False, "proved"
     integrable = [f for f, p in zip(forms, proofs, strict=False) if p.proved]
-    return _together([_label_of_row(t, integrable) for t in rows])
+    return all_of([_label_of_row(t, integrable) for t in rows])
 
 
-def _label_of_row(t: LabelledRow, integrable: Sequence[Pfaffian]) -> HolonomyVerdict:
+def _label_of_row(t: LabelledRow, integrable: Sequence[Pfaffian]) -> TraitAnswer:
     if isinstance(t.row.piece, Finite) or t.row.piece in integrable:
         return True, "proved"
     if isinstance(t.row.piece, Nonlinear) and not t.reduced:
         return (False, "proved") if t.answer.curved else (None, "undecided")
     return (None, "undecided") if t.label is None else (t.label.holonomic, t.label.verdict)
-
-
-def _together(labels: Sequence[HolonomyVerdict]) -> HolonomyVerdict:
-    """Return the label of several rows; it is as sure that they are not all holonomic as for the surest of them."""
-    against = [verdict for holonomic, verdict in labels if holonomic is False]
-    if against:
-        return False, min(against, key=VERDICTS.index)
-    undecided = any(holonomic is None for holonomic, _ in labels)
-    return (None, "undecided") if undecided else (True, weakest(*(verdict for _, verdict in labels)))
 
 
 def _alone(
@@ -290,7 +278,7 @@ def _alone(
     proofs: Sequence[Integrability],
     forms: Sequence[Pfaffian],
     inequalities: Sequence[Clause],
-) -> HolonomyVerdict:
+) -> TraitAnswer:
     """Return whether the constraint is holonomic, the other constraints forgotten."""
     if inequalities:
         return False, "proved"
@@ -301,4 +289,4 @@ def _alone(
         return True, "proved"
     if by_itself.consistent is not True or not by_itself.labels:
         return None, "undecided"
-    return _together([(label.holonomic, label.verdict) for label in by_itself.labels.values()])
+    return all_of([(label.holonomic, label.verdict) for label in by_itself.labels.values()])

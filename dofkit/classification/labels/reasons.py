@@ -184,20 +184,18 @@ ON_COMPONENT = " The claim is about the component of the configuration space tha
 class EntryDependence(NamedTuple):
     """What is known of one constraint beside those before it, or all others.
 
-    ``independent`` equations, None where unknown; ``circuit``: names; ``redundant``: how surely it can be left out,
-    None where it cannot; ``open``: what is undecided; ``following``: its equations that follow, by their numbers, and
-    ``seen``: that was seen in numbers; ``on_component``: it can go on that of the witness; ``copied``: an earlier
-    constraint says the same.
+    ``independent`` equations, None where unknown; ``circuit``: names; ``redundant``: it can be left out; ``open``: what
+    is undecided; ``following``: its equations that follow, by their numbers, and ``seen``: that was seen in numbers;
+    ``claim``: of this, given the freedom.
     """
 
     independent: int | None
     circuit: list[str] | None
-    redundant: Verdict | None
+    redundant: bool
     open: str
     following: frozenset[int] | None
     seen: bool
-    on_component: bool
-    copied: bool
+    claim: Claim
 
     @property
     def is_told(self) -> bool:
@@ -220,7 +218,7 @@ class EntryDependence(NamedTuple):
         """Yield that the constraint can be left out, which equations are implied, or what is undecided."""
         if self.redundant and self.circuit is None:
             yield REDUNDANT
-        if self.redundant and self.on_component:
+        if self.redundant and self.claim.about == "component":
             yield ON_COMPONENT
         if self.open:
             yield f" {self.open}"
@@ -366,13 +364,9 @@ class Ground(NamedTuple):
         return "line field" if self.labels and is_line else "in the integrable part"
 
 
-def claim_of_dependence(ground: Ground, all_needed: bool, copied: bool) -> Claim:
+def claim_of_dependence(ground: Ground, dependence: EntryDependence, all_needed: bool) -> Claim:
     """How sure it is how many equations are independent of those before, and of what the others follow."""
+    if dependence.claim.argument == "identity":
+        return dependence.claim
     of_blocks = together(*(a.claim for a in ground.answers))
-    if not ground.answers or copied:
-        return Claim("proved", "identity")
-    if of_blocks.verdict == "undecided" or all_needed:
-        return of_blocks
-    if of_blocks.argument in ("links in general position", "exact elimination"):
-        return of_blocks
-    return ground.claim(weakest(of_blocks.verdict, "probable"), "rows at a point")
+    return of_blocks if all_needed else together(of_blocks, dependence.claim)

@@ -14,7 +14,7 @@ from dofkit.base.verdicts import Verdict, weakest
 from dofkit.base.wording import many, verb
 from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.special.minors import Candidates, Locus, candidates
-from dofkit.classification.study import Study, freedom
+from dofkit.classification.study import Study
 from dofkit.configuration.variety import on_variety
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.sparse import rank_of
@@ -103,7 +103,7 @@ def branch_dimensions(study: Study, report: Report, again: Again) -> Iterator[Sp
         if expired():
             return
         remainder = again(where_nonzero(system, h))
-        dof, elsewhere = remainder.outcome.dof, freedom(remainder)
+        dof, elsewhere = remainder.outcome.dof, remainder.free
         if dof is None or elsewhere.about == "component" or not remainder.outcome.consistent:
             continue
         sure = weakest(claim.verdict, elsewhere.verdict)
@@ -176,21 +176,8 @@ def special_cases(study: Study, report: Report, again: Again) -> dict[str, Any]:
                     search = SpecialLoci(study, report, block, a)
                     searched = True
                     cases.extend(search.cases())
-    changed: dict[str, Any] = {"special_cases": merged(cases)} if cases or searched else {}
+    changed: dict[str, Any] = {"special_cases": cases} if cases or searched else {}
     return {**changed, "method": f"{report.method}; {SEARCHED}"} if searched else changed
-
-
-def merged(cases: Sequence[SpecialCase]) -> list[SpecialCase]:
-    """Return the cases, those of several constraints at one place as one."""
-    kept: dict[tuple[str, str], SpecialCase] = {}
-    for case in cases:
-        key = (case.where, case.what)
-        if key in kept:
-            names = list(dict.fromkeys((*kept[key].constraints, *case.constraints)))
-            sure = weakest(kept[key].verdict, case.verdict)
-            case = case.model_copy(update={"constraints": names, "verdict": sure})
-        kept[key] = case
-    return list(kept.values())
 
 
 def _is_small(block: Block, a: Answer) -> bool:

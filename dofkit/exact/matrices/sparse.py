@@ -139,14 +139,14 @@ def dependences(rows: Sequence[Mapping[int, fmpq]]) -> dict[int, RationalRow] | 
         except ValueError:  # the prime divides a denominator
             continue
         sums = vanishing([{c: v for c, v in row.items() if v} for row in residues], p)
-        factors = {max(s): {k: _reconstructed(-v, p) for k, v in sorted(s.items()) if k != max(s)} for s in sums}
+        factors = {max(s): {k: reconstructed(-v, p) for k, v in sorted(s.items()) if k != max(s)} for s in sums}
         if all(_is_sum(rows, i, row) for i, row in factors.items()):
             return factors
     return None
 
 
-def _reconstructed(residue: int, p: int) -> fmpq:
-    """Return the fraction a/b with the residue modulo p and |a|, |b| below the root of p/2, if there is one (Wang)."""
+def reconstructed(residue: int, p: int) -> fmpq:
+    """Return the fraction a/b with this residue and |a|, |b| below the root of p/2, if there is one [Wang1981]."""
     a, b, x, y = p, residue % p, 0, 1
     while 2 * b * b > p:
         quotient = a // b

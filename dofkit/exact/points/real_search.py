@@ -32,6 +32,8 @@ SINGULAR_TRIES = 4
 MAX_ELIMINATED = 20_000
 #: A Newton step smaller than the precision by so many bits ends the refinement.
 SPARE_BITS = 16
+#: So often a box around two points is made wider, and by how much at least.
+INFLATIONS, ROOM = 4, 2**-30
 
 
 @dataclass(frozen=True)
@@ -248,6 +250,30 @@ class RealSearch:
         at = values(self.ring, point, self.upto)
         j = jacobian(self.ring, at, point, nodes, indices, arb(0))
         return arb_mat([[at[n]] for n in nodes]), arb_mat(j)
+
+
+def are_joined(search: RealSearch, start: Mapping[Expr, arb], end: RealPoint, rank: int) -> bool:
+    """Return whether zeros of ``rank`` independent relations at ``end`` are a curve to it from the zero ``start``.
+
+    In a box around both points as many unknowns are then functions of the other symbols [KrawczykNewton].
+    """
+    at = values(search.ring, end.point, search.upto)
+    part = ball_part(jacobian(search.ring, at, end.point, search.nodes, search.columns, arb(0)))
+    unknowns = [search.unknowns[c] for c in part.columns]
+    box = {s: v.union(start[s]) for s, v in end.point.symbols.items()}
+    middle = {u: box[u].mid() for u in unknowns}
+    nodes, indices = [search.nodes[r] for r in part.rows], [search.columns[c] for c in part.columns]
+    for _ in range(INFLATIONS if part.rank == rank else 0):
+        try:
+            f = search._ball_system({**box, **middle}, nodes, indices, end.point.seed)[0]
+            step = _solution(search._ball_system(box, nodes, indices, end.point.seed)[1], f)
+        except NoValueError:
+            return False
+        reached = {u: v - step[i, 0] for i, (u, v) in enumerate(middle.items())}
+        if all(box[u].contains_interior(v) for u, v in reached.items()):
+            return True
+        box |= {u: box[u].union(middle[u] + 2 * (v - middle[u]) + arb(0, ROOM)) for u, v in reached.items()}
+    return False
 
 
 def at_another_time(search: RealSearch, seed: int = 0) -> RealPoint | None:

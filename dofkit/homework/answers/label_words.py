@@ -256,6 +256,6 @@ def word_of(part: str, holds: bool) -> str:
     return TERMS[part].holds if holds else TERMS[part].fails
 
 
-def label_text(labels: Labels) -> str:
-    """Labels as they were understood."""
-    return ", ".join(word_of(part, holds) for part in TERMS for holds in sorted(labels.get(part, ()), reverse=True))
+def label_text(claims: Mapping[str, bool]) -> str:
+    """Claims as they were understood: of every part that is mentioned whether it is said to hold."""
+    return ", ".join(word_of(part, claims[part]) for part in TERMS if part in claims)

@@ -93,6 +93,11 @@ def _mended(match: re.Match[str]) -> str:
     return "\\" + CONTROLS[match[0][0]] + match[0][1:]
 
 
+def _braced(argument: str) -> str:
+    """An argument of a command, which may be one sign, in braces; nothing stays nothing."""
+    return f"{{{argument}}}" if len(argument) == 1 else argument
+
+
 def _dotted(name: str, mark: str) -> str:
     """`x_dot`, and `xdot_1` of a name with an index."""
     stem, _, index = re.sub(r"\\var|[{}\\]", "", name).partition("_")
@@ -120,11 +125,8 @@ _RULES: tuple[tuple[re.Pattern[str], By], ...] = tuple(
         (r"\\(?:wedge|land)(?![A-Za-z])|∧", ";"),
         (r"\\(?:displaystyle|textstyle|nonumber|notag|hfill|limits|strut|mathstrut)(?![A-Za-z])", " "),
         (r"\\(?:label|tag)\s*\{[^}]*\}", " "),
-        (r"\\(?:[dtc]?frac)\s*(\d)\s*(\d)", r"\\frac{\1}{\2}"),
-        (r"\\(?:[dtc]?frac)\s*(\d|[A-Za-z])\s*(?=\{)", r"\\frac{\1}"),
-        (r"\\(?:[dtc]?frac)\s*(\d)\s*([A-Za-z])", r"\\frac{\1}{\2}"),
-        (r"\\(?:[dtc]?frac)\s*(\{[^{}]*\})\s*(\d|[A-Za-z])(?![\w}])", r"\\frac\1{\2}"),
-        (r"\\[dtc]?frac\s+([A-Za-z\d])\s*([A-Za-z\d])(?!\w)", r"\\frac{\1}{\2}"),
+        (r"\\[dtc]?frac\s*(\{[^{}]*\}|\d|(?<=\s)[A-Za-z])\s*(\d|[A-Za-z]|(?=\{))",
+         lambda m: rf"\frac{_braced(m[1])}{_braced(m[2])}"),
         (r"\\[dtc]frac(?![A-Za-z])", r"\\frac"),
         (r"\\(?:mathrm|text|rm|operatorname)\s*\{\s*d\s*\}\s*|\\dd(?![A-Za-z])\s*|(?<![A-Za-z])ⅆ", "d"),
         (rf"{_FRACTION_2}\s*({_NAME}){_OF_TIME}", r"Ddt(Ddt(\1))"),
@@ -159,11 +161,7 @@ _RULES: tuple[tuple[re.Pattern[str], By], ...] = tuple(
         (r"[“”„\"«»]", " "),
         (r"\bsen\b(?=\s*[(\\A-Za-zα-ω])", "sin"),
         (r"\b(?:tg)\b(?=\s*[(\\A-Za-zα-ω])", "tan"),
-        (r"\b(?:Sin|SIN)\b", "sin"),
-        (r"\b(?:Cos|COS)\b", "cos"),
-        (r"\b(?:Tan|TAN)\b", "tan"),
-        (r"\b(?:Sqrt|SQRT)\b", "sqrt"),
-        (r"\b(?:Exp|EXP)\b", "exp"),
+        (r"\b(?:Sin|SIN|Cos|COS|Tan|TAN|Sqrt|SQRT|Exp|EXP)\b", lambda m: m[0].lower()),
         (r"\b(?:np|numpy|math|sp|sympy)\.(?=[a-z])", ""),
     )
 )  # fmt: skip

@@ -81,9 +81,9 @@ class Participant:
 
     def goes_by(self, text: str) -> bool:
         """Return whether a text is one of their names, or whole words of one."""
-        whole_words = set(_key(text.replace(",", " ")).split())
-        names = [set(_key(name.replace(",", " ")).split()) for name in (self.name, self.student, *self.others)]
-        return _key(text) in map(_key, self.called()) or (
+        whole_words = set(plain_name(text.replace(",", " ")).split())
+        names = [set(plain_name(name.replace(",", " ")).split()) for name in (self.name, self.student, *self.others)]
+        return plain_name(text) in map(plain_name, self.called()) or (
             bool(whole_words) and any(whole_words <= words for words in names)
         )
 
@@ -101,13 +101,13 @@ class Roster:
         """By what they go by; None for what several go by."""
         by_name: dict[str, Participant | None] = {}
         for member in self.members:
-            for text in {*map(_key, member.called()), _key(member.student)}:
+            for text in {*map(plain_name, member.called()), plain_name(member.student)}:
                 by_name[text] = member if by_name.get(text, member) is member else None
         return by_name
 
     def find(self, text: str) -> Participant | None:
         """Return who has a name, an address or a number; None for nobody, and if two have it."""
-        return self._by_name.get(_key(text))
+        return self._by_name.get(plain_name(text))
 
     def owners(self, claims: Sequence[str]) -> list[Participant]:
         """Return whom the names of a file and of its folders identify, the innermost first; usually one, or nobody."""
@@ -139,7 +139,8 @@ def own_name(claim: str) -> str:
     return claim if moodle is None else moodle["who"] + moodle["number"]
 
 
-def _key(text: str) -> str:
+def plain_name(text: str) -> str:
+    """A name as names are compared: capitals and spaces make no difference."""
     return " ".join(unicodedata.normalize("NFC", text).casefold().split())
 
 
@@ -208,10 +209,10 @@ def _members(fields: Mapping[str, int], rows: Iterable[tuple[int, list[str]]], f
             continue
         members.append(Participant("", line=line, others=(), **values))
     _told_apart(members, file)
-    shared = Counter(key for member in members for key in set(map(_key, member.called())))
+    shared = Counter(key for member in members for key in set(map(plain_name, member.called())))
     for member in members:
         identifiers = (getattr(member, name) for name in (*_UNIQUE, "name"))
-        student = next((text for text in identifiers if shared[_key(text)] == 1), None)
+        student = next((text for text in identifiers if shared[plain_name(text)] == 1), None)
         if student is None:
             raise RosterError(
                 f"{file}, line {member.line}: '{member.name}' shares every name, address and number with others"
@@ -229,8 +230,8 @@ def _told_apart(members: Iterable[Participant], file: str) -> None:
     """Raise RosterError where two have the same address or number, or where all that is known of two is alike."""
     seen: dict[tuple[str, str], Participant] = {}
     for member in members:
-        marks = [(name, _key(getattr(member, name))) for name in _UNIQUE if getattr(member, name)]
-        for mark in marks or [("name", _key(member.name))]:
+        marks = [(name, plain_name(getattr(member, name))) for name in _UNIQUE if getattr(member, name)]
+        for mark in marks or [("name", plain_name(member.name))]:
             other = seen.setdefault(mark, member)
             if other is not member:
                 raise RosterError(
@@ -270,7 +271,7 @@ def attributed(roster: Roster | None, claims: Sequence[str], student: str, by_de
     stands for that. Of several owners the outermost is taken, because platforms name folders.
     """
     if roster is None:
-        return Attribution(student, by_default or _key(student) in map(_key, claims))
+        return Attribution(student, by_default or plain_name(student) in map(plain_name, claims))
     member, owners = roster.find(student), roster.owners(claims)
     if not owners:
         return Attribution(student if member is None else member.student, by_default)

@@ -8,10 +8,8 @@ from __future__ import annotations
 import hashlib
 import os
 import stat
-import sys
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from io import BytesIO
 from itertools import islice
 from typing import Any, BinaryIO
 
@@ -28,10 +26,9 @@ from dofkit.homework.answers.submission import (
     refused,
     shaped,
 )
-from dofkit.homework.answers.tables import Columns, TableError, is_header, rows
+from dofkit.homework.answers.tables import Columns, TableError, rows
 
 DOCUMENTS, LINES, TABLES = (".json", ".yaml", ".yml"), (".jsonl", ".ndjson"), (".csv", ".tsv")
-STDIN = "-"
 #: What a file with answers is called that tells nothing of who hands it in.
 GENERIC = frozenset({"answers", "answer", "submission", "solution", "antworten", "abgabe", "homework", "sheet"})
 #: Files that systems leave in folders.
@@ -54,13 +51,13 @@ class Handed:
     claims: tuple[str, ...] = ()
     listed: bool = False
 
-    def submissions(self, columns: Columns) -> list[Submission]:
+    def submission(self, columns: Columns) -> Submission:
         """Read it; ``columns``: the assignment's columns."""
         if self.data is None:
-            return [refused(self.name, self.place, self.error)]
+            return refused(self.name, self.place, self.error)
         if isinstance(self.data, bytes):
             return of_text(self.data, self.name, self.place, columns)
-        return [of_value(self.data, self.name, self.place)]
+        return of_value(self.data, self.name, self.place)
 
     @property
     def key(self) -> str:
@@ -80,25 +77,24 @@ def read_submission(source: str | os.PathLike[str] | Mapping[str, Any], columns:
     if isinstance(source, Mapping):
         return of_value(shaped(source, columns), "")
     path = os.fspath(source)
-    submissions_there = list(
-        islice((submission for h in hand_ins([path], columns) for submission in h.submissions(columns)), 2)
-    )
-    if len(submissions_there) == 1:
-        return submissions_there[0]
+    handed = list(islice(hand_ins([path], columns), 2))
+    if len(handed) == 1:
+        return handed[0].submission(columns)
     return refused(_stem(clean(path)), FilePlace(clean(path)), "it contains more than one submission")
 
 
 def hand_ins(
     sources: Sequence[str], columns: Columns, others: Iterable[str | os.PathLike[str]] = ()
 ) -> Iterator[Handed]:
-    """All submissions of files, folders and standard input (``-``), in the order given; those of a folder sorted.
+    """All submissions of files and folders, in the order given; those of a folder sorted.
 
     ``others``: paths within the folders that hold no submissions, such as that of the results.
     """
     left_out = frozenset(os.path.realpath(path) for path in others)
     for source in sources:
         nothing = True
-        for handed in _source(source, columns, left_out):
+        folder = os.path.isdir(source)
+        for handed in _folder(source, columns, left_out) if folder else _file(source, columns):
             yield _claimed(handed, source)
             nothing = False
         if nothing:
@@ -112,7 +108,7 @@ def _claimed(handed: Handed, source: str) -> Handed:
     gives.
     """
     path = handed.place.file
-    if source == STDIN or not path:
+    if not path:
         return handed
     folder = os.path.isdir(source)
     handed = replace(handed, listed=handed.listed and not folder)
@@ -129,12 +125,6 @@ def _claimed(handed: Handed, source: str) -> Handed:
 def _last_two(path: str) -> tuple[str, str]:
     folder, name = os.path.split(path)
     return os.path.basename(folder), name
-
-
-def _source(source: str, columns: Columns, left_out: frozenset[str]) -> Iterator[Handed]:
-    if source == STDIN:
-        return _stream(BytesIO() if sys.stdin is None else sys.stdin.buffer, "stdin", columns)
-    return _folder(source, columns, left_out) if os.path.isdir(source) else _file(source, columns)
 
 
 def _folder(folder: str, columns: Columns, left_out: frozenset[str]) -> Iterator[Handed]:
@@ -164,33 +154,19 @@ def _file(path: str, columns: Columns, within: bool = False) -> Iterator[Handed]
             yield _unreadable(path, f"it is not a submission: {', '.join((*DOCUMENTS, *LINES, *TABLES))} are read")
             return
         with open(path, "rb") as file:
-            yield from _stream(file, path, columns)
+            if suffix in TABLES:
+                yield from _table(decoded(file.read()), clean(path), columns)
+            elif suffix in LINES:
+                yield from _lines(file, clean(path))
+            else:
+                yield Handed(_stem(clean(path)), FilePlace(clean(path)), file.read(MOST_BYTES + 1))
     except (OSError, ValueError) as error:
         yield _unreadable(path, f"it cannot be read: {reason(error)}")
 
 
-def _stream(stream: BinaryIO, file: str, columns: Columns) -> Iterator[Handed]:
-    """The submissions of an open file: its suffix tells what it is, else its first line."""
-    suffix, label = os.path.splitext(file)[1].lower(), clean(file)
-    first = stream.readline(MOST_BYTES + 1) if suffix not in DOCUMENTS else b""
-    if suffix in TABLES or (suffix not in (*DOCUMENTS, *LINES) and is_header(first.decode("utf-8-sig", "replace"))):
-        yield from _table(decoded(first + stream.read()), label, columns)
-    elif suffix in LINES or (suffix not in DOCUMENTS and _is_line(first)):
-        yield from _lines(first, stream, label)
-    else:
-        data = first + stream.read(MOST_BYTES + 1 - len(first))
-        yield Handed(_stem(label), FilePlace(label), data)
-
-
-def _is_line(line: bytes) -> bool:
-    """Return whether a line is one JSON object."""
-    text = line.removeprefix(b"\xef\xbb\xbf").strip()
-    return text.startswith(b"{") and text.endswith(b"}")
-
-
-def _lines(first: bytes, stream: BinaryIO, file: str) -> Iterator[Handed]:
+def _lines(stream: BinaryIO, file: str) -> Iterator[Handed]:
     """A submission a line; blank lines are none."""
-    number, line = 1, first.removeprefix(b"\xef\xbb\xbf")
+    number, line = 1, stream.readline(MOST_BYTES + 1).removeprefix(b"\xef\xbb\xbf")
     while line:
         place = FilePlace(file, number)
         if line.strip():

@@ -8,13 +8,13 @@ from __future__ import annotations
 import json
 import os
 import re
+from collections import defaultdict
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from decimal import Decimal
 from fractions import Fraction
 from numbers import Integral
 from pathlib import Path
-from types import MappingProxyType
 from typing import Any
 
 from dofkit.base.documents import Document, read_document
@@ -32,9 +32,6 @@ NO_ANSWER = "{…}"
 #: Faults that an error tells.
 MOST_FAULTS = 5
 _SHAPE = "write 'student: NAME' and 'answers: {PROBLEM: {QUESTION: answer}}'"
-_STUDENT = re.compile(
-    r"""(?:^|[{,\s])["']?student["']?\s*:\s*(?:"([^"\n]{1,200})|'([^'\n]{1,200})|([^\s,}'"][^,}\n#]{0,199}))"""
-)
 _SCALAR = re.compile(r"[^,\]}\n\r]*")
 _SURROGATES = re.compile("[\ud800-\udfff]")
 
@@ -66,37 +63,24 @@ class Submission:
     student: str
     answers: Mapping[str, Mapping[str, Given]] = field(default_factory=dict)
     error: str | None = None
-    place: FilePlace = FilePlace()
 
 
 _NOWHERE = FilePlace()
 
 
-def of_text(
-    data: bytes | str, name: str, place: FilePlace, columns: Mapping[str, tuple[str, str]] = MappingProxyType({})
-) -> list[Submission]:
-    """The submissions of a JSON or YAML text: one, or a list of them; ``name`` is the student's where it gives none.
+def of_text(data: bytes | str, name: str, place: FilePlace, columns: Mapping[str, tuple[str, str]]) -> Submission:
+    """The submission in a JSON or YAML text; ``name`` is the student's where it gives none.
 
     ``columns``: the problem and the question of every ``PROBLEM.QUESTION``, for answers that stand there without
     ``answers:``, or in one line.
     """
     if len(data) > MOST_BYTES:
-        return [refused(name, place, f"it is longer than {MOST_BYTES // 10**6} MB")]
+        return refused(name, place, f"it is longer than {MOST_BYTES // 10**6} MB")
     document = _with_backslashes(data, name)
-    value, faults = document.value, document.faults
-    if faults:
-        match = _STUDENT.search(document.text[:100_000])
-        student = clean(next(g for g in match.groups() if g is not None).strip()) if match else name
-        reasons = "; ".join(place.message(_ours(fault)) for fault in faults[:MOST_FAULTS])
-        return [Submission(student, error=reasons, place=place)]
-    if not isinstance(value, list):
-        return [of_value(shaped(value, columns), name, place, document)]
-    if not value:
-        return [refused(name, place, "it contains no submission", _SHAPE)]
-    return [
-        of_value(shaped(entry, columns), name, FilePlace(place.file, document.place((i,))[0]), document, i)
-        for i, entry in enumerate(value)
-    ]
+    if document.faults:
+        reasons = "; ".join(place.message(_ours(fault)) for fault in document.faults[:MOST_FAULTS])
+        return Submission(name, error=reasons)
+    return of_value(shaped(document.value, columns), name, place, document)
 
 
 def shaped(value: Any, columns: Mapping[str, tuple[str, str]]) -> Any:
@@ -107,27 +91,29 @@ def shaped(value: Any, columns: Mapping[str, tuple[str, str]]) -> Any:
     """
     if not isinstance(value, Mapping):
         return value
-    bare = "answers" not in value
-    answers = {key: each for key, each in value.items() if key != "student"} if bare else value["answers"]
-    problems = {problem for problem, _ in columns.values()}
-    if not isinstance(answers, Mapping) or not any(str(key) in problems or str(key) in columns for key in answers):
+    if isinstance(typed := value.get("submitted_answers"), Mapping):  # PrairieLearn's data.json
+        value = {"answers": {column: _typed(typed, *place) for column, place in columns.items()}}
+    answers = value.get("answers", {key: each for key, each in value.items() if key != "student"})
+    declared = {*columns, *(problem for problem, _ in columns.values())}
+    if not isinstance(answers, Mapping) or declared.isdisjoint(map(str, answers)):
         return value
-    if bare and not all(
-        each is None or isinstance(each, Mapping) or str(key) in columns for key, each in answers.items()
-    ):
-        return value
-    by_problem: dict[Any, Any] = {}
+    by_problem: defaultdict[str, dict[Any, Any]] = defaultdict(dict)
     for key, each in answers.items():
         problem, question = columns.get(str(key), (str(key), ""))
-        if each is None or isinstance(each, Mapping):
-            problem, more = str(key), each or {}
-        elif question and isinstance(by_problem.get(problem, {}), Mapping):
-            more = {question: each}
-        else:
+        if isinstance(each, Mapping):
+            by_problem[str(key)].update(each)
+        elif question and each is not None:
+            by_problem[problem][question] = each
+        elif each is not None:
             return value
-        by_problem[problem] = {**by_problem.get(problem, {}), **more}
-    kept = {key: each for key, each in value.items() if key == "student" or not bare}
-    return {**kept, "answers": by_problem}
+    kept = {key: each for key, each in value.items() if key == "student" or "answers" in value}
+    return {**kept, "answers": dict(by_problem)}
+
+
+def _typed(typed: Mapping[str, Any], problem: str, question: str) -> Any:
+    """Return what was typed into an input ``PROBLEM.QUESTION``, or with ``_`` or ``-``; None if there is none."""
+    answer = next((typed[name] for sign in "._-" if (name := f"{problem}{sign}{question}") in typed), None)
+    return answer.get("_value") if isinstance(answer, Mapping) else answer
 
 
 def _with_backslashes(data: bytes | str, name: str) -> Document:
@@ -139,21 +125,19 @@ def _with_backslashes(data: bytes | str, name: str) -> Document:
     return document if repaired.faults else repaired
 
 
-def of_value(
-    value: object, name: str, place: FilePlace = _NOWHERE, document: Document | None = None, *path: str | int
-) -> Submission:
-    """The submission of a mapping; ``path``: where in the document it stands."""
+def of_value(value: object, name: str, place: FilePlace = _NOWHERE, document: Document | None = None) -> Submission:
+    """The submission of a mapping, which may be that of a document."""
     if not isinstance(value, Mapping):
         return refused(name, place, "a submission is a mapping with 'student' and 'answers'", _SHAPE)
 
     def bad(message: str, *where: str | int, key: bool = False) -> Submission:
         fault = Fault(message)
         if document is not None:
-            line, column = document.place((*path, *where), key=key)
-            fault = Fault(message, line=line - (place.line - 1 if path else 0), column=column)
-        return Submission(student, error=place.message(fault), place=place)
+            line, column = document.place(where, key=key)
+            fault = Fault(message, line=line, column=column)
+        return Submission(student, error=place.message(fault))
 
-    student = _student(value.get("student"), name, document, path)
+    student = _student(value.get("student"), name, document)
     if not student or isinstance(value.get("student"), (Mapping, list, tuple, bool)):
         student = name
         return bad("'student' is a name or a number", "student")
@@ -172,12 +156,12 @@ def of_value(
         elif problem_answers is not None:
             label = clean(str(problem))[:60]
             return bad(f"the answers to problem '{label}' are a mapping of questions to answers", "answers", problem)
-    return Submission(student, by_problem, place=place)
+    return Submission(student, by_problem)
 
 
 def refused(name: str, place: FilePlace, message: str, hint: str | None = None) -> Submission:
     """A submission that could not be read."""
-    return Submission(name, error=place.message(Fault(message, hint=hint)), place=place)
+    return Submission(name, error=place.message(Fault(message, hint=hint)))
 
 
 def reason(error: OSError | ValueError) -> str:
@@ -220,20 +204,15 @@ def _exact(number: Any) -> Given:
     return int(fraction) if isinstance(number, Integral) else fraction
 
 
-def _student(value: object, name: str, document: Document | None, path: tuple[str | int, ...]) -> str:
+def _student(value: object, name: str, document: Document | None) -> str:
     """The student's name or number; of a number every digit as written, those of 007 too."""
     if value is None:
         return name
     if isinstance(value, str) or document is None:
         return clean(str(value)).strip()
-    return _source(document, (*path, "student")) or str(value)
-
-
-def _source(document: Document, path: tuple[str | int, ...]) -> str:
-    """An unquoted scalar as it stands in the text."""
-    start, _ = document.places.get(path, (len(document.text), -1))
+    start, _ = document.places.get(("student",), (len(document.text), -1))
     scalar = _SCALAR.match(document.text, start)
-    return scalar[0].partition(" #")[0].strip() if scalar else ""
+    return (scalar[0].partition(" #")[0].strip() if scalar else "") or str(value)
 
 
 def _ours(fault: Fault) -> Fault:

@@ -10,13 +10,13 @@ from importlib import metadata, resources
 from importlib.resources.abc import Traversable
 from pathlib import Path
 
-from dofkit.base.errors import DofkitError
 from dofkit.homework.assignment import load_assignment
 from dofkit.homework.autograder import undecided
 from dofkit.homework.formats.base import text
-from dofkit.homework.formats.gradescope import document, visibility_of
-from dofkit.homework.formats.review import TABLE, RunReview
+from dofkit.homework.formats.gradescope import document
+from dofkit.homework.formats.review import TABLE
 from dofkit.homework.handout.portable import standing_alone
+from dofkit.homework.review import read_table
 from dofkit.homework.variants import assigned
 from dofkit.scene.catalog import catalog_folder
 
@@ -27,35 +27,27 @@ _LEFT_OUT = (".", "__pycache__", "site")
 _TIME = (1980, 1, 1, 0, 0, 0)
 
 
-class ExportError(DofkitError):
-    """An autograder that cannot be written."""
-
-
 def export_gradescope(assignment: str | os.PathLike[str], out: Path, reviewed: Path | None = None) -> None:
     """Write the zip to upload.
 
     It holds ``setup.sh`` and ``run_autograder``, the assignment with its scenes in place, the result that stands until
     there is another, ``reviewed``, the points that a person gave, dofkit, and the list of what dofkit requires. Raises
-    AssignmentError, NobodysVariantError where it varies and nobody has a variant, ReviewError, and ExportError if the
-    zip cannot be written.
+    AssignmentError, NobodysVariantError where it varies and nobody has a variant, ReviewError, and OSError.
     """
     prepared = load_assignment(assignment)
     assigned(prepared)
-    RunReview.read(prepared, reviewed, None)
     files = {path.name: path.read_bytes() for path in sorted(SCRIPTS.iterdir()) if path.is_file()}
     files["assignment.json"] = json.dumps(standing_alone(prepared, Path())).encode()
     interrupted = undecided(prepared, "", "grading was interrupted.")
-    files["fallback.json"] = text(document(interrupted, visibility_of(prepared), prepared.assignment.language)).encode()
+    files["fallback.json"] = text(document(interrupted, prepared)).encode()
     if reviewed is not None:
+        read_table(reviewed, prepared.most_points())
         files[TABLE] = reviewed.read_bytes()
     required = [line for line in metadata.requires("dofkit") or [] if "extra ==" not in line]
     files["requirements.txt"] = "".join(f"{line}\n" for line in required).encode()
     files |= _below(resources.files("dofkit"), "code/dofkit")
     files |= _below(catalog_folder(), "code/dofkit/_catalog")
-    try:
-        _zip(files, out)
-    except OSError as error:
-        raise ExportError(f"{out} cannot be written: {error.strerror or error}") from None
+    _zip(files, out)
 
 
 def _below(folder: Traversable, path: str) -> Iterator[tuple[str, bytes]]:

@@ -1,11 +1,11 @@
-"""What a format is: a function of the results, as they come, that writes them to a path or a stream."""
+"""What a format is: a function of the results that writes them to a path or a stream."""
 
 from __future__ import annotations
 
 import csv
 import json
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -21,8 +21,8 @@ from dofkit.homework.result import Result, json_line
 #: Where results go: the path that ``--out`` names, or a stream such as standard output.
 Target = Path | TextIO
 Document: TypeAlias = Callable[[Result, Prepared], dict[str, Any]]
-#: Writes results, which come one by one in the order of the submissions; a gradebook has rows for a roster only.
-Write: TypeAlias = Callable[[Iterator[Result], Prepared, Target, "Roster | None"], None]
+#: Writes results in the order of the submissions; a gradebook has rows for a roster only.
+Write: TypeAlias = Callable[[Sequence[Result], Prepared, Target, "Roster | None"], None]
 #: What spreadsheets read as the beginning of a formula, also after spaces, and in its full-width forms.
 _FORMULA = re.compile("\\s*[=+\\-@|\uff1d\uff0b\uff0d\uff20\u2212]|[\t\r\n]")
 _NUMBER = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?")
@@ -38,14 +38,12 @@ class FormatError(DofkitError):
 class Format:
     """A form in which results are written.
 
-    ``write`` raises FormatError for what the format cannot hold. ``needs_path``: it writes a folder, so that standard
-    output will not do. ``endings``: those of the files that it writes, without the dot. ``folders``: whether it can
-    write a folder.
+    ``write`` raises FormatError for what the format cannot hold. ``endings``: those of the files that it writes,
+    without the dot; without any it writes a folder, and standard output will not do. ``folders``: whether it can.
     """
 
     name: str
     write: Write
-    needs_path: bool = False
     endings: tuple[str, ...] = ("json",)
     folders: bool = True
 
@@ -68,13 +66,13 @@ def opened(target: Target) -> Iterator[TextIO]:
         yield stream
 
 
-def write_native(results: Iterator[Result], prepared: Prepared, target: Target, roster: Roster | None = None) -> None:
-    """Write one JSON object per line for every submission, as soon as it is graded."""
+def write_native(results: Sequence[Result], prepared: Prepared, target: Target, roster: Roster | None = None) -> None:
+    """Write one JSON object per line for every submission, in ASCII if that is all that the stream takes."""
     del prepared, roster
     with opened(target) as stream:
-        for result in results:
-            stream.write(json_line(result) + "\n")
-            stream.flush()
+        ascii_only = (stream.encoding or "utf-8").lower().replace("-", "") != "utf8"
+        for text in map(json_line, results):
+            stream.write((json.dumps(json.loads(text)) if ascii_only else text) + "\n")
 
 
 def per_student(document: Document) -> Write:
@@ -84,7 +82,7 @@ def per_student(document: Document) -> Write:
     The writer raises FormatError where a second student does not fit, or where there is none at all for a file.
     """
 
-    def write(results: Iterator[Result], prepared: Prepared, target: Target, roster: Roster | None = None) -> None:
+    def write(results: Sequence[Result], prepared: Prepared, target: Target, roster: Roster | None = None) -> None:
         del roster
         if isinstance(target, Path) and (target.is_dir() or target.suffix.lower() != ".json"):
             names = FileNames()
@@ -92,14 +90,12 @@ def per_student(document: Document) -> Write:
             for result in results:
                 _write(document(result, prepared), target / f"{names.of(result.student)}.json")
             return
-        first = next(results, None)
-        if first is None:
-            if isinstance(target, Path):
-                raise FormatError(f"there is no submission to write to {target}")
-            return
-        _write(document(first, prepared), target)
-        if next(results, None) is not None:
+        if len(results) > 1:
             raise FormatError("this format holds one student: give --out a folder, to get one file per student")
+        if isinstance(target, Path) and not results:
+            raise FormatError(f"there is no submission to write to {target}")
+        for result in results:
+            _write(document(result, prepared), target)
 
     return write
 

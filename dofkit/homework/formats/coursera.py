@@ -9,17 +9,19 @@ from __future__ import annotations
 
 from typing import Any
 
+from dofkit.homework.assignment import Prepared
 from dofkit.homework.formats.base import Format, per_student
 from dofkit.homework.formats.wording import feedback, number
 from dofkit.homework.result import Result
-from dofkit.homework.sentences import Language, in_language
+from dofkit.homework.sentences import in_language
 
 #: The share of its points that stands in for an answer that could not be decided.
 OPEN_SHARE = 0.5
 
 
-def document(result: Result, language: Language = "en") -> dict[str, Any]:
+def document(result: Result, prepared: Prepared) -> dict[str, Any]:
     """Return what ``feedback.json`` says of a submission."""
+    language = prepared.assignment.language
     unclear = [item for item in result.items if not item.score and (item.status == "unreadable" or not item.certain)]
     undecided = sum(item.max_score for item in result.items if item.score is None and item not in unclear)
     unreadable = sum(item.max_score for item in unclear)
@@ -41,4 +43,4 @@ def document(result: Result, language: Language = "en") -> dict[str, Any]:
     }
 
 
-COURSERA = Format("coursera", per_student(lambda result, prepared: document(result, prepared.assignment.language)))
+COURSERA = Format("coursera", per_student(document))

@@ -18,9 +18,8 @@ from __future__ import annotations
 
 import re
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Sequence
 from html import escape
-from itertools import chain
 from pathlib import Path
 
 from dofkit.homework.answers.roster import Participant, Roster
@@ -29,6 +28,8 @@ from dofkit.homework.formats.base import Format, FormatError, Target, cell, open
 from dofkit.homework.formats.wording import decided, feedback, identity, line, number, open_points
 from dofkit.homework.result import Result
 
+#: Results without a row, each with the reason.
+Apart = list[tuple[Result, str]]
 POINTS = "Points Possible"
 #: Headers that Canvas does not take for those of assignments: anywhere in a title, and as the whole of it.
 _TAKEN = re.compile(r"(Current|Final) (Score|Points|Grade)|Override (Score|Grade|Status)")
@@ -48,23 +49,24 @@ def apart_path(out: Path) -> Path:
     return out.with_name(f"{out.stem}.apart.csv")
 
 
-def _write_apart(apart: list[tuple[Result, str]], target: Target) -> None:
-    """List the results without a row; of a gradebook on a stream they are lines on standard error."""
+def _write(rows: Sequence[Sequence[str]], apart: Apart, target: Target) -> None:
+    """Write a table, and list the results without a row; of a table on a stream they are lines on standard error."""
+    with opened(target) as stream:
+        table(stream).writerows(rows)
     if not isinstance(target, Path):
         for result, why in apart:
             print(f"not in the table: {line(result.student)}: {why}", file=sys.stderr)
         return
     path = apart_path(target)
     path.unlink(missing_ok=True)
-    if not apart:
-        return
-    with opened(path) as stream:
-        rows = table(stream)
-        rows.writerow(["student", "points so far", "of", "open points", "why"])
+    if apart:
+        listed = [["student", "points so far", "of", "open points", "why"]]
         for result, why in apart:
             points = "" if result.score is None else number(result.score)
             amounts = [number(result.max_score), number(open_points(result)), cell(why)]
-            rows.writerow([cell(identity(result.student)), points, *amounts])
+            listed.append([cell(identity(result.student)), points, *amounts])
+        with opened(path) as stream:
+            table(stream).writerows(listed)
 
 
 def _unfit(result: Result) -> str | None:
@@ -87,46 +89,41 @@ def is_cell(student: str) -> bool:
     return bool(student.strip()) and cell(identity(student)) == student
 
 
-def _with_rows(
-    results: Iterator[Result], roster: Roster | None, apart: list[tuple[Result, str]]
-) -> Iterator[tuple[Result, Participant | None]]:
-    """Yield the results that have a row, one for each student, with their member of the roster."""
-    seen: set[str] = set()
+def _rows(results: Iterable[Result], roster: Roster | None, apart: Apart) -> list[tuple[Result, Participant | None]]:
+    """Return the results that have a row, one for each student, with their member of the roster; list the others."""
+    rows: dict[str, tuple[Result, Participant | None]] = {}
     for result in results:
         member = None if roster is None else roster.find(result.student)
+        student = result.student if member is None else member.student
         why = _unfit(result)
         if roster is not None and member is None:
             why = "the student is not in the roster" + (f"; {why}" if why else "")
-        if why is None and member is None and not is_cell(result.student):
+        elif why is None and member is None and not is_cell(student):
             why = "the name cannot be written to a table unchanged"
-        student = result.student if member is None else member.student
-        if why is None and student in seen:
+        elif why is None and student in rows:
             why = "the student already has a row"
-        if why is not None:
+        if why is None:
+            rows[student] = result, member
+        else:
             apart.append((result, why))
-            continue
-        seen.add(student)
-        yield result, member
+    return list(rows.values())
 
 
-def write_canvas(results: Iterator[Result], prepared: Prepared, target: Target, roster: Roster | None = None) -> None:
+def write_canvas(results: Sequence[Result], prepared: Prepared, target: Target, roster: Roster | None = None) -> None:
     """Write Canvas's table. Raises FormatError for a title that Canvas does not take for an assignment's."""
-    title, apart = line(prepared.assignment.title), list[tuple[Result, str]]()
+    title, apart = line(prepared.assignment.title), Apart()
     if title in _RESERVED or _TAKEN.search(title):
         raise FormatError(f"Canvas takes no column '{title}' for an assignment: give the assignment another title")
     exported = re.compile(re.escape(title) + r"\s*\(\d+\)")  # as an exported gradebook has it, with Canvas's own id
     column = next((name for name in (roster.columns if roster else ()) if exported.fullmatch(name)), title)
-    with opened(target) as stream:
-        rows = table(stream)
-        rows.writerow([*_CANVAS, cell(column)])
-        rows.writerow([POINTS, "", "", "", "", number(float(sum(prepared.most_points().values())))])
-        for result, member in _with_rows(results, roster, apart):
-            cells = _canvas_identity(result.student, member)
-            if POINTS in cells[0]:
-                apart.append((result, f"Canvas would take a row of '{cells[0]}' for that of the points"))
-            else:
-                rows.writerow([*map(cell, cells), number(result.score or 0.0)])
-    _write_apart(apart, target)
+    table_rows = [[*_CANVAS, cell(column)], [POINTS, "", "", "", "", number(prepared.max_score)]]
+    for result, member in _rows(results, roster, apart):
+        cells = _canvas_identity(result.student, member)
+        if POINTS in cells[0]:
+            apart.append((result, f"Canvas would take a row of '{cells[0]}' for that of the points"))
+        else:
+            table_rows.append([*map(cell, cells), number(result.score or 0.0)])
+    _write(table_rows, apart, target)
 
 
 def _canvas_identity(student: str, member: Participant | None) -> list[str]:
@@ -141,31 +138,27 @@ def _canvas_identity(student: str, member: Participant | None) -> list[str]:
     return [name, *numbers, member.section]
 
 
-def write_moodle(results: Iterator[Result], prepared: Prepared, target: Target, roster: Roster | None = None) -> None:
+def write_moodle(results: Sequence[Result], prepared: Prepared, target: Target, roster: Roster | None = None) -> None:
     """Write Moodle's table: a column that identifies the student, the grade, and the feedback."""
-    title, apart = line(prepared.assignment.title), list[tuple[Result, str]]()
-    with opened(target) as stream:
-        table_rows = table(stream)
-        remaining = _with_rows(results, roster, apart)
-        first = next(remaining, None)
-        column = _moodle_column(roster, "" if first is None else first[0].student)
-        table_rows.writerow([column, cell(title), cell(f"{title} (feedback)")])
-        for result, member in chain([] if first is None else [first], remaining):
-            who = result.student if member is None else _MOODLE[column](member)
-            if not is_cell(who) or who == "0" or (member is None and ("@" in who) != (column == "useremail")):
-                apart.append((result, f"the student has no {column}"))
-                continue
+    title, apart = line(prepared.assignment.title), Apart()
+    rows = _rows(results, roster, apart)
+    column = _moodle_column(roster, rows[0][0].student if rows else "")
+    table_rows = [[column, cell(title), cell(f"{title} (feedback)")]]
+    for result, member in rows:
+        who = result.student if member is None else _MOODLE[column](member)
+        if not is_cell(who) or who == "0" or (member is None and ("@" in who) != (column == "useremail")):
+            apart.append((result, f"the student has no {column}"))
+        else:
             remarks = escape(feedback(result, prepared.assignment.language), quote=False)
-            table_rows.writerow([who, number(result.score or 0.0), cell(remarks)])
-    _write_apart(apart, target)
+            table_rows.append([who, number(result.score or 0.0), cell(remarks)])
+    _write(table_rows, apart, target)
 
 
 def _moodle_column(roster: Roster | None, first: str) -> str:
     """Return the column that most of the roster have; without a roster the first student's kind of name decides."""
     if roster is None:
         return "useremail" if "@" in first else "useridnumber"
-    having = {name: sum(bool(of(member)) for member in roster.members) for name, of in _MOODLE.items()}
-    return max(having, key=lambda name: having[name])
+    return max(_MOODLE, key=lambda name: sum(bool(_MOODLE[name](member)) for member in roster.members))
 
 
 CANVAS = Format("canvas", write_canvas, endings=("csv",), folders=False)

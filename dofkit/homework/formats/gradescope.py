@@ -24,13 +24,13 @@ from dofkit.homework.result import Item, Result
 from dofkit.homework.sentences import Language, in_language
 
 
-def visibility_of(prepared: Prepared | None) -> Visibility:
-    """Return when students see their points: at once if there is no assignment."""
-    return "visible" if prepared is None else prepared.assignment.visibility
+def document(result: Result, prepared: Prepared | None, visible: Visibility | None = None) -> dict[str, Any]:
+    """Return the ``results.json`` of a submission to an assignment, which is None if it cannot be read.
 
-
-def document(result: Result, visibility: Visibility = "visible", language: Language = "en") -> dict[str, Any]:
-    """Return the ``results.json`` of a submission."""
+    ``visible``: when points are shown, where that is not as the assignment says.
+    """
+    language: Language = "en" if prepared is None else prepared.assignment.language
+    visibility = visible or ("visible" if prepared is None else prepared.assignment.visibility)
     later = visibility != "visible" and result.error is None
     fields: dict[str, Any] = {
         "score": result.score or 0.0,
@@ -96,7 +96,4 @@ def _test(item: Item, visibility: Visibility, language: Language) -> dict[str, A
     }
 
 
-GRADESCOPE = Format(
-    "gradescope",
-    per_student(lambda result, prepared: document(result, visibility_of(prepared), prepared.assignment.language)),
-)
+GRADESCOPE = Format("gradescope", per_student(document))

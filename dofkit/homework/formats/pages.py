@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from functools import cache, partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 from dofkit.expressions.text.typesetting import mathml, typeset
 from dofkit.homework.assignment import Prepared
@@ -22,21 +22,10 @@ TEMPLATES = Path(__file__).parent / "templates"
 _NAME = re.compile("`([^`\n]+)`")
 
 
-class Badge(NamedTuple):
-    """How a status looks: its ``mark`` and its ``label``, so that colour is never all there is."""
-
-    mark: str
-    label: str
-
-
-BADGES: dict[Status, Badge] = {
-    "right": Badge("✓", STATUSES["right"]),
-    "partly": Badge("◐", STATUSES["partly"]),
-    "wrong": Badge("✗", STATUSES["wrong"]),
-    "unreadable": Badge("?", STATUSES["unreadable"]),
-    "missing": Badge("–", STATUSES["missing"]),
-    "needs_review": Badge("…", STATUSES["needs_review"]),
-}
+#: The mark of each status, so that colour is never all there is.
+MARKS: dict[Status, str] = {
+    "right": "✓", "partly": "◐", "wrong": "✗", "unreadable": "?", "missing": "–", "needs_review": "…",
+}  # fmt: skip
 
 
 def percent(score: float | None, most: float) -> float:
@@ -103,7 +92,7 @@ def _environment() -> Environment:
         lstrip_blocks=True,
     )
     environment.filters.update(plain=plain, line=line, number=number, stop=stop_of, pieces=_pieces, formulas=_formulas)
-    environment.globals["badges"] = BADGES
+    environment.globals.update(marks=MARKS, statuses=STATUSES)
     return environment
 
 

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from dofkit.homework.assignment import Prepared
 from dofkit.homework.formats.base import Format, per_student, text
 from dofkit.homework.formats.wording import line, plain, remark, shortened, standing, title
 from dofkit.homework.result import Item, Result
@@ -24,8 +25,9 @@ UNGRADED = (
 )
 
 
-def document(result: Result, language: Language = "en") -> dict[str, Any]:
+def document(result: Result, prepared: Prepared) -> dict[str, Any]:
     """Return the ``results.json`` of a submission, in less than a megabyte."""
+    language = prepared.assignment.language
     fields = _document(result, language)
     if len(text(fields)) > MOST_BYTES:
         too_many = in_language(language, "There are too many answers to be listed one by one.")
@@ -45,12 +47,8 @@ def _document(result: Result, language: Language) -> dict[str, Any]:
     if errors:
         return {"gradable": False, "format_errors": errors, "message": in_language(language, UNGRADED), "tests": []}
     tests = [_test(item, language) for item in result.items]
-    return {"gradable": True, "score": share(result), "message": message, "tests": tests}
-
-
-def share(result: Result) -> float:
-    """The score from 0 to 1; 0 where nothing can be had."""
-    return min(max((result.score or 0.0) / result.max_score, 0.0), 1.0) if result.max_score else 0.0
+    share = min(max((result.score or 0.0) / result.max_score, 0.0), 1.0) if result.max_score else 0.0
+    return {"gradable": True, "score": share, "message": message, "tests": tests}
 
 
 def _test(item: Item, language: Language) -> dict[str, Any]:
@@ -72,7 +70,4 @@ def _error(item: Item, language: Language) -> str:
     return f"{title(item)}{where}: {line(item.feedback) or in_language(language, 'not readable')}"
 
 
-PRAIRIELEARN = Format(
-    "prairielearn",
-    per_student(lambda result, prepared: document(result, prepared.assignment.language)),
-)
+PRAIRIELEARN = Format("prairielearn", per_student(document))

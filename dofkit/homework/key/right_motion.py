@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 from dofkit.base.errors import DofkitError, NoValueError
@@ -56,26 +56,6 @@ class RightMotion:
     def on_constraints(self, e: Expr) -> Expr:
         """The same where the constraints hold."""
         return substitute(e, self.rates)
-
-    def linearized(self) -> RightMotion | None:
-        """Return the same with its equations linearized about rest at the origin.
-
-        Return None if that is not certain to be an equilibrium, or if there are constraints.
-        """
-        if self.multipliers or self.rows or self.relations or self.rates:
-            return None
-        kinds = (ex.coordinate, ex.velocity, lambda name: ex.sym("acceleration", name))
-        moving = [kind(name) for kind in kinds for name in self.names]
-        at_rest = dict.fromkeys(moving, ZERO)
-        try:
-            forces = [substitute(e, at_rest) for e in self.equations.values()]
-            equations = {
-                name: ex.add(*(substitute(diff(e, s), at_rest) * s for s in moving))
-                for name, e in self.equations.items()
-            }
-        except ArithmeticError:
-            return None
-        return replace(self, equations=equations) if all(is_zero(e, self.positive) for e in forces) else None
 
     def zero(self, e: Expr) -> bool | None:
         """Return whether an expression is 0 where the constraints are satisfied, or None if undecided."""

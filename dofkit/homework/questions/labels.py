@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 from fractions import Fraction
 from itertools import product
 from typing import Annotated, ClassVar, Literal
@@ -12,11 +11,10 @@ from pydantic import Field
 
 from dofkit.base.errors import Fault
 from dofkit.homework.answers.declared import DeclaredNames
-from dofkit.homework.answers.label_words import TERMS, Labels, label_text, mentions, read_labels, word_of
+from dofkit.homework.answers.label_words import TERMS, label_text, mentions, read_labels, word_of
 from dofkit.homework.judgement import (
     DoubtError,
     Given,
-    JudgedReading,
     Judgement,
     Reading,
     Sentence,
@@ -63,7 +61,8 @@ class LabelQuestion(QuestionBase):
         hinted = [p for p in self.parts if p not in labels and mentions(p, answer)]
         if hinted:
             raise DoubtError("a property is described but not named.", 1, None)
-        return [Reading(labels, label_text(labels))]
+        ways = product(*([(p, holds) for holds in sorted(labels[p], reverse=True)] for p in TERMS if p in labels))
+        return [Reading(dict(way), label_text(dict(way))) for way in ways]
 
     def solution(self, key: Key) -> Sentence:
         truth = truths(key.constraints[self.constraint])
@@ -73,30 +72,11 @@ class LabelQuestion(QuestionBase):
 
     def judged(self, reading: Reading, key: Key, earlier: Earlier) -> Judgement:
         del earlier
-        claims, entry = reading.value, key.constraints[self.constraint]
-        truth, text = truths(entry), reading.text
+        claims, entry, text = reading.value, key.constraints[self.constraint], reading.text
+        truth = truths(entry)
         if any(truth[p] is None for p in self.parts):
             return needs_review(text, "the classification of this constraint is not known for certain.")
-        twice = [p for p in self.parts if len(claims.get(p, ())) > 1]
-        if twice:
-            return self._contradictory(claims, twice, key)
-        return self._judged(claims, key)
-
-    def _contradictory(self, claims: Labels, twice: list[Part], key: Key) -> Judgement:
-        """Parts that are said to hold and not to: a person has to look; what each way to read it would earn."""
-        labels = ", ".join(word_of(p, holds) for p in twice for holds in (True, False))
-        review = needs_review(label_text(claims), say("the answer contradicts itself: {labels}.", labels=labels))
-        ways = []
-        for chosen in product((True, False), repeat=len(twice)):
-            judgement = self._judged({**claims, **{p: frozenset({c}) for p, c in zip(twice, chosen, strict=True)}}, key)
-            ways.append(JudgedReading(judgement.read_as, judgement.share))
-        return replace(review, ways=tuple(ways))
-
-    def _judged(self, claims: Labels, key: Key) -> Judgement:
-        """Return what labels are worth of which each part has one or none."""
-        entry = key.constraints[self.constraint]
-        truth = truths(entry)
-        good = [p for p in self.parts if claims.get(p) == frozenset({truth[p]})]
+        good = [p for p in self.parts if claims.get(p) is truth[p]]
         missing = [p for p in self.parts if p not in claims]
         explained = [explain_label(p, entry) for p in self.parts if p not in good and p not in missing]
         hints: list[Sentence] = [why or meanings()[code] for code, why in explained]
@@ -105,7 +85,7 @@ class LabelQuestion(QuestionBase):
             for p in missing
         ]
         codes, share = [code for code, _ in explained], Fraction(len(good), len(self.parts))
-        return partly(share, label_text(claims), *codes, why=hints[0] if hints else "").saying(*hints[1:])
+        return partly(share, text, *codes, why=hints[0] if hints else "").saying(*hints[1:])
 
 
 def truths(entry: ConstraintEntry) -> dict[str, bool | None]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from fractions import Fraction
 from typing import ClassVar, Literal
 
@@ -191,8 +190,6 @@ class MotionQuestion(_MotionQuestion):
         if followed.contradictory:
             return needs_review(text, "the answer contradicts itself.")
         single = self.coordinate is not None and self.coordinate in motion.names
-        if Found.NOT in followed.sameness and _are_linearized(answered, None if single else len(motion.names)):
-            return wrong(text, "SMALL_ANGLES")
         return self._single(answered, followed.sameness, motion, text) if single else _all(followed, motion, text)
 
     def _single(self, answered: AnsweredMotion, sameness: Sequence[Found], motion: RightMotion, text: str) -> Judgement:
@@ -219,13 +216,6 @@ class MotionQuestion(_MotionQuestion):
         equation = None if self.coordinate is None else of_coordinates.get(self.coordinate)
         chosen = list(of_coordinates.values()) if equation is None else [equation]
         return say("A correct answer is {text}.", text="; ".join(f"{to_text(e)} = 0" for e in chosen))
-
-
-def _are_linearized(answered: AnsweredMotion, rank: int | None) -> bool:
-    """Return whether all equations are implied by the linearized ones, and determine ``rank`` accelerations."""
-    linearized = answered.motion.linearized()
-    followed = None if linearized is None else replace(answered, motion=linearized).follow()
-    return followed is not None and all(t is Found.FOLLOWS for t in followed.sameness) and rank in (None, followed.rank)
 
 
 def _all(followed: Followed, motion: RightMotion, text: str) -> Judgement:

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import pickle
-import threading
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass, field
-from fractions import Fraction
+from dataclasses import dataclass
 from functools import lru_cache, partial
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from dofkit.base.process_limits import allow_processor
 from dofkit.base.runs import Cluster, Journal, Pool, StoppedError, in_order
@@ -44,41 +42,25 @@ class Orders:
     @classmethod
     def of(cls, prepared: Prepared, check_only: bool = False) -> Orders:
         """Return the orders to grade an assignment."""
-        points = sum((question.points for _, question in prepared.questions()), Fraction(0))
-        return cls(pickle.dumps(prepared), float(points), check_only)
-
-    def refused(self, student: str, error: str) -> Result:
-        """Return the result of a submission that could not be graded."""
-        return Result(student=student, score=None, max_score=self.max_score, items=[], error=error)
+        return cls(pickle.dumps(prepared), prepared.max_score, check_only)
 
 
-@dataclass(frozen=True)
-class GradingTask:
+class GradingTask(NamedTuple):
     """Something submitted, to be graded. ``condemned``: why some answers are not to be judged."""
 
     orders: Orders
     handed: Handed
-    condemned: Mapping[Identity, str] = field(default_factory=dict)
+    condemned: Mapping[Identity, str]
 
 
-def graded_lines(task: GradingTask) -> Iterator[Json]:
-    """Yield ``{"next": ...}`` before each answer that takes work, and at the end ``{"lines": ...}``."""
+def graded_line(task: GradingTask) -> Iterator[Json]:
+    """Yield ``{"next": ...}`` before each answer that takes work, and at the end ``{"line": ...}``."""
     grader = _grader(task.orders)
     grader.condemned = task.condemned
-    lines: list[str] = []
     allow_processor(task.orders.hard)
-    for submission in task.handed.submissions(grader.prepared.columns()):
+    for step in grader.steps(task.handed.submission(grader.prepared.columns())):
+        yield {"line": json_line(step)} if isinstance(step, Result) else {"next": step}
         allow_processor(task.orders.hard)
-        steps = grader.steps(submission)
-        while True:
-            try:
-                identity = next(steps)
-            except StopIteration as stop:
-                lines.append(json_line(stop.value))
-                break
-            yield {"next": identity}
-            allow_processor(task.orders.hard)
-    yield {"lines": lines}
 
 
 @lru_cache(maxsize=2)
@@ -87,8 +69,8 @@ def _grader(orders: Orders) -> Grader:
     return Grader(prepared, orders.seconds, check_only=orders.check_only)
 
 
-#: Yields everything submitted with the lines of its results, in order; a journal keeps them.
-Grading: TypeAlias = Callable[[Iterable[Handed], Journal | None], Iterator[tuple[Handed, list[str]]]]
+#: Yields everything submitted with the line of its result, in order; a journal keeps them.
+Grading: TypeAlias = Callable[[Iterable[Handed], Journal | None], Iterator[tuple[Handed, str]]]
 
 
 class Keeper:
@@ -98,36 +80,32 @@ class Keeper:
         self.orders = orders
         self.pool = pool
         self._condemned: dict[Identity, str] = {}
-        self._lock = threading.Lock()
 
-    def grade(self, handed: Handed) -> list[str]:
-        """Return the result of each submission as a line of JSON. Raises StoppedError.
+    def grade(self, handed: Handed) -> str:
+        """Return the result of a submission as a line of JSON. Raises StoppedError.
 
         An answer that breaks two workers, of which the second is a fresh one, is not judged again.
         """
         suspects: list[Identity | None] = []
         while True:
-            with self._lock:
-                condemned = dict(self._condemned)
-            task = GradingTask(self.orders, handed, condemned)
-            outcome = self.pool.run(Job(graded_lines, task, self.orders.wall))
+            condemned = dict(self._condemned)
+            outcome = self.pool.run(Job(graded_line, GradingTask(self.orders, handed, condemned), self.orders.wall))
             if outcome.ended == "absent":
                 raise StoppedError(outcome.reason)
             if outcome.finished:
-                return list(outcome.value["lines"])
-            identity = outcome.value["next"] if outcome.value else None
+                return str(outcome.value["line"])
+            identity = outcome.value.get("next") if outcome.value else None
             if identity not in suspects:
                 suspects.append(identity)
             elif identity is None or identity in condemned:
                 error = f"{handed.place}: it could not be graded: {_ENDED[outcome.ended]}"
-                return [json_line(self.orders.refused(handed.name, error))]
+                return json_line(Result.refused(handed.name, self.orders.max_score, error))
             else:
-                with self._lock:
-                    self._condemned[identity] = _ENDED[outcome.ended]
+                self._condemned[identity] = _ENDED[outcome.ended]
 
 
-def grade_there(orders: Orders, handed: Handed) -> list[str]:
-    """Return the same lines on a machine of a cluster, by killable workers of its own."""
+def grade_there(orders: Orders, handed: Handed) -> str:
+    """Return the same line on a machine of a cluster, by killable workers of its own."""
     return _keeper(orders).grade(handed)
 
 

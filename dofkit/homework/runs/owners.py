@@ -13,7 +13,6 @@ from typing import NamedTuple
 from dofkit.homework.answers.roster import Roster, attributed, lookalike
 from dofkit.homework.answers.sources import Handed
 from dofkit.homework.result import Result
-from dofkit.homework.runs.batch import Orders
 
 
 class OwnedResult(NamedTuple):
@@ -40,7 +39,7 @@ def owned(roster: Roster | None, handed: Handed, outcome: Result) -> OwnedResult
     return OwnedResult(outcome, str(handed.place), confirmed or handed.listed)
 
 
-def settled(orders: Orders, owned_outcomes: Iterable[OwnedResult], roster: Roster | None) -> list[Result]:
+def settled(owned_outcomes: Iterable[OwnedResult], roster: Roster | None) -> list[Result]:
     """Return the results in their order; each of a student's but the first is an error that names both places.
 
     A confirmed submission counts before those that only claim to be the student's. The first keeps its points with a
@@ -62,7 +61,7 @@ def settled(orders: Orders, owned_outcomes: Iterable[OwnedResult], roster: Roste
                 result[first] = counted.outcome.model_copy(update={"doubt": why})
         for n in others:
             why = f"{submitted[n].place}: '{student}' also submitted {counted.place}: only that submission is graded"
-            result[n] = orders.refused(student, why)
+            result[n] = Result.refused(student, counted.outcome.max_score, why)
     alike = defaultdict[str, set[str]](set)
     for student in (*of_student, *(member.student for member in ([] if roster is None else roster.members))):
         alike[lookalike(student)].add(student)

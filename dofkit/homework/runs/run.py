@@ -3,27 +3,22 @@
 from __future__ import annotations
 
 import hashlib
-import json
 import sys
-from collections.abc import Iterable, Iterator
-from contextlib import AbstractContextManager, closing, nullcontext
+from contextlib import closing, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
-
-from rich.console import Console
-from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
 from dofkit.base import __version__
 from dofkit.base.runs import Journal, files_of
 from dofkit.homework.answers.roster import Roster, load_roster
-from dofkit.homework.answers.sources import Handed, hand_ins
+from dofkit.homework.answers.sources import hand_ins
 from dofkit.homework.assignment import Prepared, load_assignment
 from dofkit.homework.formats import FORMATS, Format, FormatError
 from dofkit.homework.formats.gradebooks import apart_path
 from dofkit.homework.formats.review import ReviewPaths, RunReview
-from dofkit.homework.result import Result, json_line
-from dofkit.homework.runs.batch import Grading, Orders, grading
-from dofkit.homework.runs.owners import OwnedResult, named_by, owned, settled
+from dofkit.homework.result import Result
+from dofkit.homework.runs.batch import Orders, grading
+from dofkit.homework.runs.owners import named_by, owned, settled
 from dofkit.homework.variants import with_roster
 
 NATIVE = "native"
@@ -56,21 +51,19 @@ class GradingOptions:
             raise FormatError(
                 "--check-only writes how answers are read as one JSON object per line and takes no other --format"
             )
-        if FORMATS[self.form].needs_path and self.out is None:
+        if not FORMATS[self.form].endings and self.out is None:
             raise FormatError(f"the format {self.form} needs --out PATH")
-        ending = "" if self.out is None or self.out.is_dir() else self.out.suffix.lower()[1:]
-        others = [name for name, form in FORMATS.items() if ending in form.endings]
-        if others and self.form not in others:
-            raise FormatError(
-                f"'{self.out}' ends in .{ending}, which --format {self.form} does not write: "
-                f"choose --format {' or '.join(others)}"
-            )
         return FORMATS[self.form]
 
     @property
     def in_folder(self) -> bool:
         """Return whether the format writes a folder there."""
         return self.out is not None and self.format.folder(self.out)
+
+    @property
+    def target(self) -> Path | None:
+        """Return where the format writes: dofkit's own results in a folder have a name there."""
+        return self.out / RESULTS if self.out is not None and self.form == NATIVE and self.in_folder else self.out
 
     @property
     def review(self) -> ReviewPaths | None:
@@ -82,9 +75,8 @@ class GradingOptions:
         """The paths that are written to. Raises FormatError."""
         if self.out is None:
             return []
-        review, native = self.review, self.out / RESULTS if self.in_folder else self.out
-        companions = [apart_path(self.out), *([] if review is None else [review.table, review.page])]
-        return [self.out, native, *files_of(unfinished(self.out)), *companions]
+        review = [] if self.review is None else [self.review.table, self.review.page]
+        return [self.out, self.target or self.out, *files_of(unfinished(self.out)), apart_path(self.out), *review]
 
 
 def unfinished(out: Path) -> Path:
@@ -124,15 +116,10 @@ def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
         grading(orders, options.workers, options.scheduler) as grade_all,
         nullcontext() if out is None else closing(Journal(unfinished(out), mark)) as journal,
     ):
-        results = settled(orders, _graded(grade_all, stream, people, journal), people)
-        if form.name != NATIVE:
-            form.write(iter(results), prepared, out or sys.stdout, roster)
-        elif out is None:
-            _to_stdout(results)
-        else:
-            native = out / RESULTS if options.in_folder else out
-            native.parent.mkdir(parents=True, exist_ok=True)
-            native.write_text("".join(f"{json_line(entry)}\n" for entry in results), encoding="utf-8", newline="\n")
+        lines = grade_all(stream, journal)
+        graded = (owned(people, handed, Result.model_validate_json(line)) for handed, line in lines)
+        results = settled(graded, people)
+        form.write(results, prepared, options.target or sys.stdout, roster)
         review.write(results, prepared)
         if journal is not None:
             journal.remove()
@@ -140,28 +127,3 @@ def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
     if doubted:
         print(f"{doubted} of the submissions have a 'doubt': a person has to decide whose they are", file=sys.stderr)
     return all(entry.error is None for entry in results)
-
-
-def _graded(
-    grade_all: Grading, stream: Iterator[Handed], people: Roster | None, journal: Journal | None
-) -> Iterator[OwnedResult]:
-    """Yield every result with its owner; a bar on a terminal shows how far it is."""
-    with _bar() as bar:
-        task = bar.add_task("graded", total=None)
-        for handed, lines in grade_all(stream, journal):
-            yield from (owned(people, handed, Result.model_validate_json(line)) for line in lines)
-            bar.update(task, advance=len(lines))
-
-
-def _to_stdout(results: Iterable[Result]) -> None:
-    utf8 = (sys.stdout.encoding or "").lower().replace("-", "") == "utf8"
-    for text in map(json_line, results):
-        print(text if utf8 else json.dumps(json.loads(text)), flush=True)
-
-
-def _bar() -> AbstractContextManager[Progress]:
-    """Return a progress bar on standard error, if that is a terminal."""
-    console = Console(stderr=True)
-    visible = console.is_terminal and not console.is_jupyter
-    columns = (SpinnerColumn(), BarColumn(), TextColumn("{task.completed:.0f} graded"), TimeElapsedColumn())
-    return Progress(*columns, console=console, transient=True, disable=not visible)

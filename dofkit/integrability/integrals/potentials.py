@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from fractions import Fraction
+from functools import reduce
 from typing import Any, TypeVar
 
 from dofkit.base.deadline import OutOfTimeError, by_processor, check, checked_calls, remaining_seconds, thread_time
@@ -18,7 +19,7 @@ from dofkit.exact.ring.program import TooLargeError, raising_no_value
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
-from dofkit.expressions.sympy_bridge import UntranslatableError, antiderivative_by_sympy
+from dofkit.expressions.sympy_bridge import UntranslatableError, antiderivative_by_sympy, import_integrals
 from dofkit.expressions.terms import expand
 from dofkit.expressions.tree import Expr
 
@@ -29,7 +30,7 @@ T = TypeVar("T")
 #: Canonical forms asked for in one integration; past it the search ends without a result.
 STEPS = 400
 #: Seconds that SymPy is given in one integration.
-SECONDS = 2.0
+SECONDS = 3.0
 #: The largest expression taken up, in nodes, and the largest polynomial factored or divided, in terms.
 MAX_NODES = 500
 MAX_TERMS = 120
@@ -50,9 +51,9 @@ def size(e: Expr) -> int:
 class Algebra:
     """Canonical forms under one budget; ``positive`` symbols are their own absolute value."""
 
-    def __init__(self, positive: frozenset[Expr], steps: int = STEPS) -> None:
+    def __init__(self, positive: frozenset[Expr]) -> None:
         self.positive = positive
-        self.steps = steps
+        self.steps = STEPS
         self.seconds = SECONDS
         self._tidied: dict[Expr, Expr] = {}
         self._vanishing: dict[Expr, bool] = {}
@@ -165,56 +166,35 @@ def factored(canon: Canon, poly: Poly) -> Expr:
     return ex.mul(canon.to_expr(canon.unit * constant), *(canon.to_expr(f) ** int(k) for f, k in factors))
 
 
-# -- linear systems over quotients of polynomials --------------------------------------------------
+# -- linear systems over polynomials --------------------------------------------------
 
 
-def _minus(a: Quotient, b: Quotient) -> Quotient:
-    return _small(a[0] * b[1] - b[0] * a[1], a[1] * b[1])
-
-
-def _times(a: Quotient, b: Quotient) -> Quotient:
-    return _small(a[0] * b[0], a[1] * b[1])
-
-
-def _small(top: Poly, bottom: Poly) -> Quotient:
-    if len(top) > MAX_ENTRY or len(bottom) > MAX_ENTRY:
-        raise TooLargeError
-    return in_lowest_terms(top, bottom)
-
-
-def solve(rows: list[list[Quotient]], unit: Poly) -> list[Quotient] | None:
+def solve(rows: list[list[Poly]], unit: Poly) -> list[Quotient] | None:
     """Return x with sum(row[k] x[k]) = row[-1] for every row, free unknowns 0, or None where there is none."""
-    if not rows:
-        return None
-    unknowns = len(rows[0]) - 1
-    pivots: dict[int, list[Quotient]] = {}
+    pivots: dict[int, list[Poly]] = {}
     for row in rows:
-        row = _reduced(row, pivots)
-        lead = next((k for k, entry in enumerate(row) if entry[0] != 0), None)
-        if lead is None:
-            continue
-        if lead == unknowns:
+        for lead, pivot in pivots.items():
+            row = _cleared(row, pivot, lead)
+        lead = next((k for k, entry in enumerate(row) if entry != 0), -1)
+        if lead == len(row) - 1:
             return None
-        inverse = (row[lead][1], row[lead][0])
-        row = [_times(entry, inverse) for entry in row]
-        for k, other in pivots.items():
-            pivots[k] = _cleared(other, row, lead)
-        pivots[lead] = row
-    zero = (unit * 0, unit)
-    return [pivots[k][-1] if k in pivots else zero for k in range(unknowns)]
+        if lead >= 0:
+            pivots = {k: _cleared(other, row, lead) for k, other in pivots.items()} | {lead: row}
+    unknowns = range(len(rows[0]) - 1) if rows else ()
+    solution = [in_lowest_terms(pivots[k][-1], pivots[k][k]) if k in pivots else (unit * 0, unit) for k in unknowns]
+    return solution or None
 
 
-def _cleared(row: list[Quotient], pivot: list[Quotient], lead: int) -> list[Quotient]:
+def _cleared(row: list[Poly], pivot: list[Poly], lead: int) -> list[Poly]:
+    """Return a row without its entry in a column, divided by what its entries have in common."""
     factor = row[lead]
-    if factor[0] == 0:
+    if factor == 0:
         return row
-    return [_minus(a, _times(factor, b)) if b[0] != 0 else a for a, b in zip(row, pivot, strict=True)]
-
-
-def _reduced(row: list[Quotient], pivots: dict[int, list[Quotient]]) -> list[Quotient]:
-    for lead, pivot in pivots.items():
-        row = _cleared(row, pivot, lead)
-    return row
+    entries = [a * pivot[lead] - factor * b for a, b in zip(row, pivot, strict=True)]
+    if any(len(entry) > MAX_ENTRY for entry in entries):
+        raise TooLargeError
+    common = reduce(lambda a, b: a.gcd(b), entries)
+    return entries if common == 0 else [entry / common for entry in entries]
 
 
 #: Symbol -> coefficient, zeros too for the symbols that only coefficients mention.
@@ -379,6 +359,7 @@ def _by_sympy(work: Algebra, e: Expr, x: Expr) -> Expr | None:
     if size(e) > MAX_SYMPY or any(n.op == "call" for n in ex.nodes(e)):
         return None
     work.tick(SYMPY_STEPS)
+    import_integrals()
     start = thread_time()
     try:
         with by_processor(min(work.seconds, remaining_seconds())), checked_calls():

@@ -126,10 +126,10 @@ def _arguments(report: Report) -> Iterator[Remark]:
             together.setdefault(entry.argument, []).append(_FIELDS.get(name, name.replace("_", " ")))
     if not together:
         return
-    from dofkit.classification.arguments import TABLE
+    from dofkit.classification.arguments import arguments
 
     for key, names in together.items():
-        row = TABLE[key]
+        row = arguments()[key]
         theorem = f" [{row.theorem}]" if row.theorem else ""
         because = "" if len(row.hypotheses) < _TERSE else f" (condition: {row.hypotheses})"
         text = f"{row.claims}{because}".replace("over GF(p)", "modulo a large prime")

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 from dofkit.checker.problem import CheckedProblem as Problem
-from dofkit.checker.problem import read_problem
+from dofkit.checker.problem import canonical, problem_of_canonical
 from dofkit.checker.trees import CheckError
 from dofkit.methods.certificates import emptiness, fields, freedom, labels
 from dofkit.methods.certificates.numerics import NoEstimateError
@@ -61,8 +61,8 @@ class Certifying:
     """A certificate while it is made; ``contradictions``: claims whose evidence gives another value, and why."""
 
     def __init__(self, document: Mapping[str, Any], report: Report, readings: Mapping[str, str] | None = None) -> None:
-        self.document, self.report = document, report
-        self.certificate = empty_certificate(report.scene, document, readings or {})
+        self.document, self.report = canonical(document), report
+        self.certificate = empty_certificate(report.scene, self.document, readings or {})
         self.rooms: list[Room] = []
         self.trial: ClaimTrial | None = None
         self.contradictions: dict[str, str] = {}
@@ -165,25 +165,20 @@ def _texts_in(value: Any) -> set[str]:
 
 def _rooms(document: Mapping[str, Any], report: Report, certificate: dict[str, Any]) -> list[Room]:
     """The readings that evidence is looked for in: with Cayley parameters first, where a drawing is given."""
-    plain = read_problem(document)
-    rooms = [Room(report, document, Scenery(plain, False, certificate))]
-    bodies = frozenset(_names(document.get("bodies")))
+    plain = problem_of_canonical(document)
+    rooms = [Room(report, Scenery(plain, False, certificate))]
+    bodies = frozenset(plain.world.frames) - {"ground"}
     if plain.world.dimension == 3 and bodies and plain.reference:
         chart = _with_cayley(document, bodies)
         if chart is not None:
             certificate["cayley"] = sorted(bodies)
-            rooms.insert(0, Room(report, document, Scenery(chart, True, certificate)))
+            rooms.insert(0, Room(report, Scenery(chart, True, certificate)))
     return rooms
-
-
-def _names(entries: Any) -> Iterator[str]:
-    for entry in entries or []:
-        yield entry if isinstance(entry, str) else entry["name"]
 
 
 def _with_cayley(document: Mapping[str, Any], bodies: frozenset[str]) -> Problem | None:
     try:
-        return read_problem(document, bodies)
+        return problem_of_canonical(document, bodies)
     except CheckError:
         return None
 
@@ -210,5 +205,4 @@ def _nothing(room: Room) -> Iterator[Told]:
 
 def _label_maker(entry: ConstraintEntry, field: str) -> Maker:
     make = LABELS.get(field)
-    local = field in ("independent", "circuit")
-    return lambda room: make(room, entry, field) if make and (local or not room.scenery.cayley) else iter(())
+    return lambda room: make(room, entry, field) if make else iter(())

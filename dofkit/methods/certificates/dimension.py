@@ -15,7 +15,7 @@ from dofkit.checker.evidence import HIGHEST_ORDER, along_curve
 from dofkit.checker.geometry import determinant, dot
 from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, number, power, symbol, times
 from dofkit.methods.certificates.fields import LARGEST_CRAMER, backing, kept_motions, orbit
-from dofkit.methods.certificates.numerics import NoEstimateError, echelon, solved
+from dofkit.methods.certificates.numerics import echelon, solved
 from dofkit.methods.certificates.room import Room, Standing, Told
 from dofkit.methods.certificates.scenery import FAR, number_text, text_of
 from dofkit.methods.certificates.steps import Order, accounted, given_in_order, operands
@@ -28,42 +28,28 @@ Samples = list[dict[str, float]]
 
 
 def families(room: Room, size: int) -> Iterator[Told]:
-    """The rule `family` with so many freedoms, for some motions through the main point."""
-    size_of_all = sum(relation.tree.size for relation in room.problem.relations) * len(room.problem.coordinates)
-    if room.point is None or room.scenery.evidence.moving or size_of_all > MOST_FOLLOWED:
-        return
-    for seed in range(2):
-        try:
-            family = _family(room, size, seed)
-        except (CheckError, NoEstimateError):
-            continue
-        if family is not None:
-            yield family
-
-
-def _family(room: Room, size: int, seed: int) -> Told | None:
+    """The rule `family` with so many freedoms, for a motion through the main point."""
     point, scenery = room.point, room.scenery
-    if point is None:
-        return None
+    size_of_all = sum(relation.tree.size for relation in room.problem.relations) * len(room.problem.coordinates)
+    if point is None or scenery.evidence.moving or size_of_all > MOST_FOLLOWED:
+        return
     assumed = []
-    for i, text in enumerate(_linear_relations(room, _samples(room, seed))):
-        step = f"{scenery.label}family {seed}.{i}"
+    for i, text in enumerate(_linear_relations(room, _samples(room))):
+        step = f"{scenery.label}family {i}"
         if not scenery.has_step(step):
             scenery.add_step({"id": step, "by": "assumed", "function": text})
         assumed.append(step)
     standing = room.standing_of([*assumed, *scenery.evidence.finite])
     if standing is None or len(standing.rows) != len(room.problem.coordinates) - size:
-        return None
+        return
     others = [name for name in standing.dependent if name not in assumed]
-    if not all(accounted(scenery, name, standing.rows, point, f"family {seed}") for name in others):
-        return None
-    minor = {"at": point.name, "rows": standing.rows, "columns": standing.columns}
-    return {"rule": "family", "minor": minor}
+    if all(accounted(scenery, name, standing.rows, point, "family") for name in others):
+        yield {"rule": "family", "minor": {"at": point.name, "rows": standing.rows, "columns": standing.columns}}
 
 
-def _samples(room: Room, seed: int) -> Samples:
+def _samples(room: Room) -> Samples:
     """Configurations along a motion that leaves the main point: as many as span its linear hull."""
-    drawn, samples = random.Random(seed), Samples()
+    drawn, samples = random.Random(0), Samples()
     coordinates = room.problem.coordinates
     now = before = dict(room.point.floats) if room.point is not None else {}
     for place in range(len(coordinates) + 4):
@@ -257,7 +243,7 @@ def _gives(room: Room, name: str, q: str) -> bool:
         plain = (
             slope.symbols <= evidence.chosen
             and room.point is not None
-            and room.scenery.differs(slope, room.point.floats)
+            and room.scenery.differs(slope, room.point.estimates)
         )
         return plain or bool(evidence.ring.rational(slope))
     except CheckError:
@@ -297,7 +283,7 @@ def stationary(room: Room) -> Iterator[Told]:
 
 def _motions_from(room: Room, standing: Standing, size: int) -> Iterator[Told]:
     """Yield ``size`` motions from the point: rigid ones of all together, none, or a family."""
-    fields = kept_motions(room, room.problem.coordinates) if size else {}
+    fields = kept_motions(room, standing.point) if size else {}
     if len(fields) == size:
         orbit_of = {"fields": list(fields), "words": [[name] for name in fields], "columns": list(fields.values())}
         yield {"rule": "span", "at": standing.point.name, "rows": list(room.scenery.evidence.finite), **orbit_of}

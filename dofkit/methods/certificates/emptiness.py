@@ -62,7 +62,7 @@ def _by_squares(room: Room, name: str) -> Iterator[Told]:
     """Yield evidence that one relation is never satisfied: it is a positive number and squares, or their negative."""
     checked = room.scenery.evidence.relation(name)
     for sign in (1, -1):
-        positive = positive_sum(checked.tree, Fraction(sign))
+        positive = positive_sum(room.scenery, checked.tree, Fraction(sign))
         if positive is None:
             continue
         squares = [[c, text_of(base)] for c, base in positive[1]]

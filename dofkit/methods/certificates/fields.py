@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from functools import partial
+from itertools import combinations
 from typing import Any
 
 from networkx.utils import UnionFind
 
-from dofkit.checker.evidence import CheckedEvidence, VelocityField, bracket, field_named, on_row
+from dofkit.checker.constraints import Surroundings
+from dofkit.checker.evidence import CheckedEvidence, VelocityField, bracket, field_named, tangent
 from dofkit.checker.geometry import determinant
 from dofkit.checker.trees import ZERO, CheckError, Tree, negative
 from dofkit.methods.certificates.numerics import Estimates, NoEstimateError, echelon
@@ -17,33 +18,19 @@ from dofkit.methods.certificates.points import FoundPoint
 from dofkit.methods.certificates.room import Room, Standing, Told
 from dofkit.methods.certificates.scenery import Scenery, text_of
 
-_AXES = "xyz"
 
-
-def places_of(document: Mapping[str, Any], dimension: int) -> list[tuple[list[str], str]]:
-    """The coordinates of every particle and body of the plane: its place, and its angle or ""."""
-    places = []
-    for key in ("particles", "bodies"):
-        for entry in document.get(key) or []:
-            owner = {"name": entry} if isinstance(entry, str) else entry
-            roles = _AXES[:dimension] if dimension < 3 or key == "particles" else ""
-            names = owner.get("coordinates") or [f"{role}_{owner['name']}" for role in roles]
-            angle = (owner.get("coordinates") or [f"theta_{owner['name']}"])[-1] if key == "bodies" else ""
-            if roles:
-                places.append((list(names[:dimension]), angle if dimension == 2 else ""))
-    return places
-
-
-def motions(document: Mapping[str, Any], dimension: int) -> list[dict[str, str]]:
+def motions(world: Surroundings) -> list[dict[str, str]]:
     """Translations and rotations as fields; none where a body of space occurs."""
-    places = places_of(document, dimension)
-    if dimension == 3 and document.get("bodies"):
+    d, frames = world.dimension, [frame for frame in world.frames.values() if frame.reference]
+    if d == 3 and frames:
         return []
-    fields = [{place[i]: "1" for place, _ in places} for i in range(dimension)]
-    for i in range(dimension):
-        for j in range(i):
-            turn = {place[j]: f"-{place[i]}" for place, _ in places} | {place[i]: place[j] for place, _ in places}
-            fields.append(turn | {angle: "1" for _, angle in places if angle})
+    places = [[str(q.value) for q in moved] for moved in (*(p.over for p in world.particles.values()),
+                                                          *(frame.position for frame in frames))]  # fmt: skip
+    angles = [list(frame.reference)[2] for frame in frames if d == 2]
+    fields = [{place[i]: "1" for place in places} for i in range(d)]
+    for i, j in combinations(range(d), 2):
+        turn = {place[i]: f"-{place[j]}" for place in places} | {place[j]: place[i] for place in places}
+        fields.append(turn | dict.fromkeys(angles, "1"))
     return fields
 
 
@@ -55,18 +42,13 @@ def backing(room: Room, standing: Standing | None) -> Told | None:
         return {}
     if (blocks := covering(room, standing)) is None:
         return None
-    covers, cover = room.scenery.entries["covers"], {"minor": room.minor(standing), "blocks": blocks}
-    for entry in covers:
-        if all(entry[key] == value for key, value in cover.items()):
-            return {"covers": [entry["id"]]}
-    covers.append({"id": f"cover{len(covers)}", **cover})
-    return {"covers": [covers[-1]["id"]]}
+    return {"covers": [room.scenery.entry_id("covers", {"minor": room.minor(standing), "blocks": blocks})]}
 
 
 def covering(room: Room, standing: Standing) -> list[Told] | None:
     """Blocks of relations whose rank is told by how many there are, or by rigid motions."""
     scenery, blocks = room.scenery, []
-    candidates = motions(room.document, room.problem.world.dimension)
+    candidates = motions(room.problem.world)
     accounted = {*standing.rows, *standing.dependent}
     finite = [name for name in scenery.evidence.finite if name in accounted]
     for names in parts_of(scenery, finite):
@@ -78,21 +60,21 @@ def covering(room: Room, standing: Standing) -> list[Told] | None:
         variables = [q for q in room.problem.coordinates if q in held]
         fields = [{q: text for q, text in motion.items() if q in held} for motion in candidates]
         columns = _chosen(scenery, fields, standing)
-        ids = [field_id(scenery, {"components": fields[place]}) for place, _ in columns]
+        ids = [scenery.entry_id("fields", {"components": fields[place]}) for place, _ in columns]
         if len(variables) - rank != len(ids) or not _kept(scenery, ids, names):
             return None
         blocks.append({"rows": names, "fields": ids, "columns": [column for _, column in columns]})
     return blocks
 
 
-def kept_motions(room: Room, columns: Sequence[str]) -> dict[str, str]:
-    """Motions of all together that keep all finite relations, each with a column: independent at the main point."""
-    scenery, estimates = room.scenery, Estimates(room.point.floats if room.point else {})
+def kept_motions(room: Room, point: FoundPoint) -> dict[str, str]:
+    """Motions of all together that keep all finite relations, each with a column: independent at the point."""
+    scenery = room.scenery
     finite = list(scenery.evidence.finite)
-    ids = [field_id(scenery, {"components": motion}) for motion in motions(room.document, room.problem.world.dimension)]
+    ids = [scenery.entry_id("fields", {"components": motion}) for motion in motions(room.problem.world)]
     kept = [motion for motion in ids if _kept(scenery, [motion], finite)]
     fields = [field_named(scenery.evidence, motion) for motion in kept]
-    rows = [{q: estimates.value(tree) for q, tree in motion.items() if q in columns} for motion in fields]
+    rows = [{q: point.estimates.value(tree) for q, tree in motion.items()} for motion in fields]
     return {kept[p.row]: p.column for p in echelon(rows).pivots}
 
 
@@ -109,32 +91,18 @@ def parts_of(scenery: Scenery, names: Sequence[str]) -> list[list[str]]:
 
 def _chosen(scenery: Scenery, fields: list[dict[str, str]], standing: Standing) -> list[tuple[int, str]]:
     """Independent fields at the point, each with a column."""
-    estimates = Estimates(standing.point.floats)
+    estimates = standing.point.estimates
     rows = [{q: estimates.value(scenery.evidence.text(text)) for q, text in field.items()} for field in fields]
     return [(p.row, p.column) for p in echelon(rows).pivots]
 
 
 def _kept(scenery: Scenery, ids: Sequence[str], names: Sequence[str]) -> bool:
     """Return whether fields are tangent to relations, identically."""
-    evidence = scenery.evidence
-
-    def is_tangent(field: str, row: str) -> bool:
-        return evidence.ring.vanishes(on_row(evidence, row, field_named(evidence, field)))
-
     try:
-        return all(evidence.once(("kept", a, row), partial(is_tangent, a, row)) for a in ids for row in names)
+        tangent(scenery.evidence, ([name] for name in ids), names)
     except CheckError:
         return False
-
-
-def field_id(scenery: Scenery, field: Told) -> str:
-    """The id of a field, new or known."""
-    fields = scenery.entries["fields"]
-    for entry in fields:
-        if all(entry.get(key) == value for key, value in field.items()):
-            return str(entry["id"])
-    fields.append({"id": f"X{len(fields)}", **field})
-    return str(fields[-1]["id"])
+    return True
 
 
 # Evidence about what velocities allow: fields by Cramer's rule, words of brackets, orbits, growth.
@@ -167,7 +135,7 @@ def tangent_fields(room: Room, standing: Standing) -> list[str] | None:
         if len(touched) > LARGEST_CRAMER:
             return None
         components = _by_cramer(evidence, touched, [pairs[row] for row in touched], coordinate)
-        ids.append(field_id(scenery, {"components": components}))
+        ids.append(scenery.entry_id("fields", {"components": components}))
     return ids
 
 
@@ -218,7 +186,7 @@ def reach(room: Room) -> int:
 
 
 def _grown(room: Room, standing: Standing, fields: list[str], most: int) -> Words:
-    estimates = Estimates(standing.point.floats)
+    estimates = standing.point.estimates
     chosen = room.scenery.chosen
     bases: dict[str, VelocityField] = {
         name: {q: chosen(tree) for q, tree in field_named(room.scenery.evidence, name).items()} for name in fields

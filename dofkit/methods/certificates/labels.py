@@ -201,7 +201,7 @@ def _wedge(room: Room, name: str) -> Told | None:
     if point is None or form is None:
         return None
     for triple in combinations([v for v in room.scenery.evidence.variables if v in variables_of(form)], 3):
-        if room.scenery.differs(exterior_part(form, *triple), point.floats):
+        if room.scenery.differs(exterior_part(form, *triple), point.estimates):
             return {"rule": "wedge", "at": point.name, "triple": list(triple)}
     return None
 
@@ -272,7 +272,7 @@ def exact(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
     for name in names:
         form = form_or_none(room, name) or {}
         for i, j in combinations([v for v in room.scenery.evidence.variables if v in variables_of(form)], 2):
-            if room.scenery.differs(exterior_part(form, i, j), point.floats):
+            if room.scenery.differs(exterior_part(form, i, j), point.estimates):
                 which = {"relation": name} if len(names) > 1 else {}
                 yield {"rule": "not exact", "at": point.name, "pair": [i, j], **which}
                 break
@@ -297,7 +297,7 @@ def _turning(room: Room, name: str, field: str) -> Iterator[Told]:
     if turned == number(0):
         return
     for point in _points_of(room, name):
-        if point is not None and room.scenery.differs(turned, point.floats):
+        if point is not None and room.scenery.differs(turned, point.estimates):
             yield {"at": room.add_point(point)}
 
 
@@ -317,11 +317,11 @@ def _turning_form(room: Room, name: str, field: str) -> Iterator[Told]:
     turned = form.get("t", number(0)) if form else derivative(tree, "t")
     if field == "catastatic" and form is None:
         turned = add(*rates.values())
-    if room.scenery.differs(turned, point.floats):
+    if room.scenery.differs(turned, point.estimates):
         yield {"at": point.name}
     if form is None:
         return
     for a, b in combinations(form, 2) if field == "scleronomic" else ():
         back = negative(times(form[b], derivative(form[a], "t")))
-        if room.scenery.differs(add(times(form[a], derivative(form[b], "t")), back), point.floats):
+        if room.scenery.differs(add(times(form[a], derivative(form[b], "t")), back), point.estimates):
             yield {"at": point.name, "pair": [a, b]}

@@ -8,7 +8,7 @@ from typing import Any
 
 from dofkit.checker.motion import MOTION_FIELDS
 from dofkit.checker.problem import CheckedProblem as Problem
-from dofkit.checker.problem import read_problem
+from dofkit.checker.problem import canonical, problem_of_canonical
 from dofkit.checker.trees import MINUS, ONE, Tree, along, number, power, substituted, symbol, times
 from dofkit.methods.certificates.certificate import HINDRANCES, without_spare_parts
 from dofkit.methods.certificates.lowering import scene_of_checker
@@ -29,11 +29,12 @@ def certificate_of_motion(scene: Scene, motion: Mapping[str, Any], report: Repor
 
     ``report``: what the equations rest on.
     """
-    document, readings = scene_of_checker(scene)
+    written, readings = scene_of_checker(scene)
+    document = canonical(written)
     certificate = empty_certificate(report.scene, document, readings) | {"uncovered": [PATH]}
     try:
-        problem = read_problem(document)
-        room = Room(report, document, Scenery(problem, False, certificate))
+        problem = problem_of_canonical(document)
+        room = Room(report, Scenery(problem, False, certificate))
         trial = ClaimTrial(document, certificate, problem)
         trial.admit(room.scenery)
         for evidence in MotionEvidence(room, {name: motion[name] for name in MOTION_FIELDS}).claims():

@@ -6,6 +6,7 @@ import random
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import cached_property
 from typing import Any
 
 from flint import arb, ctx, fmpq
@@ -29,6 +30,11 @@ class FoundPoint:
     rows: list[str] = field(default_factory=list)
     columns: list[str] = field(default_factory=list)
     rank: int = 0
+
+    @cached_property
+    def estimates(self) -> Estimates:
+        """Values in floats at the point, at rest where it has no velocities."""
+        return Estimates({**{f"{q}dot": 0.0 for q in self.floats}, "tdot": 1.0, **self.floats})
 
     def entry(self) -> dict[str, Any]:
         """The point as a certificate writes it."""

@@ -8,11 +8,11 @@ from functools import cached_property
 from typing import Any, Literal
 
 from dofkit.checker.problem import CheckedProblem as Problem
-from dofkit.checker.problem import canonical, sha256_of
+from dofkit.checker.problem import sha256_of_canonical
 from dofkit.checker.relations import FAULTS, fault_text
 from dofkit.checker.trees import CheckError
 from dofkit.checker.verification import PARTS, Verifier
-from dofkit.methods.certificates.numerics import Estimates, NoEstimateError, echelon
+from dofkit.methods.certificates.numerics import NoEstimateError, echelon
 from dofkit.methods.certificates.points import FoundPoint, PointSearch
 from dofkit.methods.certificates.scenery import MOST_ROWS, Scenery
 from dofkit.methods.certificates.steps import accounted, rate_of
@@ -23,7 +23,7 @@ Outcome = Literal["shown", "contradicted", "open"]
 
 def empty_certificate(name: str, document: Mapping[str, Any], readings: Mapping[str, str]) -> dict[str, Any]:
     """Return a certificate of a scene without parts, claims, or what is uncovered."""
-    scene = {"name": name, "sha256": sha256_of(document), "document": canonical(document)}
+    scene = {"name": name, "sha256": sha256_of_canonical(document), "document": dict(document)}
     scene |= {"readings": dict(readings)} if readings else {}
     lists: dict[str, list[dict[str, Any]]] = {part: [] for part in PARTS}
     return {"certificate": 1, "scene": scene, "cayley": [], **lists, "claims": [], "uncovered": []}
@@ -76,7 +76,6 @@ class Standing:
     columns: list[str]
     dependent: list[str]
     accounted: bool = True
-    order: list[str] = field(default_factory=list)
 
 
 @dataclass
@@ -84,7 +83,6 @@ class Room:
     """A report and a reading of its scene, the main point, and rows that are independent there."""
 
     report: Report
-    document: Mapping[str, Any]
     scenery: Scenery
     words: dict[tuple[str, ...], Any] = field(default_factory=dict)
 
@@ -102,14 +100,8 @@ class Room:
 
     def minor(self, standing: Standing) -> str:
         """Return the id of the minor of the rows and columns."""
-        entries = {"at": standing.point.name, "rows": standing.rows, "columns": standing.columns}
-        minors = self.scenery.entries["minors"]
-        for minor_entry in minors:
-            if all(minor_entry[key] == value for key, value in entries.items()):
-                return str(minor_entry["id"])
-        name = f"M{len(minors)}"
-        minors.append({"id": name, **entries})
-        return name
+        entry = {"at": standing.point.name, "rows": standing.rows, "columns": standing.columns}
+        return self.scenery.entry_id("minors", entry)
 
     @property
     def small(self) -> bool:
@@ -186,14 +178,13 @@ class Room:
         reduction = echelon(matrix)
         rows = [names[p.row] for p in reduction.pivots]
         dependent = [names[i] for i in reduction.dependent]
-        return Standing(point, rows, [p.column for p in reduction.pivots], dependent, order=list(names))
+        return Standing(point, rows, [p.column for p in reduction.pivots], dependent)
 
     def row(self, name: str, point: FoundPoint) -> dict[str, float]:
         """The entries of a row in floats: by coordinates, or by their velocities."""
         scenery = self.scenery
         finite = scenery.evidence.relation(name).kind == "finite"
-        rates = {f"{q}dot": 0.0 for q in (*self.problem.coordinates, "t")} | {"tdot": 1.0}
-        gradient = Estimates({**rates, **point.floats}).gradient(scenery.tree(name))
+        gradient = point.estimates.gradient(scenery.tree(name))
         return {
             q: gradient[q if finite else f"{q}dot"]
             for q in self.problem.coordinates

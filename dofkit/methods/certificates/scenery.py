@@ -75,6 +75,15 @@ class Scenery:
         self._prepared: dict[str, Tree] = {}
         self.steps: set[str] = set()
 
+    def entry_id(self, part: str, entry: dict[str, Any]) -> str:
+        """The id of a minor, field or cover, written into the certificate where it is new."""
+        entries = self.entries[part]
+        known = (str(other["id"]) for other in entries if {**other, **entry} == other)
+        if (name := next(known, "")) == "":
+            name = f"{part[0].upper()}{len(entries)}"
+            entries.append({"id": name, **entry})
+        return name
+
     @property
     def label(self) -> str:
         """What ids of this reading begin with."""
@@ -125,10 +134,10 @@ class Scenery:
         }
         return substituted(tree, {}, made)
 
-    def differs(self, tree: Tree, floats: Mapping[str, float]) -> bool:
+    def differs(self, tree: Tree, estimates: Estimates) -> bool:
         """Return whether a tree is not 0 at a point, by far."""
         try:
-            return abs(Estimates(floats).value(self.chosen(tree))) > FAR
+            return abs(estimates.value(self.chosen(tree))) > FAR
         except NoEstimateError:
             return False
 

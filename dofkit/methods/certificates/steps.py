@@ -15,6 +15,7 @@ from dofkit.checker.trees import (
     ZERO,
     CheckError,
     Tree,
+    add,
     difference,
     linear_in,
     negative,
@@ -62,21 +63,22 @@ def operands(tree: Tree, head: str) -> list[Tree]:
     return [operand for part in tree.below for operand in operands(part, head)] if tree.head == head else [tree]
 
 
-def positive_sum(tree: Tree, sign: Fraction = Fraction(1)) -> tuple[str, list[tuple[str, Tree]]] | None:
-    """Return a sum (times a number) as a positive number and squares of bases with positive coefficients."""
+def positive_sum(
+    scenery: Scenery, tree: Tree, sign: Fraction = Fraction(1)
+) -> tuple[str, list[tuple[str, Tree]]] | None:
+    """Return a sum (times a number) as what is positive by itself and squares with positive coefficients."""
     if tree.head == "product" and isinstance(tree.below[0].value, Fraction) and len(tree.below) == 2:
-        return positive_sum(tree.below[1], sign * tree.below[0].value)
-    terms = operands(tree, "sum")
-    constant = sum((sign * term.value for term in terms if isinstance(term.value, Fraction)), Fraction(0))
-    squares = [_square(term) for term in terms if not isinstance(term.value, Fraction)]
+        return positive_sum(scenery, tree.below[1], sign * tree.below[0].value)
+    terms = [times(number(sign), term) for term in operands(tree, "sum")]
+    plain = [term for term in terms if term.symbols <= scenery.evidence.chosen]
+    squares = [_square(term) for term in terms if term not in plain]
     positive = [
-        (number_text(sign * square[0]), power(square[1], number(square[2] // 2)))
+        (number_text(square[0]), power(square[1], number(square[2] // 2)))
         for square in squares
-        if square is not None and sign * square[0] > 0
+        if square is not None and square[0] > 0
     ]
-    if tree.head != "sum" or len(positive) < len(squares) or constant <= 0:
-        return None
-    return number_text(constant), positive
+    fits = len(positive) == len(squares) and scenery.evidence.is_nowhere_zero(add(*plain), True)
+    return (text_of(add(*plain)), positive) if fits else None
 
 
 # Coordinates that finite relations give by others: put into a relation, they may leave nothing of it.
@@ -157,7 +159,7 @@ def _pair_steps(scenery: Scenery, pair: tuple[str, str], point: FoundPoint) -> I
             continue
         (a, b), (c, d) = ([part[0].get(q, ZERO) for q in (first, other)] for part in linear if part is not None)
         h = difference(times(a, d), times(b, c))
-        if not scenery.differs(h, point.floats):
+        if not scenery.differs(h, point.estimates):
             continue
         for q, factors in ((first, (d, negative(b))), (other, (negative(c), a))):
             multipliers = {

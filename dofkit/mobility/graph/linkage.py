@@ -8,13 +8,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from itertools import combinations
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from dofkit.base.deadline import gc_rarely
 from dofkit.base.display import Displayed
 from dofkit.base.wording import many
-from dofkit.mobility.graph.links import Joint, LineGraph, Link, LinkageError, Proof, Question, read
+from dofkit.mobility.graph.links import Joint, LineGraph, Link, LinkageError, Proof, read
 from dofkit.mobility.graph.plane import PlaneGraph
 from dofkit.mobility.graph.space import SpaceGraph
 
@@ -34,19 +33,12 @@ class Group(NamedTuple):
     members: list[Link]
 
 
-class Hinge(NamedTuple):
-    """Joints that several rigid clusters share (one joint, in space also two), and the numbers of the clusters."""
-
-    joints: tuple[Joint, ...]
-    clusters: tuple[int, ...]
-
-
 @dataclass(frozen=True, eq=False)
 class Linkage(Displayed):
     """The mobility of joints in general position whose links keep their lengths; made by `dofkit.linkage`.
 
-    Numbers count independent velocities. Links and joints are those that were given, in their order. Circuits, groups,
-    clusters and hinges are computed when they are first asked for.
+    Numbers count independent velocities. Links and joints are those that were given, in their order. Circuits, groups
+    and clusters are computed when they are first asked for.
 
     Examples
     --------
@@ -81,11 +73,6 @@ class Linkage(Displayed):
     def rigid(self) -> bool:
         """Whether the joints can only move as one rigid body."""
         return self.inner_freedom == 0
-
-    @property
-    def maxwell(self) -> int:
-        """Maxwell's count n d - links: the freedom if no link were redundant [Maxwell1864]."""
-        return len(self.joints) * self.dimension - len(self.links)
 
     @cached_property
     def redundant_places(self) -> tuple[int, ...]:
@@ -128,60 +115,19 @@ class Linkage(Displayed):
         return [Group(len(redundant.intersection(g)), [self.links[i] for i in g]) for g in groups]
 
     @cached_property
-    def _clusters(self) -> list[list[int]]:
-        return self._answer.clusters()
-
-    @cached_property
     def clusters(self) -> list[list[Joint]]:
         """The maximal sets of joints that keep all their distances. A joint may be in several."""
-        return [[self.joints[v] for v in members] for members in self._clusters]
+        return [[self.joints[v] for v in members] for members in self._answer.clusters()]
 
-    @cached_property
-    def hinges(self) -> list[Hinge]:
-        """The joints that two or more clusters share, about which these turn.
-
-        The double banana has one, of two joints that need no link between them.
-        """
-        of: dict[int, list[int]] = {}
-        for k, members in enumerate(self._clusters):
-            for v in members:
-                of.setdefault(v, []).append(k)
-        shared: dict[tuple[int, ...], set[int]] = {}
-        if self.dimension == 3:
-            sets = [set(members) for members in self._clusters]
-            for numbers in of.values():
-                for j, k in combinations(numbers, 2):
-                    both = tuple(sorted(sets[j] & sets[k]))
-                    shared.setdefault(both, set()).update((j, k))
-        else:
-            shared = {(v,): set(numbers) for v, numbers in of.items() if len(numbers) > 1}
-        return [
-            Hinge(tuple(self.joints[v] for v in joints), tuple(sorted(shared[joints]))) for joints in sorted(shared)
-        ]
-
-    @cached_property
-    def _clusters_of(self) -> Mapping[Joint, set[int]]:
-        numbers: dict[Joint, set[int]] = {v: set() for v in self.joints}
-        for k, members in enumerate(self.clusters):
-            for v in members:
-                numbers[v].add(k)
-        return numbers
-
-    def moves(self, a: Joint, b: Joint) -> bool:
-        """Return whether the distance of two joints changes in some motion. Raises LinkageError if one is no joint."""
-        for joint in (a, b):
-            if joint not in self._clusters_of:
-                raise LinkageError(f"{joint!r} is not a joint")
-        return a != b and not self._clusters_of[a] & self._clusters_of[b]
-
-    def proof(self, question: Question) -> Proof:
-        """Return how certain the answer to a question is, and why."""
-        return self._answer.proof(question)
+    @property
+    def proof(self) -> Proof:
+        """How certain the rank, the freedom and the redundant links are, and why."""
+        return self._answer.proof()
 
     @property
     def verdict(self) -> Verdict:
         """How certain the rank, the freedom and the redundant links are."""
-        return self.proof("redundant").verdict
+        return self.proof.verdict
 
     def __str__(self) -> str:
         n, d, k = len(self.joints), self.dimension, len(self.links)

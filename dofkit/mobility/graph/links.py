@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from itertools import chain
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from itertools import chain, pairwise
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from dofkit.base.errors import DofkitError
 from dofkit.base.libraries import nx
@@ -17,7 +17,6 @@ Joint = Any
 Link = tuple[Any, Any]
 #: The numbers of a link's two joints.
 Ends = tuple[int, int]
-Question = Literal["rank", "redundant", "circuits", "redundancies", "clusters"]
 
 
 class LinkageError(DofkitError):
@@ -97,21 +96,9 @@ class LineGraph:
 
     def circuits(self, links: Sequence[int]) -> Iterator[tuple[int, list[int]]]:
         """Yield redundant links, each with the earlier links with which it is a minimal dependent set."""
-        parent: dict[int, int] = {}
-        depth: dict[int, int] = {}
-        for root in map(min, nx.connected_components(self._forest)):
-            depth[root] = 0
-            for a, b in nx.bfs_edges(self._forest, root):
-                parent[b], depth[b] = a, depth[a] + 1
         for i in links:
-            a, b = self._ends[i]
-            path = []
-            while a != b:
-                if depth[a] < depth[b]:
-                    a, b = b, a
-                path.append(self._forest.edges[a, parent[a]]["number"])
-                a = parent[a]
-            yield i, sorted(path)
+            path = nx.shortest_path(self._forest, *self._ends[i])
+            yield i, sorted(self._forest.edges[pair]["number"] for pair in pairwise(path))
 
     def groups(self) -> list[list[int]]:
         """Return the classes of links of which any two lie in a minimal dependent set, without single links."""
@@ -126,6 +113,6 @@ class LineGraph:
         """Return the maximal sets of joints that keep all their distances; every joint is in one at least."""
         return sorted(map(sorted, nx.connected_components(self._forest)))
 
-    def proof(self, question: Question) -> Proof:
+    def proof(self) -> Proof:
         """Return how certain an answer is."""
         return _PROOF

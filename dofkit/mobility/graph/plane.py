@@ -20,7 +20,7 @@ from functools import cached_property
 from typing import Any, NamedTuple
 
 from dofkit.base.deadline import check
-from dofkit.mobility.graph.links import Ends, Proof, Question
+from dofkit.mobility.graph.links import Ends, Proof
 from dofkit.mobility.graph.rigid_blocks import NONE, RigidBlocks
 
 # [JacobsHendrickson1997] [PollaczekGeiringer1927] [Laman1970]
@@ -293,7 +293,7 @@ class PlaneGraph:
         alone = set(range(self._joints)).difference(*sets)
         return sorted([*sets, *([v] for v in alone)])
 
-    def proof(self, question: Question) -> Proof:
+    def proof(self) -> Proof:
         return _PROOF
 
 

@@ -20,7 +20,7 @@ from typing import NamedTuple
 from dofkit.base.libraries import nx
 from dofkit.exact.matrices.sparse import SparseRow, components, echelon, rank_of_rows, vector_in_kernel
 from dofkit.exact.points.field import prime_for
-from dofkit.mobility.graph.links import Ends, LinkageError, Proof, Question
+from dofkit.mobility.graph.links import Ends, LinkageError, Proof
 
 #: Joints of a part that is not rigid, beyond which its clusters are not separated.
 MAX_JOINTS = 2000
@@ -65,23 +65,16 @@ class SpaceGraph:
         circuits = [[*circuit, i] for i, circuit in self._circuits.items()]
         return [sorted({i for k in part for i in circuits[k]}) for part in components(circuits)]
 
-    @cached_property
-    def _clusters(self) -> list[list[int]]:
-        return rigid_sets(self._pairs)
-
     def clusters(self) -> list[list[int]]:
-        alone = set(range(self._joints)).difference(*self._clusters)
-        return sorted([*self._clusters, *([v] for v in alone)])
+        sets = rigid_sets(self._pairs)
+        return sorted([*sets, *([v] for v in set(range(self._joints)).difference(*sets))])
 
-    def proof(self, question: Question) -> Proof:
+    def proof(self) -> Proof:
         circuits = {i: c for i, c in self._circuits.items() if i not in self._original}
         uncounted = [i for i, c in circuits.items() if not _is_counted([self._ends[j] for j in (i, *c)])]
         if uncounted:
             chance = chance_of_error(len(uncounted), len(self._ends))
             why = f"{_INDEPENDENT}; some dependences are probable, with a chance of error below {chance:.1e}"
-            return Proof("probable", why)
-        if question == "clusters" and not _are_rigid_by_count(self._clusters, self._pairs):
-            why = "some clusters keep their distances in a random motion, but not because of their own links alone"
             return Proof("probable", why)
         if not circuits:
             return Proof("proved", _INDEPENDENT)
@@ -172,16 +165,3 @@ def hinged_bound(bodies: Sequence[Sequence[int]]) -> int:
     for body in map(frozenset, bodies):
         bound += _full_rank(len(body)) - _rank([pair for pair in hinges if body.issuperset(pair)])
     return bound
-
-
-def _are_rigid_by_count(bodies: Iterable[Sequence[int]], links: Iterable[Ends]) -> bool:
-    """Return whether every body is rigid by its own links, and by pairs that it shares with bodies that are."""
-    sure = nx.Graph(list(links))
-    undecided = [frozenset(body) for body in bodies]
-    while undecided:
-        rigid = [body for body in undecided if _rank(list(sure.subgraph(body).edges)) == _full_rank(len(body))]
-        if not rigid:
-            return False
-        undecided = [body for body in undecided if body not in rigid]
-        sure.add_edges_from(tuple(body & other) for body in rigid for other in undecided if len(body & other) == 2)
-    return True

@@ -2,7 +2,7 @@
 
 Space is cut into boxes; a box is excluded where interval evaluation of the relations leaves nothing [Moore1966]. If
 every box is excluded there is no solution. Two descriptions of the same set are tried: the relations as written, and
-polynomials in their generators with linear combinations and resultants of these.
+polynomials in their generators with resultants of these.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from functools import lru_cache
 from itertools import combinations, islice
 from typing import Any, NamedTuple
 
-from flint import arb, ctx, fmpq_mat, fmpz_poly
+from flint import arb, ctx
 
 from dofkit.base.deadline import OutOfTimeError, check
 from dofkit.base.errors import NoValueError, PoleError
@@ -40,8 +40,8 @@ MAX_STEPS, BITS = 60_000, 64
 SOON = 6_000
 #: A box thinner than this, or this far out, is not cut any further.
 THINNEST, FARTHEST = 1e-7, 1e7
-#: Polynomials are combined up to this size, and resultants are taken of so many pairs.
-MAX_TABLE, MAX_RESULTANT_TERMS, MAX_RESULTANT_DEGREE, MAX_PAIRS = 4000, 40, 8, 60
+#: Resultants are taken of polynomials up to this size and degree, and of so many pairs.
+MAX_RESULTANT_TERMS, MAX_RESULTANT_DEGREE, MAX_PAIRS = 40, 8, 60
 ZERO: Interval = (0.0, 0.0)
 
 #: An expression and where its value must lie.
@@ -160,7 +160,7 @@ def _system(relations: Sequence[Expr], positive: frozenset[Expr]) -> PolynomialS
 
 
 def _polynomials(relations: Sequence[Expr], positive: frozenset[Expr]) -> PolynomialSystem:
-    """Return numerators in the canonical ring, the generators' relations and linear combinations of both."""
+    """Return numerators in the canonical ring, the generators' relations and resultants of both."""
     ring = Ring(relations, positive)
     nodes = [ring.node(e) for e in relations]
     canon = Canon(ring)
@@ -169,13 +169,11 @@ def _polynomials(relations: Sequence[Expr], positive: frozenset[Expr]) -> Polyno
         numerators = [p for p in numerators if p != 0]
     present = {i for p in numerators for i in canon.generators_in(p)}
     numerators += [g for g in canon.relations if not present.isdisjoint(canon.generators_in(g))]
-    everything = _resultants(_combined(canon, numerators))
+    everything = _resultants(numerators)
     count = len(ring.vars)
     symbols = tuple(ex.parameter(f"generator {count - 1 - i}") for i in range(count))
     ranges = {symbols[count - 1 - v.index]: _range(v, ring) for v in ring.vars}
     if any(_without_hidden_numbers(canon, p) and never_vanishes(canon.to_expr(p), positive) for p in everything):
-        raise EmptyError
-    if any(_without_real_roots(p) for p in everything):
         raise EmptyError
     return PolynomialSystem(tuple(everything), symbols, ranges)
 
@@ -199,20 +197,6 @@ def _range(var: Var, ring: Ring) -> Interval:
     return NON_NEGATIVE if var.kind == "symbol" and var.key in ring.positive else WHOLE
 
 
-def _combined(canon: Canon, polynomials: Sequence[Poly]) -> list[Poly]:
-    """The polynomials and, where there are several, an echelon form of them by degree (two circles meet on a line)."""
-    tables = [p.to_dict() for p in polynomials]
-    monomials = sorted({m for table in tables for m in table}, key=lambda m: (-sum(m), m))
-    if len(tables) < 2 or len(tables) * len(monomials) > MAX_TABLE:
-        return list(polynomials)
-    reduced, rank = fmpq_mat([[table.get(m, 0) for m in monomials] for table in tables]).rref()
-    rows = [
-        canon.ctx.from_dict({m: reduced[r, c] for c, m in enumerate(monomials) if reduced[r, c] != 0})
-        for r in range(rank)
-    ]
-    return [*polynomials, *(row for row in rows if row not in polynomials)]
-
-
 def _resultants(polynomials: list[Poly]) -> list[Poly]:
     """The polynomials and the resultants of pairs: they vanish wherever both do."""
     result = list(polynomials)
@@ -225,20 +209,6 @@ def _resultants(polynomials: list[Poly]) -> list[Poly]:
                 if eliminated != 0 and len(eliminated) <= MAX_RESULTANT_TERMS and eliminated not in result:
                     result.append(eliminated)
     return result
-
-
-def _without_real_roots(p: Poly) -> bool:
-    """A polynomial in one generator all of whose roots are certified not to be real."""
-    used = [i for i, k in enumerate(p.degrees()) if k]
-    if not used:
-        return bool(p != 0)
-    if len(used) > 1:
-        return False
-    table = {int(m[used[0]]): Fraction(int(c.p), int(c.q)) for m, c in p.to_dict().items()}
-    scale = math.lcm(*(c.denominator for c in table.values()))
-    whole = fmpz_poly([int(table.get(k, Fraction(0)) * scale) for k in range(max(table) + 1)])
-    roots: Any = whole.complex_roots()
-    return all(not root.imag.contains(0) for root, _ in roots)
 
 
 def _is_excluded(system: PolynomialSystem) -> bool:

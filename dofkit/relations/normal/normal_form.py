@@ -22,7 +22,6 @@ from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero import is_proved_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import cleared, diff, in_velocities, refuse_accelerations, substitute
-from dofkit.expressions.terms import Combined, combined
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.domain import (
     DomainCondition,
@@ -45,14 +44,10 @@ from dofkit.relations.normal.pieces import (
     Normal,
     Pfaffian,
     Piece,
-    with_values,
 )
 from dofkit.relations.normal.polynomial_zeros import Conjunction
 from dofkit.relations.normal.semidefinite import Signs, weak_sign
 from dofkit.relations.normal.zero_set import never_vanishes, zero_set
-
-#: A monomial in what depends on velocities: (generator, exponent) pairs.
-Monomial = tuple[tuple[int, int], ...]
 
 
 class _Square(NamedTuple):
@@ -75,7 +70,8 @@ def linear_branches(e: Expr, velocities: Sequence[Expr], positive: frozenset[Exp
     try:
         canon = Canon(ring)
         whole = canon.quotient(node)[0]
-        terms = _by_velocities(canon, whole)
+        moving = {i for i, e in enumerate(ring.var_expr) if any(s.args[0] == "velocity" for s in e.symbols)}
+        terms = canon.collected(whole, moving)
         if any(sum(k for _, k in m) > 2 or any(ring.var_expr[i] not in velocities for i, _ in m) for m in terms):
             return None
         squares = (_completed(canon, whole, i, velocities, positive) for m in terms for i, k in m if k == 2)
@@ -83,19 +79,6 @@ def linear_branches(e: Expr, velocities: Sequence[Expr], positive: frozenset[Exp
     except NoValueError:
         return None
     return None if square is None else _branches(square, positive)
-
-
-def _by_velocities(canon: Canon, polynomial: Any) -> dict[Monomial, Any]:
-    """A polynomial as coefficients of the monomials in what depends on velocities."""
-    n = len(canon.ring.vars)
-    moves = [any(s.args[0] == "velocity" for s in e.symbols) for e in canon.ring.var_expr]
-    coefficients: dict[Monomial, Any] = {}
-    for exponents, coefficient in polynomial.to_dict().items():
-        moving = tuple((n - 1 - i, int(k)) for i, k in enumerate(exponents) if k and moves[n - 1 - i])
-        remainder = tuple(0 if moves[n - 1 - i] else k for i, k in enumerate(exponents))
-        term = canon.ctx.from_dict({remainder: coefficient})
-        coefficients[moving] = coefficients[moving] + term if moving in coefficients else term
-    return coefficients
 
 
 def _completed(
@@ -184,14 +167,6 @@ def normalise(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
     Raises TextError for second derivatives and for sums of differentials with finite terms.
     """
     refuse_accelerations(e)
-    fewer = combined(e) if written else Combined(e, {})
-    result = _normalised(fewer.expr, positive, written)
-    if not fewer.sums:
-        return result
-    return result._replace(branches=tuple(tuple(with_values(p, fewer.sums) for p in b) for b in result.branches))
-
-
-def _normalised(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
     velocity_form, divided = in_velocities(e)
     if not velocities_of(velocity_form):
         if divided:
@@ -205,14 +180,18 @@ def _normalised(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
     return _defined(velocity_form, _nonlinear(velocity_form, positive), positive)
 
 
-def _defined(e: Expr, normal: Normal, positive: frozenset[Expr]) -> Normal:
-    """What a relation in velocities says where, as it was written, it has a value at a configuration."""
+def _defined(e: Expr, normal: Normal, positive: frozenset[Expr], *more: DomainCondition) -> Normal:
+    """What a rewritten relation says where, as it was written, ``e``, it has a value at a configuration."""
     if normal.branches == ((Nonlinear(e),),):
         return normal
-    within = [c for c in conditions_of(e, positive) if not velocities_of(c.expr)]
-    if within and no_solution((), positive, [c.expr for c in within if c.sense != "!="]):
+    within = (*(c for c in conditions_of(e, positive) if not velocities_of(c.expr)), *more)
+    if no_solution((), positive, [c.expr for c in within if c.sense != "!="]):
         return Normal((), (NOWHERE_NOTE,))
     return normal._replace(branches=tuple((*b, *(c for c in within if c not in b)) for b in normal.branches))
+
+
+def _finite_branches(branches: Sequence[Conjunction], *notes: str) -> Normal:
+    return Normal(tuple(tuple(map(Finite, branch)) for branch in branches), notes)
 
 
 def _finite(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
@@ -224,23 +203,11 @@ def _finite(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
     branches, notes = zero_set(e, positive, _moving(e))
     if branches == ((e,),):
         return _squared(e, positive)
-    return _conditioned(e, branches, notes, positive)
+    return _defined(e, _finite_branches(branches, *notes), positive)
 
 
 def _moving(e: Expr) -> frozenset[Expr]:
     return frozenset(s for s in e.symbols if s.args[0] in ("coordinate", "time"))
-
-
-def _conditioned(
-    e: Expr, branches: Sequence[Conjunction], notes: Sequence[str], positive: frozenset[Expr], *more: DomainCondition
-) -> Normal:
-    """The branches of a relation that was rewritten, where it was one as written: ``e`` has a value there."""
-    conditions = (*conditions_of(e, positive), *more)
-    if any(c.sense != "!=" for c in conditions) and no_solution(
-        (), positive, [c.expr for c in conditions if c.sense != "!="]
-    ):
-        return Normal((), (NOWHERE_NOTE,))
-    return Normal(tuple((*map(Finite, branch), *conditions) for branch in branches), tuple(notes))
 
 
 def _by_signs(e: Expr, positive: frozenset[Expr]) -> Normal:
@@ -267,7 +234,7 @@ def _squared(e: Expr, positive: frozenset[Expr]) -> Normal:
         norm, condition = result
         branches, notes = zero_set(norm, positive, _moving(norm))
         if notes:
-            return _conditioned(e, branches, (SQUARED_NOTE, *notes), positive, condition)
+            return _defined(e, _finite_branches(branches, SQUARED_NOTE, *notes), positive, condition)
     return Normal(((Finite(e),),))
 
 
@@ -288,13 +255,9 @@ def _nonlinear(e: Expr, positive: frozenset[Expr]) -> Normal:
 
 def _velocity_pieces(e: Expr, positive: frozenset[Expr]) -> tuple[list[tuple[Piece, ...]], str]:
     """The branches of one irreducible relation in velocities, and what was done."""
-    velocities = velocities_of(e)
-    if not velocities:
-        return [(Finite(e),)], ""
-    form = linear_form(e)
-    if form is not None:
-        return [(form if form.coefficients else Finite(form.dt),)], ""
-    branches = linear_branches(e, velocities, positive)
+    if linear_form(e) is not None:
+        return [(_linear_piece(e),)], ""
+    branches = linear_branches(e, velocities_of(e), positive)
     if branches is None:
         return [(Nonlinear(e),)], ""
     return [tuple(map(_linear_piece, branch)) for branch in branches], QUADRATIC_NOTE

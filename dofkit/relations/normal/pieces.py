@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import substitute
 from dofkit.expressions.renaming import Renaming, Unwritten, shape_of
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.domain import DomainCondition
@@ -45,6 +44,13 @@ class Pfaffian:
         if not self.dt.is_zero:
             yield ex.TIME, self.dt
 
+    @property
+    def components(self) -> dict[Expr, Expr]:
+        """The coefficient of every symbol that occurs, 0 for those that only coefficients mention."""
+        written = dict(self.items())
+        mentioned = {s for e in written.values() for s in e.symbols if s.args[0] in ("coordinate", "time")}
+        return written | dict.fromkeys(sorted(mentioned - written.keys(), key=repr), ex.ZERO)
+
 
 @dataclass(frozen=True)
 class Nonlinear:
@@ -80,15 +86,6 @@ class Normal(NamedTuple):
         if len(self.branches) == 1 and len(self.branches[0]) == 1:
             return () if isinstance(self.branches[0][0], DomainCondition) else self.branches[0]
         return tuple(piece for branch in self.branches for piece in branch if not isinstance(piece, DomainCondition))
-
-
-def with_values(piece: Piece, values: Mapping[str, Expr]) -> Piece:
-    """Return a piece with some coordinates replaced by expressions."""
-    mapping = {ex.coordinate(c): value for c, value in values.items()}
-    if isinstance(piece, Pfaffian):
-        named = {name: substitute(e, mapping) for name, e in piece.coefficients.items()}
-        return Pfaffian(named, substitute(piece.dt, mapping))
-    return replace(piece, expr=substitute(piece.expr, mapping))
 
 
 class JointEquation(Finite):

@@ -7,16 +7,10 @@ is dropped, a product becomes branches. No branch: no real zero.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from fractions import Fraction
-
-from dofkit.base.deadline import check
 from dofkit.base.errors import NoValueError
-from dofkit.exact.analyticity import is_analytic
 from dofkit.exact.ring.canonical import Canon
+from dofkit.exact.ring.radicals import never_negative
 from dofkit.exact.ring.ring import Ring
-from dofkit.expressions import tree as ex
-from dofkit.expressions.enclosures import interval_of
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.polynomial_zeros import (
     EMPTY_NOTE,
@@ -135,21 +129,9 @@ def sign_as_written(term: Expr, positive: frozenset[Expr]) -> int | None:
     for factor in term.args if term.op == "mul" else (term,):
         if factor.op == "num":
             sign = sign if factor.args[0] > 0 else -sign
-        elif not _never_negative(factor, positive):
+        elif not never_negative(factor, positive):
             return None
     return sign
-
-
-def _never_negative(factor: Expr, positive: frozenset[Expr]) -> bool:
-    if factor in positive or (factor.op == "fn" and factor.args[0] in ("exp", "abs", "cosh")):
-        return True
-    if factor.op == "const":
-        return True
-    if factor.op == "pow" and factor.args[1].op == "num":
-        exponent: Fraction = factor.args[1].args[0]
-        even = exponent.denominator == 1 and exponent % 2 == 0
-        return even or exponent.denominator % 2 == 0 or factor.args[0] in positive
-    return False
 
 
 def _below(factor: Expr) -> bool:
@@ -161,53 +143,3 @@ def never_vanishes(e: Expr, positive: frozenset[Expr]) -> bool:
     """True where ``e`` is proved to be zero at no real point; False says nothing."""
     branches, _ = zero_set(e, positive, e.symbols)
     return not branches
-
-
-#: Where zeros are looked for: up to this size, at so many places to a unit; steps to halve an interval.
-REACH, PLACES, HALVINGS = 10, 8, 40
-#: Zeros that are tried have at most this denominator, or are such a multiple of pi.
-MAX_DENOMINATOR = 24
-
-
-def is_analytic_in_coordinates(e: Expr, *, poles: bool) -> bool:
-    """Return whether ``e`` holds coordinates only, is no unknown function and is analytic in them."""
-    declared = all(s.args[0] == "coordinate" for s in e.symbols) and "call" not in e.functions
-    return declared and is_analytic(e, e.symbols, poles=poles)
-
-
-def candidates(relations: Sequence[Expr], s: Expr) -> Iterator[Expr]:
-    """Short numbers, and multiples of pi, near which all of the relations are small."""
-    grid = [Fraction(k, PLACES) for k in range(-REACH * PLACES, REACH * PLACES + 1)]
-    sizes = [_size(relations, s, x) for x in grid]
-    seen = set[Expr]()
-    for k in sorted(range(1, len(grid) - 1), key=lambda k: (abs(grid[k]), grid[k] < 0)):
-        check()
-        if sizes[k] > min(sizes[k - 1], sizes[k + 1]):
-            continue
-        least = _least(relations, s, grid[k - 1], grid[k + 1])
-        turns = least / Fraction(314159265358979, 10**14)
-        for value in (_short(least), _short(turns) * ex.PI):
-            if value not in seen:
-                seen.add(value)
-                yield value
-
-
-def _short(x: Fraction) -> Expr:
-    return ex.num(x.limit_denominator(MAX_DENOMINATOR))
-
-
-def _size(relations: Sequence[Expr], s: Expr, x: Fraction) -> float:
-    result = [interval_of(g, {s: x}) for g in relations]
-    return sum(float("inf") if ball is None else abs(float(ball.mid())) for ball in result)
-
-
-def _least(relations: Sequence[Expr], s: Expr, low: Fraction, high: Fraction) -> Fraction:
-    """Where the relations are smallest between two places, by thirds."""
-    for _ in range(HALVINGS):
-        third = (high - low) / 3
-        first, second = (x.limit_denominator(10**12) for x in (low + third, high - third))
-        if _size(relations, s, first) <= _size(relations, s, second):
-            high = second
-        else:
-            low = first
-    return (low + high) / 2

@@ -14,9 +14,17 @@ from dofkit.scene.constraints.base import ConstraintBase, Equation, On
 from dofkit.scene.constraints.contacts import Cam, Gear, Roll
 from dofkit.scene.constraints.coupling import Coupling
 from dofkit.scene.constraints.distances import Link, Rigid, String
+from dofkit.scene.constraints.joints import (
+    Cylindrical,
+    Planar,
+    Prismatic,
+    Revolute,
+    Screw,
+    Spherical,
+    Universal,
+    Weld,
+)
 from dofkit.scene.constraints.places import Coincident, Fixed, Slot
-from dofkit.scene.constraints.plane_and_space import Prismatic, Revolute, Weld
-from dofkit.scene.constraints.spatial import Cylindrical, Planar, Screw, Spherical, Universal
 
 __all__ = ["TYPES", "AnyConstraint", "ConstraintBase"]
 

@@ -17,15 +17,16 @@ from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.terms import linear_terms
 from dofkit.expressions.text import valid_name
 from dofkit.expressions.tree import MINUS_ONE, ONE, TIME, ZERO, Expr, coordinate, mul
-from dofkit.expressions.vectors import Vec, difference, dot, is_zero, length
+from dofkit.expressions.vectors import difference, dot, is_zero, length
 from dofkit.scene.constraints.base import ConstraintBase, root
-from dofkit.scene.constraints.joints import Axial, Joint, Measure
+from dofkit.scene.constraints.joint_parts import JointGeometry, Measure
+from dofkit.scene.constraints.joints import Driven
 from dofkit.scene.drawing import Frame, relative
 from dofkit.scene.fields import Text, untagged
 from dofkit.scene.ledger import FINITE
 from dofkit.scene.names import within_member
 from dofkit.scene.symbols import Symbol
-from dofkit.scene.world import Direction, World
+from dofkit.scene.world import World
 from dofkit.system import JointRate, Kinematics, Relation, TypeFacts, VelocityRow
 
 #: Angles in ratios of integers are written without arcs up to this sum of the integers.
@@ -110,7 +111,8 @@ class Coupling(ConstraintBase):
         for e, sense, *_ in relations:
             if sense == "=" and not self._fits(world, e, measured):
                 return
-            yield Relation(_in_turns(e, measured) or _in_arcs(e, measured), sense)
+            in_arcs = substitute(e, {letter: joint.value for letter, joint in measured.items()})
+            yield Relation(_in_turns(e, measured) or in_arcs, sense)
 
     def _within_half_turns(self, world: World, bounds: Sequence[Expr], measured: Mapping[Expr, MeasuredJoint]) -> bool:
         """Return whether bounds on an angle of space lie within half a turn of the reference; else record a fault.
@@ -125,7 +127,7 @@ class Coupling(ConstraintBase):
             world.fault(message, "text", hint="choose a reference configuration nearer to the middle of their ranges")
             return False
         for letter, joint in measured.items():
-            low, high = _bounds_of(letter, bounds) if joint.axis is not None and joint.measure.turns else (-inf, inf)
+            low, high = _bounds_of(letter, bounds) if joint.turns_in_space else (-inf, inf)
             if _stated_by_arcs(low, high):
                 continue
             hint = "choose a reference configuration nearer to the middle of its range"
@@ -151,11 +153,11 @@ class Coupling(ConstraintBase):
         name, what = _split(written, world.entries)
         joint = world.entries.get(name)
         if joint is None:
-            joints = [key for key, entry in world.entries.items() if isinstance(entry, Joint) and entry.measures]
+            joints = [key for key, entry in world.entries.items() if isinstance(entry, Driven)]
             world.unknown("joint", name, joints, "joints", letter)
             return None
-        measures = joint.measures if isinstance(joint, Joint) else {}
-        if not isinstance(joint, Axial) or (not what and len(measures) != 1) or (what and what not in measures):
+        measures = joint.measures() if isinstance(joint, Driven) else {}
+        if not isinstance(joint, Driven) or (not what and len(measures) != 1) or (what and what not in measures):
             choices = " or ".join(f"`{name}.{key}`" for key in measures)
             hint = f"write {choices}" if choices else "name a revolute, prismatic, cylindrical or screw joint"
             world.fault(f"'{written}' is not an angle or a displacement of a joint", "joints", letter, hint=hint)
@@ -164,22 +166,22 @@ class Coupling(ConstraintBase):
         measured = self._located(world, letter, joint, measures[what])
         return None if measured is None else measured._replace(name=f"{name}.{what}")
 
-    def _located(self, world: World, letter: str, joint: Axial, measure: Measure) -> MeasuredJoint | None:
+    def _located(self, world: World, letter: str, joint: Driven, measure: Measure) -> MeasuredJoint | None:
         """Return the joint where it is drawn."""
-        planar = world.dimension == 2 and measure.turns
+        planar, placed = world.dimension == 2 and measure.turns, joint.holds.placed and not measure.turns
         if any(end not in world.frames and end != world.ground.name for end in joint.between):
             return None
-        if (joint.axis is None and not planar) or (joint.at is None and measure.placed):
+        if (joint.axis is None and not planar) or (joint.at is None and placed):
             hint = "give the joint its `at` and `axis`"
             world.fault("a joint in general position has no angle that a coupling can use", "joints", letter, hint=hint)
             return None
         axis = None if planar else world.drawn_direction(joint.axis)
-        place = world.drawn_vector(joint.at)
-        if (axis is None and not planar) or (place is None and measure.placed):
+        place = world.drawn_vector(joint.at) if joint.holds.placed else None
+        if (axis is None and not planar) or (place is None and placed):
             return None
         first, second = (world.frame(end, "joints", letter) for end in joint.between)
         world.drawn.update(joint.between)
-        return MeasuredJoint(first, second, place or (ZERO,) * world.dimension, axis, measure, "")
+        return MeasuredJoint(first, second, JointGeometry(place, () if axis is None else (axis,)), measure, "")
 
     def _fits(self, world: World, e: Expr, measured: Mapping[Expr, MeasuredJoint]) -> bool:
         """Record the rates at the drawing, where every joint stands at 0; whether the relation has a value there."""
@@ -211,40 +213,45 @@ class Coupling(ConstraintBase):
 
 
 class MeasuredJoint(NamedTuple):
-    """A joint where it is drawn, and what of it is measured; its axis is None in the plane."""
+    """A joint where it is drawn, and what of it is measured."""
 
     first: Frame
     second: Frame
-    place: Vec
-    axis: Direction | None
+    drawn: JointGeometry
     measure: Measure
     name: str
 
     @property
+    def turns_in_space(self) -> bool:
+        """Whether it is an angle about an axis of space."""
+        return self.measure.turns and bool(self.drawn.axes)
+
+    @property
     def value(self) -> Expr:
         """Its angle or displacement."""
-        return self.measure.value(self.first, self.second, self.place, self.axis)
+        return self.measure.value(self.first, self.second, self.drawn)
 
     def rate(self, slope: Expr) -> JointRate:
         """Return how its rate enters where the relation has that slope."""
-        size = ONE if self.axis is None else length(self.axis.vector)
+        axis = self.drawn.axis.vector if self.drawn.axes else ()
         return JointRate(
             self.name,
             slope,
             self.measure.rate,
             (self.first.name, self.second.name),
-            self.place,
-            () if self.axis is None else self.axis.vector,
-            slope / size,
+            self.drawn.place or (ZERO,) * self.first.dimension,
+            axis,
+            slope / length(axis) if axis else slope,
             not self.measure.turns,
         )
 
     def half(self) -> tuple[Expr, Expr] | None:
         """Return cosine and sine of half its angle up to a positive factor; None for no angle of Gibbs charts."""
-        turned = relative(self.first, self.second) if self.axis is not None and self.measure.turns else None
-        if turned is None or self.axis is None:
+        turned = relative(self.first, self.second) if self.turns_in_space else None
+        if turned is None:
             return None
-        return mul(turned[0], length(self.axis.vector)), dot(turned[1], self.axis.vector)
+        axis = self.drawn.axis.vector
+        return mul(turned[0], length(axis)), dot(turned[1], axis)
 
 
 def _most(e: Expr, measured: Mapping[Expr, MeasuredJoint]) -> float:
@@ -252,7 +259,7 @@ def _most(e: Expr, measured: Mapping[Expr, MeasuredJoint]) -> float:
     slopes = {letter: approximate(diff(e, letter)) for letter in measured}
     moving = [letter for letter, slope in slopes.items() if slope != 0]
     at = approximate(substitute(e, dict.fromkeys(measured, ZERO)))
-    turning = all(measured[letter].axis is not None and measured[letter].measure.turns for letter in moving)
+    turning = all(measured[letter].turns_in_space for letter in moving)
     if at is None or None in slopes.values() or len(moving) < 2 or not turning:
         return inf
     return at + pi * sum(abs(slope or 0.0) for slope in slopes.values())
@@ -279,11 +286,6 @@ def _split(written: str, entries: Mapping[str, object]) -> tuple[str, str]:
     """Return the joint's name, and what of it is meant."""
     name, dot_, what = written.rpartition(".")
     return (name, what) if dot_ and written not in entries else (written, "")
-
-
-def _in_arcs(e: Expr, measured: Mapping[Expr, MeasuredJoint]) -> Expr:
-    """Return the relation with every angle as an arc."""
-    return substitute(e, {letter: joint.value for letter, joint in measured.items()})
 
 
 def _in_turns(e: Expr, measured: Mapping[Expr, MeasuredJoint]) -> Expr | None:

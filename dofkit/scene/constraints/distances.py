@@ -14,7 +14,7 @@ from dofkit.expressions.calculus import substitute
 from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.tree import ONE, TIME, TWO, ZERO, Expr, add, fn, mul, power, sqrt
 from dofkit.expressions.vectors import Vec, difference, square, square_between
-from dofkit.scene.constraints.base import ConstraintBase, root
+from dofkit.scene.constraints.base import ConstraintBase
 from dofkit.scene.drawing import Placed, between
 from dofkit.scene.fields import Value, as_written
 from dofkit.scene.parts import Ends, Point, show_point
@@ -54,14 +54,15 @@ class Link(ConstraintBase):
             return
         given_length = None if self.length is None else world.expression(self.length, "length")
         if given_length is not None:
-            _check_length(world, first, second, given_length, "length")
+            drawn = (
+                sqrt(square_between(first.reference, second.reference))
+                if first.reference and second.reference
+                else None
+            )
+            _check_length(world, given_length, drawn, f"{first.label} and {second.label} are", "apart")
         if first.frame is None and second.frame is None and (given_length is None or not _moves(given_length)):
             world.links.append((world.index, first.label, second.label))
         yield Relation(distance(world, first, second, given_length))
-
-    def texts(self) -> Iterator[str]:
-        if isinstance(self.length, str):
-            yield self.length
 
     @property
     def in_words(self) -> str:
@@ -102,27 +103,20 @@ def distance(world: World, first: Placed, second: Placed, length: Expr | None) -
     return difference(square(arm), squared if under is ONE else mul(squared, power(under, TWO)))
 
 
-def _check_length(world: World, first: Placed, second: Placed, length: Expr, *where: str | int) -> None:
-    """A length that contradicts the drawing is a fault that shows both."""
+def _check_length(world: World, length: Expr, drawn: Expr | None, before: str, after: str) -> None:
+    """A length that contradicts the drawing is a fault that shows both, the latter between two pieces of text."""
     start = substitute(length, {TIME: ZERO})
     figure = approximate(start)
     if figure is not None and figure < 0:
-        world.fault(f"a length cannot be negative ({figure:.6g})", *where, hint=f"write `length: {-figure:.6g}`")
-    if first.reference is None or second.reference is None:
+        world.fault(f"a length cannot be negative ({figure:.6g})", "length", hint=f"write `length: {-figure:.6g}`")
+    if drawn is None or not world.differs(difference(power(start, TWO), power(drawn, TWO))):
         return
-    drawn = square_between(first.reference, second.reference)
-    if not world.differs(difference(power(start, TWO), drawn)):
-        return
-    measured = root(drawn)
-    apart = f"{first.label} and {second.label} are {_figure(measured)} apart"
-    message = f"the length {_figure(figure)} contradicts the reference configuration, where {apart}"
+    measured = approximate(drawn)
+    told = f"{before} {_figure(measured)} {after}"
+    message = f"the length {_figure(figure)} contradicts the reference configuration, where {told}"
     hint = f"write `length: {_figure(measured)}` or leave it out; set `tolerance` if it is measured"
-    world.misfit(_less(figure, measured), message, *where, hint=hint)
-
-
-def _less(a: float | None, b: float | None) -> float | None:
-    """a - b, where both are numbers."""
-    return None if a is None or b is None else a - b
+    off = None if figure is None or measured is None else figure - measured
+    world.misfit(off, message, "length", hint=hint)
 
 
 def _figure(number: float | None) -> str:
@@ -202,18 +196,13 @@ class String(ConstraintBase):
         total = add(*drawn) if len(drawn) == len(lengths) else None
         if self.length is not None:
             given_length = world.expression(self.length, "length")
-            if total is not None:
-                _check_string(world, given_length, total)
+            _check_length(world, given_length, total, "the string is", "long")
         else:
             given_length = world.fresh("L") if total is None else total
         for first, second in combinations(points, 2):
             if first.label != second.label:
                 world.apart(first, second, power(given_length, TWO), at_most=True)
         yield Relation(difference(add(*lengths), given_length))
-
-    def texts(self) -> Iterator[str]:
-        if isinstance(self.length, str):
-            yield self.length
 
     @property
     def in_words(self) -> str:
@@ -223,12 +212,3 @@ class String(ConstraintBase):
 
 def _length(arm: Vec) -> Expr:
     return fn("abs", arm[0]) if len(arm) == 1 else sqrt(square(arm))
-
-
-def _check_string(world: World, length: Expr, drawn: Expr) -> None:
-    gap = difference(substitute(length, {TIME: ZERO}), drawn)
-    if not world.differs(gap):
-        return
-    a, b = approximate(substitute(length, {TIME: ZERO})), approximate(drawn)
-    message = f"the length {_figure(a)} contradicts the reference configuration, where the string is {_figure(b)} long"
-    world.misfit(_less(a, b), message, "length", hint="leave `length` out to take that length")

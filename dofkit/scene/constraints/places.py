@@ -8,10 +8,9 @@ from typing import ClassVar, Literal
 from pydantic import Field
 
 from dofkit.exact.matrices.sparse import across, less
-from dofkit.expressions.enclosures import approximate
-from dofkit.expressions.tree import ZERO, Expr, coordinate, mul
-from dofkit.expressions.vectors import Vec, difference, dot, minus, scaled
-from dofkit.scene.constraints.base import ConstraintBase, component_relations, figures, meet
+from dofkit.expressions.tree import TWO, ZERO, Expr, coordinate, mul, power
+from dofkit.expressions.vectors import Vec, difference, dot, minus, scaled, square
+from dofkit.scene.constraints.base import ConstraintBase, component_relations, figures, meet, root
 from dofkit.scene.drawing import Frame, Placed, between
 from dofkit.scene.fields import Vector
 from dofkit.scene.parts import BodyPoint, Ends, Point, show_point, show_vector
@@ -169,21 +168,12 @@ def _check_on_line(world: World, point: Placed, place: Vec, axis: Direction) -> 
     stands = point.reference
     if stands is None:
         return
-    offsets = [dot(u, minus(stands, place)) for u in axis.across]
-    if not world.any_differs(offsets):
+    arm, n = minus(stands, place), axis.vector
+    if not world.any_differs([dot(u, arm) for u in axis.across]):
         return
     message = (
         f"in the reference configuration {point.label} is at {figures(stands)}, off the line through {figures(place)}"
     )
     hint = "move the point or the line, or set `tolerance` if it is measured"
-    world.misfit(_apart(minus(stands, place), axis.vector), message, "point", hint=hint)
-
-
-def _apart(arm: Vec, axis: Vec) -> float | None:
-    a, n = [approximate(part) for part in arm], [approximate(part) for part in axis]
-    if None in a or None in n:
-        return None
-    numbers = [(x or 0.0, y or 0.0) for x, y in zip(a, n, strict=True)]
-    along_it = sum(x * y for x, y in numbers)
-    whole, size = sum(x * x for x, _ in numbers), sum(y * y for _, y in numbers)
-    return float(max(0.0, whole - along_it**2 / size) ** 0.5)
+    distance = root(difference(square(arm), power(dot(arm, n), TWO) / square(n)))
+    world.misfit(distance, message, "point", hint=hint)
