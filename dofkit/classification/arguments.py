@@ -1,8 +1,6 @@
 """The arguments by which answers are given: what each shows, from which hypotheses, and which function checks these.
 
-An answer that is sure names a row of `arguments.yaml`: `dofkit.base.verdicts.Claim` lets none be written without. The
-criteria for motions at a reference configuration are rows of their own table (`configuration/local/criteria.py`), and
-stand among the arguments as well.
+An answer that is sure names a row of `arguments.yaml`: `dofkit.base.verdicts.Claim` lets none be written without.
 """
 
 from __future__ import annotations
@@ -14,7 +12,6 @@ from typing import NamedTuple
 
 from dofkit.base.documents import read_document
 from dofkit.base.verdicts import ArgumentKey
-from dofkit.configuration.local.criteria import CONCLUSIONS, CRITERIA
 
 
 class Argument(NamedTuple):
@@ -33,8 +30,4 @@ class Argument(NamedTuple):
 def arguments() -> Mapping[ArgumentKey, Argument]:
     """Return the arguments by their keys."""
     written = read_document(files(__package__).joinpath("arguments.yaml").read_bytes(), "arguments.yaml").value
-    rows: dict[ArgumentKey, Argument] = {key: Argument(**row) for key, row in written.items()}
-    for criterion in CRITERIA:
-        check, claims = f"{criterion.decide.__module__}.{criterion.decide.__name__}", CONCLUSIONS[criterion.concludes]
-        rows[criterion.key] = Argument(claims, criterion.hypotheses, check, criterion.theorem)
-    return rows
+    return {key: Argument(**row) for key, row in written.items()}

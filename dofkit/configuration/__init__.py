@@ -16,9 +16,9 @@ Mechanisms, in the order in which they are tried
     3. `measured` is the one numerical route for a scene with a tolerance: rank with its gap, second order,
        continuation, the geometry exactly as written; otherwise undecided.
     4. Without one, `search` finds points over GF(p) by solving one relation after another (`variety`) and holds
-       them against certified real points; `generic_dimension` is the rank there. Where every real point is singular,
-       one is brought to high precision there. `components` asks whether a larger component exists [Krull1928]; `cases`
-       divides a set where a factor, or a coefficient, vanishes.
+       them against certified real points; `generic_dimension` is the rank there. `components` asks whether a larger
+       component exists [Krull1928]; `cases` divides a set where a factor, or a coefficient, vanishes, which also finds
+       the points of a set that is singular throughout.
 
 `finite_blocks` puts these together for blocks of finite relations. `rigid_motions` are the motions of the system as one
 rigid body. `implied_relations` asks whether a dependent relation is implied by others near the reference configuration.

@@ -19,6 +19,7 @@ from dofkit.exact.zero import independent_generators
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.tree import Expr
+from dofkit.relations.linear_relations import linear
 from dofkit.relations.normal.zero_set import zero_set
 
 #: Cases that are told apart, in all; nodes of an expression past which no coordinate is put into it.
@@ -122,9 +123,9 @@ def _split(case: ZeroCase, moving: frozenset[Expr], positive: frozenset[Expr]) -
 
 
 def _combined(relations: Sequence[Expr], moving: frozenset[Expr], positive: frozenset[Expr]) -> tuple[Expr, ...] | None:
-    """Combinations with numbers that say the same, where one of them falls into factors; None where none does.
+    """Combinations with numbers that say the same, where one of them is linear or falls into factors; else None.
 
-    x^2 + z^2 = a^2 and x^2 + (z - w)^2 = a^2 give w (w - 2 z) = 0.
+    x^2 + z^2 = a^2 and x^2 + (z - w)^2 = a^2 give w (w - 2 z) = 0; two circles meet on a line.
     """
     if len(relations) < 2:
         return None
@@ -136,7 +137,7 @@ def _combined(relations: Sequence[Expr], moving: frozenset[Expr], positive: froz
         return None
     combinations = tuple(canon.to_expr(canon.ctx.from_dict(row)) for row in rows)
     new = (g for g in combinations if not any(_same_zeros(g, e, positive) for e in relations))
-    return combinations if any(zero_set(g, positive, moving)[0] != ((g,),) for g in new) else None
+    return combinations if any(linear(g) or zero_set(g, positive, moving)[0] != ((g,),) for g in new) else None
 
 
 def _linear(relations: Sequence[Expr], moving: frozenset[Expr]) -> Iterator[tuple[tuple[int, int], Expr, Expr, Expr]]:

@@ -22,9 +22,11 @@ from dofkit.base.errors import NoValueError
 from dofkit.base.verdicts import ArgumentKey, weakest
 from dofkit.configuration import cases as all_cases
 from dofkit.configuration.variety import Variety, chart_of_relations, field_jacobian, on_variety
+from dofkit.exact.analyticity import is_analytic
 from dofkit.exact.matrices.sparse import components, rank_of_rows
 from dofkit.exact.ring.canonical import Canon, is_identically_zero
 from dofkit.exact.ring.ring import Ring
+from dofkit.exact.zero import independent_generators
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
@@ -34,6 +36,8 @@ from dofkit.relations.normal.zero_set import never_vanishes
 
 #: Relations that are looked at; cases of all parts together that are looked at, and that are listed.
 MAX_RELATIONS, MAX_TOGETHER, MAX_PRODUCTS = 200, 16, 2000
+#: Functions that are one branch of several; of signs see `_in_regions`.
+BRANCHED = ("root", "asin", "atan", "atan2")
 LARGER = "over the complex numbers the set has a component of larger dimension, and its real points were not decided"
 NO_CASE = "no configuration satisfies all equations: each case leads to an equation without a solution"
 NEAR = (
@@ -140,8 +144,11 @@ def by_cases(chart: Chart, variety: Variety, look: Callable[[Chart], Variety]) -
     if None in cases or prod(len(c or ()) for c in cases) > MAX_PRODUCTS:
         return variety
     together = sorted(cartesian(*(c for c in cases if c is not None)), key=lambda choice: -_most(choice))
-    for choice in together[:MAX_TOGETHER] if len(together) > 1 or variety.parted else ():
-        seen = _variety_of(chart, [*solved.explicit.values(), *(g for case in choice for g in case.relations)], look)
+    for choice in together[:MAX_TOGETHER]:
+        relations = [*solved.explicit.values(), *(g for case in choice for g in case.relations)]
+        if set(relations) == set(chart.relations) and not variety.parted:
+            continue
+        seen = _variety_of(chart, relations, look)
         samples = [p for p in seen.samples if on_variety(chart, p)]
         if seen.consistent and samples:
             return replace(seen, samples=samples)
@@ -178,7 +185,7 @@ def _larger(chart: Chart, best: Variety, other: Variety, most: int) -> tuple[Var
 
 def _restricted(chart: Chart, relations: Sequence[Expr]) -> Chart:
     """The chart with other relations, in a ring of their own: they may have no value where those of the chart do."""
-    ring = chart.ring.another()
+    ring = chart.ring.another(relations)
     for var in chart.ring.vars:
         if var.kind == "symbol":
             ring.symbol(var.key)
@@ -187,7 +194,7 @@ def _restricted(chart: Chart, relations: Sequence[Expr]) -> Chart:
 
 def is_graph(chart: Chart) -> bool:
     """Return whether every relation gives a coordinate as a function of others on one region [ImplicitFunctions]."""
-    if len(chart.relations) > MAX_RELATIONS or _in_regions(chart):
+    if len(chart.relations) > MAX_RELATIONS or _in_regions(chart) or _has_branches(chart):
         return False
     return not explicit_relations(chart.relations).implicit
 
@@ -202,13 +209,29 @@ def _in_regions(chart: Chart) -> bool:
     return any(not moving.isdisjoint(u) and not any(s.args[0] == "velocity" for s in u) for u in signs)
 
 
+def _has_branches(chart: Chart) -> bool:
+    """Return whether functions of what moves may be related in some regions only: acos(cos(x)) is x, or -x.
+
+    On the set y = x^2 so is sqrt(y). Elsewhere what is analytic has one relation in all regions, and independent
+    generators have none.
+    """
+    moving, related = frozenset(chart.symbols), frozenset[Expr]().union(*(g.symbols for g in chart.relations))
+    branched = [chart.ring.var_expr[v.index] for v in chart.ring.vars if v.kind in BRANCHED]
+    independent = independent_generators(chart.ring)
+    return any(
+        not related.isdisjoint(moving & e.symbols)
+        or not (independent or is_analytic(e, moving, chart.setting.positive))
+        for e in branched
+    )
+
+
 def is_irreducible(chart: Chart) -> bool:
     """Return whether the set is known to have one component: what is generic at a regular point is so at all of them.
 
     So have a graph, and the zeros of one polynomial without factors: parts that it may have over larger numbers are
     conjugate, and as good as each other.
     """
-    if len(chart.relations) > MAX_RELATIONS or _in_regions(chart):
+    if len(chart.relations) > MAX_RELATIONS or _in_regions(chart) or _has_branches(chart):
         return False
     implicit = explicit_relations(chart.relations).implicit
     if len(implicit) != 1:

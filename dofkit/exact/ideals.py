@@ -7,12 +7,11 @@ from __future__ import annotations
 
 import random
 from collections.abc import Mapping, Sequence
-from fractions import Fraction
 from itertools import combinations
 from math import lcm
 from typing import Any
 
-from flint import Ordering, fmpq_mat, fmpz_mpoly_ctx, fmpz_mpoly_vec
+from flint import Ordering, fmpq, fmpq_mat, fmpz_mpoly_ctx, fmpz_mpoly_vec
 
 from dofkit.base.deadline import check
 from dofkit.base.errors import NoValueError
@@ -30,7 +29,6 @@ LARGEST = 10**4
 COMBINED_ENTRIES = 20_000
 
 Poly = Any
-Table = dict[tuple[int, ...], Fraction]
 
 
 def dimension_of(canon: Canon, generators: Sequence[Poly], moving: Sequence[int]) -> int | None:
@@ -73,7 +71,7 @@ def _integer_polynomials(
     place = {i: k for k, i in enumerate(kept)}
     ctx = fmpz_mpoly_ctx.get([f"u{k}" for k in range(len(kept))], Ordering.degrevlex)
     gens = ctx.gens()
-    polynomials = [ctx.from_dict(_whole(_table(p, len(ring.vars), place, values))) for p in generators]
+    polynomials = [ctx.from_dict(_whole(p, kept, values)) for p in generators]
     circles = [gens[place[c]] ** 2 + gens[place[s]] ** 2 - 1 for c, s in pairs]
     return [*polynomials, *circles], len(kept), len(moving) - len(seen)
 
@@ -95,17 +93,17 @@ def _unknowns(ring: Ring, used: Sequence[int], moving: Sequence[int]) -> list[in
     return None if angles & kept else sorted(kept)
 
 
-def _constants(ring: Ring, others: Sequence[int], rng: random.Random) -> dict[int, Fraction]:
+def _constants(ring: Ring, others: Sequence[int], rng: random.Random) -> dict[int, fmpq]:
     """Random values of parameters and functions of them: a cosine and its sine are a point of the circle."""
-    values = dict[int, Fraction]()
+    values = dict[int, fmpq]()
     for i in others:
         var = ring.vars[i]
         if var.kind in ("cos", "sin") and i not in values:
-            half = Fraction(rng.randint(2, LARGEST), LARGEST)
+            half = fmpq(rng.randint(2, LARGEST), LARGEST)
             pair = {"cos": (1 - half**2) / (1 + half**2), "sin": 2 * half / (1 + half**2)}
             values |= {i: pair[var.kind], var.partner: pair[ring.vars[var.partner].kind]}
         else:
-            values.setdefault(i, Fraction(rng.randint(2, LARGEST)))
+            values.setdefault(i, fmpq(rng.randint(2, LARGEST)))
     return values
 
 
@@ -114,26 +112,11 @@ def _angle(ring: Ring, index: int) -> int | None:
     return ring.var_index(ring.vars[index].key[0])
 
 
-def _table(p: Poly, count: int, place: Mapping[int, int], values: Mapping[int, Fraction]) -> Table:
-    """Return the terms of a polynomial of the canonical ring in the unknowns, with numbers for the rest."""
-    table: Table = {}
-    for exponents, c in p.to_dict().items():
-        number = Fraction(int(c.p), int(c.q))
-        monomial = [0] * len(place)
-        for position, k in enumerate(exponents):
-            index = count - 1 - position
-            if k and index in place:
-                monomial[place[index]] = int(k)
-            elif k:
-                number *= values[index] ** int(k)
-        key = tuple(monomial)
-        table[key] = table.get(key, Fraction(0)) + number
-    return table
-
-
-def _whole(table: Table) -> dict[tuple[int, ...], int]:
-    scale = lcm(*(c.denominator for c in table.values()))
-    return {m: int(c * scale) for m, c in table.items() if c}
+def _whole(p: Poly, kept: Sequence[int], values: Mapping[int, fmpq]) -> dict[tuple[int, ...], int]:
+    """Return the terms of a polynomial of the canonical ring, times a number, with ``values`` for what is not kept."""
+    terms = p.subs({f"v{i}": value for i, value in values.items()}).to_dict()
+    scale = lcm(*(int(c.q) for c in terms.values()))
+    return {tuple(int(powers[-1 - i]) for i in kept): int(c * scale) for powers, c in terms.items()}
 
 
 def _basis(polynomials: Sequence[Poly]) -> list[Poly] | None:

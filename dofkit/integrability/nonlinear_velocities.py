@@ -40,9 +40,9 @@ from dofkit.expressions.tree import Expr
 from dofkit.integrability.lie_algebra import Span, ball_span, span_at
 from dofkit.integrability.pfaffian_system import Codistribution, codistribution
 from dofkit.relations.answer import Answer, HolonomyLabel
-from dofkit.relations.blocks import Block, Row, coordinates_of
+from dofkit.relations.blocks import Block, Row, coordinates_of, joined
 from dofkit.relations.normal.normal_form import velocities_of
-from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian
+from dofkit.relations.normal.pieces import Nonlinear, Pfaffian
 from dofkit.relations.setting import Setting
 from dofkit.relations.velocity_reductions import RewrittenRow
 
@@ -231,9 +231,7 @@ def blocks_of(slot: RewrittenRow, blocks: Sequence[Block]) -> list[int]:
 def _joint_block(slot: RewrittenRow, blocks: Sequence[Block], numbers: Sequence[int]) -> Block:
     names = dict.fromkeys(c for k in numbers for c in blocks[k].coordinates)
     names |= dict.fromkeys(sorted(coordinates_of(slot.written.piece)))
-    rows = [r for k in numbers for r in blocks[k].rows]
-    finite = [r for r in rows if isinstance(r.piece, Finite)]
-    return Block(tuple(names), (*finite, *(r for r in rows if not isinstance(r.piece, Finite))))
+    return joined(names, [blocks[k] for k in numbers])
 
 
 def with_reductions_checked(

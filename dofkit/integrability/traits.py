@@ -228,12 +228,8 @@ def _is_homogeneous(e: Expr) -> bool:
 
 def exact(form: Pfaffian, positive: frozenset[Expr], engines: Engines = BOTH) -> TraitAnswer:
     """Closed as written: d(omega) = 0 in (q, t). Not integrability: x dy - y dx integrates and is not closed."""
-    items = list(form.items())
-    symbols = dict(items)
-    others = {s for _, e in items for s in e.symbols if s.args[0] in ("coordinate", "time")} - set(symbols)
-    everything = [*items, *((s, ex.ZERO) for s in others)]
     sure: Verdict = "proved"
-    for (s, a), (u, b) in combinations(everything, 2):
+    for (s, a), (u, b) in combinations(form.components.items(), 2):
         closed, verdict = zero_and_verdict(diff(b, s) - diff(a, u), positive, engines)
         if not closed:
             return closed, verdict
@@ -274,8 +270,7 @@ def proof(form: Pfaffian, positive: frozenset[Expr]) -> str | None:
     """Why the form integrates by itself, where that is proved; else None."""
     if exact(form, positive) == (True, "proved"):  # [PoincareLemma]
         return "it is closed, so locally it is the differential of a function"
-    symbols = {s for s, e in form.items() for s in (s, *e.symbols) if s.args[0] in ("coordinate", "time")}
-    if len(symbols) <= 2:  # [Frobenius1877]
+    if len(form.components) <= 2:  # [Frobenius1877]
         return "a form in two variables is always integrable"
     if len(dict(form.items())) <= 5 and all(zero == (True, "proved") for zero in _curvature(form, positive)):
         return "d(omega) ^ omega = 0 identically"
@@ -291,10 +286,7 @@ def is_curved(form: Pfaffian, setting: Setting) -> bool:
 
 def _curvature(form: Pfaffian, positive: frozenset[Expr]) -> Iterator[TraitAnswer]:
     """Yield whether d(omega) ^ omega is 0, component by component [Frobenius1877]."""
-    items = dict(form.items())
-    mentioned = {s for e in items.values() for s in e.symbols if s.args[0] in ("coordinate", "time")}
-    items |= dict.fromkeys(sorted(mentioned - items.keys(), key=repr), ex.ZERO)
-    for (s, a), (u, b), (w, c) in combinations(items.items(), 3):
+    for (s, a), (u, b), (w, c) in combinations(form.components.items(), 3):
         total = a * (diff(c, u) - diff(b, w))
         total += b * (diff(a, w) - diff(c, s))
         total += c * (diff(b, s) - diff(a, u))

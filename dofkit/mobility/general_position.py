@@ -188,18 +188,15 @@ def unprescribed_links(system: System) -> list[tuple[int, Pair]] | None:
     """
     if system.reference is not None or system.tolerance is not None or not system.constraints:
         return None
-    particles = frozenset(system.particles)
-    relations = sum(len(c.relations) for c in system.constraints)
+    particles, links = frozenset(system.particles), system.links
     free = frozenset(ex.parameter(p) for p in system.generic) - system.pose.keys()
-    if relations != len(system.links) or any(a == b or not {a, b} <= particles for _, a, b in system.links):
+    relations = [r for c in system.constraints for r in c.relations]
+    lengths = [frozenset(s for s in r.expr.symbols if s.args[0] != "coordinate") for r in relations]
+    left_out = all(r.sense == "=" and len(of) == 1 and of <= free for r, of in zip(relations, lengths, strict=True))
+    if not left_out or not len(set(lengths)) == len(relations) == len(links):
         return None
-    lengths = [s for c in system.constraints for r in c.relations if r.sense == "=" for s in r.expr.symbols & free]
-    if not len(lengths) == len(set(lengths)) == relations:
-        return None
-    parameters = {
-        s for c in system.constraints for r in c.relations for s in r.expr.symbols if s.args[0] != "coordinate"
-    }
-    return [(i, (a, b)) for i, a, b in system.links] if parameters == set(lengths) else None
+    joined = all(a != b and {a, b} <= particles for _, a, b in links)
+    return [(i, (a, b)) for i, a, b in links] if joined else None
 
 
 def _pairs(block: Block, setting: Setting) -> list[Pair] | None:

@@ -8,7 +8,7 @@ its points, its turn measured by how far they reach, so that a small body in a l
 from __future__ import annotations
 
 from itertools import pairwise
-from math import ceil, floor, log10
+from math import ceil, log10
 
 from dofkit.exact.matrices.dense import cross, length, plus, singular_values, unit_rows
 from dofkit.mobility.placement import TURNS, Member, Placement, rows_of
@@ -37,10 +37,11 @@ def nearly_dependent(placement: Placement, dimension: int, columns: int, rank: i
     if by_size is None or _gap(_about_middles(j, placement, dimension), rank) is None:
         return None
     small, large = by_size
+    tolerance = 10.0 ** ceil(log10(max(small, 1e-12)))
     return (
         f"the equations are nearly dependent at the reference configuration (singular values of {small:.1e} "
         f"beside {large:.1e}): if "
-        f"its positions are rounded or measured, `tolerance: {_rounded_up(max(small, 1e-12)):g}` states their accuracy"
+        f"its positions are rounded or measured, `tolerance: {tolerance:g}` states their accuracy"
     )
 
 
@@ -81,14 +82,3 @@ def _gap(j: list[list[float]], rank: int) -> tuple[float, float] | None:
         if below < NEAR and above > GAP * below:
             return below, above
     return None
-
-
-def _rounded_up(value: float) -> float:
-    """To one digit: 1, 2 or 5 times a power of ten.
-
-    >>> _rounded_up(0.0031)
-    0.005
-    """
-    power = 10.0 ** floor(log10(value))
-    digit = next(d for d in (1, 2, 5, 10) if d >= ceil(value / power * (1 - 1e-9)))
-    return digit * power

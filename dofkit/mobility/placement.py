@@ -8,7 +8,7 @@ member in order. No angles occur: a singular choice of coordinates is no singula
 from __future__ import annotations
 
 import random
-from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Hashable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -48,8 +48,7 @@ class Placement:
 
 def drawn_placement(system: System, positive: frozenset[Expr]) -> Placement | None:
     """The connections where they are drawn, roots and angles as exact numbers modulo p; what is not given is random."""
-    wanted = {part for vector in _vectors(system) for part in vector}
-    wanted |= set(_factors(system))
+    wanted = _wanted(system)
     ring = Ring([e for e in wanted if e.op != "num"], positive)
     nodes = {e: ring.node(e) for e in wanted}
     for seed in range(DRAWS):
@@ -65,9 +64,7 @@ def drawn_placement(system: System, positive: frozenset[Expr]) -> Placement | No
 
 def measured_placement(system: System) -> Placement | None:
     """Return the drawing in floating point, lengths in units of the scene's size; None where it holds parameters."""
-    wanted = {part for vector in _vectors(system) for part in vector}
-    wanted |= set(_factors(system))
-    numbers = {e: approximate(e) for e in wanted}
+    numbers = {e: approximate(e) for e in _wanted(system)}
     if None in numbers.values():
         return None
     return _placement(system, _Drawn(0, {e: float(v or 0) / system.size for e, v in numbers.items()}, system.size))
@@ -160,18 +157,15 @@ def _key(point: DrawnPoint) -> Hashable:
     return point.carrier if point.particle else (point.carrier, point.at)
 
 
-def _factors(system: System) -> Iterator[Expr]:
+def _wanted(system: System) -> set[Expr]:
+    """Return every number of the drawing."""
+    vectors: list[Vector | None] = [*system.starts.values()]
+    numbers = [c.number for c in system.connections if c.number is not None]
     for c in system.connections:
-        yield from () if c.number is None else (c.number,)
-        yield from (rate.factor for rate in c.rates)
-
-
-def _vectors(system: System) -> Iterator[Vector]:
-    yield from system.starts.values()
-    for c in system.connections:
-        drawn = (*c.places, *c.directions, *(point.at for point in c.points))
-        yield from (vector for vector in drawn if vector is not None)
-        yield from (vector for rate in c.rates for vector in (rate.place, rate.direction))
+        vectors += [*c.places, *c.directions, *(point.at for point in c.points)]
+        vectors += [vector for rate in c.rates for vector in (rate.place, rate.direction)]
+        numbers += [rate.factor for rate in c.rates]
+    return {*numbers, *(part for vector in vectors if vector is not None for part in vector)}
 
 
 def _placement(system: System, numbers: _Drawn | _General) -> Placement:

@@ -69,8 +69,7 @@ def split(coordinates: Sequence[str], rows: Sequence[Row]) -> tuple[list[Block],
     for numbers in components(_linked(rows, touched)):
         conditions = tuple(dict.fromkeys(p for i in numbers if isinstance(p := rows[i].piece, DomainCondition)))
         members = [rows[i] for i in numbers if not isinstance(rows[i].piece, DomainCondition)]
-        ordered = [r for r in members if isinstance(r.piece, Finite)]
-        ordered += [r for r in members if not isinstance(r.piece, Finite)]
+        ordered = sorted(members, key=_is_no_equation)
         names = sorted(_all({id(touched[i]): touched[i] for i in numbers}.values()), key=place.__getitem__)
         blocks.append(Block(tuple(names), tuple(ordered), conditions))
     used = _all({id(mentioned): mentioned for mentioned in touched}.values())
@@ -98,16 +97,22 @@ def blocks_of(coordinates: Sequence[str], rows: Sequence[Row], reductions: Reduc
     blocks, untouched = split(coordinates, rows)
     place = {c: k for k, c in enumerate(coordinates)}
     if "blocks" not in reductions and len(blocks) > 1:
-        rows_of = [r for b in blocks for r in b.rows]
-        finite = [r for r in rows_of if isinstance(r.piece, Finite)]
-        others = [r for r in rows_of if not isinstance(r.piece, Finite)]
-        conditions = tuple(dict.fromkeys(c for b in blocks for c in b.conditions))
         names = sorted((c for b in blocks for c in b.coordinates), key=place.__getitem__)
-        blocks = [Block(tuple(names), (*finite, *others), conditions)]
+        blocks = [joined(names, blocks)]
     if "untouched" not in reductions and blocks:
         names = sorted((*blocks[0].coordinates, *untouched), key=place.__getitem__)
         blocks, untouched = [replace(blocks[0], coordinates=tuple(names)), *blocks[1:]], []
     return blocks, untouched
+
+
+def _is_no_equation(row: Row) -> bool:
+    return not isinstance(row.piece, Finite)
+
+
+def joined(coordinates: Iterable[str], blocks: Sequence[Block]) -> Block:
+    """Return several blocks as one, on some coordinates."""
+    rows = sorted((r for b in blocks for r in b.rows), key=_is_no_equation)
+    return Block(tuple(coordinates), tuple(rows), tuple(dict.fromkeys(c for b in blocks for c in b.conditions)))
 
 
 def expressions(block: Block) -> list[Expr]:

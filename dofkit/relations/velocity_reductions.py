@@ -17,7 +17,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.terms import linear_terms
 from dofkit.expressions.tree import Expr
-from dofkit.relations.blocks import Row, coordinates_of
+from dofkit.relations.blocks import Row, coordinates_of, split
 from dofkit.relations.linear_relations import explicit_relations, number_coefficients
 from dofkit.relations.normal.domain import DomainCondition, conditions_of
 from dofkit.relations.normal.normal_form import linear_form, normalise, velocities_of
@@ -190,19 +190,9 @@ def _branches(
 
 def _rows_near(row: Row, rows: Sequence[Row]) -> list[Row]:
     """The finite and linear rows that are joined to a row through coordinates."""
-    names = set(coordinates_of(row.piece))
-    result: list[Row] = []
-    growing = True
-    while growing:
-        new = [
-            r
-            for r in rows
-            if r not in result and not isinstance(r.piece, Nonlinear) and coordinates_of(r.piece) & names
-        ]
-        growing = bool(new)
-        result += new
-        names |= {n for r in new for n in coordinates_of(r.piece)}
-    return result
+    others = [r for r in rows if not isinstance(r.piece, Nonlinear)]
+    blocks, _ = split(sorted({name for r in others for name in coordinates_of(r.piece)}), others)
+    return [r for b in blocks if not coordinates_of(row.piece).isdisjoint(b.coordinates) for r in b.rows]
 
 
 def _rates_of(rows: Sequence[Row]) -> list[Expr]:

@@ -89,10 +89,10 @@ def test_every_field_of_a_report_says_how_sure_it_is(path: Path, caplog: pytest.
 
 
 def test_the_argument_that_is_told_is_the_one_that_decided() -> None:
-    """Two circles that touch: no rank says that they meet in a point only, a zero of one variable does."""
+    """Two circles that touch: no rank says that they meet in a point only, their difference does."""
     scene = {"coordinates": ["x", "y"], "constraints": ["x^2 + y^2 = 1", "(x - 3)^2 + y^2 = 4"]}
     report = dofkit.classify(scene)
-    assert (report.dof, report.verdicts["dof"].argument) == (0, "isolated zero of one variable")
+    assert (report.dof, report.verdicts["dof"].argument) == (0, "cases")
 
 
 @pytest.mark.parametrize(

@@ -79,3 +79,37 @@ def test_a_part_outside_the_domain_contradicts_nothing() -> None:
     report = dofkit.classify(scene)
     assert report.consistent is not False
     assert report.dof in (None, 2)
+
+
+@pytest.mark.parametrize(
+    ("constraints", "form", "zero_where"),
+    [
+        (["zdot = (acos(cos(x)) - x) ydot"], "c1", 1),
+        (["zdot = (asin(sin(x)) + x) ydot"], "c1", None),
+        (["zdot = (atan(x) + atan(1/x) - pi/2) x ydot"], "c1", 1),
+        (["zdot = (sqrt(1 + cos(2 x)) + sqrt(2) cos(x)) x ydot"], "c1", None),
+        (["u = x^2 - 1", "zdot = (sqrt(1 + u) - x) ydot"], "c2", 1),
+        (["u = x^2 - 1", "zdot = (sqrt(1 + u) + x) ydot"], "c2", -1),
+        (["u = cos(x)", "zdot = (sqrt(1 - u) + sqrt(2) sin(x/2)) ydot"], "c2", -1),
+    ],
+)
+def test_a_form_that_vanishes_in_one_region_is_not_labelled_everywhere(
+    constraints: list[str], form: str, zero_where: int | None
+) -> None:
+    """acos(cos(x)) = x from 0 to pi and -x from -pi to 0: there the form is dz = 0, elsewhere it does not integrate."""
+    names = [name for name in "xyzu" if any(name in text for text in constraints)]
+    report = dofkit.classify({"coordinates": names, "constraints": constraints})
+    entry = next(e for e in report.constraints if e.name == form)
+    assert entry.holonomic is None or entry.verdicts["holonomic"].about != "everywhere"
+    if report.dof is not None and zero_where is not None:
+        assert report.witness is not None
+        is_zero = float(Fraction(report.witness["x"])) * zero_where > 0
+        assert entry.holonomic is is_zero
+
+
+@pytest.mark.parametrize(("x", "holonomic"), [(1, False), (-1, True)])
+def test_at_a_reference_a_form_has_the_label_of_its_region(x: int, holonomic: bool) -> None:
+    """On u = x^2 - 1 the root of 1 + u is |x|: for x < 0 the form is dz = 0."""
+    scene = {"coordinates": list("xyzu"), "constraints": ["u = x^2 - 1", "zdot = (sqrt(1 + u) + x) ydot"]}
+    report = dofkit.classify({**scene, "configuration": {"x": x, "y": 0, "z": 0, "u": 0}})
+    assert (report.constraints[1].holonomic, report.dof) == (holonomic, 2 if holonomic else 3)

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from shared.known_scenes import swept
 
 import dofkit
-from dofkit.base.errors import TextError
+from dofkit.base.errors import NoValueError, TextError
 from dofkit.exact.matrices.sparse import rank_of
 from dofkit.exact.points.balls import PRECISION, BallPoint
 from dofkit.exact.points.field import field_point
@@ -419,3 +419,32 @@ def test_what_is_no_constraint(text: str) -> None:
     (relation,) = parse_relations(text, names)
     with pytest.raises(TextError):
         normalise(relation.left - relation.right, frozenset(), True)
+
+
+def test_a_ring_refuses_parts_of_an_angle_that_it_was_not_made_for() -> None:
+    """cos(x/2) is no polynomial in cos(x) and sin(x); a ring for both counts x in halves."""
+    half = ex.fn("cos", ex.HALF * X)
+    ring = Ring([ex.fn("cos", X)])
+    with pytest.raises(NoValueError):
+        ring.node(half)
+    both = ring.another([half])
+    double = ex.TWO * half**2 - 1
+    assert both.node(ex.fn("cos", X)) is not None
+    assert is_identically_zero(ex.fn("cos", X) - double)
+
+
+@pytest.mark.parametrize(
+    ("names", "constraints", "place"),
+    [
+        ("x y", ["x^2 + y^2 = 1", "(x - 3)^2 + y^2 = 4"], {"x": 1, "y": 0}),
+        ("x y", ["(x - 1)^2 + (y - 2)^2 = 4", "(x - 4)^2 + (y - 6)^2 = 9"], {"x": 11 / 5, "y": 18 / 5}),
+        ("x y", ["y = sin(x)", "y = 1"], {"y": 1}),
+        ("x y", ["x y = 1", "x + y = 2"], {"x": 1, "y": 1}),
+    ],
+)
+def test_where_two_curves_touch(names: str, constraints: list[str], place: dict[str, float]) -> None:
+    """The centres are as far apart as the sum of the radii: 3 = 1 + 2, and 5 = 2 + 3; a sine is at most 1."""
+    report = dofkit.classify({"coordinates": names.split(), "constraints": constraints})
+    assert (report.dof, report.verdicts["dof"].verdict) == (0, "proved")
+    assert report.witness is not None
+    assert all(abs(float(Fraction(report.witness[name])) - value) < 1e-9 for name, value in place.items())

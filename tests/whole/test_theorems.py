@@ -14,7 +14,6 @@ from shared.sources import PACKAGE, SOURCES, one_process, tree_of
 
 from dofkit.checker.dimension_rules import MOST
 from dofkit.checker.verification import RULES
-from dofkit.configuration.local.criteria import CRITERIA
 
 pytestmark = one_process
 TABLE = PACKAGE / "THEOREMS.md"
@@ -91,10 +90,6 @@ def test_a_theorem_has_an_author_a_year_and_one_sentence() -> None:
         assert not re.search(r"[a-z]\. [A-Z]", statement), key
         number = re.search(r"\d{4}$", key)
         assert number is None or number[0] in year, key
-
-
-def test_criteria_name_theorems() -> None:
-    assert {criterion.theorem for criterion in CRITERIA} <= set(rows())
 
 
 def written() -> str:

@@ -1,14 +1,14 @@
 """The criteria for finite motion and rigidity, in the order in which they are asked, and their driver.
 
 The first row whose function comes to a conclusion decides. A new criterion is a function of
-the germ (`germ.Germ`) in `conclusions` and a row here; its theorem is a line of `dofkit/THEOREMS.md`.
+the germ (`germ.Germ`) in `conclusions`, a row here and one of the arguments; its theorem is a line of
+`dofkit/THEOREMS.md`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Literal
+from typing import NamedTuple
 
 from flint import ctx
 
@@ -29,132 +29,31 @@ UNDECIDED = LocalDimension(
 )
 
 
-@dataclass(frozen=True)
-class Criterion:
-    """A row of the table; m, mu, k, M and N as in `germ`.
+class Criterion(NamedTuple):
+    """A row of the table: its ``key`` among the arguments (`classification/arguments.yaml`), where its words stand.
 
-    ``hypotheses`` in words; ``decide`` checks them and returns the conclusion, None where it comes to none.
-    ``concludes``: "motion" where first-order motions, or some of them, are finite ones; "rigidity" where only motions
-    of the whole are; "nothing" where the question is left open and no later row is asked. ``verdict``: how sure that
-    is at the best; with balls alone it is "numeric".
+    ``decide`` checks the hypotheses and returns the conclusion, None where it comes to none. ``verdict``: how sure that
+    is at the best, undecided where no later row is asked; with balls alone it is "numeric".
     """
 
     key: ArgumentKey
-    theorem: str
-    hypotheses: str
-    concludes: Literal["motion", "rigidity", "nothing"]
     verdict: Verdict
     decide: Callable[[Germ], Conclusion | None]
 
 
-#: What each conclusion means.
-CONCLUSIONS = {
-    "motion": "infinitesimal motions extend to finite motions",
-    "rigidity": "there is no finite motion but the rigid motions of the system",
-    "nothing": "no conclusion",
-}
 CRITERIA: tuple[Criterion, ...] = (
-    Criterion(
-        "independent relations",
-        "ImplicitFunctions",
-        "all equations are independent at the point (k = 0)",
-        "motion",
-        "proved",
-        conclusions.manifold,
-    ),
-    Criterion(
-        "rigid to first order",
-        "AsimowRoth1978",
-        "the equations allow only the velocities of rigid motions of the system (m = mu)",
-        "rigidity",
-        "proved",
-        conclusions.orbit,
-    ),
-    Criterion(
-        "zero along a curve",
-        "SchwartzZippel",
-        "the dependent equations vanish along a random curve of M to an order above their degree, and at a "
-        "finite distance",
-        "motion",
-        "probable",
-        conclusions.whole_manifold,
-    ),
-    Criterion(
-        "flat along a curve",
-        "SchwartzZippel",
-        "the dependent equations vanish along a random curve of M, but not to an order above their degree, or not "
-        "verifiably at a finite distance",
-        "nothing",
-        "undecided",
-        conclusions.flat,
-    ),
-    Criterion(
-        "isolated zero of one variable",
-        "IsolatedZeros",
-        "one motion remains besides the rigid motions of the system (m = mu + 1), and a dependent equation "
-        "is not zero along it",
-        "rigidity",
-        "proved",
-        conclusions.isolated_zero,
-    ),
-    Criterion(
-        "indefinite form",
-        "HurewiczWallman1941",
-        "one dependent equation, whose second order has certified squares of both signs; time, if any, moves on M",
-        "motion",
-        "proved",
-        conclusions.indefinite,
-    ),
-    Criterion(
-        "definite form",
-        "MorseBott",
-        "one dependent equation, whose second order has m - mu certified squares, all of one sign",
-        "rigidity",
-        "proved",
-        conclusions.definite,
-    ),
-    Criterion(
-        "definite combination",
-        "ConnellyWhiteley1996",
-        "several dependent equations, of whose second orders a combination has m - mu certified squares of one sign",
-        "rigidity",
-        "proved",
-        conclusions.prestress_stable,
-    ),
-    Criterion(
-        "least along a motion",
-        "GromollMeyer1969",
-        "one dependent equation, of second order of one sign, and which vanishes on its critical set N as "
-        "far as examined",
-        "motion",
-        "probable",
-        conclusions.least_along_a_motion,
-    ),
-    Criterion(
-        "change of sign",
-        "HurewiczWallman1941",
-        "one dependent equation, whose second order and lowest order on N together take both signs",
-        "motion",
-        "probable",
-        conclusions.changing_sign,
-    ),
-    Criterion(
-        "critical branch",
-        "TangentCone",
-        "several dependent equations, all zero on N as far as examined, which has the dimension of their "
-        "second-order cone",
-        "motion",
-        "probable",
-        conclusions.critical_branch,
-    ),
-    Criterion(
-        "branch followed",
-        "TangentCone",
-        "several dependent equations; a branch of the dimension of their second-order cone was found numerically",
-        "motion",
-        "numeric",
-        conclusions.branch_followed,
-    ),
+    Criterion("independent relations", "proved", conclusions.manifold),
+    Criterion("rigid to first order", "proved", conclusions.orbit),
+    Criterion("zero along a curve", "probable", conclusions.whole_manifold),
+    Criterion("flat along a curve", "undecided", conclusions.flat),
+    Criterion("isolated zero of one variable", "proved", conclusions.isolated_zero),
+    Criterion("indefinite form", "proved", conclusions.indefinite),
+    Criterion("definite form", "proved", conclusions.definite),
+    Criterion("definite combination", "proved", conclusions.prestress_stable),
+    Criterion("least along a motion", "probable", conclusions.least_along_a_motion),
+    Criterion("change of sign", "probable", conclusions.changing_sign),
+    Criterion("critical branch", "probable", conclusions.critical_branch),
+    Criterion("branch followed", "numeric", conclusions.branch_followed),
 )
 
 

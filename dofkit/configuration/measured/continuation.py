@@ -23,8 +23,8 @@ STRIDE, SHORTEST, ROUNDS = 0.5, 2.0**-12, 12
 STRAIGHT, BENT = 0.9, 0.3
 #: To what length corrections come down.
 CLOSE = 1e-11
-#: Equations are violated by residuals above the tolerance times `VIOLATED`, and above those half way times `STEEP`.
-VIOLATED, STEEP = 300.0, 3.0
+#: A path ends where residuals exceed the tolerance times `VIOLATED`.
+VIOLATED = 3000.0
 #: The least factor c of a contact c s^k that would not be chance.
 PLAUSIBLE = 1.5e-3
 HALF = 0.5
@@ -77,13 +77,6 @@ class Path:
         return [s for s in self.stages if s.distance <= distance * (1 + CLOSE)][-1]
 
     @property
-    def violates(self) -> bool:
-        """Whether residuals exceed the tolerance by far, and grow with the distance."""
-        last = self.stages[-1]
-        half = self._before(last.distance * HALF)
-        return last.residual > max(VIOLATED * self.pose.tolerance, STEEP * half.residual)
-
-    @property
     def end_rank(self) -> int | None:
         """The rank at the end of the path, None if it is undecided."""
         return clear_rank(self.pose.equations.system(self.stages[-1].at, self.pose.norms)[1], self.pose.tolerance)
@@ -130,7 +123,7 @@ def follow(pose: MeasuredPose, direction: Any, reach: float) -> Path:
         distance, ahead = distance + step, tangent / size
         step = min(step * 2, reach_of(tolerance) * STRIDE, reach - distance) if distance < reach else step
         stages.append(Stage(distance, at, _largest(f)))
-        if stages[-1].residual > VIOLATED * 10 * tolerance:
+        if stages[-1].residual > VIOLATED * tolerance:
             break
     return Path(pose, tuple(stages))
 

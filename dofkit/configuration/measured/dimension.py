@@ -3,9 +3,9 @@
 Columns of lengths are divided by the scene's size and rows by their gradients, so that a singular value says by what
 fraction of the size an equation can be satisfied otherwise. Those below the tolerance (times `SLACK`) count as 0. What
 is then dependent is taken to be exactly dependent in the geometry that was measured. An infinitesimal motion is finite
-where it is continued within the tolerance; it is not where the second order of that geometry, or the residuals along
-it, exclude it by more than the tolerance can hide. Where that leaves it open, the geometry exactly as written may
-decide, as it is one of those that the tolerance allows. All else is undecided.
+where it is continued within the tolerance; it is not where the second order of that geometry excludes it by more than
+the tolerance can hide. Where that leaves it open, the geometry exactly as written may decide, as it is one of those
+that the tolerance allows. All else is undecided.
 """
 
 from __future__ import annotations
@@ -36,8 +36,8 @@ from dofkit.relations.blocks import Chart
 #: From so many sizes from the origin singular values are smaller by the square of that, since turns are about it; from
 #: `FAR_AWAY` sizes on no motion is followed.
 NEAR, FAR_AWAY = 2.0, 30.0
-#: Directions in which motions are followed; how much farther one is that is nearly straight.
-DIRECTIONS, FARTHER = 3, 3.0
+#: Directions in which motions are followed.
+DIRECTIONS = 3
 
 FOLLOWED = "the motion was continued for a finite step within the tolerance"
 ROUNDED = "so far from the origin the rounding of floating-point numbers exceeds the tolerance"
@@ -59,8 +59,7 @@ class MeasuredFreedom:
 
     ``dependencies``: a matrix over GF(2) with the pattern of dependent rows that the Jacobian has within the tolerance:
     independent rows are unit vectors, the others sums of those they depend on. ``columns`` are dependent coordinates.
-    ``gap``: between the least singular value that counts and the largest that does not. ``bound``: an upper bound of
-    the dimension where it is undecided.
+    ``gap``: between the least singular value that counts and the largest that does not.
     """
 
     instantaneous: int | None
@@ -69,7 +68,6 @@ class MeasuredFreedom:
     columns: tuple[int, ...]
     gap: float
     reason: str
-    bound: int | None = None
 
 
 def measured_freedom(chart: Chart, pose: Mapping[Expr, Expr]) -> MeasuredFreedom | None:
@@ -94,7 +92,7 @@ def _compared_with_exact(freedom: MeasuredFreedom, exact: AtReference) -> Measur
         return freedom
     if freedom.dimension is not None:
         return replace(freedom, dimension=None, reason=STOPPED)
-    if dimension is None or dimension <= exact.rigid or freedom.bound is None or dimension < freedom.bound:
+    if dimension is None or dimension <= exact.rigid or dimension < exact.instantaneous - 1:
         return freedom
     return replace(freedom, dimension=dimension, reason=AS_WRITTEN.format(exact.local.reason))
 
@@ -129,7 +127,6 @@ def _within_tolerance(chart: Chart, at: Mapping[Expr, float]) -> MeasuredFreedom
         tuple(greedy_pivots(j.T.tolist(), rank)),
         gap,
         conclusion.reason,
-        problem.bound if conclusion.reason == OPEN else None,
     )
 
 
@@ -147,11 +144,6 @@ class _Problem:
     def forms(self) -> StressForms:
         """The second order."""
         return StressForms(self.pose)
-
-    @property
-    def bound(self) -> int:
-        """An upper bound of the dimension where not all of its infinitesimal motions are finite."""
-        return min(self.first - 1, self.rigid + self.forms.cone_bound)
 
     @cached_property
     def paths(self) -> list[tuple[Path, Path]]:
@@ -215,22 +207,6 @@ def _continued(problem: _Problem) -> Conclusion | None:
     return Conclusion(problem.first, FOLLOWED)
 
 
-def _violated(problem: _Problem) -> Conclusion | None:
-    """The only motion violates the equations both ways: their zero on this curve is isolated [IsolatedZeros]."""
-    if not problem.forms.vanish or problem.first - problem.rigid != 1:
-        return None
-    (paths,) = problem.paths
-    if not all(path.violates for path in paths) and not _violated_farther(problem.pose):
-        return None
-    why = "the one infinitesimal motion violates the equations by more than the tolerance"
-    return Conclusion(problem.rigid, why, confined=True)
-
-
-def _violated_farther(pose: MeasuredPose) -> bool:
-    reach = reach_of(pose.tolerance) * BEYOND * FARTHER
-    return all(follow(pose, sign * pose.flexes[0], reach).violates for sign in (1, -1))
-
-
 def _undecided(problem: _Problem) -> Conclusion:
     return Conclusion(None, OPEN)
 
@@ -243,7 +219,6 @@ CRITERIA: tuple[Callable[[_Problem], Conclusion | None], ...] = (
     _indefinite_form,
     _definite_combination,
     _continued,
-    _violated,
     _undecided,
 )
 

@@ -13,7 +13,7 @@ from flint import arb
 from dofkit.base.deadline import check
 from dofkit.base.libraries import np, nx
 from dofkit.configuration.at_reference import ball_point
-from dofkit.configuration.local.quadratic_cone import MAX_CUTS, definite_combination, macaulay_matrix
+from dofkit.configuration.local.quadratic_cone import definite_combination
 from dofkit.configuration.rigid_motions import displacements_real
 from dofkit.exact.points.balls import FloatPoint, jacobian
 from dofkit.exact.ring.program import values
@@ -296,8 +296,6 @@ def pose_of_block(chart: Chart) -> Mapping[Expr, Expr] | None:
 DELTA, ROUGH = 1e-5, 1e-6
 #: The perturbations of size |J - J_0| / s in a form: of its stress and of both its motions.
 PERTURBATIONS = 3.0
-#: Random subspaces on which forms without a common zero are sought.
-SUBSPACES = 3
 
 
 class StressForms:
@@ -352,22 +350,3 @@ class StressForms:
             if np.all(spectrum > self.noise) or np.all(spectrum < -self.noise):
                 return True
         return definite_combination(self.balls, self.flexes)
-
-    @property
-    def cone_bound(self) -> int:
-        """An upper bound of the dimension of their common zeros, over the complex numbers [Macaulay1902].
-
-        See `quadratic_cone.bound`; the Macaulay matrices are of full rank for all forms within the noise.
-        """
-        w = self.flexes
-        rng = np.random.default_rng(5)
-        for cuts in range(min(w, len(self.forms), MAX_CUTS), 0, -1):
-            for _ in range(SUBSPACES):
-                basis = np.linalg.qr(rng.standard_normal((w, cuts)))[0]
-                restricted = [(basis.T @ form @ basis).tolist() for form in self.forms]
-                rows = np.array(macaulay_matrix(restricted, cuts), dtype=float)
-                change = 2 * self.noise * w * float(np.sqrt(np.count_nonzero(rows)))
-                singular = np.linalg.svd(rows, compute_uv=False)
-                if len(singular) == rows.shape[1] and singular[-1] > change:
-                    return w - cuts
-        return w

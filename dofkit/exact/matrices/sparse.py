@@ -146,7 +146,7 @@ def dependences(rows: Sequence[Mapping[int, fmpq]]) -> dict[int, RationalRow] | 
 
 
 def reconstructed(residue: int, p: int) -> fmpq:
-    """Return the fraction a/b with the residue modulo p and |a|, |b| below the root of p/2, if there is one (Wang)."""
+    """Return the fraction a/b with this residue and |a|, |b| below the root of p/2, if there is one [Wang1981]."""
     a, b, x, y = p, residue % p, 0, 1
     while 2 * b * b > p:
         quotient = a // b

@@ -6,7 +6,7 @@ identically, which is a proof. Everything is bounded: past `MAX_TERMS` terms the
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
@@ -30,6 +30,8 @@ FACTORED_DEGREES = 400
 
 Poly = Any
 Quotient = tuple[Poly, Poly]
+#: Generators, by number, with their exponents.
+Monomial = tuple[tuple[int, int], ...]
 
 
 class Canon:
@@ -161,6 +163,17 @@ class Canon:
         if len(poly) * max(1, int(poly.total_degree())) > FACTORED or not soon_factored(poly):
             raise TooLargeError
         return [(f, int(k)) for f, k in poly.factor()[1] if not f.is_constant()]
+
+    def collected(self, poly: Poly, moving: Collection[int]) -> dict[Monomial, Poly]:
+        """Return the coefficients of a polynomial in some of the generators, by monomial."""
+        last = len(self.ring.vars) - 1
+        groups: dict[Monomial, dict[tuple[int, ...], Any]] = {}
+        for exponents, coefficient in poly.to_dict().items():
+            powers = {last - i: int(k) for i, k in enumerate(exponents) if k}
+            monomial = tuple((i, k) for i, k in powers.items() if i in moving)
+            others = tuple(0 if last - i in moving else int(k) for i, k in enumerate(exponents))
+            groups.setdefault(monomial, {})[others] = coefficient
+        return {monomial: self.ctx.from_dict(part) for monomial, part in groups.items()}
 
     def generators_in(self, poly: Poly) -> list[int]:
         """Return the indices of the generators that occur."""

@@ -12,8 +12,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from fractions import Fraction
-from math import gcd
+from math import lcm
 
+from dofkit.base.errors import NoValueError
 from dofkit.exact.ring.program import ADD, MUL, NUM, VAR, Instructions, Var
 from dofkit.exact.ring.radicals import inverse_function, log, over_primes, root, sign
 from dofkit.expressions import tree as ex
@@ -98,8 +99,7 @@ def _angle_arguments(expressions: Iterable[Expr], alias: Mapping[Expr, Expr]) ->
             for term, factor in linear_terms(argument).items():
                 if term == ex.PI and family == "cis" and _in_twelfths(factor):
                     continue
-                old = denominators.get((family, term), 1)
-                denominators[family, term] = old * factor.denominator // gcd(old, factor.denominator)
+                denominators[family, term] = lcm(denominators.get((family, term), 1), factor.denominator)
     return denominators
 
 
@@ -145,11 +145,19 @@ class Ring(Instructions):
         self._memo: dict[Expr, int] = {}
         self._turns: dict[Expr, tuple[int, int]] = {}
 
-    def another(self) -> Ring:
-        """An empty ring that splits arguments in the same way, so that a point of one is a point of the other."""
-        made = Ring((), self.positive, self.alias)
-        made._denominators = self._denominators
+    def another(self, expressions: Iterable[Expr]) -> Ring:
+        """An empty ring for other expressions, whose points are points of this one: it splits arguments as finely."""
+        made = Ring(expressions, self.positive, self.alias)
+        for key, denominator in self._denominators.items():
+            made._denominators[key] = lcm(made._denominators.get(key, 1), denominator)
         return made
+
+    def _denominator(self, family: str, argument: Expr, factor: Fraction) -> int:
+        """Return the parts in which an argument is counted. Raises NoValueError for a fraction of one."""
+        denominator = self._denominators.setdefault((family, argument), factor.denominator)
+        if denominator % factor.denominator:
+            raise NoValueError("an argument occurs in smaller parts than the ring was made for")
+        return denominator
 
     def node(self, e: Expr) -> int:
         """Return the number of the instruction that computes ``e``; raises PoleError where it divides by 0."""
@@ -244,7 +252,7 @@ class Ring(Instructions):
             if term.op == "fn" and term.args[0] == "log":
                 factors.append(self.node(ex.power(term.args[1], ex.num(factor))))
                 continue
-            denominator = self._denominators.get(("exp", term), factor.denominator)
+            denominator = self._denominator("exp", term, factor)
             if abs(factor * denominator) > MAX_MULTIPLE:
                 term, factor, denominator = self._large_multiple(term, abs(factor)), factor / abs(factor), 1
             basic = ex.num(Fraction(1, denominator)) * term
@@ -273,7 +281,7 @@ class Ring(Instructions):
         return total
 
     def _basic_angle(self, angle: Expr, factor: Fraction) -> tuple[int, int, int]:
-        denominator = self._denominators.get(("cis", angle), factor.denominator)
+        denominator = self._denominator("cis", angle, factor)
         if abs(factor * denominator) > MAX_MULTIPLE:
             angle, factor, denominator = self._large_multiple(angle, abs(factor)), factor / abs(factor), 1
         if denominator == 1 and angle.op == "fn" and angle.args[0] in ("asin", "acos", "atan", "atan2"):

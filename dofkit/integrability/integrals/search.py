@@ -12,13 +12,13 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import chain, combinations, count
 from math import gcd, lcm
-from typing import Any
 
-from dofkit.exact.ring.canonical import Canon
+from dofkit.exact.ring.canonical import Canon, Monomial
 from dofkit.exact.ring.program import raising_no_value
 from dofkit.exact.zero import certainly_nonzero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
+from dofkit.expressions.terms import content
 from dofkit.expressions.text.printing import to_text
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.integrals.potentials import (
@@ -67,11 +67,10 @@ def integrate(form: Pfaffian, positive: frozenset[Expr]) -> Integral | None:
 
 @raising_no_value
 def _integrate(work: Algebra, form: Pfaffian) -> Integral | None:
-    items = {s: a for s, a in form.items() if not work.vanishes(a)}
-    if not items or sum(size(a) for a in items.values()) > MAX_FORM:
+    whole = {s: ex.ZERO if work.vanishes(a) else a for s, a in form.components.items()}
+    sizes = [size(a) for a in whole.values() if not a.is_zero]
+    if not sizes or sum(sizes) > MAX_FORM:
         return None
-    mentioned = {s for a in items.values() for s in a.symbols if s.args[0] in ("coordinate", "time")} - set(items)
-    whole: Form = items | dict.fromkeys(sorted(mentioned, key=repr), ex.ZERO)
     if work.closed(whole):
         closed = potential(work, whole)
         if closed is not None:
@@ -227,14 +226,12 @@ def _constants(work: Algebra, form: Form, logs: list[Expr]) -> list[Expr] | None
 
 def _compared(polys: list[Poly], fixed: frozenset[int], canon: Canon) -> list[list[Poly]]:
     """Return one equation for every monomial in the generators that are not ``fixed``."""
-    count = len(canon.ring.vars)
-    by_monomial: dict[tuple[int, ...], list[dict[tuple[int, ...], Any]]] = {}
+    moving = set(range(len(canon.ring.vars))) - fixed
+    by_monomial: dict[Monomial, list[Poly]] = {}
     for column, poly in enumerate(polys):
-        for exponents, coefficient in poly.to_dict().items():
-            inside = tuple(int(k) if count - 1 - i in fixed else 0 for i, k in enumerate(exponents))
-            outside = tuple(int(k) - j for k, j in zip(exponents, inside, strict=True))
-            by_monomial.setdefault(outside, [{} for _ in polys])[column][inside] = coefficient
-    return [list(map(canon.ctx.from_dict, row)) for row in by_monomial.values()]
+        for monomial, coefficient in canon.collected(poly, moving).items():
+            by_monomial.setdefault(monomial, [canon.unit * 0] * len(polys))[column] = coefficient
+    return list(by_monomial.values())
 
 
 #: (integral, factor).
@@ -340,9 +337,8 @@ def _constant(e: Expr) -> Expr:
         return ex.mul(*(f for f in e.args if all(s.args[0] == "parameter" for s in f.symbols)))
     if e.op != "add":
         return ex.ONE
-    numbers = [t.args[0].args[0] if t.op == "mul" and t.args[0].op == "num" else Fraction(1) for t in e.args]
-    content = Fraction(gcd(*(n.numerator for n in numbers)), lcm(*(n.denominator for n in numbers)))
-    return ex.num(-content if all(n < 0 for n in numbers) else content)
+    rational = content(e)[0]
+    return ex.num(-rational if all(ex.number_and_rest(t)[0] < 0 for t in e.args) else rational)
 
 
 def _logs(e: Expr) -> tuple[dict[Expr, Fraction], list[Expr]]:

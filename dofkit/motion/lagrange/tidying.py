@@ -134,20 +134,10 @@ def _is_rate(canon: Canon, index: int) -> bool:
 
 def _grouped(canon: Canon, top: Poly) -> list[tuple[Expr, Poly]]:
     """The polynomial's parts by their monomials in rates."""
-    generators = list(reversed(canon.ring.var_expr))
-    moving = [e.op == "sym" and e.args[0] in _RATES for e in generators] or [False]
-    groups: dict[tuple[int, ...], dict[tuple[int, ...], Any]] = {}
-    for exponents, coefficient in top.to_dict().items():
-        rates = tuple(int(k) if m else 0 for k, m in zip(exponents, moving, strict=True))
-        others = tuple(0 if m else int(k) for k, m in zip(exponents, moving, strict=True))
-        groups.setdefault(rates, {})[others] = coefficient
-    return [
-        (
-            ex.mul(*(ex.power(v, ex.num(k)) for v, k in zip(generators, rates, strict=False) if k)),
-            canon.ctx.from_dict(part),
-        )
-        for rates, part in groups.items()
-    ]
+    generators = canon.ring.var_expr
+    rates = {i for i in range(len(generators)) if _is_rate(canon, i)}
+    parts = canon.collected(top, rates)
+    return [(ex.mul(*(ex.power(generators[i], ex.num(k)) for i, k in m)), part) for m, part in parts.items()]
 
 
 def _factored(canon: Canon, top: Poly, bottom: Poly) -> Expr:

@@ -9,7 +9,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product as cartesian
-from typing import Any
 
 from dofkit.base.errors import NoValueError
 from dofkit.exact.points.balls import random_ball_point
@@ -187,12 +186,12 @@ def squared(e: Expr, positive: frozenset[Expr]) -> tuple[Expr, DomainCondition] 
         roots = [v for v in ring.vars if v.kind == "root" and ring.var_expr[v.index].symbols]
         if len(roots) != 1 or roots[0].degree != 2 or not _outside(ring, roots[0].index):
             return None
-        place = len(ring.vars) - 1 - roots[0].index
-        a: Any = canon.ctx.from_dict({_lowered(m, place): c for m, c in top.to_dict().items() if m[place] == 1})
-        b: Any = canon.ctx.from_dict({m: c for m, c in top.to_dict().items() if m[place] == 0})
-        u, below = canon.quotient(roots[0].args[0])
-        if a == 0 or a * canon.gens[roots[0].index] + b != top:
+        index = roots[0].index
+        parts = canon.collected(top, {index})
+        a, b = parts.pop(((index, 1),), canon.unit * 0), parts.pop((), canon.unit * 0)
+        if a == 0 or parts:
             return None
+        u, below = canon.quotient(roots[0].args[0])
         norm, sided = canon.reduce(a * a * u - b * b * below), canon.reduce(-a * b)
     except NoValueError:
         return None
@@ -203,10 +202,6 @@ def _outside(ring: Ring, index: int) -> bool:
     """Return whether no other generator has the root in its argument."""
     root = ring.var_expr[index]
     return all(root not in ex.nodes(ring.var_expr[v.index]) for v in ring.vars if v.index != index)
-
-
-def _lowered(exponents: Sequence[int], place: int) -> tuple[int, ...]:
-    return tuple(int(k) - (i == place) for i, k in enumerate(exponents))
 
 
 def _root_of_square(node: Expr) -> bool:

@@ -49,9 +49,6 @@ from dofkit.relations.normal.polynomial_zeros import Conjunction
 from dofkit.relations.normal.semidefinite import Signs, weak_sign
 from dofkit.relations.normal.zero_set import never_vanishes, zero_set
 
-#: A monomial in what depends on velocities: (generator, exponent) pairs.
-Monomial = tuple[tuple[int, int], ...]
-
 
 class _Square(NamedTuple):
     """``linear``^2 = ``radicand`` ``root``^2; ``sign`` of the radicand: 1 (>= 0), -1 (<= 0) or 0 (not known)."""
@@ -73,7 +70,8 @@ def linear_branches(e: Expr, velocities: Sequence[Expr], positive: frozenset[Exp
     try:
         canon = Canon(ring)
         whole = canon.quotient(node)[0]
-        terms = _by_velocities(canon, whole)
+        moving = {i for i, e in enumerate(ring.var_expr) if any(s.args[0] == "velocity" for s in e.symbols)}
+        terms = canon.collected(whole, moving)
         if any(sum(k for _, k in m) > 2 or any(ring.var_expr[i] not in velocities for i, _ in m) for m in terms):
             return None
         squares = (_completed(canon, whole, i, velocities, positive) for m in terms for i, k in m if k == 2)
@@ -81,19 +79,6 @@ def linear_branches(e: Expr, velocities: Sequence[Expr], positive: frozenset[Exp
     except NoValueError:
         return None
     return None if square is None else _branches(square, positive)
-
-
-def _by_velocities(canon: Canon, polynomial: Any) -> dict[Monomial, Any]:
-    """A polynomial as coefficients of the monomials in what depends on velocities."""
-    n = len(canon.ring.vars)
-    moves = [any(s.args[0] == "velocity" for s in e.symbols) for e in canon.ring.var_expr]
-    coefficients: dict[Monomial, Any] = {}
-    for exponents, coefficient in polynomial.to_dict().items():
-        moving = tuple((n - 1 - i, int(k)) for i, k in enumerate(exponents) if k and moves[n - 1 - i])
-        remainder = tuple(0 if moves[n - 1 - i] else k for i, k in enumerate(exponents))
-        term = canon.ctx.from_dict({remainder: coefficient})
-        coefficients[moving] = coefficients[moving] + term if moving in coefficients else term
-    return coefficients
 
 
 def _completed(

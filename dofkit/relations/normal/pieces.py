@@ -44,6 +44,13 @@ class Pfaffian:
         if not self.dt.is_zero:
             yield ex.TIME, self.dt
 
+    @property
+    def components(self) -> dict[Expr, Expr]:
+        """The coefficient of every symbol that occurs, 0 for those that only coefficients mention."""
+        written = dict(self.items())
+        mentioned = {s for e in written.values() for s in e.symbols if s.args[0] in ("coordinate", "time")}
+        return written | dict.fromkeys(sorted(mentioned - written.keys(), key=repr), ex.ZERO)
+
 
 @dataclass(frozen=True)
 class Nonlinear:
