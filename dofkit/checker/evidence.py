@@ -5,8 +5,8 @@ there (Hermann 1960, Nagano 1966, Sussmann 1973). Fields that are tangent to rel
 """
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from functools import cached_property
-from itertools import chain
+from functools import cached_property, partial
+from itertools import chain, product
 from typing import Any, NamedTuple
 
 from flint import arb, arb_mat, ctx
@@ -233,11 +233,14 @@ def on_row(evidence: CheckedEvidence, row: str, field: VelocityField) -> Tree:
     return substituted(checked.tree, {name + "dot": field.get(name, ZERO) for name in evidence.variables})
 
 
-def tangent(evidence: CheckedEvidence, fields: Iterable[VelocityField], rows: Sequence[str]) -> None:
-    """`CheckError` unless fields are tangent to rows, identically."""
-    for field in fields:
-        for row in rows:
-            evidence.identity(on_row(evidence, row, field), ZERO, f"a field along `{row}`")
+def tangent(evidence: CheckedEvidence, words: Iterable[Sequence[str]], rows: Iterable[str]) -> None:
+    """`CheckError` unless the fields of words are tangent to rows, identically."""
+
+    def look(word: Sequence[str], row: str) -> None:
+        evidence.identity(on_row(evidence, row, of_word(evidence, [*word], word)), ZERO, f"a field along `{row}`")
+
+    for word, row in product(words, rows):
+        evidence.once(("tangent", *word, "", row), partial(look, word, row))
 
 
 def independent(evidence: CheckedEvidence, fields: Sequence[VelocityField], columns: Any, point: CheckedPoint) -> None:
@@ -253,7 +256,7 @@ def admissible(
     """Fields whose curves through a point are motions: tangent to rows that account for ``wanted``, smooth there."""
     point, rows = evidence.point(claim["at"]), claim["rows"]
     fields = [field_named(evidence, name) for name in claim["fields"]]
-    tangent(evidence, fields, rows)
+    tangent(evidence, ([name] for name in claim["fields"]), rows)
     evidence.on_set(point, [*rows, *wanted])
     evidence.follow(rows, wanted, point, "the relations")
     evidence.follow(wanted, rows, point, "the rows of the fields")
@@ -282,8 +285,9 @@ def involutive(evidence: CheckedEvidence, claim: Told, allowed: Collection[str] 
     fits = len(fields) == missing and (timed or all("t" not in field for field in fields))
     refuse(not fits or not all(map(evidence.is_linear, minor.rows)), f"the kernel has {missing} fields")
     independent(evidence, fields, claim["columns"], minor.point)
-    brackets = (bracket(evidence, first, second) for i, first in enumerate(fields) for second in fields[:i])
-    tangent(evidence, chain(fields, brackets), minor.rows)
+    names: list[str] = claim["fields"]
+    brackets = ([first, second] for i, first in enumerate(names) for second in names[:i])
+    tangent(evidence, chain(([name] for name in names), brackets), minor.rows)
     return minor
 
 
@@ -308,7 +312,7 @@ def take_cover(evidence: CheckedEvidence, name: Any) -> list[str]:
         refuse(
             not set(block["columns"]) <= variables or any("t" in field for field in fields), "a column of no coordinate"
         )
-        tangent(evidence, fields, block["rows"])
+        tangent(evidence, ([name] for name in block["fields"]), block["rows"])
         independent(evidence, fields, block["columns"], minor.point)
         total += min(len(variables) - len(fields), len(block["rows"]))
     refuse(not once or total != len(minor.rows), "each holonomic equation once, and the rank of the minor are needed")

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from functools import partial
 from itertools import combinations
 from typing import Any
 
 from networkx.utils import UnionFind
 
 from dofkit.checker.constraints import Surroundings
-from dofkit.checker.evidence import CheckedEvidence, VelocityField, bracket, field_named, on_row
+from dofkit.checker.evidence import CheckedEvidence, VelocityField, bracket, field_named, tangent
 from dofkit.checker.geometry import determinant
 from dofkit.checker.trees import ZERO, CheckError, Tree, negative
 from dofkit.methods.certificates.numerics import Estimates, NoEstimateError, echelon
@@ -99,15 +98,11 @@ def _chosen(scenery: Scenery, fields: list[dict[str, str]], standing: Standing) 
 
 def _kept(scenery: Scenery, ids: Sequence[str], names: Sequence[str]) -> bool:
     """Return whether fields are tangent to relations, identically."""
-    evidence = scenery.evidence
-
-    def is_tangent(field: str, row: str) -> bool:
-        return evidence.ring.vanishes(on_row(evidence, row, field_named(evidence, field)))
-
     try:
-        return all(evidence.once(("kept", a, row), partial(is_tangent, a, row)) for a in ids for row in names)
+        tangent(scenery.evidence, ([name] for name in ids), names)
     except CheckError:
         return False
+    return True
 
 
 # Evidence about what velocities allow: fields by Cramer's rule, words of brackets, orbits, growth.
