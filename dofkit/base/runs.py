@@ -32,17 +32,6 @@ class StoppedError(DofkitError):
     """Work was stopped, or nobody could be found to do it."""
 
 
-class Crew(Protocol):
-    """What makes calls, ``width`` at a time."""
-
-    @property
-    def width(self) -> int:
-        """The number of calls at a time."""
-
-    def submit(self, function: Callable[..., Any], *arguments: Any) -> Future[Any]:
-        """Begin with a call."""
-
-
 class Pool:
     """Up to ``workers`` workers (one for each core where that is not said), each started when it is first needed."""
 
@@ -164,7 +153,7 @@ Result = TypeVar("Result")
 
 
 def in_order(
-    crew: Crew, work: Callable[[Item], Result], items: Iterable[Item], journal: Journal | None = None
+    crew: Pool | Cluster, work: Callable[[Item], Result], items: Iterable[Item], journal: Journal | None = None
 ) -> Iterator[tuple[Item, Result]]:
     """Yield every item with the result of ``work``, in order; no more items are taken than the crew can use soon.
 

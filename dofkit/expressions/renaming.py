@@ -50,14 +50,9 @@ class ExpressionShape(NamedTuple):
 
         Of expressions with one skeleton and one order, whatever looks at names only to sort them makes the same.
         """
-        return order_of(self.names, self.kept)
-
-
-def order_of(names: Sequence[str], kept: Sequence[str] = ()) -> tuple[int | str, ...]:
-    """Return the numbers of some names, sorted by these, among others that are kept."""
-    places: dict[str, int | str] = {name: name for name in kept}
-    places.update((name, k) for k, name in enumerate(names))
-    return tuple(places[name] for name in sorted(places))
+        places: dict[str, int | str] = {name: name for name in self.kept}
+        places.update((name, k) for k, name in enumerate(self.names))
+        return tuple(places[name] for name in sorted(places))
 
 
 def is_name(symbol: Expr) -> bool:

@@ -15,11 +15,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
 
-_ELEMENTARY = {
-    "sin": "sin", "cos": "cos", "tan": "tan", "cot": "cot", "sec": "sec", "csc": "csc", "asin": "asin", "acos": "acos",
-    "atan": "atan", "atan2": "atan2", "sinh": "sinh", "cosh": "cosh", "tanh": "tanh", "exp": "exp", "log": "log",
-    "abs": "Abs",
-}  # fmt: skip
+_ELEMENTARY = {name: "Abs" if name == "abs" else name for name in ex.FUNCTIONS}
 _BACK = {sympy: name for name, sympy in _ELEMENTARY.items()}
 
 

@@ -45,10 +45,7 @@ COMPILER = "dofkit.models.mujoco_model"
 MOST_INCLUDED = 300
 
 #: Attributes that place or weigh something.
-_MEASURES = (
-    *("pos", "quat", "axisangle", "xyaxes", "zaxis", "euler", "axis", "fromto", "anchor", "relpose", "ref"),
-    *("mass", "diaginertia", "fullinertia", "density", "polycoef", "size", "gravity"),
-)
+_MEASURES = (*_PLACING, "mass", "diaginertia", "fullinertia", "density", "polycoef", "size", "gravity")
 _NO_NUMBER = re.compile(r"[+-]?(?:nan|inf|infinity)", re.IGNORECASE)
 _LINE = re.compile(r"line (\d+)")
 _NOISE = re.compile(r"^(?:XML )?Error: (?:Error: )?|,? ?line \d+\s*$|\bElement name '', id -?\d+")

@@ -112,14 +112,9 @@ def type_advice(word: object, entry: Mapping[str, Any]) -> str | None:
     if isinstance(word, str) and word in _FORCES:
         return f"write it under `forces`: `forces: [{{type: {word}, between: [A, B]}}]`; a force is not a constraint"
     kinds = likely_types(word, entry)
-    fields = tuple(TYPES[kinds[0]].model_fields) if kinds else ()
-    is_untyped = word is None and all(str(key).lower() != "type" for key in entry)
-    misspelt = [key for key in entry if key not in fields and str(key).lower() != "type"]
-    meant = ", ".join(str(meant_key(key, fields)) for key in misspelt)
     if len(kinds) == 1:
-        return f"did you mean '{meant if meant and is_untyped else kinds[0]}'?"
-    listed = f"the types with these keys are {', '.join(kinds)}" if kinds else None
-    return f"did you mean '{meant}'? {listed}" if misspelt and kinds else listed
+        return f"did you mean '{kinds[0]}'?"
+    return f"the types with these keys are {', '.join(kinds)}" if kinds else None
 
 
 def likely_types(word: object, entry: Mapping[str, Any]) -> list[str]:

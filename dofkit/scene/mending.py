@@ -70,7 +70,8 @@ class _MendedScene:
     def mend(self, faults: Sequence[Fault]) -> bool:
         """Mend what is faulty; return whether it makes sense then."""
         for fault in sorted(faults, key=lambda fault: not fault.message.startswith(UNKNOWN_KEY)):
-            if not fault.where or (fault.where[0] == "dimension" and self._has_points()):
+            placed = self.words.value.get("particles") or self.words.value.get("bodies")
+            if not fault.where or (fault.where[0] == "dimension" and placed):
                 return False
             self._mend(fault, fault.where)
         again = standard_words(self.words.value)
@@ -86,9 +87,6 @@ class _MendedScene:
                 continue
             if undeclared or fault.where[:2] not in self._guessed:
                 yield replace(fault, where=self.words.written(fault.where))
-
-    def _has_points(self) -> bool:
-        return bool(self.words.value.get("particles") or self.words.value.get("bodies"))
 
     def _mend(self, fault: Fault, where: Path) -> None:
         owner = self._at(where[:-1])

@@ -142,7 +142,7 @@ SHOWN: dict[str, tuple[str, str]] = {
     "a spring": ("particles: [A, B]\nconstraints: [{type: spring, between: [A, B]}]", "forces: [{type: spring,"),
     "no type": ("{A}[{name: c, between: [a, b]}]", "the types with these keys are link, revolute,"),
     "a misspelt text and no type": ('coordinates: [x, y]\nconstraints: [{txt: "x dy = 0"}]', "are equation"),
-    "an unknown type and a misspelt key": ("{B}[{type: foo, betwen: [A, A]}]", "did you mean 'between'?"),
+    "an unknown type and a misspelt key": ("{B}[{type: foo, betwen: [A, A]}]", "the types with these keys are link"),
     "members of a link": ("particles: [A, B]\nconstraints: [{type: link, members: [A, B]}]", "did you mean 'between'?"),
     "bodies of a joint": ("bodies: [a, b]\nconstraints: [{type: weld, bodies: [a, b]}]", "did you mean 'between'?"),
     "members held": ("particles: [A]\nconstraints: [{type: fixed, members: [A]}]", "`{type: fixed, point: A}`"),

@@ -127,7 +127,8 @@ def _plain(char: str, column: int) -> str:
             if plain is not None:
                 return plain
         if len(codes) == 1 and codes[0][0] != "<":  # one character with two codes, such as the sign for ohm
-            return _plain_or_ascii(chr(int(codes[0], 16)), column)
+            single = chr(int(codes[0], 16))
+            return single if single.isascii() else _plain(single, column)
     raise _refusal(char, column)
 
 
@@ -139,10 +140,6 @@ def _composed(char: str, decomposition: list[str]) -> str | None:
         return base if (base.isascii() and base.isalnum()) or base in GREEK else None
     base, mark = (chr(int(part, 16)) for part in decomposition)
     return base + mark if mark in (DOT, TWO_DOTS) else None
-
-
-def _plain_or_ascii(char: str, column: int) -> str:
-    return char if char.isascii() else _plain(char, column)
 
 
 _BASES = frozenset(f"{ord(c):04X}" for c in "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ" + GREEK_LETTERS)

@@ -23,6 +23,8 @@ from dofkit.scene.world import World
 from dofkit.system import Relation, TypeFacts
 
 LETTERS = ("x", "y", "z")
+#: The fields of constraints that are texts, or tuples of them.
+_TEXTS = ("text", "surface", "curve", "length", "drive")
 
 
 class ConstraintBase(WrittenModel):
@@ -72,7 +74,9 @@ class ConstraintBase(WrittenModel):
 
     def texts(self) -> Iterator[str]:
         """Yield its texts that may mention coordinates."""
-        yield from ()
+        for key in _TEXTS:
+            value = getattr(self, key, None)
+            yield from (value,) if isinstance(value, str) else value if isinstance(value, tuple) else ()
 
     @property
     def in_words(self) -> str:
@@ -133,9 +137,6 @@ class Equation(ConstraintBase):
     def relations(self, world: World) -> Iterator[Relation]:
         yield from world.equations(self.text, "text")
 
-    def texts(self) -> Iterator[str]:
-        yield self.text
-
     @property
     def in_words(self) -> str:
         return self.text
@@ -170,10 +171,6 @@ class On(ConstraintBase):
     ] = Field(None, description="equations in x, y, z: a curve in space is where two surfaces meet")
     facts: ClassVar[TypeFacts] = TypeFacts(written=True, lettered=True, surface=True, shared=True)
     symbol: ClassVar[Symbol] = Symbol(run="locus")
-
-    def texts(self) -> Iterator[str]:
-        yield from () if self.surface is None else (self.surface,)
-        yield from self.curve or ()
 
     def _places(self) -> Iterator[tuple[str, tuple[str | int, ...]]]:
         if self.surface is not None:

@@ -101,9 +101,6 @@ class Cam(ConstraintBase):
                 None if gap is None or not steepness else gap / steepness, message, "point", hint=hint, body=body
             )
 
-    def texts(self) -> Iterator[str]:
-        yield self.curve
-
     @property
     def in_words(self) -> str:
         return f"cam {show_point(self.point)} on {self.body}: {self.curve}"

@@ -111,7 +111,8 @@ class Coupling(ConstraintBase):
         for e, sense, *_ in relations:
             if sense == "=" and not self._fits(world, e, measured):
                 return
-            yield Relation(_in_turns(e, measured) or _in_arcs(e, measured), sense)
+            in_arcs = substitute(e, {letter: joint.value for letter, joint in measured.items()})
+            yield Relation(_in_turns(e, measured) or in_arcs, sense)
 
     def _within_half_turns(self, world: World, bounds: Sequence[Expr], measured: Mapping[Expr, MeasuredJoint]) -> bool:
         """Return whether bounds on an angle of space lie within half a turn of the reference; else record a fault.
@@ -285,11 +286,6 @@ def _split(written: str, entries: Mapping[str, object]) -> tuple[str, str]:
     """Return the joint's name, and what of it is meant."""
     name, dot_, what = written.rpartition(".")
     return (name, what) if dot_ and written not in entries else (written, "")
-
-
-def _in_arcs(e: Expr, measured: Mapping[Expr, MeasuredJoint]) -> Expr:
-    """Return the relation with every angle as an arc."""
-    return substitute(e, {letter: joint.value for letter, joint in measured.items()})
 
 
 def _in_turns(e: Expr, measured: Mapping[Expr, MeasuredJoint]) -> Expr | None:

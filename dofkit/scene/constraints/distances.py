@@ -64,10 +64,6 @@ class Link(ConstraintBase):
             world.links.append((world.index, first.label, second.label))
         yield Relation(distance(world, first, second, given_length))
 
-    def texts(self) -> Iterator[str]:
-        if isinstance(self.length, str):
-            yield self.length
-
     @property
     def in_words(self) -> str:
         ends = "-".join(show_point(end) for end in self.between)
@@ -207,10 +203,6 @@ class String(ConstraintBase):
             if first.label != second.label:
                 world.apart(first, second, power(given_length, TWO), at_most=True)
         yield Relation(difference(add(*lengths), given_length))
-
-    def texts(self) -> Iterator[str]:
-        if isinstance(self.length, str):
-            yield self.length
 
     @property
     def in_words(self) -> str:

@@ -79,11 +79,6 @@ class Joint(ConstraintBase):
             world.drawn.update(self.between)
         return self.joined(world, *(ends or (world.ground, world.ground)))
 
-    def texts(self) -> Iterator[str]:
-        drive = getattr(self, "drive", None)
-        if drive is not None:
-            yield drive
-
     @property
     def in_words(self) -> str:
         words = f"{self.kind()} {self.between[0]}-{self.between[1]}"
