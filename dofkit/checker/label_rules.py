@@ -126,7 +126,11 @@ def wedge(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
 
 
 def exact(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
-    """Forms are exact near every point where they are closed; one is not where a part of its derivative is not 0."""
+    """Forms are exact near every point where they are closed; one is not where a part of its derivative is not 0.
+
+    With Cayley parameters forms stand times a factor, which may make them so.
+    """
+    refuse(claim.get("cayley"), "a body turns by its angles here")
     forms = _forms(evidence, claim)
     return _is_closed(evidence, claim, [forms[claim["relation"]]] if "relation" in claim else forms.values(), 2)
 

@@ -19,9 +19,7 @@ from dofkit.classification.turned_coordinates import (
     rows_at_drawing,
     turned_together,
 )
-from dofkit.configuration.finite_blocks import dependent_names
 from dofkit.configuration.rigid_motions import RigidOrbit
-from dofkit.configuration.variety import field_jacobian, on_variety, pose_point
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.sparse import last_columns, rank_of_rows
 from dofkit.exact.zero import BOTH
@@ -128,7 +126,8 @@ def _of_block(block: Block, a: Answer, setting: Setting, rotations: Sequence[Rot
         return []
     block_coordinates = frozenset(block.coordinates)
     turning = [r for r in rotations if r.chart == "gibbs" and not block_coordinates.isdisjoint(r.names)]
-    dependent = set(a.dependent if a.answered_parts is None else _dependent_at_drawing(block, a, setting))
+    of_joints = partial(_dependent_at_drawing, TurnedGroup(block, ()), setting, places_first=not a.answered_parts)
+    dependent = set(a.dependent if a.answered_parts is None else of_joints())
     direct = _regular_at_reference(block, a, setting) or [c for c in block.coordinates if c not in dependent]
     if not turning and len(direct) == a.dof:
         chosen = _explicit(block, a.dof, setting)
@@ -139,13 +138,8 @@ def _of_block(block: Block, a: Answer, setting: Setting, rotations: Sequence[Rot
     drawn = None if whole or not turning else chosen_at_drawing(TurnedGroup(block, tuple(a.hidden)), setting, turning)
     if drawn is not None and len(drawn) == a.dof:
         return drawn
-    if len(block.coordinates) > MOST or expired():
+    if block.forms or block.nonlinear or len(block.coordinates) > MOST or expired():
         return whole
-    if block.forms or block.nonlinear:
-        if whole or not (block.finite or a.hidden):
-            return whole
-        finite = Block(block.coordinates, block.finite, block.conditions)
-        return tangent_spaces.nearby(finite, a.dof, setting, turning, a.hidden)
     orbit = None if turning else orbit_at_reference(block, a, setting)
     if orbit is not None:
         return orbit.chart_of()
@@ -154,19 +148,18 @@ def _of_block(block: Block, a: Answer, setting: Setting, rotations: Sequence[Rot
     return result if result is not None or turning else whole
 
 
-def _dependent_at_drawing(block: Block, a: Answer, setting: Setting) -> tuple[str, ...]:
+def _dependent_at_drawing(group: TurnedGroup, setting: Setting, places_first: bool = False) -> tuple[str, ...]:
     """Coordinates that the rows at the reference can be solved for, the last ones where there is a choice.
 
-    Of bodies whose joints close no loop places are solved for before angles.
+    ``places_first``: places are solved for before angles.
     """
-    result = rows_at_drawing(TurnedGroup(block, ()), setting)
+    result = rows_at_drawing(group, setting)
     if result is None:
         return ()
-    block_names = frozenset(block.coordinates)
-    places = frozenset(
-        c.name for c in setting.roles if not a.answered_parts and c.name in block_names and c.role in ("x", "y", "z")
-    )
-    names = sorted(block.coordinates, key=places.__contains__)
+    names, block_names = group.block.coordinates, frozenset(group.block.coordinates)
+    if places_first:
+        places = frozenset(c.name for c in setting.roles if c.name in block_names and c.role in ("x", "y", "z"))
+        names = tuple(sorted(names, key=places.__contains__))
     place = {name: k for k, name in enumerate(names)}
     rows = [{place[name]: v for name, v in row.items()} for row in result.rows]
     return tuple(names[c] for c in last_columns(rows, len(place), result.p))
@@ -213,16 +206,10 @@ def _regular_at_reference(block: Block, a: Answer, setting: Setting) -> list[str
     """
     if setting.reference is None or not block.forms or "field" not in setting.engines:
         return None
-    chart = make_chart(block, setting, a.hidden)
-    point = pose_point(chart, {**setting.reference, ex.TIME: ex.ZERO}, 3)
-    if point is None or not on_variety(chart, point):
-        return None
-    dependent = dependent_names(field_jacobian(chart, point), chart, point.p)
-    return (
-        [c for c in block.coordinates if c not in dependent]
-        if len(block.coordinates) - len(dependent) == a.dof
-        else None
-    )
+    finite = Block(block.coordinates, block.finite, block.conditions)
+    dependent = _dependent_at_drawing(TurnedGroup(finite, tuple(a.hidden)), setting)
+    chosen = [c for c in block.coordinates if c not in dependent]
+    return chosen if len(chosen) == a.dof else None
 
 
 def _explicit(block: Block, dof: int, setting: Setting) -> list[str] | None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from functools import partial
 from typing import Any, NamedTuple
 
@@ -11,7 +12,6 @@ from dofkit.base.verdicts import OPEN, VERDICTS, Claim, together, weakest
 from dofkit.classification import study as fields
 from dofkit.classification.counts import counts_beside
 from dofkit.classification.feasibility.feasibility import inequalities_together
-from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.freedom.preparation import all_of
 from dofkit.classification.generalized_coordinates import generalized_coordinates
 from dofkit.classification.special import special_cases
@@ -21,7 +21,7 @@ from dofkit.exact.zero import BOTH, Engines
 from dofkit.expressions.text import to_text
 from dofkit.mobility.counts import without_drives
 from dofkit.relations.answer import DEFECTS
-from dofkit.relations.setting import ALL, Reductions, Setting
+from dofkit.relations.setting import ALL, Reductions
 from dofkit.report import BRANCH_WARNING, ConstraintEntry, FieldVerdict, ForceEntry, Mobility, Report
 from dofkit.system import BINDING, System
 
@@ -294,7 +294,7 @@ def _special(study: Study, values: Values) -> Values:
     """
     if study.system.reference is not None and not any(block.forms for block in study.outcome.blocks):
         return {}
-    again = partial(_studied, study.setting.reductions)
+    again = partial(fields.study, reductions=study.setting.reductions)
     search = partial(special_cases, study, Report(**values), again)
     late: Values = {"warnings": [*values["warnings"], NO_SPECIAL_CASES]}
     special = unless_late(search, late)
@@ -324,31 +324,11 @@ def report_of(study: Study, passes: Sequence[Fill] = PASSES) -> Report:
     return Report(**agreed(values))
 
 
-def _studied(reductions: Reductions, system: System) -> Study:
-    """The blocks of another system, answered."""
-    return study(system, reductions=reductions)
+@dataclass(frozen=True)
+class Examined(Study):
+    """A system with its blocks' answers, and the report on it."""
 
-
-class Examined(NamedTuple):
-    """A system as the engines see it, with what they found of it."""
-
-    study: Study
     report: Report
-
-    @property
-    def system(self) -> System:
-        """The system."""
-        return self.study.system
-
-    @property
-    def setting(self) -> Setting:
-        """What the engines may assume."""
-        return self.study.setting
-
-    @property
-    def outcome(self) -> Outcome:
-        """The blocks with their answers."""
-        return self.study.outcome
 
 
 def examined(
@@ -362,11 +342,5 @@ def examined(
     with limited(seconds), precise_for(system.longest), gc_rarely():
         with part(SOLVING):
             result = study(system, engines, reductions)
-        return Examined(result, report_of(result, passes))
-
-
-def studied(system: System, budget: float | None = None) -> Examined:
-    """The generic answer for a system. Raises OutOfTimeError where there was no time for it."""
-    with limited(DEFAULT_SECONDS if budget is None else budget), precise_for(system.longest):
-        result = study(system)
-        return Examined(result, report_of(result, GENERIC))
+        report = report_of(result, passes)
+        return Examined(result.system, result.reduced, result.setting, result.outcome, report)

@@ -35,11 +35,9 @@ DAMPED = (2, 1)
 ROUGH = 1e-5
 
 
-def nearby(
-    block: Block, dof: int, setting: Setting, turning: Sequence[Rotation], hidden: Sequence[Expr] = ()
-) -> list[str] | None:
+def nearby(block: Block, dof: int, setting: Setting, turning: Sequence[Rotation]) -> list[str] | None:
     """From the tangent space at a regular point near the reference, or anywhere where there is none."""
-    chart = make_chart(block, setting, hidden)
+    chart = make_chart(block, setting)
     start = _start(chart)
     drawn = _drawn_tangent(chart, start, dof)
     search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.setting.positive, chart.symbols)

@@ -18,7 +18,7 @@ Mechanisms, in the order in which they are tried
     4. Without one, `search` finds points over GF(p) by solving one relation after another (`variety`) and holds
        them against certified real points; `generic_dimension` is the rank there. `components` asks whether a larger
        component exists [Krull1928]; `cases` divides a set where a factor, or a coefficient, vanishes, which also finds
-       the points of a set that is singular throughout.
+       the points of a set that is singular throughout; else one of them is brought to high precision.
 
 `finite_blocks` puts these together for blocks of finite relations. `rigid_motions` are the motions of the system as one
 rigid body. `implied_relations` asks whether a dependent relation is implied by others near the reference configuration.

@@ -108,7 +108,7 @@ def _by_field(chart: Chart, pose: Mapping[Expr, Expr]) -> AtReference | None:
     timed = len(chart.columns) - n
     fields = rigid_fields(chart, point)
     rigid = rank_of(fields, point.p)
-    together = timed or (rank == n - rigid and not chart.setting.within) or "classes" not in chart.setting.reductions
+    together = timed or rank == n - rigid or "classes" not in chart.setting.reductions
     apart = None if together else _by_parts(chart, pose, matrix, point.p, rank)
     if apart is not None:
         local, looked = apart
@@ -159,7 +159,7 @@ def _by_parts(
         return regular, FollowedClasses(rank)
     reduced = echelon(matrix, p, supports=True)
     classes = dependent_parts(chart, reduced)
-    if len(classes) == 1 and len(classes[0].rows) == len(matrix) and not chart.setting.within:
+    if len(classes) == 1 and len(classes[0].rows) == len(matrix):
         return None
     dimensions = []
     followed = more = 0

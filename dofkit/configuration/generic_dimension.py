@@ -5,16 +5,28 @@ A rank over GF(p) is held against a certified real point, without which a set ov
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
 
+from flint import arb, arb_mat, ctx
+
+from dofkit.base.deadline import check
 from dofkit.base.errors import NoValueError
 from dofkit.base.verdicts import ArgumentKey, Verdict, weakest
 from dofkit.base.wording import gap_in_words
 from dofkit.configuration.local import criteria
+from dofkit.configuration.local.criteria import numeric_dimension
+from dofkit.configuration.local.manifold import LocalDimension, Manifold
+from dofkit.configuration.rigid_motions import rigid_motions_real
 from dofkit.configuration.variety import Variety, field_jacobian, generators_of, has_same_signs, time_is_free
-from dofkit.exact.matrices.sparse import rank_of_rows
+from dofkit.exact.matrices.certified import independent_part
+from dofkit.exact.matrices.dense import length
+from dofkit.exact.matrices.sparse import Pivots, rank_of_rows
+from dofkit.exact.points.balls import BallPoint, jacobian
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.real_search import RealPoint, RealSearch, at_another_time
+from dofkit.exact.ring.program import raising_no_value, values
 from dofkit.exact.zero import independent_on_set
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
@@ -151,3 +163,129 @@ def _left_open(variety: Variety, why: str) -> Variety:
     variety.consistent, variety.dimension, variety.verdict = None, None, "undecided"
     variety.reasons.append(why)
     return variety
+
+
+def near_singular_point(chart: Chart, variety: Variety) -> Variety:
+    """Return the set near a singular real point, where only such points were found; else the same as was known."""
+    real = variety.real
+    if real is None or SINGULAR not in variety.reasons:
+        return variety
+    local = numeric_local(chart, real)
+    if local is None or local.dimension is None or local.confined:
+        return variety
+    dimension = local.dimension - (len(chart.columns) - chart.coordinates)
+    reasons = [f"every real configuration that was found is singular: {local.reason}"]
+    return Variety(True, dimension, "numeric", variety.samples, real, reasons, argument=local.argument)
+
+
+# Singular real points without exact coordinates, brought to high precision and looked at to second order
+
+#: Working precision, and the radius given to the result.
+BITS, RADIUS_BITS = 1400, 200
+#: Steps at the most; relations are smaller than this at a singular point that was reached, and not near a small gap.
+STEPS, RESIDUAL_BITS = 800, 600
+#: The relations have to become smaller by this factor within so many steps: convergence to a singular point is linear.
+PERIOD, GAIN = 50, arb(2) ** -16
+#: A combination of dependent rows is smaller than this there: surfaces that meet by 10^-64 are no longer tangent.
+DEPENDENT_BITS = 280
+#: Added to the diagonal of a Gram matrix, so that it has an inverse.
+SHIFT = arb(2) ** (-BITS // 2)
+#: Relations that are brought to high precision at the most; an entry of a Jacobian that is taken for 0.
+MAX_ROWS, TINY = 20, 1e-12
+
+
+def numeric_local(chart: Chart, real: RealPoint) -> LocalDimension | None:
+    """Return the local dimension near a singular point that a real search ran into; None where it cannot be told."""
+    if len(chart.nodes) > MAX_ROWS:
+        return None
+    with ctx.workprec(BITS):
+        try:
+            return _dimension_near(chart, real)
+        except NoValueError:
+            return None
+
+
+@raising_no_value
+def _dimension_near(chart: Chart, real: RealPoint) -> LocalDimension | None:
+    point = _converge(chart, real)
+    if point is None:
+        return None
+    at = values(chart.ring, point)
+    columns = [c for c in chart.columns if c >= 0]
+    place = [i for i, c in enumerate(chart.columns) if c >= 0]
+    exact = jacobian(chart.ring, at, point, chart.nodes, columns, arb(0))
+    j = [[float(v.mid()) for v in row] for row in exact]
+    _, gap, rows, pivots = independent_part([row if length(row) >= TINY else [0.0] * len(row) for row in j])
+    if gap < 1e6:
+        return None
+    dependent = tuple(place[c] for c in pivots)
+    free = tuple(i for i in range(len(chart.columns)) if i not in set(dependent))
+    frame = Pivots(tuple(rows), dependent, free)
+    manifold = Manifold(chart.ring, chart.nodes, chart.columns, frame, point, chart.scales)
+    rigid = rigid_motions_real(chart, point)
+    return numeric_dimension(manifold, rigid, chart.time)
+
+
+def _converge(chart: Chart, real: RealPoint) -> BallPoint | None:
+    """Return the point to which minimal steps of Newton's method lead, with balls; None if it is regular, or not found.
+
+    Each step about halves the distance to a point where the dependent relations are Morse-Bott, so that it reaches high
+    precision in as many steps as that has bits.
+    """
+    symbols: dict[Any, arb] = {s: arb(v.mid()) if isinstance(v, arb) else arb(v) for s, v in real.point.symbols.items()}
+    moved = [s for s in chart.unknowns if chart.ring.var_index(s) is not None]
+    last: arb | None = None
+    for step in range(STEPS):
+        f, j = _system(chart, symbols, moved)
+        size = max((abs(v) for v in f), default=arb(0))
+        if size < arb(2) ** -RESIDUAL_BITS:
+            break
+        if step % PERIOD == 0:
+            if last is not None and not size < last * GAIN:
+                return None
+            last = size
+        for s, d in zip(moved, _minimal_step(j, f), strict=True):
+            symbols[s] = (symbols[s] - d).mid()
+    else:
+        return None
+    if not _is_singular(_system(chart, symbols, moved)[1]):
+        return None
+    radius = arb(0, arb(2) ** -RADIUS_BITS)
+    return BallPoint({s: v + radius if s in set(moved) else v for s, v in symbols.items()}, 0)
+
+
+def _system(chart: Chart, symbols: Mapping[Any, arb], moved: Sequence[Expr]) -> tuple[list[arb], list[list[arb]]]:
+    """Return the relations and their Jacobian, as numbers."""
+    check()
+    point = BallPoint(symbols, 0)
+    at = values(chart.ring, point)
+    indices = [chart.ring.var_index(s) or 0 for s in moved]
+    j = jacobian(chart.ring, at, point, chart.nodes, indices, arb(0))
+    return [arb(at[n].mid()) for n in chart.nodes], [[v.mid() for v in row] for row in j]
+
+
+def _is_singular(j: Sequence[Sequence[arb]]) -> bool:
+    """Return whether rows are dependent: in floating point, and then to high precision."""
+    matrix = [[float(v) for v in row] for row in j]
+    if not all(math.isfinite(v) for row in matrix for v in row):
+        return False
+    rank, _, rows, pivots = independent_part([[0.0 if abs(v) < TINY else v for v in row] for row in matrix])
+    others = [list(row) for r, row in enumerate(j) if r not in rows]
+    if rank == 0 or not others:
+        sums = others
+    else:
+        basis = arb_mat([[j[r][c] for c in pivots] for r in rows])
+        weights = arb_mat([[row[c] for c in pivots] for row in others]) * basis.inv()
+        sums = (arb_mat(others) - weights * arb_mat([list(j[r]) for r in rows])).tolist()
+    return bool(others) and all(abs(v.mid()) < arb(2) ** -DEPENDENT_BITS for row in sums for v in row)
+
+
+def _minimal_step(j: Sequence[Sequence[arb]], f: Sequence[arb]) -> list[arb]:
+    """Return J^T (J J^T)^-1 f."""
+    matrix = arb_mat(j)
+    gram = matrix * matrix.transpose()
+    n = gram.nrows()
+    for i in range(n):
+        gram[i, i] = gram[i, i].mid() + SHIFT
+    step = matrix.transpose() * gram.solve(arb_mat([[v] for v in f]))
+    return [step[i, 0].mid() for i in range(step.nrows())]

@@ -12,7 +12,13 @@ from collections.abc import Mapping
 from functools import partial
 
 from dofkit.configuration.components import by_cases, of_largest_part
-from dofkit.configuration.generic_dimension import ALLOWING, near_real_point, real_point, variety_at
+from dofkit.configuration.generic_dimension import (
+    ALLOWING,
+    near_real_point,
+    near_singular_point,
+    real_point,
+    variety_at,
+)
 from dofkit.configuration.variety import (
     Variety,
     free_real_point,
@@ -53,6 +59,8 @@ def find(chart: Chart, pose: Mapping[Expr, Expr], seed: int = 0) -> Variety:
     if timed:
         variety = by_cases(chart, variety, look)
     unseen = variety.consistent is not True or ALLOWING in variety.reasons
+    near = near_singular_point(chart, variety)
+    unseen = unseen and near is variety
     looked = {"field", "balls"} <= chart.setting.engines and unseen and variety.verdict != "proved"
     if looked and len(chart.relations) <= MAX_RELATIONS and no_solution(chart.relations, chart.setting.positive):
         return Variety(False, None, "proved", reasons=[EMPTY], argument="no real solution")
@@ -63,6 +71,8 @@ def find(chart: Chart, pose: Mapping[Expr, Expr], seed: int = 0) -> Variety:
     )
     if by_case and not timed:
         variety = by_cases(chart, variety, look)
+    if variety.dimension is None and near.dimension is not None:
+        return of_largest_part(chart, near, look)
     return of_largest_part(chart, variety, look, by_case or timed)
 
 

@@ -238,7 +238,6 @@ _NO_QUESTION = "There is no question '{word}' ({hint})."
 def unasked(prepared: Prepared, submission: Submission) -> Iterator[Item]:
     """Answers to questions that were not asked: they count nothing, and say what was meant."""
     asked: dict[str, list[str]] = {}
-    language = prepared.assignment.language
     for problem, question in prepared.questions():
         asked.setdefault(problem.id, []).append(question.id)
     places = (
@@ -248,16 +247,16 @@ def unasked(prepared: Prepared, submission: Submission) -> Iterator[Item]:
         if question not in asked.get(problem, ())
     )
     for problem_id, question_id in islice(places, MOST_UNASKED):
-        asked_there = asked.get(problem_id)
-        word, names = (problem_id, [*asked]) if asked_there is None else (question_id, asked_there)
-        what = "problem" if asked_there is None else "question"
+        what, word, names = "question", question_id, asked.get(problem_id)
+        if names is None:
+            what, word, names = "problem", problem_id, [*asked]
         near = nearest(word, names)
         hint = f"did you mean '{near}'?" if near else f"the {what}s are {', '.join(names[:12])}"
-        sentence = _NO_PROBLEM if asked_there is None else _NO_QUESTION
+        sentence = _NO_PROBLEM if what == "problem" else _NO_QUESTION
         yield Item(
             problem=problem_id[:LONGEST_NAME], question=question_id[:LONGEST_NAME], score=0.0, max_score=0.0,
             status="unreadable", codes=[], read_as="",
-            feedback=in_language(language, sentence, word=word[:LONGEST_NAME], hint=hint),
+            feedback=in_language(prepared.assignment.language, sentence, word=word[:LONGEST_NAME], hint=hint),
         )  # fmt: skip
 
 

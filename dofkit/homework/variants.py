@@ -178,5 +178,5 @@ def rows_of(prepared: Prepared, variants: Variants) -> Iterator[tuple[str, str, 
         for problem in prepared.assignment.problems:
             if problem.id in student.picks:
                 key = sheet.keys[problem.id]
-                right = "; ".join(text for q in problem.questions for text in _solutions(q, [key]) if text)
+                right = " ".join(text for q in problem.questions for text in _solutions(q, [key]) if text)
                 yield student.student, problem.id, pick_text(problem.vary or {}, student.picks[problem.id]), right

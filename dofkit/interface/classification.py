@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import sys
 import time
 from collections import Counter
@@ -14,17 +13,12 @@ from typing import Any
 
 import typer
 
-from dofkit.base.errors import ArgumentError
 from dofkit.base.verdicts import VERDICTS
 from dofkit.base.wording import many
 from dofkit.interface.jobs import Printed, Request, Run, name_of_file, replies
 from dofkit.interface.output import FAILED, FAILURES, UNREADABLE, Output, progress
 from dofkit.interface.show.faults import safe
 
-#: Seconds between two looks at the files that are watched.
-LOOKING = 0.2
-#: Clears a terminal, and goes to its first line.
-_CLEARED = "\x1b[2J\x1b[H"
 #: How many scenes a summary names, and how many of the slowest.
 _MOST_NAMED, _SLOWEST = 8, 3
 #: What a finding is called after a number of scenes, where its name alone would be misread.
@@ -87,32 +81,6 @@ def _stream(files: Sequence[str], request: Request, run: Run) -> Generator[Print
         return many_reports(files, request, run)
     as_json = Output(True, only=request.output.only)
     return kept_reports(files, replace(request, output=as_json), run, run.out)
-
-
-def watch_files(files: Sequence[str], request: Request, run: Run) -> int:
-    """Classify again whenever a file changes, until it is interrupted. Raises ArgumentError if there is no file."""
-    if not any(os.path.exists(file) for file in files):
-        raise ArgumentError("nothing can be watched: --watch takes files, no catalog names and not standard input")
-    while True:
-        seen = _state(files)
-        if sys.stdout.isatty():
-            typer.echo(_CLEARED, nl=False)
-        classify_files(files, request, run)
-        sys.stdout.flush()
-        while _state(files) == seen:
-            time.sleep(LOOKING)
-
-
-def _state(files: Sequence[str]) -> list[tuple[int, int] | None]:
-    """Return when each file was last changed, and its length; None for a file that does not exist."""
-    states: list[tuple[int, int] | None] = []
-    for file in files:
-        try:
-            status = os.stat(file)
-            states.append((status.st_mtime_ns, status.st_size))
-        except OSError:
-            states.append(None)
-    return states
 
 
 def longest_name(files: Sequence[str]) -> int:

@@ -69,7 +69,6 @@ def classify(
     only: options.Only = None,
     without: options.Without = None,
     fail_on: options.FailOn = None,
-    watch: options.Watch = False,
     budget: options.Budget = DEFAULT_SECONDS,
     method: options.Method = "auto",
     certificate: options.CertificatePath = None,
@@ -82,20 +81,20 @@ def classify(
 
     Every answer carries a verdict: proved, probable, numeric or undecided.
     """
-    from dofkit.interface.classification import classify_files, longest_name, watch_files
+    from dofkit.interface.classification import classify_files, longest_name
     from dofkit.interface.jobs import Request, Run
 
     if math.isnan(budget):
         raise typer.BadParameter("the budget is a number of seconds", param_hint="--budget")
-    if out is not None and (watch or full or how or brief):
-        raise typer.BadParameter("it cannot be combined with --watch, --brief, --full or --how", param_hint="--out")
+    if out is not None and (full or how or brief):
+        raise typer.BadParameter("it cannot be combined with --brief, --full or --how", param_hint="--out")
     output = Output.here(as_json, brief or (len(files) > MOST_IN_FULL and not (full or how)), how)
     output = output._replace(only=options.fields(only), name_width=longest_name(files))
     request = Request("", output, budget, cast("MethodName", method), options.listed(without), limits)
     request = replace(request, certificate=certificate)
     run = Run(options.failures(fail_on), workers, scheduler, out)
-    with failures_of("--watch" if watch else "classify"):
-        status = watch_files(files, request, run) if watch else classify_files(files, request, run)
+    with failures_of("classify"):
+        status = classify_files(files, request, run)
     raise typer.Exit(status)
 
 

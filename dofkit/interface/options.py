@@ -156,7 +156,6 @@ FailOn = Annotated[list[str] | None, Option("--fail-on", metavar="WHAT,...", hel
 SceneWorkers = Annotated[int | None, _workers("Number of processes; with --out the default is one per core.")]
 _REPORTS = "Write the reports to DIR/reports.jsonl; a later run answers only what is new or changed."
 ReportFolder = Annotated[Path | None, Option("--out", metavar="DIR", callback=folder, help=_REPORTS)]
-Watch = Annotated[bool, flag("--watch", "Run again whenever a file changes, until Ctrl-C.")]
 _METHOD = f"Answer by one method only: {', '.join(METHODS)}."
 Method = Annotated[
     str, Option("--method", metavar="NAME", callback=_one_of(METHODS), help=_METHOD, rich_help_panel=ADVANCED)

@@ -10,6 +10,7 @@ from itertools import combinations, pairwise
 import numpy as np
 
 from dofkit.pictures.loci import locus, profile
+from dofkit.pictures.placed_shapes import hatching
 from dofkit.pictures.shapes import (
     AT_REST,
     SQUARE,
@@ -120,22 +121,15 @@ def _footing(stage: StagedScene, number: int, at: Place, frame: Array) -> Iterat
     if symbol.rails and stage.flat:
         side = frame[1] if frame[1][1] < 0 or (frame[1][1] == 0 and frame[1][0] > 0) else -frame[1]
         middle = stage.spot(number, GROUND) + side * (0.7 if connection.points else RAIL) * stage.unit
-        yield hatching(stage, middle, frame[0] * symbol.rails * stage.unit, side)
+        yield _hatched(stage, middle, frame[0] * symbol.rails * stage.unit, side)
     elif not symbol.rails:
         member = connection.members[0]
         here = stage.here(Vertex(member, place(stage.spot(number, member))))
         yield from stand(stage, at if GROUND in connection.members else place(here))
 
 
-def hatching(stage: StagedScene, middle: Array, half: Array, side: Array, ticks: int = TICKS) -> Shape:
-    """Return short strokes along a line, on one side of it, as one zigzag."""
-    way = half / max(float(np.linalg.norm(half)), 1e-12)
-    slant = (side - way) * max(0.55 * stage.unit, 0.07 * float(np.linalg.norm(half)))
-    spots: list[Array] = []
-    for k in range(ticks):
-        root = middle + half * (2 * (k + 0.7) / ticks - 1)
-        spots += [root, root + slant, root]
-    return Shape("line", fixed(*spots), "hatch")
+def _hatched(stage: StagedScene, middle: Array, half: Array, side: Array, ticks: int = TICKS) -> Shape:
+    return Shape("line", fixed(*hatching(stage.unit, middle, half, side, ticks)), "hatch")
 
 
 def stand(stage: StagedScene, at: Place) -> Iterator[Shape]:
@@ -146,7 +140,7 @@ def stand(stage: StagedScene, at: Place) -> Iterator[Shape]:
         yield Shape("area", fixed(root, *feet), "ground")
         base = root + 1.5 * u * _DOWN
         yield Shape("line", fixed(base - 1.4 * u * _X, base + 1.4 * u * _X), "ground")
-        yield hatching(stage, base, 1.4 * u * _X, _DOWN, 5)
+        yield _hatched(stage, base, 1.4 * u * _X, _DOWN, 5)
         return
     down = np.array([0.0, 0.0, -1.8 * u])
     corners = [np.array([0.9 * x, 0.9 * y, 0.0]) * u + down for x, y in SQUARE]
@@ -199,7 +193,7 @@ def _rope(stage: StagedScene, number: int, connection: Connection) -> Iterator[S
             above = np.array(point.at) + (1.6 if inner else 0.0) * stage.unit * _UP
             half = 1.2 * stage.unit * _X
             yield Shape("line", fixed(above - half, above + half), "ground")
-            yield hatching(stage, above, half, _UP, 5)
+            yield _hatched(stage, above, half, _UP, 5)
             yield Shape("line", (*fixed(above), point), "ground")
         elif point.carrier == GROUND:
             yield from stand(stage, point.at)
@@ -254,7 +248,7 @@ def _wheel(stage: StagedScene, number: int, connection: Connection) -> Iterator[
         yield Shape("area", _rim(centre, radius, np.eye(3)[:2]), "body", state, body)
         half, foot = 2.2 * radius * _X, middle[0] * _X
         yield Shape("line", fixed(foot - half, foot + half), "ground")
-        yield hatching(stage, foot, half, _DOWN, 16)
+        yield _hatched(stage, foot, half, _DOWN, 16)
         yield Shape("line", (centre, Vertex(body, place(np.array(centre.at) + radius * _UP))), "guide")
         yield Shape("ball", (centre,), "joint", size=0.3 * stage.unit)
         return

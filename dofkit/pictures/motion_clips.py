@@ -34,7 +34,7 @@ MANY, LEAST = 3000, 10
 #: The time limit of the finite motions.
 SECONDS = 12.0
 #: Frames of an infinitesimal motion to both sides, its extent by the picture's size, and its largest rotation.
-SWING, REACH, TURN = 16, 0.22, 0.6
+SWING, REACH, TURN = 9, 0.22, 0.6
 #: The number of motions, and of constraints with a switch, that are shown.
 MOST_MOTIONS, MOST_SWITCHES = 12, 8
 GOES_ON = "This infinitesimal motion goes on: it was followed as a finite motion."
@@ -166,7 +166,7 @@ class ClipMaker:
     # Infinitesimal motions
 
     def _swings(self, motions: Sequence[FreeMotion], reason: str = "") -> list[Clip]:
-        """Return each infinitesimal motion on its own, to one side and back to the other.
+        """Return each infinitesimal motion on its own, from one side to the other.
 
         ``reason``: why no finite motion is shown in its place.
         """
@@ -174,12 +174,12 @@ class ClipMaker:
         end = NO_MOTION.format(sure(report, "velocity_dof")) if report.velocity_dof == 0 else NONE_FOUND
         for motion in motions:
             far = self._reach(motion)
-            steps = (far * math.sin(2 * math.pi * j / SWING) for j in range(SWING))
-            numbers = tuple(moved_numbers(self.stage.arrangement, motion, step) for step in steps)
+            steps = np.linspace(-far, far, SWING)
+            numbers = tuple(moved_numbers(self.stage.arrangement, motion, float(step)) for step in steps)
             frames = tuple(self.stage.arrangement.poses_at(n, gibbs=True) for n in numbers)
             text, arrows = (ENDS + end, self._arrows(motion)) if report.singular else (reason, ())
             name = f"infinitesimal motion: {motion.name}"
-            clips.append(Clip(name, frames, numbers, closed=True, text=text, arrows=arrows))
+            clips.append(Clip(name, frames, numbers, text=text, arrows=arrows))
         return clips
 
     def _arrows(self, motion: FreeMotion) -> tuple[tuple[Array, Array], ...]:

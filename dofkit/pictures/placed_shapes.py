@@ -43,6 +43,11 @@ _LINES: Mapping[str, tuple[Kind, Role, float]] = {
 }  # fmt: skip
 #: The sides of the ground, of axes and of a blade whose size is not given.
 SIDE, AXIS, BLADE = 4.0, 1.0, 0.8
+#: The rim of a blade, seen from above in the plane and from the side in space, for half its length.
+BLADES = {
+    2: [(-1, 0, 0), (-0.5, -0.2, 0), (0.5, -0.2, 0), (1, 0, 0), (0.5, 0.2, 0), (-0.5, 0.2, 0)],
+    3: [(-1, 0, 0.5), (-0.7, 0, 0), (0.7, 0, 0), (1, 0, 0.5)],
+}
 
 
 class ShapePlacement(NamedTuple):
@@ -257,9 +262,7 @@ class _Drawing(NamedTuple):
         up = up / max(float(np.linalg.norm(up)), 1e-12)
         along = half * np.array([up[1], -up[0], 0.0])
         yield self._made("line", self._in_frame([-along, along]), "ground")
-        for part in np.linspace(-1, 1, STROKES):
-            foot = part * along - 0.9 * self.unit * (up + along / max(half, 1e-12))
-            yield self._made("line", self._in_frame([part * along, foot]), "hatch")
+        yield self._made("line", self._in_frame(hatching(self.unit, np.zeros(3), along, -up, STROKES)), "hatch")
 
     def _box(self) -> Iterator[Shape]:
         half = np.array(self._sizes(3, 1.0)) / 2
@@ -267,22 +270,15 @@ class _Drawing(NamedTuple):
             yield self._made("area", self._in_frame([half * corner for corner in np.array(face)]), "body")
 
     def _blade(self, half: float) -> Iterator[Shape]:
-        wide = half / 5
-        if self.dimension == 2:
-            rim = [
-                (-half, 0.0),
-                (-half / 2, -wide),
-                (half / 2, -wide),
-                (half, 0.0),
-                (half / 2, wide),
-                (-half / 2, wide),
-            ]
-        else:
-            rim = [(-half, half / 2), (-0.7 * half, 0.0), (0.7 * half, 0.0), (half, half / 2)]
-            upright = [(along, 0.0, up) for along, up in rim]
-            yield self._made("area", self._in_frame(upright), "body")
-            return
-        yield self._made("area", self._in_frame(rim), "body")
+        yield self._made("area", self._in_frame(half * np.array(BLADES[self.dimension])), "body")
+
+
+def hatching(unit: float, middle: Array, half: Array, side: Array, ticks: int) -> list[Array]:
+    """Return short strokes along a line, on one side of it, as one zigzag; ``unit``: the size of symbols."""
+    way = half / max(float(np.linalg.norm(half)), 1e-12)
+    slant = (side - way) * max(0.55 * unit, 0.07 * float(np.linalg.norm(half)))
+    roots = [middle + half * (2 * (k + 0.7) / ticks - 1) for k in range(ticks)]
+    return [spot for root in roots for spot in (root, root + slant, root)]
 
 
 def faces(half: Array) -> list[list[Array]]:

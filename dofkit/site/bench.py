@@ -17,6 +17,7 @@ from pathlib import Path
 
 from dofkit.pictures.player import player_script
 from dofkit.scene.schema import scene_schema
+from dofkit.site.browser.reports import report
 from dofkit.site.gallery import ShownScene
 from dofkit.site.runtime import SOURCES, build_runtime, run
 
@@ -24,9 +25,7 @@ from dofkit.site.runtime import SOURCES, build_runtime, run
 SELDOM = ("runtime/symbols.zip", "runtime/sheets.zip")
 #: All that reads answers in one script, for the pages of sheets; the files in it beside its worker.
 ONE_SCRIPT, WORKER = "runtime.js", "runtime-worker.js"
-IN_ONE_SCRIPT = (
-    "pyodide.asm.wasm", "python_stdlib.zip", "pyodide-lock.json", "core.bin", "graphs.zip", "sheets.zip",
-)  # fmt: skip
+IN_ONE_SCRIPT = ("pyodide-lock.json", "core.bin", "extras.zip", "sheets.zip")
 #: What a scene of the catalog expects of its report: the bench is not for reading that.
 _EXPECTED = re.compile(r"^expect:.*\n(?:[ \t#].*\n|\n)*", re.MULTILINE)
 
@@ -55,10 +54,12 @@ def _write_catalog(out: Path, catalog: Sequence[ShownScene]) -> None:
             "name": s.name,
             "folder": s.folder,
             "title": s.title,
-            "text": _EXPECTED.sub("", s.written),
+            "text": text,
             "alternative": s.alternative,
+            "answer": report(text, ()),
         }
         for s in catalog
+        if (text := _EXPECTED.sub("", s.written))
     ]
     (out / "catalog.json").write_text(json.dumps(fields, ensure_ascii=False), encoding="utf-8")
 

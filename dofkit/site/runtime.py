@@ -6,10 +6,11 @@ worker.postMessage({ id: 1, call: "report", args: [text, []] });   // answered b
 ```
 
 The calls are the functions of `dofkit.site.browser`: `check`, `report`, `as_json`, `picture`, `motion`, `equations`,
-`read`, `judge`. Beside `worker.js` the folder has Pyodide (from npm, pinned by the lock file); `core.bin`, the packages
-of a report in bytecode and the compiled libraries (from PyPI, in the versions that are installed); and archives that
-are loaded when a call needs them: `graphs.zip` for linkages, `sheets.zip` for homework, `symbols.zip` for equations of
-motion.
+`read`, `judge`. Beside `worker.js` the folder has the scripts of Pyodide (from npm, pinned by the lock file);
+`core.bin`, its compiled runtime, the standard library and the packages of a report in bytecode, and the compiled
+libraries (from PyPI, in the versions that are installed), without what of FLINT nothing calls; and archives that are
+loaded when a call needs them: `extras.zip` for linkages and pictures, with what of the standard library reports
+do without, `sheets.zip` for homework, `symbols.zip` for equations of motion.
 """
 
 from __future__ import annotations
@@ -47,15 +48,21 @@ CORE = (
     "typing_inspection",
     "yaml",
 )
-GRAPHS = ("networkx",)
+EXTRAS = ("networkx",)
 SHEETS = ("markdown_it", "mdit_py_plugins", "mdurl")
 SYMBOLS = ("mpmath", "sympy")
-#: Folders of dofkit that no page needs; of its site only what the worker calls.
-LEFT_OUT = ("benchmark", "homework", "site", "_catalog")
-#: Files that tests and typists need.
-UNUSED = ("tests", "test", "__pycache__", "testing")
-#: What Pyodide needs at run time.
-PYODIDE = ("pyodide.mjs", "pyodide.asm.mjs", "pyodide.asm.wasm", "python_stdlib.zip", "pyodide-lock.json")
+#: Folders of dofkit that no report needs; of its site only what the worker calls.
+LEFT_OUT = ("benchmark", "homework", "pictures", "site", "_catalog")
+#: Files that tests, typists and users of older versions of a package need.
+UNUSED = ("tests", "test", "__pycache__", "testing", "v1", "mypy.py")
+#: What Pyodide needs at run time, beside its compiled runtime and the standard library.
+PYODIDE = ("pyodide.mjs", "pyodide.asm.mjs", "pyodide-lock.json")
+#: Modules of the standard library that no report of the catalog imports, the larger ones.
+SELDOM = (
+    "_pydatetime", "_pyio", "_pyrepl", "argparse", "bdb", "configparser", "ctypes", "doctest", "ftplib", "imaplib",
+    "mailbox", "multiprocessing", "optparse", "pdb", "pickle", "pickletools", "platform", "plistlib", "pstats", "pydoc",
+    "smtplib", "statistics", "symtable", "tarfile", "tomllib", "trace", "unittest", "wsgiref", "xmlrpc",
+)  # fmt: skip
 
 
 class BenchError(DofkitError):
@@ -73,10 +80,13 @@ def build_runtime(out: Path) -> None:
         _copy(modules / "pyodide" / name, out / name)
     with TemporaryDirectory() as folder:
         packages = Path(folder)
+        _copy(modules / "pyodide" / "pyodide.asm.wasm", packages / "library" / "pyodide.asm.wasm")
+        _stage_library(modules / "pyodide" / "python_stdlib.zip", packages)
         _stage_compiled(packages / "core")
         _stage_packages(CORE, packages / "core")
         _stage_dofkit(packages / "core")
-        _stage_packages(GRAPHS, packages / "graphs")
+        _stage_packages(EXTRAS, packages / "extras")
+        _stage_folder(PACKAGE / "pictures", packages / "extras" / "dofkit" / "pictures")
         _stage_packages(SHEETS, packages / "sheets")
         _stage_folder(PACKAGE / "homework", packages / "sheets" / "dofkit" / "homework")
         _stage_packages(SYMBOLS, packages / "symbols")
@@ -88,6 +98,14 @@ def run(command: list[str], what: str) -> None:
     ran = subprocess.run(command, cwd=SOURCES, capture_output=True, text=True, check=False)
     if ran.returncode:
         raise BenchError(f"{what} failed: {(ran.stderr or ran.stdout).strip()[-2000:]}")
+
+
+def _stage_library(file: Path, packages: Path) -> None:
+    """Unpack the standard library, and apart from it what is seldom used."""
+    with zipfile.ZipFile(file) as archive:
+        for name in archive.namelist():
+            is_seldom = name.partition("/")[0].removesuffix(".py") in SELDOM
+            archive.extract(name, packages / ("extras" if is_seldom else "library"))
 
 
 def _stage_compiled(target: Path) -> None:
@@ -128,7 +146,8 @@ def _stage_packages(names: Iterable[str], target: Path) -> None:
         else:
             _stage_folder(origin.parent, target / name)
             for metadata in origin.parents[1].glob(f"{name}-*.dist-info/METADATA"):  # some ask for their own version
-                _copy(metadata, target / metadata.parent.name / "METADATA")
+                head = metadata.read_text(encoding="utf-8").partition("\n\n")[0]
+                _copy(metadata, target / metadata.parent.name / "METADATA").write_text(f"{head}\n", encoding="utf-8")
 
 
 def _stage_dofkit(target: Path) -> None:
@@ -148,6 +167,6 @@ def _is_used(path: Path) -> bool:
     return path.suffix not in (".pyi", ".pyd", ".pyx", ".c", ".typed") and not set(path.parts) & set(UNUSED)
 
 
-def _copy(source: Path, target: Path) -> None:
+def _copy(source: Path, target: Path) -> Path:
     target.parent.mkdir(parents=True, exist_ok=True)
-    shutil.copyfile(source, target)
+    return Path(shutil.copyfile(source, target))

@@ -2,11 +2,10 @@
 // SCENES is a JSON file of texts by name; RUNTIME is the folder from which a page runs dofkit, and has no numpy.
 import { createReadStream, readFileSync } from "node:fs";
 import { Readable } from "node:stream";
-import { pathToFileURL } from "node:url";
+import { loadPyodide } from "../../dofkit/site/bench/node_modules/pyodide/pyodide.mjs";
 import { startPython } from "../../dofkit/site/bench/start.js";
 
 const [runtime, scenes] = process.argv.slice(2);
-const { loadPyodide } = await import(pathToFileURL(`${runtime}/pyodide.mjs`).href);
 const program = `
 import json, sys, time
 import dofkit
@@ -23,8 +22,9 @@ json.dumps({
 `;
 try {
   const core = Readable.toWeb(createReadStream(`${runtime}/core.bin`));
+  // under node Pyodide takes its compiled runtime and the standard library from its own folder
   const { python, site } = await startPython(loadPyodide, Promise.resolve(core), {});
-  python.unpackArchive(new Uint8Array(readFileSync(`${runtime}/graphs.zip`)), "zip", { extractDir: site });
+  python.unpackArchive(new Uint8Array(readFileSync(`${runtime}/extras.zip`)), "zip", { extractDir: site });
   python.globals.set("scenes", readFileSync(scenes, "utf8"));
   process.stdout.write(python.runPython(program));
 } catch (error) {

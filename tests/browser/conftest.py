@@ -96,9 +96,10 @@ class Visit:
             self.errors.append(text)
 
     def opened(self, url: str) -> Any:
-        """Return the page once it has a report."""
+        """Return the page once it has a report and Python has started."""
         self.page.goto(url)
         self.page.locator("#report table").first.wait_for(timeout=WAIT)
+        self.page.locator("#state").filter(has_not_text="Loading").wait_for(timeout=WAIT, state="attached")
         return self.page
 
 

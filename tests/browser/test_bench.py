@@ -5,17 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from shared.browsed import SOON, seen, shot, violations
+from shared.browsed import KNIFE, SOON, seen, shot, violations, write
 from shared.served import Served
 
 from dofkit.site.markdown import fragment
 
 pytestmark = [pytest.mark.browser, pytest.mark.xdist_group("browser"), pytest.mark.timeout(900)]
-KNIFE = """\
-coordinates: [x, y, theta]
-constraints:
-- {name: edge, type: equation, text: "sin(theta) dx - cos(theta) dy = 0"}
-"""
 HOSTILE = """\
 title: "<img src=x onerror=alert(1)><script>alert(2)</script>"
 coordinates: [x, y]
@@ -23,13 +18,6 @@ constraints:
 - {name: "<svg onload=alert(3)>", type: equation, text: "x dy + y dx = 0"}
 - {name: "javascript:alert(4)", type: equation, text: "x = 1"}
 """
-
-
-def write(page: Any, text: str) -> None:
-    """Put a text in place of all in the editor, as by pasting."""
-    page.locator(".cm-content").click()
-    page.keyboard.press("Control+A")
-    page.keyboard.insert_text(text)
 
 
 def test_a_fault_is_shown_while_typing_and_mended_by_a_click(served: Served, visit: Any) -> None:
@@ -154,6 +142,37 @@ def test_without_numpy_the_place_of_the_picture_says_so(served: Served, visit: A
     seen(page, "#state", "numpy could not be loaded")
 
 
+def test_an_example_is_answered_before_python_has_started(served: Served, visit: Any) -> None:
+    """The report on an example is the one that Python gives, and the title of the page is that of the scene."""
+    visit.context.route("**/core.bin", lambda route: route.abort())
+    page = visit.page
+    page.goto(f"{served.url}/bench/")
+    seen(page, "#report td", "non-holonomic, scleronomic")
+    assert page.title() == f"{page.inner_text('#report h2')} - dofkit bench"
+    built = page.inner_text("#report")
+    visit.context.unroute("**/core.bin")
+    page.goto("about:blank")
+    visit.opened(f"{served.url}/bench/")
+    page.locator(".cm-content").click()
+    page.keyboard.press("Control+End")
+    page.keyboard.type(" ")
+    page.wait_for_url("**#scene=*")
+    seen(page, "#no-picture", "numpy could not be loaded")
+    assert page.inner_text("#report") == built
+
+
+def test_equations_of_motion_are_derived_on_request(served: Served, visit: Any) -> None:
+    page = visit.opened(f"{served.url}/bench/#example=pendulum-angle")
+    page.get_by_role("button", name="Derive equations of motion").click()
+    page.locator("#derived math").first.wait_for(timeout=4 * SOON)
+    shot(page, served, "equations")
+    page.set_viewport_size({"width": 360, "height": 740})
+    widths = "Array.from(document.querySelectorAll('.wide'), (box) => box.scrollWidth - box.clientWidth)"
+    assert max(page.evaluate(widths)) > 0, "a wide table scrolls by itself"
+    assert violations(page) == []
+    assert visit.errors == []
+
+
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_axe_finds_no_violation(served: Served, visit: Any, scheme: str) -> None:
     page = visit.page
@@ -211,7 +230,7 @@ def test_completion_offers_fields_types_and_names(served: Served, visit: Any) ->
         ("edge, t", ["text", "type", "theta"], "Escape"),
         ("ype: e", ["equation"], "Enter"),
         (", te", ["text"], "Enter"),
-        ('"cos(th', ["theta"], "Enter"),
+        ('"cos(th', ["theta", "dtheta"], "Enter"),
     ):
         page.keyboard.type(typed)
         options = page.locator(".cm-tooltip-autocomplete li .cm-completionLabel")
@@ -219,7 +238,11 @@ def test_completion_offers_fields_types_and_names(served: Served, visit: Any) ->
         page.wait_for_timeout(200)  # what has just appeared is not accepted yet
         assert options.all_inner_texts() == offered
         page.keyboard.press(key)
-    page.keyboard.type(") dx + sin(theta) dy = 0")
+    page.keyboard.type(") dx + sin(theta) d")
+    page.locator(".cm-tooltip-autocomplete").filter(has_text="dtheta").wait_for(timeout=SOON)
+    assert page.locator(".cm-tooltip-autocomplete li .cm-completionLabel").all_inner_texts() == ["dtheta", "dx", "dy"]
+    page.keyboard.press("Escape")
+    page.keyboard.type("y = 0")
     seen(page, "#report th", "edge")
     seen(page, "#report td", "(2, 3)")
     assert visit.errors == []

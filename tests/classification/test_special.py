@@ -10,8 +10,8 @@ from typing import Any
 import pytest
 
 import dofkit
-from dofkit.classification.special.cases import SEARCHED, merged
-from dofkit.report import Report, SpecialCase
+from dofkit.classification.special.cases import SEARCHED
+from dofkit.report import Report
 
 XYZ = ["x", "y", "z"]
 Case = tuple[str, str, tuple[str, ...], str]
@@ -143,12 +143,3 @@ def test_blocks_that_are_alike_have_their_own_loci() -> None:
     twins = scene("dz1 = y1^2 dx1", "dz2 = y2^2 dx2", coordinates=["x1", "y1", "z1", "x2", "y2", "z2"])
     cases = dofkit.classify(dofkit.load(twins)).special_cases
     assert [(c.where, c.constraints) for c in cases] == [("y1 = 0", ["c1"]), ("y2 = 0", ["c2"])]
-
-
-def test_what_is_said_of_two_constraints_at_one_place_is_said_once() -> None:
-    first, second = (
-        SpecialCase(where="x = 0", kind="locus", what="it vanishes", constraints=names, verdict=verdict)
-        for names, verdict in ((["a", "b"], "proved"), (["b", "c"], "probable"))
-    )
-    (case,) = merged([first, second])
-    assert (case.constraints, case.verdict) == (["a", "b", "c"], "probable")

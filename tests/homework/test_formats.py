@@ -20,6 +20,7 @@ from dofkit.homework.formats import FORMATS, FormatError
 from dofkit.homework.formats.base import MOST_CHARACTERS, cell
 from dofkit.homework.formats.html import Submitted, overview
 from dofkit.homework.formats.prairielearn import MOST_BYTES
+from dofkit.homework.formats.review import queue_of, write_page
 from dofkit.homework.formats.wording import identity
 from dofkit.homework.result import Item, Result, Status
 
@@ -75,9 +76,13 @@ def document(name: str, prepared: Prepared, *results: Result) -> dict[str, Any]:
     return found
 
 
-@pytest.mark.parametrize("module", ["wording", "base", "gradebooks"])
+DOCUMENTED = ["review", "formats.wording", "formats.base", "formats.gradebooks", "answers.words", "answers.roster",
+              "answers.submission"]  # fmt: skip
+
+
+@pytest.mark.parametrize("module", DOCUMENTED)
 def test_documentation(module: str) -> None:
-    outcome = doctest.testmod(importlib.import_module(f"dofkit.homework.formats.{module}"))
+    outcome = doctest.testmod(importlib.import_module(f"dofkit.homework.{module}"))
     assert outcome.failed == 0
     assert outcome.attempted > 0
 
@@ -267,7 +272,10 @@ class Page(HTMLParser):
 
 
 def pages(prepared: Prepared, folder: Path, results: Iterable[Result]) -> dict[str, Page]:
-    FORMATS["html"].write(list(results), prepared, folder, None)
+    given = list(results)
+    FORMATS["html"].write(given, prepared, folder, None)
+    if (queue := queue_of(given, prepared)).open_answers():
+        write_page(queue, [], prepared, folder / "review.html", "review.csv")
     files = sorted(folder.rglob("*.html"))
     return {str(file.relative_to(folder)): Page(file.read_text(encoding="utf-8")) for file in files}
 
@@ -328,7 +336,7 @@ def test_the_overview(prepared: Prepared, tmp_path: Path) -> None:
     assert "3 submissions by points. 1 with answers awaiting review is not included" in shown
     assert "p.f How many degrees of freedom does the system have? 1 / 2 ✓ 2 correct ✗ 2 incorrect" in shown
     assert " 2.67 / 8 ◐ 2 partly correct ? 1 not readable … 1 awaiting review" in shown
-    assert "2 The solutions are correct, but the gradient vanishes on all of them" in shown
+    assert "2 × The solutions are correct, but the gradient vanishes on all of them" in shown
     assert "p.rod 8 points The time was not enough. d Points" in shown
 
 

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import csv
-import doctest
-import importlib
 import io
 from pathlib import Path
 from typing import Any
@@ -259,10 +257,3 @@ def test_a_platform_is_given_its_own_ids_only(prepared: Prepared, tmp_path: Path
     of_moodle = roster("name,userid,idnumber\nAda,5,S1\n", tmp_path)
     rows, _ = tables("canvas", prepared, tmp_path, result("ada"), known=of_moodle)
     assert rows[2] == ["Ada", "", "S1", "", "", "2"]
-
-
-@pytest.mark.parametrize("module", ["roster", "submission"])
-def test_documentation(module: str) -> None:
-    outcome = doctest.testmod(importlib.import_module(f"dofkit.homework.answers.{module}"))
-    assert outcome.failed == 0
-    assert outcome.attempted > 0

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import ast
 import csv
-import doctest
-import importlib
 import io
 import json
 import re
@@ -107,13 +105,6 @@ def saved(rows: list[dict[str, str]], delimiter: str) -> str:
     return stream.getvalue()
 
 
-@pytest.mark.parametrize("module", ["review", "answers.words"])
-def test_documentation(module: str) -> None:
-    outcome = doctest.testmod(importlib.import_module(f"dofkit.homework.{module}"))
-    assert outcome.failed == 0
-    assert outcome.attempted > 0
-
-
 # what is open
 
 
@@ -154,9 +145,6 @@ def test_full_feedback_shows_an_equation(scene: dict[str, Any], constraint: str,
     symbol = "x_A" if scene is ROD else "x"
     found = dofkit.grade(sheet, {"student": "s", "answers": {"p": {"q": f"{symbol} = 7"}}}).items[0]
     assert found.feedback.endswith(said)
-
-
-# the queue
 
 
 def test_a_row_for_each_different_answer(course: Course) -> None:
@@ -358,9 +346,6 @@ def test_an_interrupted_run_does_not_go_on_with_other_decisions() -> None:
     marks = [fingerprint(one, False) for one in (plain, *made)]
     assert len(set(marks)) == 3
     assert marks[2] == marks[3]
-
-
-# the pages
 
 
 @pytest.mark.sweep

@@ -6,17 +6,14 @@ import io
 import json
 import os
 import re
-import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 from typing import Any
 
 import pytest
-from shared.command_line import called, interruptible
+from shared.command_line import called
 from shared.known_scenes import swept
-from shared.late import LONG
 
 import dofkit
 from dofkit.interface import cli
@@ -338,29 +335,3 @@ def test_forced_colours_are_in_reports_lines_and_faults(monkeypatch: pytest.Monk
     monkeypatch.setenv("FORCE_COLOR", "0")
     process = subprocess.run(command, capture_output=True, text=True, check=False)
     assert "\x1b" not in process.stdout + process.stderr
-
-
-# Watching
-
-
-@pytest.mark.sweep
-@pytest.mark.skipif(os.name == "nt", reason="Windows cannot interrupt one process alone")
-def test_a_file_is_watched(tmp_path: Path) -> None:
-    file = tmp_path / "scene.yaml"
-    file.write_text("coordinates: [x, y]\n", encoding="utf-8")
-    with interruptible("classify", "--watch", "--only", "dof", str(file)) as process:
-        assert process.stdout is not None
-        assert process.stdout.readline() == b"scene  dof 2 (proved)\n"
-        time.sleep(0.05)
-        file.write_text("coordinates: [x, y]\nconstraints: [x = y]\n", encoding="utf-8")
-        assert process.stdout.readline() == b"scene  dof 1 (proved)\n"
-        process.send_signal(signal.SIGINT)
-        _, err = process.communicate(timeout=LONG)
-    assert process.returncode == 130
-    assert b"Traceback" not in err
-
-
-def test_only_files_are_watched(capsys: pytest.CaptureFixture[str]) -> None:
-    status, _, err = called(capsys, "classify", "--watch", FOUR[0])
-    assert status == 2
-    assert "nothing can be watched" in err

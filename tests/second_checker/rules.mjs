@@ -744,6 +744,7 @@ export class Rules {
   }
 
   exact(claim, equations) {
+    refuse(claim.cayley === true, "with Cayley parameters forms stand times a factor");
     const forms = equations.filter((r) => r.kind === "velocity");
     refuse(!forms.length, "there is no form");
     const all = forms.map((r) => this.e.form(r) ?? refuse(true, "it is not linear in velocities"));

@@ -11,6 +11,18 @@ from shared.served import Served
 AXE = ROOT / "dofkit" / "site" / "bench" / "node_modules" / "axe-core" / "axe.min.js"
 #: Milliseconds for an answer of a Python that has started, on a busy machine.
 SOON = 30_000
+KNIFE = """\
+coordinates: [x, y, theta]
+constraints:
+- {name: edge, type: equation, text: "sin(theta) dx - cos(theta) dy = 0"}
+"""
+
+
+def write(page: Any, text: str) -> None:
+    """Put a text in place of all in the editor, as by pasting."""
+    page.locator(".cm-content").click()
+    page.keyboard.press("Control+A")
+    page.keyboard.insert_text(text)
 
 
 def seen(page: Any, selector: str, text: str) -> None:

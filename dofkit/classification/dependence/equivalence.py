@@ -109,32 +109,34 @@ def _comparison(
     system: System, asked: Sequence[int], answer: Sequence[int], constants: frozenset[str], engines: Engines = BOTH
 ) -> Equivalence:
     reduced, setting = prepared(system)
-    setting = replace(setting, engines=engines)
-    return Equivalence(system, tuple(reduced), setting, tuple(asked), tuple(answer), constants)
+    others = [r for i, r in enumerate(reduced) if i not in {*asked, *answer}]
+    parts = [reduced[i] for i in asked], [reduced[i] for i in answer], others
+    return Equivalence(system, replace(setting, engines=engines), *parts, constants)
 
 
 @dataclass(frozen=True)
 class Equivalence:
-    """An answer beside the constraints that it should be."""
+    """An answer, ``submitted``, with the constraints that are ``wanted``, in the ``context`` of all others."""
 
     system: System
-    reduced: tuple[Reduced, ...]
     setting: Setting
-    asked: tuple[int, ...]
-    answer: tuple[int, ...]
+    wanted: Sequence[Reduced]
+    submitted: Sequence[Reduced]
+    context: Sequence[Reduced]
     constants: frozenset[str]
 
     def result(self) -> Compared:
         """What the answer is."""
-        if any(r.inequalities for r in (*self._wanted, *self._submitted)):
+        if any(r.inequalities for r in (*self.wanted, *self.submitted)):
             return self._unilateral()
-        if same_up_to_numbers(self._submitted, self._wanted, self.setting.positive):
-            return Compared(Sameness.SAME, tuple(True for _ in self._wanted))
+        if same_up_to_numbers(self.submitted, self.wanted, self.setting.positive):
+            return Compared(Sameness.SAME, tuple(True for _ in self.wanted))
         sound = self._sound
         kept = [g for g, s in zip(self._answer, sound, strict=True) if s is True]
-        met = [self._follow(r.normals, kept) for r in self._wanted]
+        met = [self._follow(r.normals, kept) for r in self.wanted]
         if None in sound or None in met:
-            return self._open(sound, met)
+            # What was decided may be enough to say that the answer is none.
+            return Compared(Sameness.UNDECIDED) if self._possible else self._empty
         answer = tuple(bool(m) for m in met)
         if all(answer) and all(sound):
             return Compared(self._regularity(), answer)
@@ -144,7 +146,7 @@ class Equivalence:
         if differentiated is not False:
             return Compared(Sameness.DIFFERENTIATED if differentiated else Sameness.UNDECIDED, answer)
         if not self._possible:
-            return Compared(Sameness.EMPTY, tuple(False for _ in answer))
+            return self._empty
         integrated = self._integrated()
         if integrated is not None:
             return Compared(integrated, answer)
@@ -156,52 +158,38 @@ class Equivalence:
         return Compared(self._too_strong() if implied else Sameness.DIFFERENT, answer)
 
     @cached_property
-    def _submitted(self) -> list[Reduced]:
-        return [self.reduced[i] for i in self.answer]
-
-    @cached_property
-    def _wanted(self) -> list[Reduced]:
-        return [self.reduced[i] for i in self.asked]
-
-    @cached_property
     def _answer(self) -> list[Normal]:
-        return [n for r in self._submitted for n in r.normals]
+        return _normals(self.submitted)
 
     @cached_property
     def _all_wanted(self) -> list[Normal]:
-        return [n for r in self._wanted for n in r.normals]
+        return _normals(self.wanted)
+
+    @cached_property
+    def _others(self) -> list[Normal]:
+        return _normals(self.context)
 
     @cached_property
     def _sound(self) -> list[bool | None]:
         """Which relations of the answer follow from what was asked for."""
         return [follows(g, [*self._others, *self._all_wanted], self.setting) for g in self._answer]
 
-    @cached_property
-    def _context(self) -> list[Reduced]:
-        return [r for r in self.reduced if r not in self._submitted and r not in self._wanted]
-
-    @cached_property
-    def _others(self) -> list[Normal]:
-        return [n for r in self._context for n in r.normals]
-
     def _follow(self, what: Sequence[Normal], premises: Sequence[Normal]) -> bool | None:
         """Return whether the relations all follow from the others and the premises."""
         return all_of(follows(n, [*self._others, *premises], self.setting) for n in what)
 
-    def _open(self, sound: Sequence[bool | None], met: Sequence[bool | None]) -> Compared:
-        """Something was not decided; what was may be enough to say that the answer is none."""
-        if not self._possible:
-            return Compared(Sameness.EMPTY, tuple(False for _ in met))
-        return Compared(Sameness.UNDECIDED)
+    @property
+    def _empty(self) -> Compared:
+        return Compared(Sameness.EMPTY, (False,) * len(self.wanted))
 
     @cached_property
     def _possible(self) -> bool:
         """Return whether the others and the answer can be satisfied together."""
         with part(POSSIBLE):
-            return unless_late(lambda: self._solved([*self._context, *self._submitted]).consistent is not False, True)
+            return unless_late(lambda: self._with(self.submitted).consistent is not False, True)
 
-    def _solved(self, reduced: Sequence[Reduced]) -> Outcome:
-        return solve(reduced, self.setting)
+    def _with(self, constraints: Sequence[Reduced]) -> Outcome:
+        return solve([*self.context, *constraints], self.setting)
 
     def _too_strong(self) -> Sameness:
         """The answer implies what was asked for, and more."""
@@ -210,17 +198,17 @@ class Equivalence:
         integrated = self._integrated()
         if integrated is not None:
             return integrated
-        mine, asked = self._solved([*self._context, *self._submitted]), self._solved([*self._context, *self._wanted])
+        mine, asked = self._with(self.submitted), self._with(self.wanted)
         if None in (mine.dof, asked.dof, mine.velocity_dof, asked.velocity_dof):
             return Sameness.UNDECIDED
         if (mine.dof, mine.velocity_dof) != (asked.dof, asked.velocity_dof):
             return Sameness.STRONGER
-        if all(r.constraint.facts.half_turns for r in self._wanted):
+        if all(r.constraint.facts.half_turns for r in self.wanted):
             return Sameness.SAME
-        if _turned(self._submitted, self._answer):
+        if _turned(self.submitted, self._answer):
             return Sameness.UNDECIDED
-        sides = bounds(self._all_wanted, self._context)
-        lost = unsound(self._submitted, self._sound) if sides else []
+        sides = bounds(self._all_wanted, self.context)
+        lost = unsound(self.submitted, self._sound) if sides else []
         whole = [loses_nothing(e, self._all_wanted, self._others, sides, self.setting) for e in lost]
         return Sameness.BRANCH if not sides else Sameness.SAME if whole and all(whole) else Sameness.UNDECIDED
 
@@ -273,7 +261,7 @@ class Equivalence:
         answer = self._follow(self._all_wanted, self._answer)
         if not answer:
             return Leaves.NONE if answer is False else Leaves.OPEN
-        mine, asked = self._solved([*self._context, *self._submitted]), self._solved([*self._context, *self._wanted])
+        mine, asked = self._with(self.submitted), self._with(self.wanted)
         if mine.velocity_dof is None or asked.velocity_dof is None:
             return Leaves.OPEN
         if mine.velocity_dof != asked.velocity_dof:
@@ -285,7 +273,7 @@ class Equivalence:
     def _regularity(self) -> Sameness:
         """The same set: is the answer's gradient as good there, on every branch?"""
         names = [c.name for c in self.system.coordinates]
-        result = Regularity(self._others, self._all_wanted, self._submitted, self.setting, names).irregular()
+        result = Regularity(self._others, self._all_wanted, self.submitted, self.setting, names).irregular()
         return Sameness.UNDECIDED if result is None else Sameness.IRREGULAR if result else Sameness.SAME
 
     # inequalities
@@ -293,18 +281,22 @@ class Equivalence:
     def _unilateral(self) -> Compared:
         """Inequalities are the same where they leave the same side of the same boundary."""
         if self._answer or self._all_wanted:
-            return Compared(Sameness.DIFFERENT, tuple(False for _ in self._wanted))
-        submitted = [q for r in self._submitted for q in r.inequalities]
-        asked = [q for r in self._wanted for q in r.inequalities]
+            return Compared(Sameness.DIFFERENT, tuple(False for _ in self.wanted))
+        submitted = [q for r in self.submitted for q in r.inequalities]
+        asked = [q for r in self.wanted for q in r.inequalities]
         table = [[same_side(a, g, self._others, self.setting) for g in submitted] for a in asked]
         if any(True not in row and None in row for row in table):
             return Compared(Sameness.UNDECIDED)
         result = {q: True in row for q, row in zip(asked, table, strict=True)}
-        met = tuple(all(result[q] for q in r.inequalities) for r in self._wanted)
+        met = tuple(all(result[q] for q in r.inequalities) for r in self.wanted)
         extra = [k for k in range(len(submitted)) if not any(row[k] for row in table)]
         if all(met):
             return Compared(Sameness.STRONGER if extra else Sameness.SAME, met)
         return Compared(Sameness.DIFFERENT if extra else Sameness.WEAKER, met)
+
+
+def _normals(constraints: Sequence[Reduced]) -> list[Normal]:
+    return [n for r in constraints for n in r.normals]
 
 
 def _finite(normals: Sequence[Normal]) -> list[Expr]:

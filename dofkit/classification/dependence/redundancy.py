@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from typing import Literal
@@ -45,7 +45,8 @@ def redundancies(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome)
     apart = outcome.bridged
     result += [_independent(apart)] if apart else []
     for numbers in _connected(reduced, outcome, apart):
-        result += _or_open(partial(_of_part, reduced, setting, blocks, numbers), numbers)
+        work = partial(_of_part, reduced, setting, blocks, numbers)
+        result += unless_late(work, [undecided_dependence(numbers)])
     return result
 
 
@@ -57,12 +58,6 @@ def _is_region(r: Reduced) -> bool:
 def _is_conditional(n: Normal) -> bool:
     """Return whether an equation only states where it is satisfied, on all its branches."""
     return bool(n.branches) and all(b and all(isinstance(p, DomainCondition) for p in b) for b in n.branches)
-
-
-def _or_open(work: Callable[[], list[Redundancies]], numbers: Sequence[int]) -> list[Redundancies]:
-    """What is found of some constraints; where there is no time for it they are left open."""
-    result = unless_late(work, None)
-    return [undecided_dependence(numbers)] if result is None else result
 
 
 def all_needed(dependent: Sequence[Redundancies], reduced: Sequence[Reduced], outcome: Outcome) -> list[Redundancies]:

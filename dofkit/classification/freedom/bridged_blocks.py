@@ -30,8 +30,7 @@ def bridged_answer(block: Block, setting: Setting, solve: Callable[[Block, Setti
         return None
     rows = [row for row in block.rows if row.constraint not in setting.bridges]
     cores, loose = split(block.coordinates, rows)
-    within = replace(setting, within=True)
-    answered = [AnsweredPart(core, solve(core, within)) for core in cores]
+    answered = [AnsweredPart(core, solve(core, setting)) for core in cores]
     if any(p.answer.consistent is not True or p.answer.about != "reference" for p in answered):
         return None
     result = _together(block, setting, answered, len(loose) - len(joints))

@@ -176,21 +176,8 @@ def special_cases(study: Study, report: Report, again: Again) -> dict[str, Any]:
                     search = SpecialLoci(study, report, block, a)
                     searched = True
                     cases.extend(search.cases())
-    changed: dict[str, Any] = {"special_cases": merged(cases)} if cases or searched else {}
+    changed: dict[str, Any] = {"special_cases": cases} if cases or searched else {}
     return {**changed, "method": f"{report.method}; {SEARCHED}"} if searched else changed
-
-
-def merged(cases: Sequence[SpecialCase]) -> list[SpecialCase]:
-    """Return the cases, those of several constraints at one place as one."""
-    kept: dict[tuple[str, str], SpecialCase] = {}
-    for case in cases:
-        key = (case.where, case.what)
-        if key in kept:
-            names = list(dict.fromkeys((*kept[key].constraints, *case.constraints)))
-            sure = weakest(kept[key].verdict, case.verdict)
-            case = case.model_copy(update={"constraints": names, "verdict": sure})
-        kept[key] = case
-    return list(kept.values())
 
 
 def _is_small(block: Block, a: Answer) -> bool:

@@ -32,9 +32,6 @@ NO_ANSWER = "{…}"
 #: Faults that an error tells.
 MOST_FAULTS = 5
 _SHAPE = "write 'student: NAME' and 'answers: {PROBLEM: {QUESTION: answer}}'"
-_STUDENT = re.compile(
-    r"""(?:^|[{,\s])["']?student["']?\s*:\s*(?:"([^"\n]{1,200})|'([^'\n]{1,200})|([^\s,}'"][^,}\n#]{0,199}))"""
-)
 _SCALAR = re.compile(r"[^,\]}\n\r]*")
 _SURROGATES = re.compile("[\ud800-\udfff]")
 
@@ -81,10 +78,8 @@ def of_text(data: bytes | str, name: str, place: FilePlace, columns: Mapping[str
         return refused(name, place, f"it is longer than {MOST_BYTES // 10**6} MB")
     document = _with_backslashes(data, name)
     if document.faults:
-        match = _STUDENT.search(document.text[:100_000])
-        student = clean(next(g for g in match.groups() if g is not None).strip()) if match else name
         reasons = "; ".join(place.message(_ours(fault)) for fault in document.faults[:MOST_FAULTS])
-        return Submission(student, error=reasons)
+        return Submission(name, error=reasons)
     return of_value(shaped(document.value, columns), name, place, document)
 
 

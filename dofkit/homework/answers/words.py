@@ -194,22 +194,16 @@ def chosen(words: Iterable[Word], names: Sequence[str], what: str) -> list[str]:
     return list(chosen_names)
 
 
-def typed_text(answer: Given) -> str:
-    """An answer as one text; the parts of a list have semicolons between them.
+def shown_text(answer: Given) -> str:
+    """An answer as one text, of which a person sees at most so many characters; a list has semicolons in it.
 
-    >>> typed_text("f = 2 "), typed_text(Fraction(1, 2)), typed_text(("x", ("y", 3)))
+    >>> shown_text("f = 2 "), shown_text(Fraction(1, 2)), shown_text(("x", ("y", 3)))
     ('f = 2 ', '0.5', 'x; y; 3')
     """
     if isinstance(answer, str):
-        return answer
-    if isinstance(answer, Fraction):
-        return as_written(answer)
-    if isinstance(answer, bool | int | float):
-        return str(answer)
-    return _BETWEEN.join(typed_text(part) for part in answer)
-
-
-def shown_text(answer: Given) -> str:
-    """The same, of which a person sees at most so many characters."""
-    text = typed_text(answer)
+        text = answer
+    elif isinstance(answer, bool | int | float | Fraction):
+        text = as_written(answer) if isinstance(answer, Fraction) else str(answer)
+    else:
+        text = _BETWEEN.join(map(shown_text, answer))
     return text if len(text) <= MOST_SHOWN else text[: MOST_SHOWN - 3] + "..."

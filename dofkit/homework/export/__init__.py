@@ -14,8 +14,9 @@ from dofkit.homework.assignment import load_assignment
 from dofkit.homework.autograder import undecided
 from dofkit.homework.formats.base import text
 from dofkit.homework.formats.gradescope import document
-from dofkit.homework.formats.review import TABLE, RunReview
+from dofkit.homework.formats.review import TABLE
 from dofkit.homework.handout.portable import standing_alone
+from dofkit.homework.review import read_table
 from dofkit.homework.variants import assigned
 from dofkit.scene.catalog import catalog_folder
 
@@ -35,12 +36,12 @@ def export_gradescope(assignment: str | os.PathLike[str], out: Path, reviewed: P
     """
     prepared = load_assignment(assignment)
     assigned(prepared)
-    RunReview.read(prepared, reviewed, None)
     files = {path.name: path.read_bytes() for path in sorted(SCRIPTS.iterdir()) if path.is_file()}
     files["assignment.json"] = json.dumps(standing_alone(prepared, Path())).encode()
     interrupted = undecided(prepared, "", "grading was interrupted.")
     files["fallback.json"] = text(document(interrupted, prepared)).encode()
     if reviewed is not None:
+        read_table(reviewed, prepared.most_points())
         files[TABLE] = reviewed.read_bytes()
     required = [line for line in metadata.requires("dofkit") or [] if "extra ==" not in line]
     files["requirements.txt"] = "".join(f"{line}\n" for line in required).encode()

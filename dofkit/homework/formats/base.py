@@ -38,14 +38,12 @@ class FormatError(DofkitError):
 class Format:
     """A form in which results are written.
 
-    ``write`` raises FormatError for what the format cannot hold. ``needs_path``: it writes a folder, so that standard
-    output will not do. ``endings``: those of the files that it writes, without the dot. ``folders``: whether it can
-    write a folder.
+    ``write`` raises FormatError for what the format cannot hold. ``endings``: those of the files that it writes,
+    without the dot; without any it writes a folder, and standard output will not do. ``folders``: whether it can.
     """
 
     name: str
     write: Write
-    needs_path: bool = False
     endings: tuple[str, ...] = ("json",)
     folders: bool = True
 

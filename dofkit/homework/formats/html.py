@@ -1,7 +1,7 @@
 """Pages to read: one for each student, and an overview for the lecturer.
 
-``index.html`` is the overview, ``students/`` holds the others; the answers that wait for a person stand in
-``review.html``, if there are any. Every page stands alone: it loads nothing, and all that a student wrote is escaped.
+``index.html`` is the overview, ``students/`` holds the others; the run adds ``review.html``, with the answers that wait
+for a person. Every page stands alone: it loads nothing, and all that a student wrote is escaped.
 Answers that need a review have no points, and the score says that it is not final.
 """
 
@@ -17,7 +17,7 @@ from dofkit.homework.answers.roster import Roster
 from dofkit.homework.assignment import Prepared
 from dofkit.homework.formats.base import Format, FormatError, Target
 from dofkit.homework.formats.pages import MARKS, asked_text, percent, rendered, student_page
-from dofkit.homework.formats.review import queue_of, write_page
+from dofkit.homework.formats.review import queue_of
 from dofkit.homework.formats.wording import FileNames, number
 from dofkit.homework.result import Item, Result, Status
 from dofkit.homework.sentences import meanings
@@ -64,9 +64,7 @@ def overview(submitted: Sequence[Submitted], prepared: Prepared, roster: Roster 
     for item in (item for result in graded for item in result.items):
         answers[item.problem, item.question].append(item)
     questions = list(_questions(prepared, answers))
-    asked = [item for place in prepared.most_points() for item in answers[place]]
-    codes = Counter(code for item in asked for code in set(item.codes))
-    most = float(sum(prepared.most_points().values()))
+    most = prepared.max_score
     queue = queue_of(
         graded, prepared, [submission.link for submission in submitted if submission.result.error is None]
     ).open_answers()
@@ -80,7 +78,6 @@ def overview(submitted: Sequence[Submitted], prepared: Prepared, roster: Roster 
         "median": median(scores) if scores else None,
         "bars": _bars(scores, most),
         "questions": questions,
-        "codes": [(code, count, meanings().get(code, "")) for code, count in codes.most_common()],
         "reviews": queue,
         "open_count": sum(queued.count for queued in queue),
         "errors": [submission for submission in submitted if submission.result.error is not None],
@@ -129,10 +126,7 @@ def write(results: Sequence[Result], prepared: Prepared, target: Target, roster:
         (target / link).write_text(rendered("student.html", page=student_page(result, prepared)), encoding="utf-8")
         submitted.append(Submitted(result.student, link, result))
     page = overview(submitted, prepared, roster)
-    if page["reviews"]:
-        queue = queue_of([submission.result for submission in submitted], prepared)
-        write_page(queue, [], prepared, target / "review.html", "review.csv")
     (target / "index.html").write_text(rendered("overview.html", page=page), encoding="utf-8")
 
 
-HTML = Format("html", write, needs_path=True, endings=())
+HTML = Format("html", write, endings=())

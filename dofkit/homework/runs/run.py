@@ -51,15 +51,8 @@ class GradingOptions:
             raise FormatError(
                 "--check-only writes how answers are read as one JSON object per line and takes no other --format"
             )
-        if FORMATS[self.form].needs_path and self.out is None:
+        if not FORMATS[self.form].endings and self.out is None:
             raise FormatError(f"the format {self.form} needs --out PATH")
-        ending = "" if self.out is None or self.out.is_dir() else self.out.suffix.lower()[1:]
-        others = [name for name, form in FORMATS.items() if ending in form.endings]
-        if others and self.form not in others:
-            raise FormatError(
-                f"'{self.out}' ends in .{ending}, which --format {self.form} does not write: "
-                f"choose --format {' or '.join(others)}"
-            )
         return FORMATS[self.form]
 
     @property

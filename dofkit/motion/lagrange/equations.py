@@ -13,7 +13,7 @@ from functools import cached_property
 from dofkit.base.deadline import DEFAULT_SECONDS, OutOfTimeError, by_processor, check, limited, remaining_seconds
 from dofkit.base.errors import Fault, SceneError
 from dofkit.base.wording import seconds_of
-from dofkit.classification.passes import Examined, studied
+from dofkit.classification.passes import GENERIC, Examined, examined
 from dofkit.exact.ring.canonical import is_identically_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
@@ -206,7 +206,7 @@ class MotionSource:
     @cached_property
     def study(self) -> Examined:
         """What is known of the scene's constraints."""
-        return studied(self.system)
+        return examined(self.system, passes=GENERIC)
 
     def model(self, care: Care = ELIMINATIONS[0]) -> LagrangeModel:
         """Made ready, with as much eliminated as ``care`` allows. Raises SceneError for masses that are missing."""

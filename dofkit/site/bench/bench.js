@@ -14,17 +14,22 @@ const embedded = new URLSearchParams(location.search).has("embed");
 document.documentElement.classList.toggle("embedded", embedded);
 
 const state = { text: "", names: [], schema: null, leftOut: new Set(), report: null, svg: "", round: 0, drawn: "" };
-/** @type {{name: string, folder: string, title: string, text: string, alternative: string}[]} */
+/** @type {{name: string, folder: string, title: string, text: string, alternative: string, answer: any}[]} */
 let catalog = [];
 /** @type {import("@codemirror/view").EditorView} */
 let view;
 let timer = 0;
 
-const engine = new Engine((now) => say(now === "loading" ? "Loading Python" : ""));
+let loading = true;
+const engine = new Engine((now) => {
+  loading = now === "loading";
+  say("");
+  if (!loading) keepOffline();
+});
 
-/** @param {string} text of the line of state @param {boolean} [stoppable] */
+/** @param {string} text of the line of state, if there is anything but that Python loads @param {boolean} [stoppable] */
 function say(text, stoppable = false) {
-  at("state").textContent = text;
+  at("state").textContent = text || (loading ? "Loading Python" : "");
   at("stop").hidden = !stoppable;
 }
 
@@ -88,18 +93,18 @@ async function report() {
   at("open").href = `./${location.hash}`;
   const slow = window.setTimeout(() => engine.ready && say("Classifying", true), REST);
   try {
-    const answer = await ask("report", text, [...state.leftOut]);
+    // the report on an example is at hand before Python is: it was built with the site
+    const answer = known && !state.leftOut.size ? known.answer : await ask("report", text, [...state.leftOut]);
     if (answer.faults.length) return showFaults(answer.faults);
     state.report = answer.report;
     showSwitches(answer.constraints);
     at("report").classList.remove("old");
     at("report").replaceChildren(...sheet(answer.sheet));
     showFaults([]);
-    document.title = `${answer.report.scene === "scene" ? "dofkit bench" : answer.report.scene} - dofkit`;
+    document.title = `${answer.sheet.title.text ?? (answer.sheet.title || answer.report.scene)} - dofkit bench`;
     clearTimeout(slow);
     say("");
     await picture(known, text);
-    keepOffline();
   } catch (error) {
     say(String(error.message));
   } finally {
@@ -162,7 +167,8 @@ async function derive() {
   say("Deriving the equations of motion", true);
   try {
     const { sheet: derived, faults } = await ask("equations", state.text);
-    const said = faults ? [element("p", { className: "care", textContent: `${faults[0].message} (${faults[0].hint})` })] : sheet(derived);
+    const said = faults ? [element("p", { className: "care", textContent: `${faults[0].message} (${faults[0].hint})` })]
+      : sheet(derived, "Facts of the motion");
     at("derived").replaceChildren(...said);
     say("");
   } catch (error) {
@@ -241,9 +247,8 @@ async function start() {
   [catalog, state.schema] = [scenes, schema];
   view = editor(at("editor"), await addressed(), changed, () => state);
   state.text = view.state.doc.toString();
-  const known = catalog.find((scene) => scene.text === state.text);
-  if (known) picture(known, state.text);
   run();
+  report();
 }
 
 at("examples").addEventListener("click", () => { menu(); at("menu").showModal(); at("search").select(); });

@@ -47,7 +47,7 @@ export function editor(place, text, changed, words) {
       EditorView.lineWrapping, yaml(), syntaxHighlighting(LOOKS), THEME,
       autocompletion({ override: [(context) => completions(context, words())] }),
       keymap.of([...closeBracketsKeymap, ...defaultKeymap, ...historyKeymap, ...completionKeymap, ...lintKeymap]),
-      EditorView.contentAttributes.of({ "aria-label": "The scene, in YAML", spellcheck: "false" }),
+      EditorView.contentAttributes.of({ "aria-label": "The scene, in YAML", spellcheck: "false", tabindex: "0" }),
       EditorView.updateListener.of((update) => update.docChanged && changed()),
     ],
   });

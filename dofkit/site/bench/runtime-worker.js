@@ -11,18 +11,14 @@ let answer;
 async function start(packed) {
   const names = Object.keys(packed);
   const files = Object.fromEntries(await Promise.all(names.map(async (name) => [name, await unpacked(packed[name])])));
-  const type = (name) => (name.endsWith(".wasm") ? "application/wasm" : "application/octet-stream");
-  globalThis.fetch = async (url) => {
-    const name = String(url).slice(NOWHERE.length);
-    return new Response(files[name], { headers: { "Content-Type": type(name) } });
-  };
   const core = Promise.resolve(new Response(files["core.bin"]).body);
   const { python, site } = await startPython(loadPyodide, core, {
     indexURL: NOWHERE,
+    lockFileContents: new TextDecoder().decode(files["pyodide-lock.json"]),
     createPyodideModule,
     env: { PYTHONDONTWRITEBYTECODE: "1", HOME: "/home/pyodide" },
   });
-  for (const name of ["graphs.zip", "sheets.zip"]) python.unpackArchive(files[name], "zip", { extractDir: site });
+  for (const name of ["extras.zip", "sheets.zip"]) python.unpackArchive(files[name], "zip", { extractDir: site });
   python.pyimport("dofkit.site.browser.answers"); // now, so that the first answer is read at once
   answer = python.pyimport("dofkit.site.browser").answer;
 }

@@ -40,8 +40,8 @@ export function content(content) {
   return typeof content === "string" ? document.createTextNode(content) : mathematics(content.math, content.text);
 }
 
-/** The elements of a printed sheet: a table of facts, then its sections. */
-export function sheet({ name, title, alarm, facts, sections }) {
+/** The elements of a printed sheet: a table of facts, called by its `label`, then its sections. */
+export function sheet({ name, title, alarm, facts, sections }, label = "Facts") {
   const made = [element("h2", {}, content(title || name))];
   if (alarm) made.push(element("p", { className: `alarm ${alarm[1]}`, textContent: alarm[0] }));
   const rows = facts.map(([label, value, note, tone]) => {
@@ -49,7 +49,7 @@ export function sheet({ name, title, alarm, facts, sections }) {
     if (note) cell.append(" ", element("small", { textContent: note }));
     return element("tr", {}, element("th", { scope: "row", textContent: label }), cell);
   });
-  if (rows.length) made.push(wide("Facts", element("table", { className: "facts" }, element("tbody", {}, ...rows))));
+  if (rows.length) made.push(wide(label, element("table", { className: "facts" }, element("tbody", {}, ...rows))));
   for (const section of sections) {
     made.push(element("h3", { textContent: section.heading }), ...section.parts.map((part) => shown(part, section.heading)));
     if (section.more) made.push(element("p", {}, element("small", { textContent: section.more })));

@@ -1,5 +1,5 @@
-// Starts Python with dofkit from one file, core.bin: compiled libraries, and last the packages. What of it has come is
-// unpacked and compiled while Python starts.
+// Starts Python with dofkit from one file, core.bin: the runtime, the standard library, compiled libraries, and last the
+// packages. What of it has come is unpacked and compiled while the rest comes.
 import { decompress } from "fzstd";
 
 /** Yield the parts of core.bin as they come. @param {ReadableStream<Uint8Array>} stream */
@@ -30,17 +30,38 @@ function reading(reader) {
   };
 }
 
+/** The files that loadPyodide asks for, and their types. */
+const TYPES = { "pyodide.asm.wasm": "application/wasm", "python_stdlib.zip": "application/zip" };
+
+/** Let loadPyodide have its files from core.bin. @returns {(name: string, bytes: Uint8Array) => void} what hands one over */
+function handOver() {
+  const { fetch } = globalThis;
+  const handed = new Map(Object.keys(TYPES).map((name) => {
+    let resolve;
+    const promise = new Promise((done) => { resolve = done; });
+    return [name, { promise, resolve }];
+  }));
+  globalThis.fetch = async (address, ...rest) => {
+    const name = String(address.url ?? address).split("/").pop() ?? "";
+    const file = handed.get(name);
+    return file ? new Response(await file.promise, { headers: { "Content-Type": TYPES[name] } }) : fetch(address, ...rest);
+  };
+  return (name, bytes) => handed.get(name)?.resolve(bytes);
+}
+
 /**
  * @param {(options: object) => Promise<any>} loadPyodide @param {Promise<ReadableStream<Uint8Array>>} coming core.bin
  * @param {object} options for loadPyodide
  */
 export async function startPython(loadPyodide, coming, options) {
   const compiling = new Map();
+  const hand = handOver();
   let packages;
   const unpacked = (async () => {
     for await (const { name, bytes } of parts(await coming)) {
       if (name.endsWith(".so")) compiling.set(name, WebAssembly.compile(bytes));
-      else packages = bytes;
+      else if (name === "packages") packages = bytes;
+      else hand(name, bytes);
     }
   })();
   const [python] = await Promise.all([loadPyodide(options), unpacked]);

@@ -10,11 +10,11 @@ const CALLS = {
   check: { module: "reports" },
   report: { module: "reports" },
   as_json: { module: "reports" },
-  picture: { module: "drawings", archives: ["graphs"], packages: ["numpy"] },
-  motion: { module: "drawings", archives: ["graphs"], packages: ["numpy"] },
-  equations: { module: "equations", archives: ["symbols"] },
-  read: { module: "answers", archives: ["graphs", "sheets"] },
-  judge: { module: "answers", archives: ["graphs", "sheets"] },
+  picture: { module: "drawings", archives: ["extras"], packages: ["numpy"] },
+  motion: { module: "drawings", archives: ["extras"], packages: ["numpy"] },
+  equations: { module: "equations", archives: ["extras", "symbols"] },
+  read: { module: "answers", archives: ["extras", "sheets"] },
+  judge: { module: "answers", archives: ["extras", "sheets"] },
 };
 const loaded = new Set();
 const ready = start();
@@ -57,7 +57,7 @@ function reason(error) {
   return lines.findLast((line) => /^[\w.]*(Error|Exception)\b/.test(line)) ?? lines.at(-1);
 }
 
-/** The answer; networkx, which linkages need, is loaded when it is found missing. */
+/** The answer; networkx, which linkages need, and modules that are seldom used are loaded when one is found missing. */
 async function answered({ module, ...needs }, call, args) {
   const runtime = await ready;
   await provide(needs, runtime);
@@ -65,8 +65,8 @@ async function answered({ module, ...needs }, call, args) {
   try {
     return ask();
   } catch (error) {
-    if (!error.message.includes("No module named 'networkx'")) throw error;
-    await provide({ archives: ["graphs"] }, runtime);
+    if (loaded.has("extras") || !error.message.includes("No module named")) throw error;
+    await provide({ archives: ["extras"] }, runtime);
     return ask();
   }
 }

@@ -15,9 +15,10 @@ from dofkit.site.browser.shown import json_of_sheet
 
 
 def check(text: str) -> dict[str, Any]:
-    """Return the names that a scene declares, for completion."""
+    """Return the names that a scene declares, and the differentials of its coordinates, for completion."""
     scene = loads(text)
     names = [c.name for c in coordinate_table(scene).coordinates]
+    names += [f"d{name}" for name in names]
     names += [*scene.parameters, *scene.functions, *(p.name for p in scene.particles), *(b.name for b in scene.bodies)]
     return {"faults": [], "names": names}
 
