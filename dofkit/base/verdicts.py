@@ -19,6 +19,7 @@ ArgumentKey = Literal[
     "graph",
     "generic fibre",
     "cases",
+    "isolated zeros",
     "joints that close no loop",
     "independent relations",
     "rigid to first order",

@@ -157,7 +157,9 @@ def timeless(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
 
 
 def turns(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
-    """Time enters: at a point of the relation its derivative by t is not 0, or the form turns, or integrates with dt.
+    """Return False, the label of a constraint that depends on time, where a point of the relation shows it.
+
+    There its derivative by t is not 0; or the direction of the form changes with t; or the form integrates with dt.
 
     Where a relation is phi times one without time, none of these is so: where phi is 0 the relation is stationary.
     What is not homogeneous in velocities is not catastatic.

@@ -50,7 +50,7 @@ class CheckedTexts:
         self.seen, self.variables = dict[Any, Any](), (*problem.coordinates, "t")
         self.velocities = frozenset(name + "dot" for name in self.variables)
         self.chosen = frozenset((*problem.world.signs, *problem.world.generic))
-        self.known = self._known()
+        self.names = self._known_names()
 
     def once(self, key: Any, look: Callable[[], Looked]) -> Looked:
         """What was looked at under a key before, or is now."""
@@ -64,13 +64,13 @@ class CheckedTexts:
 
         def read() -> Tree:
             self.effort.spend(10 * len(text) + 1)
-            tree = parse(text, self._known(extra) if extra else self.known)
+            tree = parse(text, self._known_names(extra) if extra else self.names)
             refuse("dt" in tree.symbols, "an expression holds velocities, and no differentials")
             return tree
 
         return self.once(("text", text, *extra), read)
 
-    def _known(self, extra: Iterable[str] = ()) -> KnownNames:
+    def _known_names(self, extra: Iterable[str] = ()) -> KnownNames:
         values = {name: symbol(name) for name in (*sorted(self.chosen), "tdot", *extra)}
         return KnownNames(frozenset(self.problem.coordinates), values, self.problem.world.names.functions)
 
@@ -247,7 +247,7 @@ class CheckedRelations(CheckedTexts):
         refuse(missing, f"`{min(missing, default='')}` is not shown to follow from {what}")
 
     def applies(self, place: int, point: CheckedPoint | None) -> bool:
-        """Whether what a consequence needs is so near a point, at all velocities; without a point, everywhere."""
+        """Whether the conditions of a consequence hold near a point, at all velocities; without a point, everywhere."""
         consequence = self.consequences[place]
         if point is None:
             return (

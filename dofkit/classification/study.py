@@ -220,8 +220,8 @@ def redundancies(study: Study) -> Decided:
         Redundancy(nullity=nullity, members=[names[i] for i in members])
         for nullity, members in redundancy.merged(dependent)
     ]
-    known = redundant(study).value is not None
-    return decided(study, groups, _of_dependence(study, bool(groups)) if known else OPEN)
+    is_decided = redundant(study).value is not None
+    return decided(study, groups, _of_dependence(study, bool(groups)) if is_decided else OPEN)
 
 
 def _of_dependence(study: Study, some: bool) -> Claim:

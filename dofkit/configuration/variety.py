@@ -34,7 +34,7 @@ class Variety:
 
     ``consistent``: None where it is not known. ``dimension``: of the configuration space at fixed time (None:
     not decided). ``samples``: points over GF(p) on it; ``real``: a real point with balls; ``about``: is it told of
-    the largest part, or of the ``component`` of these points? ``argument``, ``gap``: see `Answer`.
+    the largest part, or of the ``component`` of these points? ``argument``, ``gap``, ``witness``: see `Answer`.
     ``parted``: these points lie on different parts of it. ``separating``: expressions each of which vanishes on every
     component of this dimension, where there may be others.
     """
@@ -48,6 +48,7 @@ class Variety:
     about: About = "everywhere"
     argument: ArgumentKey | None = None
     gap: float = GAP
+    witness: Mapping[Expr, str] | None = None
     parted: bool = False
     separating: tuple[Expr, ...] = ()
 

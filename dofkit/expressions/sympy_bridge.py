@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from fractions import Fraction
-from importlib import import_module
 from typing import Any
 
 from dofkit.base.errors import DofkitError
@@ -176,10 +175,12 @@ _READ: dict[str, Callable[[Bridge, Any], Expr]] = {
 }  # fmt: skip
 
 
-def import_integrals() -> None:
-    """Import what `antiderivative_by_sympy` needs, so that a limit of its time does not count the import."""
-    for module in ("manualintegrate", "risch"):
-        import_module(f"sympy.integrals.{module}")
+def integrators() -> tuple[Callable[..., Any], ...]:
+    """Return SymPy's ways to integrate: called before a limit of time begins, so that the import does not count."""
+    from sympy.integrals.manualintegrate import manualintegrate
+    from sympy.integrals.risch import risch_integrate
+
+    return risch_integrate, manualintegrate
 
 
 def antiderivative_by_sympy(e: Expr, x: Expr, positive: frozenset[Expr]) -> Expr | None:
@@ -189,14 +190,12 @@ def antiderivative_by_sympy(e: Expr, x: Expr, positive: frozenset[Expr]) -> Expr
     none of them; then the rules that a person would use. Raises UntranslatableError where a result cannot be written.
     """
     from sympy import Integral, Piecewise
-    from sympy.integrals.manualintegrate import manualintegrate
-    from sympy.integrals.risch import risch_integrate
     from sympy.polys.polyerrors import BasePolynomialError
 
     plain = {s: ex.parameter(f"p{i}") for i, s in enumerate(sorted(e.symbols, key=repr))}
     bridge = Bridge((), frozenset(plain[s] for s in e.symbols & positive))
     integrand, variable = bridge.sympy(substitute(e, plain)), bridge.sympy(plain[x])
-    for integrate in (risch_integrate, manualintegrate):
+    for integrate in integrators():
         try:
             integral = integrate(integrand, variable)
         except (ArithmeticError, AttributeError, BasePolynomialError, LookupError, RuntimeError, TypeError, ValueError):

@@ -156,7 +156,7 @@ def reply(runner: Runner, function: str, request: Request) -> Printed:
 
 
 def verification(request: Request) -> Printed:
-    """Return what is printed about a certificate and its scene, ``file`` (that of the certificate: its own)."""
+    """Return the lines printed for the check of a certificate, in a worker that can be killed."""
     worker = Worker(modules=(ANSWERS,), fork=True)
     try:
         return reply(worker, "verification_lines", request)

@@ -47,11 +47,11 @@ def faults_hidden_by(faults: Sequence[Fault], value: Mapping[str, Any]) -> Itera
             return
         try:
             remaining = check(Scene.model_validate(mended.words.value))
-            yield from mended.told(remaining)
+            yield from mended.original_faults(remaining)
             return
         except ValidationError as error:
             faults = faults_of(error)
-            yield from mended.told(faults)
+            yield from mended.original_faults(faults)
 
 
 class _MendedScene:
@@ -79,7 +79,7 @@ class _MendedScene:
         self.words = StandardWords(again.value, {**self.words.places, **places})
         return True
 
-    def told(self, faults: Sequence[Fault]) -> Iterator[Fault]:
+    def original_faults(self, faults: Sequence[Fault]) -> Iterator[Fault]:
         """Yield the faults that the mending did not bring about, at the places as they were written."""
         for fault in faults:
             undeclared = _UNDECLARED.match(fault.message) is not None

@@ -309,8 +309,8 @@ def cranks(more: list[dict[str, Any]] | None = None, bodies: list[str] | None = 
     return dofkit.classify(dofkit.load({"dimension": 2, "bodies": names, "constraints": [*constraints, *(more or [])]}))
 
 
-def test_a_tree_that_hangs_on_a_mechanism_is_not_followed() -> None:
-    """60 pendulums in a chain under the rod: 60 more freedoms, and 120 relations that are in no dependent set."""
+def test_a_tree_that_hangs_on_a_mechanism_changes_none_of_its_verdicts() -> None:
+    """60 pendulums in a chain under the rod: 60 more freedoms, as sure as without them."""
     names = [f"p{i}" for i in range(60)]
     chain = [
         {"type": "revolute", "between": [names[i - 1] if i else "rod", name], "at": [4, 2 - i]}
@@ -319,7 +319,6 @@ def test_a_tree_that_hangs_on_a_mechanism_is_not_followed() -> None:
     alone, hung = cranks(), cranks(chain, names)
     assert (alone.dof, hung.dof) == (1, 61)
     assert (alone.verdict, alone.redundant_equations) == (hung.verdict, hung.redundant_equations)
-    assert "120 of 132 relations are in no dependent set" in hung.modelled
 
 
 def test_a_grid_of_squares_with_braces_is_settled() -> None:

@@ -129,9 +129,9 @@ def rounded(digits: int) -> Move:
 
 
 def roundings() -> Iterator[KnownScene]:
-    """Yield singular poses with rounded coordinates: by themselves the truth is of what is written, exactly.
+    """Yield singular poses with rounded coordinates; the known answer is that of the rounded numbers, taken as exact.
 
-    Where the bars are independent then, so is every configuration near: the motion is as large as the rank says.
+    Where the bars are independent after rounding, the finite freedom equals that by rank; else it is unknown.
     """
     for digits in DIGITS:
         for pose in NEAR:

@@ -110,8 +110,8 @@ def _comparison(
 ) -> Equivalence:
     reduced, setting = prepared(system)
     others = [r for i, r in enumerate(reduced) if i not in {*asked, *answer}]
-    parts = [reduced[i] for i in asked], [reduced[i] for i in answer], others
-    return Equivalence(system, replace(setting, engines=engines), *parts, constants)
+    relations = [reduced[i] for i in asked], [reduced[i] for i in answer], others
+    return Equivalence(system, replace(setting, engines=engines), *relations, constants)
 
 
 @dataclass(frozen=True)

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from dofkit.base.verdicts import weakest
 from dofkit.classification.freedom.bridged_blocks import bridged_answer
 from dofkit.configuration import distance_geometry
+from dofkit.configuration.at_reference import at_reference
 from dofkit.configuration.components import is_graph, is_irreducible
 from dofkit.configuration.finite_blocks import finite_answer
 from dofkit.configuration.linear_blocks import eliminated
@@ -206,7 +207,15 @@ def _points(forms: Codistribution, setting: Setting) -> Variety:
         return undecided
     if not points:
         return replace(find(forms.chart, setting.pose), about="component")
+    if is_irreducible(forms.chart) and _as_large(forms, setting.reference):
+        return find(forms.chart, setting.pose)
     return regular_reference(forms, points, setting.reference) or undecided
+
+
+def _as_large(forms: Codistribution, reference: Mapping[Expr, Expr]) -> bool:
+    """Return whether an irreducible set has its whole dimension near the reference, as at generic points."""
+    here = at_reference(forms.chart, reference)
+    return here is not None and here.local.dimension == forms.n - forms.finite and here.local.verdict != "numeric"
 
 
 def _largest(a: Answer) -> tuple[int, int, int]:

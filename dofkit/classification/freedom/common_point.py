@@ -22,13 +22,14 @@ from dofkit.exact.analyticity import is_analytic
 from dofkit.exact.matrices.sparse import components
 from dofkit.exact.points.real_search import RealPoint, RealSearch
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import substitute
 from dofkit.expressions.enclosures import interval_of
 from dofkit.expressions.renaming import coordinates_in
 from dofkit.expressions.text import Names, parse_expression, to_text
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, Chart, Row, expressions, make_chart, uses_time
-from dofkit.relations.linear_relations import explicit_relations
+from dofkit.relations.linear_relations import explicit_relations, number_coefficients
 from dofkit.relations.normal.domain import DomainCondition, holds_at
 from dofkit.relations.normal.no_solution import hold_nowhere
 from dofkit.relations.normal.pieces import Finite, JointEquation
@@ -44,6 +45,7 @@ def restricted_to_domain(block: Block, result: Answer, setting: Setting) -> Answ
     It is inconsistent where they are satisfied nowhere, and undecided where that is not known, or where the reference
     configuration is not inside.
     """
+    block = _without_satisfied_conditions(block)
     if not block.conditions or result.consistent is False:
         return result
     if result.consistent is None:
@@ -53,6 +55,15 @@ def restricted_to_domain(block: Block, result: Answer, setting: Setting) -> Answ
         inside = all(holds_at(c, here, setting.positive, strictly=True) for c in block.conditions)
         return result if inside else _undecided(block, result)
     return _at_a_point(block, result, setting)
+
+
+def _without_satisfied_conditions(block: Block) -> Block:
+    """Return the block without conditions u >= 0 where its equations give coordinates such that u is 0."""
+    weak = any(c.sense == ">=" for c in block.conditions)
+    finite = (r.piece.expr for r in block.finite if isinstance(r.piece, Finite) and weak)
+    explicit = explicit_relations(finite, number_coefficients).by_others
+    conditions = (c for c in block.conditions if c.sense != ">=" or not substitute(c.expr, explicit).is_zero)
+    return replace(block, conditions=tuple(conditions)) if explicit else block
 
 
 def _equations(block: Block, result: Answer) -> list[Expr]:

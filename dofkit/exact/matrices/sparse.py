@@ -108,7 +108,7 @@ class Echelon:
 
 def echelon(rows: Sequence[Mapping[int, int]], p: int, supports: bool = False) -> Echelon:
     """Return the greedy basis of the rows over GF(p)."""
-    reduction = _Reduction(rows, p, private(rows))
+    reduction = _Reduction(rows, p, peelable_rows(rows))
     sums = reduction.dependent
     independent = tuple([i for i in range(len(rows)) if i not in sums])
     return Echelon(independent, {i: tuple(sorted(reduction.support(sums[i]))) for i in sums} if supports else {})
@@ -120,7 +120,7 @@ def vanishing(rows: Sequence[Mapping[int, int]], p: int) -> list[SparseRow]:
     >>> vanishing([{0: 1}, {0: 1, 1: 1}, {1: 2}], 7)
     [{2: 1, 1: 5, 0: 2}]
     """
-    reduction = _Reduction(rows, p, private(rows))
+    reduction = _Reduction(rows, p, peelable_rows(rows))
     return [{i: 1} | {k: -v % p for k, v in reduction.support(used).items()} for i, used in reduction.dependent.items()]
 
 
@@ -181,7 +181,7 @@ def last_columns(rows: Sequence[Mapping[int, int]], columns: int, p: int) -> tup
     return tuple(sorted(columns - 1 - k for k in echelon(turned, p).independent))
 
 
-def private(rows: Sequence[Mapping[int, int]]) -> set[int]:
+def peelable_rows(rows: Sequence[Mapping[int, int]]) -> set[int]:
     """Rows that can be taken away one after another, each with a column that no row left has: independent of the rest.
 
     A tree or a chain goes entirely; what stays is the core, where every column occurs twice.

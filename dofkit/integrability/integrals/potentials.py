@@ -19,7 +19,7 @@ from dofkit.exact.ring.program import TooLargeError, raising_no_value
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
-from dofkit.expressions.sympy_bridge import UntranslatableError, antiderivative_by_sympy, import_integrals
+from dofkit.expressions.sympy_bridge import UntranslatableError, antiderivative_by_sympy, integrators
 from dofkit.expressions.terms import expand
 from dofkit.expressions.tree import Expr
 
@@ -359,7 +359,7 @@ def _by_sympy(work: Algebra, e: Expr, x: Expr) -> Expr | None:
     if size(e) > MAX_SYMPY or any(n.op == "call" for n in ex.nodes(e)):
         return None
     work.tick(SYMPY_STEPS)
-    import_integrals()
+    integrators()
     start = thread_time()
     try:
         with by_processor(min(work.seconds, remaining_seconds())), checked_calls():

@@ -27,14 +27,14 @@ def document_of_scene(scene: Scene) -> dict[str, Any]:
 
 def scene_of_checker(scene: Scene) -> PlainScene:
     """A scene in standard words; a text that the checker's grammar does not read stands in plain notation."""
-    known: dict[int, tuple[Names, KnownNames]] = {}
+    cached: dict[int, tuple[Names, KnownNames]] = {}
 
     def reads(text: str, names: Names) -> bool:
-        if id(names) not in known:
+        if id(names) not in cached:
             values = {name: symbol(name) for name in names.parameters}
-            known[id(names)] = names, KnownNames(names.coordinates, values, names.arguments)
+            cached[id(names)] = names, KnownNames(names.coordinates, values, names.arguments)
         try:
-            return bool(parse_relations(text, known[id(names)][1]))
+            return bool(parse_relations(text, cached[id(names)][1]))
         except CheckError:
             return False
 

@@ -78,8 +78,8 @@ class Scenery:
     def entry_id(self, part: str, entry: dict[str, Any]) -> str:
         """The id of a minor, field or cover, written into the certificate where it is new."""
         entries = self.entries[part]
-        known = (str(other["id"]) for other in entries if {**other, **entry} == other)
-        if (name := next(known, "")) == "":
+        names = (str(other["id"]) for other in entries if {**other, **entry} == other)
+        if (name := next(names, "")) == "":
             name = f"{part[0].upper()}{len(entries)}"
             entries.append({"id": name, **entry})
         return name

@@ -31,7 +31,7 @@ from dofkit.methods.certificates.scenery import Scenery, number_text, text_of
 Step = dict[str, object]
 
 
-def _stand(scenery: Scenery, *steps: Step) -> bool:
+def _is_accepted(scenery: Scenery, *steps: Step) -> bool:
     """Return whether steps stand up, one after the other; those that are there already do."""
     try:
         for step in steps:
@@ -140,12 +140,16 @@ def needed_puts(scenery: Scenery, trees: Iterable[Tree], order: Order) -> Order:
 
 
 def solved_pairs(scenery: Scenery, names: Sequence[str], point: FoundPoint) -> list[str]:
-    """Steps by which coordinates are 0: of two relations that are linear in them, and hold nothing beside."""
+    """Write the steps that prove coordinates to be 0, and return the ids of those that the checker accepts.
+
+    Two relations that are linear in the same coordinates, without other terms, are satisfied by 0 only where their
+    determinant is not 0.
+    """
     ids = []
     short = [name for name in names if scenery.evidence.relation(name).tree.size <= LARGEST_OF_PAIR]
     for pair in combinations(short, 2):
         for step in _pair_steps(scenery, pair, point):
-            if _stand(scenery, step):
+            if _is_accepted(scenery, step):
                 ids.append(str(step["id"]))
     return ids
 
@@ -189,7 +193,7 @@ def accounted(scenery: Scenery, name: str, rows: Sequence[str], point: FoundPoin
         return True
     try:
         if (factors := constant_cofactors(scenery, dependent.tree, sources)) is not None:
-            return _stand(scenery, {"id": step, "by": "implied", "of": name, "c": factors})
+            return _is_accepted(scenery, {"id": step, "by": "implied", "of": name, "c": factors})
         finite = [row for row in sources if scenery.evidence.relation(row).kind == "finite"]
         order = puts(scenery, [*solved_pairs(scenery, finite, point), *finite])
         factors = constant_cofactors(scenery, dependent.tree, sources, order) if order else None
@@ -199,7 +203,7 @@ def accounted(scenery: Scenery, name: str, rows: Sequence[str], point: FoundPoin
         return False
     used = [scenery.evidence.relation(row).tree for row in (name, *factors)]
     put = needed_puts(scenery, used, order)
-    return _stand(scenery, {"id": step, "by": "implied", "of": name, "c": factors, "put": put})
+    return _is_accepted(scenery, {"id": step, "by": "implied", "of": name, "c": factors, "put": put})
 
 
 def constant_cofactors(
@@ -231,4 +235,4 @@ def constant_cofactors(
 def rate_of(scenery: Scenery, name: str) -> str:
     """Return the id of a step for the rate of a configuration-level equation; "" where it does not stand up."""
     step = f"{scenery.label}rate of {name}"
-    return step if _stand(scenery, {"id": step, "by": "rate", "of": name}) else ""
+    return step if _is_accepted(scenery, {"id": step, "by": "rate", "of": name}) else ""

@@ -136,8 +136,8 @@ def _grouped(canon: Canon, top: Poly) -> list[tuple[Expr, Poly]]:
     """The polynomial's parts by their monomials in rates."""
     generators = canon.ring.var_expr
     rates = {i for i in range(len(generators)) if _is_rate(canon, i)}
-    parts = canon.collected(top, rates)
-    return [(ex.mul(*(ex.power(generators[i], ex.num(k)) for i, k in m)), part) for m, part in parts.items()]
+    coefficients = canon.collected(top, rates)
+    return [(ex.mul(*(ex.power(generators[i], ex.num(k)) for i, k in m)), part) for m, part in coefficients.items()]
 
 
 def _factored(canon: Canon, top: Poly, bottom: Poly) -> Expr:

@@ -187,9 +187,9 @@ def squared(e: Expr, positive: frozenset[Expr]) -> tuple[Expr, DomainCondition] 
         if len(roots) != 1 or roots[0].degree != 2 or not _outside(ring, roots[0].index):
             return None
         index = roots[0].index
-        parts = canon.collected(top, {index})
-        a, b = parts.pop(((index, 1),), canon.unit * 0), parts.pop((), canon.unit * 0)
-        if a == 0 or parts:
+        coefficients = canon.collected(top, {index})
+        a, b = coefficients.pop(((index, 1),), canon.unit * 0), coefficients.pop((), canon.unit * 0)
+        if a == 0 or coefficients:
             return None
         u, below = canon.quotient(roots[0].args[0])
         norm, sided = canon.reduce(a * a * u - b * b * below), canon.reduce(-a * b)

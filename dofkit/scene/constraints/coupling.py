@@ -117,7 +117,8 @@ class Coupling(ConstraintBase):
     def _within_half_turns(self, world: World, bounds: Sequence[Expr], measured: Mapping[Expr, MeasuredJoint]) -> bool:
         """Return whether bounds on an angle of space lie within half a turn of the reference; else record a fault.
 
-        Beyond that they would hold nowhere, and a hinge does turn there.
+        The angle is measured between -pi and pi, so that a bound beyond would exclude every configuration, although a
+        hinge does turn so far.
         """
         message = (
             "an angle in space is measured from the reference configuration, between -pi and pi, and these bounds lie "

@@ -112,8 +112,8 @@ def _check_length(world: World, length: Expr, drawn: Expr | None, before: str, a
     if drawn is None or not world.differs(difference(power(start, TWO), power(drawn, TWO))):
         return
     measured = approximate(drawn)
-    told = f"{before} {_figure(measured)} {after}"
-    message = f"the length {_figure(figure)} contradicts the reference configuration, where {told}"
+    measurement = f"{before} {_figure(measured)} {after}"
+    message = f"the length {_figure(figure)} contradicts the reference configuration, where {measurement}"
     hint = f"write `length: {_figure(measured)}` or leave it out; set `tolerance` if it is measured"
     off = None if figure is None or measured is None else figure - measured
     world.misfit(off, message, "length", hint=hint)

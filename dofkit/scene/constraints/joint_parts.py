@@ -173,21 +173,21 @@ PARTS: Mapping[Part, HeldPart] = {
 class Holds:
     """What a joint holds, in the order of its equations; called, it yields the rows of their velocities."""
 
-    parts: tuple[Part, ...]
+    motion_parts: tuple[Part, ...]
 
     def __call__(self, at: Kinematics) -> Iterator[VelocityRow]:
-        for part in self.parts:
+        for part in self.motion_parts:
             yield from PARTS[part].velocities(at)
 
     def relations(self, first: Frame, second: Frame, drawn: JointGeometry) -> Iterator[Relation]:
         """Yield the relations between the two frames."""
-        for part in self.parts:
+        for part in self.motion_parts:
             yield from PARTS[part].relations(first, second, drawn)
 
     @property
     def placed(self) -> bool:
         """Whether the equations need a place: that of the point, or of an axis about which the bodies turn."""
-        return "point" in self.parts or ("axis" in self.parts and "across" in self.parts)
+        return "point" in self.motion_parts or ("axis" in self.motion_parts and "across" in self.motion_parts)
 
     def mentioned(self, first: Frame, second: Frame, drawn: JointGeometry) -> frozenset[str] | None:
         """Return the coordinates that the equations mention, where no part of these stands alone; else None.
@@ -196,8 +196,8 @@ class Holds:
         What is stated in the directions of the first of two moving bodies mentions all their coordinates.
         """
         positions = [str(x.args[1]) for frame in (first, second) for x in frame.position if x.op == "sym"]
-        if "point" not in self.parts:
-            one_origin = "origin" in self.parts and first.start == second.start
+        if "point" not in self.motion_parts:
+            one_origin = "origin" in self.motion_parts and first.start == second.start
             whole = not (first.fixed or second.fixed or one_origin)
             return frozenset(positions).union(first.angles, second.angles) if whole else None
         armed = [frame for frame in (first, second) if not frame.fixed and frame.start != drawn.at]

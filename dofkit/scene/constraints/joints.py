@@ -128,7 +128,7 @@ class Driven(Axial):
     def measures(cls) -> dict[str, Measure]:
         """Return what a coupling may mention of it, by name: it turns about its axis, or slides along it."""
         measures = (("axis", "angle", ANGLE), ("across", "displacement", DISPLACEMENT))
-        return {name: measure for part, name, measure in measures if part in cls.holds.parts}
+        return {name: measure for part, name, measure in measures if part in cls.holds.motion_parts}
 
     def laws(self, world: World, first: Frame, second: Frame, drawn: JointGeometry) -> Iterator[Relation]:
         if self.drive is not None:
