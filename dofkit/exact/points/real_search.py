@@ -28,6 +28,8 @@ MOMENTS, LATER, TICKS = 8, 4.0, 512
 HALVINGS = 8
 #: After this many singular points no regular one is looked for.
 SINGULAR_TRIES = 4
+#: Multiplications by which the Jacobian is eliminated exactly at a point near the zero set.
+MAX_ELIMINATED = 20_000
 #: A Newton step smaller than the precision by so many bits ends the refinement.
 SPARE_BITS = 16
 #: So often a box around two points is made wider, and by how much at least.
@@ -160,12 +162,38 @@ class RealSearch:
         return [float(at[n]) for n in self.nodes], [list(map(float, row)) for row in j]
 
     def refine(self, symbols: Mapping[Expr, float], j: list[list[float]] | None, seed: int) -> RealPoint | None:
-        """To high precision on independent rows of the Jacobian (None: it has none), and the interval Newton test."""
+        """To high precision on independent rows of the Jacobian (None: it has none), and the interval Newton test.
+
+        Rows that floating point takes for dependent are tried as independent where the others do not imply them.
+        """
         if any(symbols[p] <= 0 for p in self.positive if p in symbols):
             return None
         with ctx.workprec(max(ctx.prec, precision())):
-            rows, columns = ((), ()) if j is None else independent_part(j)[2:]
-            return self._refined(symbols, rows, columns, seed)
+            return self._precise(symbols, j, seed)
+
+    def _precise(self, symbols: Mapping[Expr, float], j: list[list[float]] | None, seed: int) -> RealPoint | None:
+        if j is None:
+            return self._refined(symbols, (), (), seed)
+        rows, columns = independent_part(j)[2:]
+        refined = self._refined(symbols, rows, columns, seed)
+        if (refined is not None and refined.certified and refined.consistent) or len(rows) == len(self.nodes):
+            return refined
+        part = self._part_at(symbols, seed)
+        if part is None or part.rank <= len(rows):
+            return refined
+        other = self._refined(symbols, part.rows, part.columns, seed)
+        return other if other is not None and other.certified and other.consistent else refined
+
+    def _part_at(self, symbols: Mapping[Expr, float], seed: int) -> PivotedPart | None:
+        """Return a regular part of the Jacobian exactly at a point near the zero set; None for large ones."""
+        if len(self.nodes) ** 2 * len(self.columns) > MAX_ELIMINATED:
+            return None
+        point = BallPoint({s: arb(v) for s, v in symbols.items()}, seed)
+        try:
+            at = values(self.ring, point, self.upto)
+            return ball_part(jacobian(self.ring, at, point, self.nodes, self.columns, arb(0)))
+        except NoValueError:
+            return None
 
     def _refined(
         self, symbols: Mapping[Expr, float], rows: Sequence[int], columns: Sequence[int], seed: int
