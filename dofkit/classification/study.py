@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
@@ -203,15 +202,11 @@ def lecture_count(study: Study) -> Count:
 def redundant(study: Study) -> Decided:
     """The names of what can be dropped together, in the scene's order; None where that was not decided."""
     dependent, outcome = study.dependence.dependent, study.outcome
-    taken = Counter[int]()
-    for r in dependent:
-        taken.update(r.independent)
-    gone = {i for r in dependent for i in r.redundant}
-    idle = any(k == 0 and i not in gone and study.reduced[i].equations for i, k in taken.items())
-    undecided = idle or any(r.undecided for r in dependent)
+    undecided = any(r.undecided for r in dependent)
     if outcome.consistent is None or (outcome.consistent and (undecided or outcome.velocity_dof is None)):
         return decided(study, None, OPEN)
-    return decided(study, [study.names[i] for i in sorted(gone)], _of_dependence(study, bool(gone)))
+    gone = sorted({i for r in dependent for i in r.redundant})
+    return decided(study, [study.names[i] for i in gone], _of_dependence(study, bool(gone)))
 
 
 def redundancies(study: Study) -> Decided:

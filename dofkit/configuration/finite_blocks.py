@@ -82,8 +82,6 @@ def _finite_answer(chart: Chart) -> Answer:
     elif variety.real is not None:
         result.method = "real points with balls"
         _numeric_matrix(chart, variety.real, result)
-    # without a regular point the freedom may be less by more than there are equations: x^2 + y^2 = 0
-    result.degenerate = result.degenerate or bool(chart.nodes and not result.matrix)
     return result
 
 

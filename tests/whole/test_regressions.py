@@ -42,6 +42,7 @@ TABLE: list[tuple[str, dict[str, Any], dict[str, Any]]] = [
         scene("a e = b d", "a f = c d", "b f = c e", coordinates=list("abcdef")),
         {"dof": 4, "redundant": []},
     ),
+    ("each is x = 0", scene("exp(x) = 1 + x", "sin(x) = x"), {"dof": 2, "redundant": ["c2"]}),
     ("half a line is no line", scene("y=x", "atan2(y,x)=-3*pi/4"), {"dof": 2, "redundant": ["c1"]}),
     ("so it is wherever x < 0", scene("atan(x) + atan(1/x) = -pi/2"), {"consistent": True, "dof": 3}),
     ("half a circle is no circle", scene("x^2+y^2=l^2", "y=-sqrt(l^2-x^2)", parameters=["l"]), {"redundant": ["c1"]}),

@@ -30,6 +30,8 @@ from dofkit.relations.setting import Setting
 
 #: Functions that may state one branch only.
 BRANCHED = ("abs", "exp", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh")
+#: Over the reals one equation may fix several coordinates at isolated values: counting does not tell what is needed.
+ISOLATED = "isolated zeros"
 #: The blocks that hold rows of a constraint, with their answers, by its number.
 BlocksOf = dict[int, list[tuple[Block, Answer]]]
 
@@ -71,7 +73,7 @@ def all_needed(dependent: Sequence[Redundancies], reduced: Sequence[Reduced], ou
     One that says several things (a sum of squares), hidden relations or a singular set may hide that another follows.
     """
     several = any(len(b) > 1 for r in reduced for n in r.normals for b in n.branches)
-    if several or any(a.hidden or a.degenerate for a in outcome.answers):
+    if several or any(a.hidden or a.degenerate or a.argument == ISOLATED for a in outcome.answers):
         return list(dependent)
     answer = []
     for r in dependent:
@@ -270,7 +272,7 @@ def _of_block(
     matrix = _without_hidden(block, a)
     if nullity <= 0 and a.hidden and not a.degenerate:
         yield _independent(dict(Counter(owners)))
-    elif a.degenerate or a.hidden or len(matrix) != len(block.rows):
+    elif a.degenerate or a.hidden or a.argument == ISOLATED or len(matrix) != len(block.rows):
         undecided = undecided_dependence(owners)
         is_finite = "balls" in setting.engines and len(block.finite) == len(block.rows)
         removed = partial(removal.by_removal, block, setting, a, nullity, equations)
@@ -311,7 +313,9 @@ def _each_takes_one(reduced: Sequence[Reduced], numbers: Sequence[int], blocks: 
     """
     rows = Counter(r.constraint for block, _ in blocks for r in block.rows)
     single = rows == {i: reduced[i].equations for i in numbers}
-    plain = all(a.velocity_dof is not None and not a.hidden and not a.degenerate for _, a in blocks)
+    plain = all(
+        a.velocity_dof is not None and not (a.hidden or a.degenerate or a.argument == ISOLATED) for _, a in blocks
+    )
     return (
         single
         and plain
