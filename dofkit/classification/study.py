@@ -228,7 +228,9 @@ def _of_dependence(study: Study, some: bool) -> Claim:
     """Of what depends on what: nothing does where the count says so."""
     if not some and study.redundant_equations == 0:
         return counted(study.free)
-    return together(study.free, *(r.claim for r in study.dependence.dependent if r.redundant))
+    sizes = [r.equations for r in study.reduced]
+    dependent = [r for r in study.dependence.dependent if r.redundant or r.has_dependent_equations(sizes)]
+    return together(study.free, *(r.claim for r in dependent))
 
 
 def joint_coordinates(study: Study) -> list[str] | None:

@@ -1,4 +1,4 @@
-"""The dimension of the configuration space at its generic points, by rank.
+"""The dimension of the configuration space at its generic points, by rank, and near points that are singular.
 
 A rank over GF(p) is held against a certified real point, without which a set over GF(p) says nothing.
 """
@@ -168,7 +168,7 @@ def _left_open(variety: Variety, why: str) -> Variety:
 def near_singular_point(chart: Chart, variety: Variety) -> Variety:
     """Return the set near a singular real point, where only such points were found; else the same as was known."""
     real = variety.real
-    if real is None or SINGULAR not in variety.reasons:
+    if variety.consistent is not None or real is None or (real.certified and real.consistent):
         return variety
     local = numeric_local(chart, real)
     if local is None or local.dimension is None or local.confined:
