@@ -218,7 +218,9 @@ def _line(fault: Fault, hint: str, value: Mapping[str, Any]) -> str | None:
     if "a point of a body" in fault.message:
         return f"{{on: crank, at: [{', '.join('0' * d)}]}}"
     if where[:1] == ("constraints",) and len(where) > 1:
-        kind = suggested[1] if suggested and suggested[1] in TYPES else _type_at(value, where[1])
+        if suggested and suggested[1] not in TYPES:
+            return None  # the key that was meant says enough
+        kind = suggested[1] if suggested else _type_at(value, where[1])
         return TYPES[kind].example(d) if kind is not None and d in TYPES[kind].dimensions else None
     unknown = len(where) == 1 and fault.message.startswith(UNKNOWN_KEY) and not suggested
     if unknown or (hint and where[:1] == ("picture",)):
