@@ -228,9 +228,7 @@ def _of_dependence(study: Study, some: bool) -> Claim:
     """Of what depends on what: nothing does where the count says so."""
     if not some and study.redundant_equations == 0:
         return counted(study.free)
-    sizes = [r.equations for r in study.reduced]
-    dependent = [r for r in study.dependence.dependent if r.redundant or r.has_dependent_equations(sizes)]
-    return together(study.free, *(r.claim for r in dependent))
+    return together(study.free, *(r.claim for r in study.dependence.dependent if r.redundant or r.groups))
 
 
 def joint_coordinates(study: Study) -> list[str] | None:

@@ -132,7 +132,7 @@ def _is_regular(chart: Chart, variety: Variety) -> bool:
 
 
 def by_cases(chart: Chart, variety: Variety, look: Callable[[Chart], Variety]) -> Variety:
-    """What is known of a set on which no point was found: the first case with points, or that no case has any."""
+    """What is known of a set of which no regular point was found: the first case with points, or that none has any."""
     if not 0 < len(chart.relations) <= MAX_RELATIONS:
         return variety
     solved = explicit_relations(chart.relations)

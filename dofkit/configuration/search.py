@@ -73,9 +73,8 @@ def find(chart: Chart, pose: Mapping[Expr, Expr], seed: int = 0) -> Variety:
     timed = chart.time is not None and variety.consistent is None and "field" in chart.setting.engines
     if timed:
         variety = by_cases(chart, variety, look)
-    unseen = variety.consistent is not True or ALLOWING in variety.reasons
     near = near_singular_point(chart, variety)
-    unseen = unseen and near is variety
+    unseen = near is variety and (variety.consistent is not True or ALLOWING in variety.reasons)
     looked = {"field", "balls"} <= chart.setting.engines and unseen and variety.verdict != "proved"
     if looked and len(chart.relations) <= MAX_RELATIONS and no_solution(chart.relations, chart.setting.positive):
         return Variety(False, None, "proved", reasons=[EMPTY], argument="no real solution")
@@ -89,7 +88,7 @@ def find(chart: Chart, pose: Mapping[Expr, Expr], seed: int = 0) -> Variety:
     )
     if by_case and not timed:
         variety = by_cases(chart, variety, look)
-    if variety.dimension is None and near.dimension is not None:
+    if variety.consistent is not False and variety.dimension is None and near.dimension is not None:
         return of_largest_part(chart, near, look)
     return of_largest_part(chart, variety, look, by_case or timed)
 
@@ -220,7 +219,7 @@ def _of_one_coordinate(part: RelationPart) -> bool:
 def _common_zeros(part: RelationPart) -> Iterator[Expr]:
     """Exact values of the coordinate, short numbers and multiples of pi, at which all of the relations vanish."""
     (s,) = part.unknowns
-    numbers = (ex.num(Fraction(k, PARTS)) for k in sorted(range(-MAX_MULTIPLE, MAX_MULTIPLE + 1), key=abs))
+    numbers = (ex.num(Fraction(k, PARTS)) for k in sorted(range(-MAX_MULTIPLE, MAX_MULTIPLE + 1), key=_size))
     for value in (u for number in numbers for u in (number, number * ex.PI)):
         check()
         try:
@@ -230,6 +229,10 @@ def _common_zeros(part: RelationPart) -> Iterator[Expr]:
                 yield value
         except NoValueError:
             continue
+
+
+def _size(k: int) -> tuple[int, bool]:
+    return abs(k), k < 0
 
 
 def _witness(symbols: Sequence[Expr], solved: Explicit, zeros: Mapping[Expr, Expr]) -> dict[Expr, str]:

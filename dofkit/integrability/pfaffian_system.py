@@ -115,7 +115,10 @@ def confinements(forms: Codistribution, variety: Variety) -> tuple[tuple[Expr, .
     if point is None:
         return None
     zero = point.number(ex.ZERO.args[0])
-    matrix = forms.rows.matrix(values(forms.chart.ring, point), zero)
+    try:
+        matrix = forms.rows.matrix(values(forms.chart.ring, point), zero)
+    except NoValueError:
+        return None
     free = rank_over([row[: forms.n] for row in matrix], zero) == rank_over(matrix, zero)
     return None if free else hidden_relation(forms.rows, forms.n, point)
 

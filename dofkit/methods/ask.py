@@ -198,7 +198,8 @@ def _redundancy(studied: Study) -> Reply:
             None, "undecided", f"whether {studied.names[open_rows[0]]} is implied by the others was not decided"
         )
     gone = sorted({i for r in groups for i in r.redundant})
-    return Reply([studied.names[i] for i in gone], weakest(*(a.verdict for a in outcome.answers)))
+    claims = (*(a.claim for a in outcome.answers), *(r.claim for r in groups if r.redundant or r.groups))
+    return Reply([studied.names[i] for i in gone], weakest(*(claim.verdict for claim in claims)))
 
 
 def _equivalence(scene: Scene, answer: Mapping[str, str], engines: Engines) -> Reply:

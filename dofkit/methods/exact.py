@@ -14,6 +14,7 @@ from dofkit.exact.points.frames import pivots
 from dofkit.exact.ring.program import Scalar, Var, raising_no_value
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
+from dofkit.expressions.terms import expand
 from dofkit.expressions.tree import Expr
 from dofkit.methods.as_written import (
     Decider,
@@ -130,9 +131,10 @@ class Rationals:
         if drawn:
             return [self._drawn(written)]
         movable = {*written.coordinates, *(ex.parameter(p) for p in written.system.generic)}
-        solution = explicit_relations((g for _, g in written.finite), partial(linear_symbols, movable))
-        if solution.contradictory:
+        relations = [expand(g) for _, g in written.finite]
+        if explicit_relations(relations).contradictory:
             raise ContradictionError("the linear equations contradict each other")
+        solution = explicit_relations(relations, partial(linear_symbols, movable))
         for k in range(0 if solution.implicit else DRAWS):
             point = RationalPoint(random.Random(f"dofkit rational 0 {k}"), free=True)
             try:
@@ -151,9 +153,14 @@ class Rationals:
 
 
 def linear_symbols(movable: Collection[Expr], g: Expr) -> dict[Expr, Expr]:
-    """Return the symbols in which a relation is linear, with their coefficients."""
-    slopes = ((s, diff(g, s)) for s in sorted(g.symbols.intersection(movable), key=repr))
-    return {s: slope for s, slope in slopes if s not in slope.symbols}
+    """Return the symbols that one term of a relation holds, as a factor, with their coefficients, which may vanish."""
+    terms = g.args if g.op == "add" else (g,)
+    result = {}
+    for s in sorted(g.symbols.intersection(movable), key=repr):
+        (term, *others), slope = [t for t in terms if s in t.symbols], diff(g, s)
+        if not others and s in (term, *(term.args if term.op == "mul" else ())) and s not in slope.symbols:
+            result[s] = slope
+    return result
 
 
 @raising_no_value

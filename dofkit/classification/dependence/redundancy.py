@@ -30,8 +30,6 @@ from dofkit.relations.setting import Setting
 
 #: Functions that may state one branch only.
 BRANCHED = ("abs", "exp", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh")
-#: Over the reals one equation may fix several coordinates at isolated values: counting does not tell what is needed.
-ISOLATED = "isolated zeros"
 #: The blocks that hold rows of a constraint, with their answers, by its number.
 BlocksOf = dict[int, list[tuple[Block, Answer]]]
 
@@ -73,7 +71,7 @@ def all_needed(dependent: Sequence[Redundancies], reduced: Sequence[Reduced], ou
     One that says several things (a sum of squares), hidden relations or a singular set may hide that another follows.
     """
     several = any(len(b) > 1 for r in reduced for n in r.normals for b in n.branches)
-    if several or any(a.hidden or a.degenerate or a.argument == ISOLATED for a in outcome.answers):
+    if several or any(a.hidden or a.degenerate or a.isolated for a in outcome.answers):
         return list(dependent)
     answer = []
     for r in dependent:
@@ -148,7 +146,7 @@ def _within(r: Redundancies, scope: About) -> Redundancies:
 def _undecided_redundancy(r: Redundancies) -> Redundancies:
     """Return what remains where constraints are redundant by rank at one point, and may be needed elsewhere."""
     independent = {i: k for i, k in r.independent.items() if i not in r.redundant}
-    return Redundancies(independent, undecided=tuple(r.redundant))
+    return Redundancies(independent, undecided=tuple(r.redundant), claim=r.claim)
 
 
 def _scope(
@@ -253,7 +251,7 @@ def _agreed(dependent: Sequence[Redundancies]) -> list[Redundancies]:
 def _measured_by_rank(
     reduced: Sequence[Reduced], setting: Setting, numbers: Sequence[int], blocks: Sequence[tuple[Block, Answer]]
 ) -> bool:
-    """Return whether the rank measures dependence: one branch, and nothing nonlinear or hidden ."""
+    """Return whether the rank measures dependence: one branch, and nothing nonlinear or hidden."""
     normals = [n for i in numbers for n in reduced[i].normals]
     if any(len(branches_at_reference(n, setting).branches) > 1 for n in normals):
         return False
@@ -272,7 +270,7 @@ def _of_block(
     matrix = _without_hidden(block, a)
     if nullity <= 0 and a.hidden and not a.degenerate:
         yield _independent(dict(Counter(owners)))
-    elif a.degenerate or a.hidden or a.argument == ISOLATED or len(matrix) != len(block.rows):
+    elif a.degenerate or a.hidden or a.isolated or len(matrix) != len(block.rows):
         undecided = undecided_dependence(owners)
         is_finite = "balls" in setting.engines and len(block.finite) == len(block.rows)
         removed = partial(removal.by_removal, block, setting, a, nullity, equations)
@@ -314,7 +312,7 @@ def _each_takes_one(reduced: Sequence[Reduced], numbers: Sequence[int], blocks: 
     rows = Counter(r.constraint for block, _ in blocks for r in block.rows)
     single = rows == {i: reduced[i].equations for i in numbers}
     plain = all(
-        a.velocity_dof is not None and not (a.hidden or a.degenerate or a.argument == ISOLATED) for _, a in blocks
+        a.velocity_dof is not None and not (a.hidden or a.degenerate or a.isolated) for _, a in blocks
     )
     return (
         single

@@ -225,7 +225,7 @@ def _largest(a: Answer) -> tuple[int, int, int]:
 def _with_spans(block: Block, forms: Codistribution, points: Variety, extra: list[Expr], setting: Setting) -> Answer:
     result = Answer(True, hidden=extra, reasons=list(points.reasons), verdict=points.verdict, about=points.about)
     result.argument, result.gap, result.witness = points.argument, points.gap, of_real_point(forms.chart, points.real)
-    result.separating = points.separating
+    result.separating, result.isolated = points.separating, points.argument == "isolated zeros"
     if points.about == "reference" and setting.reference is not None:
         result.witness = of_reference(forms.chart.symbols, setting.reference)
     if block.nonlinear and points.about == "reference":

@@ -131,7 +131,7 @@ def _dependences(
     seen = {i for result in dependent for i in result.seen}
     claims: dict[int, list[Claim]] = {}
     for result in dependent:
-        for i in (*result.independent, *result.undecided):
+        for i in {*result.independent, *result.undecided, *result.redundant}:
             claims.setdefault(i, []).append(result.claim)
     for i, rows in enumerate(labelled):
         number = independent[i] if i in counted else None if rows else 0
@@ -203,11 +203,11 @@ def by_itself(r: Reduced, labelled: Sequence[LabelledRow], answered: AnsweredBlo
             return bent
     elif not any(isinstance(t.row.piece, Pfaffian) for t in labelled) and all(len(n.branches) < 2 for n in r.normals):
         return None
-    elif len(labelled) == 1 and labelled[0].label is not None and labelled[0].label.holonomic is False:
-        return Answer(labels={0: labelled[0].label})
     match r.normals:
-        case (Normal(branches=((Pfaffian() as form,),)),) if answered.is_curved(form):
+        case (Normal(branches=((Pfaffian() as form,),)),) if labelled and answered.is_curved(form):
             return Answer(labels={0: HolonomyLabel(False, "proved")})
+    if len(labelled) == 1 and labelled[0].label is not None and labelled[0].label.holonomic is False:
+        return Answer(labels={0: labelled[0].label})
     mentioned = {name for n in r.normals for b in n.branches for p in b for name in coordinates_of(p)}
     setting = replace(answered.setting, roles=tuple(c for c in answered.setting.roles if c.name in mentioned))
     try:

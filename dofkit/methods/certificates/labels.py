@@ -266,6 +266,8 @@ def exact(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
     if entry.exact:
         yield {"rule": "exact"}
         return
+    if room.scenery.cayley:
+        return
     names, point = room.scenery.evidence.owned(entry.name, ("velocity",)), room.point
     if point is None:
         return
