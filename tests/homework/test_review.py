@@ -269,6 +269,15 @@ def test_a_decision_goes_before_what_dofkit_finds(course: Course) -> None:
     assert course.results()["ana"]["score"] == 3.5
 
 
+def test_what_follows_from_a_decided_number_is_carried_still(tmp_path: Path) -> None:
+    scene = {"coordinates": ["x", "y", "z"], "constraints": ["dx = y dz", "y = 2 z"]}
+    problem = {"id": "p", "scene": scene, "questions": [{"id": "k", "ask": "k"}, {"id": "f", "ask": "dof"}]}
+    (tmp_path / "r.csv").write_text(f"id,points\n{answer_id('p', 'k', '1')},1\n")
+    given = {"student": "s", "answers": {"p": {"k": "1", "f": "2"}}}
+    result = dofkit.grade({"title": "t", "problems": [problem]}, given, reviewed=tmp_path / "r.csv")
+    assert "CARRIED" in result.items[1].codes, result.items[1]
+
+
 SAVED: dict[str, Callable[[list[dict[str, str]]], bytes]] = {
     "as it was written": lambda rows: saved(rows, ",").encode("utf-8-sig"),
     "by Excel in Germany": lambda rows: saved(rows, ";").encode("cp1252"),
