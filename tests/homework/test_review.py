@@ -334,6 +334,7 @@ def test_all_faults_of_a_table_are_told_at_once(course: Course) -> None:
         ("id,Pionts\n", "is it 'pionts'?"),
         ("id,points,points\n", "the column 'points' is there twice"),
         (f"id,points\n{answer_id('p', 'other', '1')},1\n", "is not the id of an answer to this assignment"),
+        (f"id,points\n{question_mark('p', 'f')}-1e5,1\n", "-1e5' is not the id of an answer to this assignment"),
     ],
 )
 def test_a_table_that_is_none(text: str, said: str, tmp_path: Path) -> None:
@@ -344,6 +345,14 @@ def test_a_table_that_is_none(text: str, said: str, tmp_path: Path) -> None:
     told = " ".join(f"{fault.message} {fault.hint}" for fault in caught.value.faults)
     assert said in told
     assert all(fault.line and fault.column for fault in caught.value.faults)
+
+
+def test_a_row_of_a_question_that_is_gone_stays_and_decides_nothing(course: Course) -> None:
+    course.grade()
+    gone = {**course.table()[0], "id": answer_id("p", "gone", "1"), "points": "99"}
+    (course.out / "review.csv").write_text(saved([*course.table(), gone], ","))
+    assert course.grade()[0] != 2
+    assert [row["id"] for row in course.table() if row["points"] == "99"] == [gone["id"]]
 
 
 # in every format, and with everything else
