@@ -122,7 +122,8 @@ class Grader:
             answer = answers.get(question.id)
             if answer is None or says_nothing(answer):
                 yield item_of(self.prepared, problem, question, _MISSING)
-            elif (decision := self._decision(problem, question, answer)) is not None:
+                continue
+            if (decision := self._decision(problem, question, answer)) is not None:
                 yield self._decided(problem, question, decision, answer)
             else:
                 mark = self.prepared.marks.get((problem.id, question.id), "")
@@ -131,8 +132,10 @@ class Grader:
                     yield identity
                 judgement = self._judged(identity, problem, question, answer, earlier)
                 yield item_of(self.prepared, problem, question, judgement, answer)
-                if judgement.number is not None:
-                    earlier.setdefault(question.kind(), judgement.number)
+                if identity in self.condemned:
+                    continue
+            if (claimed := self._number(question, answer, self.prepared.keys[problem.id])) is not None:
+                earlier.setdefault(question.kind(), claimed)
 
     def _decision(self, problem: Problem, question: QuestionBase, answer: Given) -> Decision | None:
         """Return what a person decided about this answer, whoever gave it."""
@@ -194,8 +197,19 @@ class Grader:
         except TextError as error:  # no scene can hold what it says
             return self._unread(error, answer)
         several = len({way.text for way in readings}) > 1
-        number = readings[0].value if isinstance(question, NumberQuestion) else None
-        return replace(judgement, read_as=understood, certain=certain and not several, number=number)
+        return replace(judgement, read_as=understood, certain=certain and not several)
+
+    def _number(self, question: QuestionBase, answer: Given, key: Key) -> Fraction | None:
+        """Return the number that an answer claims, from which later ones may follow, whoever judged it; or None."""
+        if not isinstance(question, NumberQuestion):
+            return None
+        try:
+            with by_processor(self.seconds):
+                return Fraction(question.readings(answer, key.declared)[0].value)
+        except MemoryError:
+            raise
+        except Exception:  # the judgement says what is wrong with it
+            return None
 
     def _unread(self, error: TextError, answer: Given) -> Judgement:
         """Return that an answer could not be read, and where; of a list no place is known."""

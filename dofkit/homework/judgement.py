@@ -49,7 +49,6 @@ class Judgement:
     """``share``: of the question's points; None where it could not be decided. ``said``: the feedback.
 
     ``ways``: of what is open the readings that it may have. ``certain``: it reads in one way, in declared names.
-    ``number``: the one that it claims, from which later answers may follow.
     """
 
     status: Status
@@ -60,7 +59,6 @@ class Judgement:
     column: int | None = None
     ways: tuple[JudgedReading, ...] = ()
     certain: bool = True
-    number: Fraction | None = None
 
     def saying(self, *sentences: Sentence) -> Judgement:
         """The same with more feedback."""

@@ -57,7 +57,7 @@ class ReviewRow:
     @property
     def filled(self) -> bool:
         """Return whether a person has written anything into it."""
-        return self.decision is not None or bool(self.cells.get("remark"))
+        return self.decision is not None or bool(self.cells.get("remark") or self.cells.get("points"))
 
 
 def question_mark(problem: str, question: str) -> str:
@@ -174,6 +174,7 @@ def _who(queued: QueuedAnswer) -> dict[str, str]:
 #: What a person writes may be so long; faults of a table that are told; bytes that are read.
 MOST_REMARKED, MOST_FAULTS, MOST_BYTES = 2000, 50, 200_000_000
 _NEEDED = ("id", "points")
+_ID = re.compile(r"q[0-9a-f]{8}-[0-9a-f]{16}")
 _POINTS = re.compile(r"[+-]?(?:\d{1,9}(?:[.,]\d{1,9})?|\d{1,9}/[1-9]\d{0,8})")
 
 #: The most points of every question of an assignment.
@@ -216,13 +217,19 @@ def read_table(path: Path, asked: Asked) -> FilledTable:
 
 
 class _TableReader:
-    """Reads one table and gathers its faults."""
+    """Reads one table and gathers its faults.
+
+    A row of a question that is not asked any more stays and decides nothing; a table of such rows alone is of another
+    assignment.
+    """
 
     def __init__(self, source: str, asked: Asked) -> None:
         self.source = source
         self.most_points = {question_mark(*place): most for place, most in asked.items()}
         self.faults: list[Fault] = []
         self.rows: dict[str, ReviewRow] = {}
+        self.unasked: list[tuple[int, int, str]] = []
+        self.matches = False
 
     def table(self, text: str) -> FilledTable:
         """All rows. Raises ReviewError."""
@@ -233,6 +240,8 @@ class _TableReader:
                 self._row(row.line, columns, row.cells)
             else:
                 self._fault(row.error, row.line, 1, "save the table as CSV again")
+        for line, column, identity in () if self.matches else self.unasked:
+            self._no_answer(identity, line, column)
         if self.faults:
             raise ReviewError(tuple(self.faults[:MOST_FAULTS]), self.source)
         return FilledTable(self.rows, delimiter)
@@ -257,11 +266,14 @@ class _TableReader:
     def _row(self, line: int, columns: Mapping[str, int], values: Sequence[str]) -> None:
         cells = {name: _bare(values[i]) if i < len(values) else "" for name, i in columns.items()}
         identity, before = cells["id"], len(self.faults)
-        most = self.most_points.get(identity.partition("-")[0])
-        if most is None:
-            message = f"'{identity[:40]}' is not the id of an answer to this assignment"
-            self._fault(message, line, columns["id"] + 1, "copy it from the review.csv that dofkit wrote")
-        decision = self._decision(line, columns, cells, most)
+        is_id = _ID.fullmatch(identity) is not None
+        most = self.most_points.get(identity.partition("-")[0]) if is_id else None
+        self.matches |= most is not None
+        if not is_id:
+            self._no_answer(identity, line, columns["id"] + 1)
+        elif most is None:
+            self.unasked.append((line, columns["id"] + 1, identity))
+        decision = None if is_id and most is None else self._decision(line, columns, cells, most)
         if len(self.faults) > before:
             return
         row, first = ReviewRow(cells, decision), self.rows.get(identity, ReviewRow({}))
@@ -270,6 +282,10 @@ class _TableReader:
             self._fault(message, line, columns["points"] + 1, "keep one of the two rows")
         elif not first.cells or (first.decision is None and row.filled):
             self.rows[identity] = row
+
+    def _no_answer(self, identity: str, line: int, column: int) -> None:
+        message = f"'{identity[:40]}' is not the id of an answer to this assignment"
+        self._fault(message, line, column, "copy it from the review.csv that dofkit wrote")
 
     def _decision(
         self, line: int, columns: Mapping[str, int], cells: Mapping[str, str], most: Fraction | None

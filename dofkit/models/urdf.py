@@ -246,7 +246,7 @@ def faults_of_loops(robot: Robot, poses: Poses, size: float, tolerance: float) -
             yield Fault(message, line=closure.line, column=1, hint="change the origins so that its ends meet")
     closing = {joint.name for joint in poses.closing}
     for joint in robot.joints:
-        if joint.mimic is not None and not closing.isdisjoint((joint.name, joint.mimic.joint)):
+        if joint.mimic is not None and joint.kind != FIXED and not closing.isdisjoint((joint.name, joint.mimic.joint)):
             message = f"'{joint.name}' mimics '{joint.mimic.joint}', and one of them closes a loop"
             hint = "let another joint of the loop mimic, which the tree carries"
             yield Fault(message, line=joint.mimic.line, column=1, hint=hint)

@@ -31,12 +31,16 @@ _NEUTRAL: Mapping[str, Any] = {
     "forces": {"type": "gravity"},
     "picture": {"axes": None},
     "parameters": "real",
+    "tolerance": 0.999,
 }
 _DECLARING = ("particles", "bodies", "coordinates", "parameters", "functions")
 #: Keys of a particle or a body that no text of a constraint depends on.
 _OF_NO_TEXT = ("at", "mass", "inertia")
 #: That a name is not declared, or is that of another kind of thing.
-_UNDECLARED = re.compile(r"there is no \w+ ['`]|`.*` is not declared|'.*' is not an angle or a displacement of a joint")
+_UNDECLARED = re.compile(
+    r"(?:`\w+`: )?(?:there is no \w+ ['`]|`.*` is not declared|"
+    r"'(?P<joint>.*)' is not an angle or a displacement of a joint)"
+)
 
 
 def faults_hidden_by(faults: Sequence[Fault], value: Mapping[str, Any]) -> Iterator[Fault]:
@@ -58,7 +62,8 @@ class _MendedScene:
     """A document in standard words that is being mended.
 
     ``_lost``: names that are not declared any more, in quotes; ``_undeclared``: there are others, which are not known;
-    ``_guessed``: constraints and shapes whose kind was guessed.
+    ``_guessed``: constraints and shapes whose kind was guessed; ``_altered``: the names of constraints whose kind may
+    be another one now, and with it what they measure.
     """
 
     def __init__(self, value: Mapping[str, Any]) -> None:
@@ -66,6 +71,7 @@ class _MendedScene:
         self._lost: set[str] = set()
         self._undeclared = False
         self._guessed: set[Path] = set()
+        self._altered: set[str] = set()
 
     def mend(self, faults: Sequence[Fault]) -> bool:
         """Mend what is faulty; return whether it makes sense then."""
@@ -82,8 +88,11 @@ class _MendedScene:
     def original_faults(self, faults: Sequence[Fault]) -> Iterator[Fault]:
         """Yield the faults that the mending did not bring about, at the places as they were written."""
         for fault in faults:
-            undeclared = _UNDECLARED.match(fault.message) is not None
+            undeclared = _UNDECLARED.match(fault.message)
             if undeclared and (self._undeclared or any(name in fault.message for name in self._lost)):
+                continue
+            joint = undeclared["joint"] if undeclared else None
+            if joint is not None and not self._altered.isdisjoint((joint, joint.rpartition(".")[0])):
                 continue
             if undeclared or fault.where[:2] not in self._guessed:
                 yield replace(fault, where=self.words.written(fault.where))
@@ -97,6 +106,7 @@ class _MendedScene:
         if fault.message.startswith(UNKNOWN_KEY):
             part = owner.pop(where[-1], None)
             self._guessed |= {where[:2]} if where[0] == "picture" else set()
+            self._undeclared |= not meant and (len(where) == 1 or where[0] in _DECLARING)
             if meant and meant not in owner:
                 owner[meant] = part
                 places = {(*where[:-1], meant): self.words.written(where)}
@@ -104,6 +114,7 @@ class _MendedScene:
         elif fault.message.startswith(UNKNOWN_TYPE) and meant in TYPES and where[:2] not in self._guessed:
             owner["type"] = meant
             self._guessed.add(where[:2])
+            self._altered.add(_name_of(owner, where[1]))
         elif where[0] in ("particles", "bodies") and where[2:] and where[2] in _OF_NO_TEXT:
             self._at(where[:2]).pop(where[2])
         else:
@@ -116,11 +127,14 @@ class _MendedScene:
         self._undeclared |= section in _DECLARING and not isinstance(key, str)
         if isinstance(entries, list) and isinstance(key, int):
             if section == "constraints":
-                name = entries[key].get("name") if isinstance(entries[key], dict) else None
-                self._lost.add(f"'{name or f'c{key + 1}'}'")
+                name = _name_of(entries[key], key)
+                self._lost.add(f"'{name}'")
+                self._altered.add(name)
             entries[key] = _NEUTRAL.get(section, f"lost_{key}")
         elif isinstance(entries, dict) and section == "parameters":
             entries[key] = _NEUTRAL[section]
+        elif section == "tolerance":
+            self.words.value[section] = _NEUTRAL[section]
         elif isinstance(entries, dict) and key is not None:
             entries.pop(key, None)
             self._lost |= {f"`{key}`"} if section in _DECLARING else set()
@@ -134,3 +148,9 @@ class _MendedScene:
             is_there = (isinstance(part, dict) and key in part) or (isinstance(part, list) and isinstance(key, int))
             part = part[key] if is_there else None
         return part
+
+
+def _name_of(constraint: object, place: int | str) -> str:
+    """Return the name of a constraint, which is that of its place where it has none."""
+    name = constraint.get("name") if isinstance(constraint, dict) else None
+    return str(name or (f"c{place + 1}" if isinstance(place, int) else place))

@@ -99,6 +99,10 @@ TABLES: dict[str, tuple[str | bytes, Any]] = {
         "student,p.f,p.f\nana,1,2\nbo,1,2\n",
         [(name, f", line {n}: the header (line 1) has the column 'p.f' twice") for n, name in ((2, "ana"), (3, "bo"))],
     ),
+    "two students": (
+        "student,p.f,Student\nana,1,bo\n",
+        [("ana", ", line 2: the header (line 1) has the column 'Student' twice")],
+    ),
     "no name": ("student,p.f\n,1\n", [("", ", line 2: the row has no student")]),
     "unknown columns": ("student,p.f,email\nana,1,a@b\n", [("ana", {"p": {"f": "1"}, "email": {"": "a@b"}})]),
     "no question": (

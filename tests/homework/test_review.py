@@ -269,6 +269,15 @@ def test_a_decision_goes_before_what_dofkit_finds(course: Course) -> None:
     assert course.results()["ana"]["score"] == 3.5
 
 
+def test_what_follows_from_a_decided_number_is_carried_still(tmp_path: Path) -> None:
+    scene = {"coordinates": ["x", "y", "z"], "constraints": ["dx = y dz", "y = 2 z"]}
+    problem = {"id": "p", "scene": scene, "questions": [{"id": "k", "ask": "k"}, {"id": "f", "ask": "dof"}]}
+    (tmp_path / "r.csv").write_text(f"id,points\n{answer_id('p', 'k', '1')},1\n")
+    given = {"student": "s", "answers": {"p": {"k": "1", "f": "2"}}}
+    result = dofkit.grade({"title": "t", "problems": [problem]}, given, reviewed=tmp_path / "r.csv")
+    assert "CARRIED" in result.items[1].codes, result.items[1]
+
+
 SAVED: dict[str, Callable[[list[dict[str, str]]], bytes]] = {
     "as it was written": lambda rows: saved(rows, ",").encode("utf-8-sig"),
     "by Excel in Germany": lambda rows: saved(rows, ";").encode("cp1252"),
@@ -325,6 +334,7 @@ def test_all_faults_of_a_table_are_told_at_once(course: Course) -> None:
         ("id,Pionts\n", "is it 'pionts'?"),
         ("id,points,points\n", "the column 'points' is there twice"),
         (f"id,points\n{answer_id('p', 'other', '1')},1\n", "is not the id of an answer to this assignment"),
+        (f"id,points\n{question_mark('p', 'f')}-1e5,1\n", "-1e5' is not the id of an answer to this assignment"),
     ],
 )
 def test_a_table_that_is_none(text: str, said: str, tmp_path: Path) -> None:
@@ -335,6 +345,14 @@ def test_a_table_that_is_none(text: str, said: str, tmp_path: Path) -> None:
     told = " ".join(f"{fault.message} {fault.hint}" for fault in caught.value.faults)
     assert said in told
     assert all(fault.line and fault.column for fault in caught.value.faults)
+
+
+def test_a_row_of_a_question_that_is_gone_stays_and_decides_nothing(course: Course) -> None:
+    course.grade()
+    gone = {**course.table()[0], "id": answer_id("p", "gone", "1"), "points": "99"}
+    (course.out / "review.csv").write_text(saved([*course.table(), gone], ","))
+    assert course.grade()[0] != 2
+    assert [row["id"] for row in course.table() if row["points"] == "99"] == [gone["id"]]
 
 
 # in every format, and with everything else

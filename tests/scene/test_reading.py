@@ -213,6 +213,15 @@ WITH_ECHOES = {
         "- {name: q, type: pin, between: [ground, b], at: [1, 0]}\n- {type: coupling, joints: [p, q], text: q = 2 p}\n",
         4, "'revolute'",
     ),
+    "a misspelt joint without a name, by letter": (
+        "bodies: [a]\njoints:\n- {type: cylindricl, between: [ground, a], at: [0, 0, 0], axis: z}\n"
+        "- {type: coupling, joints: {u: c1}, text: u = 0}\n", 3, "'cylindrical'",
+    ),
+    "a section that means nothing": ("vars: [x, y]\nconstraints: [x = 2 y]\n", 1, "the keys are"),
+    "a tolerance that is none": (
+        "tolerance: a\nparticles: [{name: A, at: [1.01, 0, 0]}]\n"
+        "constraints: [{type: link, between: [[0, 0, 0], A], length: 1}]\n", 1, "1e-6",
+    ),
     "names that cannot be read": (
         "coordinates: ['{x}']\nconstraints: ['{x} = 1', 'x = 2']\n", 1, "write `x`",
     ),

@@ -70,7 +70,8 @@ def rows(text: str, columns: Columns) -> Iterator[TableRow]:
 
 def _header_fault(names: list[str], student: int, asked: Sequence[Asked], columns: Columns) -> str | None:
     """Return why no row under a header can be graded, or None."""
-    twice = next((name for name in names if name and names.count(name) > 1), "")
+    again = (name for i, name in enumerate(names) if name in names[:i] or (i > student and name.casefold() == STUDENT))
+    twice = next(filter(None, again), "")
     repeated = next((question for question in asked if question and asked.count(question) > 1), None)
     if twice:
         return f"has the column '{twice[:60]}' twice"
