@@ -311,9 +311,7 @@ def _each_takes_one(reduced: Sequence[Reduced], numbers: Sequence[int], blocks: 
     """
     rows = Counter(r.constraint for block, _ in blocks for r in block.rows)
     single = rows == {i: reduced[i].equations for i in numbers}
-    plain = all(
-        a.velocity_dof is not None and not (a.hidden or a.degenerate or a.isolated) for _, a in blocks
-    )
+    plain = all(a.velocity_dof is not None and not (a.hidden or a.degenerate or a.isolated) for _, a in blocks)
     return (
         single
         and plain
