@@ -206,8 +206,9 @@ def by_itself(r: Reduced, labelled: Sequence[LabelledRow], answered: AnsweredBlo
     match r.normals:
         case (Normal(branches=((Pfaffian() as form,),)),) if labelled and answered.is_curved(form):
             return Answer(labels={0: HolonomyLabel(False, "proved")})
-    if len(labelled) == 1 and labelled[0].label is not None and labelled[0].label.holonomic is False:
-        return Answer(labels={0: labelled[0].label})
+    labels = [t.label for t in labelled]
+    if Nonlinear not in pieces and len(labels) == 1 and labels[0] is not None and labels[0].holonomic is False:
+        return Answer(labels={0: labels[0]})
     mentioned = {name for n in r.normals for b in n.branches for p in b for name in coordinates_of(p)}
     setting = replace(answered.setting, roles=tuple(c for c in answered.setting.roles if c.name in mentioned))
     try:
@@ -216,11 +217,11 @@ def by_itself(r: Reduced, labelled: Sequence[LabelledRow], answered: AnsweredBlo
         return Answer(None, verdict="undecided")
     if not any(isinstance(row.piece, Pfaffian | Nonlinear) for row in alone.rows):
         return None if alone.consistent is not None else Answer(None, verdict="undecided")
-    labels = [label for a in alone.answers for label in a.labels.values()]
+    own = [label for a in alone.answers for label in a.labels.values()]
     return Answer(
         alone.consistent,
         verdict=weakest(*(a.verdict for a in alone.answers)),
-        labels=dict(enumerate(labels)),
+        labels=dict(enumerate(own)),
         curved=any(a.curved for a in alone.answers),
     )
 
