@@ -142,10 +142,11 @@ def yaml_text(value: Mapping[str, Any], sections: tuple[str, ...] = (), remarks:
     - {name: a, mass: 1}
     """
     lines = [f"# {' '.join(remark.split())}" for remark in remarks]
-    return "".join(f"{line}\n" for line in (*lines, *_lines(value, sections)))
+    return "".join(f"{line}\n" for line in (*lines, *_yaml_lines(value, sections)))
 
 
-def _lines(value: Mapping[str, Any], sections: tuple[str, ...]) -> Iterator[str]:
+def _yaml_lines(value: Mapping[str, Any], sections: tuple[str, ...]) -> Iterator[str]:
+    """Yield YAML with each key on a line; those of ``sections`` as blocks with an entry on each line."""
     for key, part in value.items():
         if key not in sections:
             yield f"{key}: {on_one_line(part)}"

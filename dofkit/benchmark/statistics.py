@@ -78,7 +78,7 @@ def beats(score: Score, other: Score) -> bool:
 
 
 def points(lines: Sequence[TrialLine]) -> list[MedianTime]:
-    """Return the cost at each size, where a family has at least three."""
+    """Return the median time of each method at each size, of families with at least `SIZES` sizes."""
     sized = [line for line in lines if line.outcome != "cannot" and line.size > 0]
     times = []
     for (question, family), members in grouped(sized, lambda line: (line.question, line.family)).items():

@@ -231,6 +231,7 @@ def _by_balls(chart: Chart, pose: Mapping[Expr, Expr]) -> AtReference | None:
 
 
 def _dimension_along_curves(manifold: Manifold, rigid: int, time: int | None) -> LocalDimension:
+    """Return the numeric local dimension; ``rigid`` motions move the system as one body, ``time`` is its column."""
     try:
         return criteria.numeric_dimension(manifold, rigid, time)
     except NoValueError:

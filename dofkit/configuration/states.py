@@ -125,6 +125,7 @@ class States:
         return None
 
     def _base(self, seed: int) -> FieldPoint | None:
+        """Return a random configuration over GF(p) that satisfies the finite relations."""
         if self.finite:
             return self._standing.draw(seed)
         try:

@@ -203,20 +203,23 @@ def _slope(flow: AdmissibleCurve, direction: Matrix) -> Matrix:
 def spanning_curves(
     rows: FormRows, frame: Pivots, base: Any, span: Span
 ) -> tuple[list[AdmissibleCurve], tuple[int, ...] | None]:
-    """Curves whose brackets span every D_k together, and the dimensions; None where no number of them was enough."""
-    terminal = span.dimension
+    """Return curves that span every D_k together, and the dimensions; None where no number of curves was enough.
+
+    D_k: the span of the admissible fields and their brackets of at most k of them; the largest has ``span.dimension``.
+    """
+    full = span.dimension
     curves: list[tuple[AdmissibleCurve, Variation]] = []
-    quiet = 0
+    rounds_without_gain = 0
     dimensions: tuple[int, ...] = ()
     for number in range(MAX_CURVES):
         flow = span.flow if number == 0 and span.flow is not None else AdmissibleCurve(rows, frame, base)
-        flow.follow(span.dimensions.index(terminal) + 2)
+        flow.follow(span.dimensions.index(full) + 2)
         curves.append((flow, variation(flow)))
-        before, dimensions = dimensions, _dimensions([f for f, _ in curves], terminal)
-        if _complete(curves, dimensions, terminal):
+        before, dimensions = dimensions, _dimensions([f for f, _ in curves], full)
+        if _complete(curves, dimensions, full):
             return [f for f, _ in curves], dimensions
-        quiet = quiet + 1 if dimensions == before else 0
-        if quiet == 2:
+        rounds_without_gain = rounds_without_gain + 1 if dimensions == before else 0
+        if rounds_without_gain == 2:
             break
     return [f for f, _ in curves], None
 
@@ -261,12 +264,12 @@ def growth_at(rows: FormRows, frame: Pivots, point: FieldPoint, largest: int) ->
     certain = 4 if len(frame.free) == 2 else 3
     flows: list[AdmissibleCurve] = []
     dimensions: tuple[int, ...] = ()
-    quiet = 0
-    while quiet < 2 and len(flows) < CURVES:
+    rounds_without_gain = 0
+    while rounds_without_gain < 2 and len(flows) < CURVES:
         flows.append(AdmissibleCurve(rows, frame, point))
         flows[-1].follow(LONGEST)
         before, dimensions = dimensions, _dimensions(flows)
-        quiet = quiet + 1 if dimensions == before else 0
+        rounds_without_gain = quiet + 1 if dimensions == before else 0
     reached = next((k + 1 for k, d in enumerate(dimensions) if d == largest), LONGEST + 1)
     return dimensions[: reached if reached <= certain + 1 else certain]
 
@@ -324,7 +327,7 @@ def _random_bracket(flows: Sequence[AdmissibleCurve], step: int) -> tuple[Scalar
 
 
 def _combined(series: Sequence[MatrixSeries], weights: Sequence[Sequence[Matrix]]) -> Matrix:
-    """The sum of the fields with some weights."""
+    """Return the sum of all layers of all series, each times its weight; layers without a weight are left out."""
     total = None
     for layers, factors in zip(series, weights, strict=True):
         for layer, w in zip(layers, factors, strict=False):

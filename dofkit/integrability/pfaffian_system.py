@@ -149,9 +149,9 @@ def _joint_branches(relations: Sequence[Expr], setting: Setting) -> list[tuple[E
 
 
 def hidden_relation(rows: FormRows, n: int, point: Point) -> tuple[tuple[Expr, ...], ...]:
-    """Ways in which the largest minors with the time column vanish: their common factor does, or all that is left.
+    """Return the ways in which all largest minors with the time column vanish: the common factor, or the quotients.
 
-    No way where they grow too large.
+    Each way is a tuple of expressions that vanish together. None is known where the minors grow too large.
 
     ``n`` is the number of coordinate columns; time is column n. Which minors are not 0 is decided at a generic
     point of the variety.

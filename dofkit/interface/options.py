@@ -59,7 +59,7 @@ def file_of(*endings: str) -> Callable[[Path | None], Path | None]:
 
 
 def _certificate(path: str | None) -> str | None:
-    """Return the path of a certificate or of a folder of certificates."""
+    """Return the path of a certificate or of a folder of them; a file must end in .json."""
     if path is not None and not is_folder_path(Path(path)):
         _with_ending(Path(path), ("json",))
     return path

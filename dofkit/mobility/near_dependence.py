@@ -34,7 +34,7 @@ def nearly_dependent(placement: Placement, dimension: int, columns: int, rank: i
         rows += conditions
     j = [[float(row.get(c, 0.0)) for c in range(columns)] for row in rows]
     by_size = _gap(j, rank)
-    if by_size is None or _gap(_about_middles(j, placement, dimension), rank) is None:
+    if by_size is None or _gap(_about_centroids(j, placement, dimension), rank) is None:
         return None
     small, large = by_size
     tolerance = 10.0 ** ceil(log10(max(small, 1e-12)))
@@ -45,8 +45,11 @@ def nearly_dependent(placement: Placement, dimension: int, columns: int, rank: i
     )
 
 
-def _about_middles(j: list[list[float]], placement: Placement, dimension: int) -> list[list[float]]:
-    """Return the rows by velocities v' of the middles and w' = reach w: v = v' - w x (middle - start)."""
+def _about_centroids(j: list[list[float]], placement: Placement, dimension: int) -> list[list[float]]:
+    """Return the rows by velocities v' of the centroids and w' = reach w: v = v' - w x (middle - start).
+
+    So rows can be compared whatever the unit of length and wherever the origin.
+    """
     j = [list(row) for row in j]
     for member, points in _points(placement).values():
         first, start = member.column, member.start

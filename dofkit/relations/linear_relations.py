@@ -140,7 +140,7 @@ def explicit_relations(relations: Iterable[Expr], coefficients: Coefficients = c
 
 
 def solve_linear(relations: Sequence[Expr]) -> Explicit:
-    """Return what the linear relations among some give, and what is left of these."""
+    """Return the solution of the linear ones among some relations; ``implied`` counts in ``relations``."""
     numbers = [i for i, g in enumerate(relations) if linear(g) is not None]
     solved = explicit_relations([relations[i] for i in numbers], number_coefficients)
     return solved._replace(implied=tuple(numbers[k] for k in solved.implied))

@@ -57,7 +57,7 @@ def rail(half: float, offset: float, member: int = 0) -> Stroke:
 
 
 def cylinder(radius: float, half: float, member: int = 0) -> tuple[Stroke, ...]:
-    """Return the outline of a cylinder about the axis of space."""
+    """Return the outline of a cylinder about the joint's axis, ``half`` its length each way, on one of its members."""
     ends = tuple(Stroke(arc(radius, x=x), member, closed=True, filled=True) for x in (-half, half))
     sides = (0.0, 90.0, 180.0, 270.0)
     lines = tuple(Stroke((arc(radius, a, a + 1, -half)[0], arc(radius, a, a + 1, half)[0]), member) for a in sides)

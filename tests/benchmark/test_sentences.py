@@ -31,7 +31,7 @@ def test_families_stand_under_their_headings_the_hardest_last() -> None:
     ]
     cells = outcomes.together(score for score in summary(replace(DATA, lines=lines)).scores if score.family != "all")
     differential, equations = HEADINGS["time"], HEADINGS["scales"]
-    assert outcomes.in_order(cells) == ["all", differential, "trailers", "time", equations, "scales"]
+    assert outcomes.row_labels(cells) == ["all", differential, "trailers", "time", equations, "scales"]
     assert (cells["all", "count"].trials, cells["all", "count"].wrong) == (6, 3)
 
 

@@ -37,7 +37,7 @@ def matrix(chart: ChartRun) -> Figure | None:
     if not cells:
         return None
     methods = list(dict.fromkeys(method for _, method in cells))
-    rows = in_order(cells)
+    rows = row_labels(cells)
     title = "Where each method is right, wrong, undecided or too slow"
     size = NAMES + COLUMN * len(methods), ROW * (len(rows) + 2.2)
     figure = sheet(*size, title, chart.captions["matrix"], outcome_keys(OUTCOMES))
@@ -56,8 +56,11 @@ def matrix(chart: ChartRun) -> Figure | None:
     return figure
 
 
-def in_order(cells: Cells) -> list[str]:
-    """Return the totals, then each heading with its families, the hardest last: what all methods do not get right."""
+def row_labels(cells: Cells) -> list[str]:
+    """Return the labels of the rows: all families together, then each heading with its families.
+
+    Families stand by rising share of trials, over all methods, that were not answered rightly.
+    """
     families = grouped(cells.values(), lambda score: score.family)
     shares = {f: sum(s.trials - s.right for s in row) / sum(s.trials for s in row) for f, row in families.items()}
     ranked = sorted((f for f in shares if f != ALL), key=lambda family: shares[family])

@@ -99,15 +99,15 @@ FAR = (3, 6, 9)
 
 
 def scales(quick: bool) -> Iterator[KnownScene]:
-    """Circles and planes of any size, anywhere, in any unit: what follows from what does not change."""
+    """Circles and planes of any size, anywhere, in any unit: the answers must not depend on the scale."""
     for power in (-9, 9) if quick else (-30, -9, -6, 3, 6, 9, 30):
-        r, a = f"1e{power}", f"1e{abs(power)}"
+        radius, offset = f"1e{power}", f"1e{abs(power)}"
         for row in TABLES["scales"]:
             if row.get("offset") and "holonomic" not in row and power not in FAR:
                 continue
-            made = scene_of(row["coordinates"], *(text.format(r=r, a=a) for text in row["rows"]))
+            made = scene_of(row["coordinates"], *(text.format(r=radius, a=offset) for text in row["rows"]))
             label = {"c1": row["holonomic"]} if "holonomic" in row else None
-            about = f"{row['name']}, {r}", made, row["because"]
+            about = f"{row['name']}, {radius}", made, row["because"]
             over = row.get("redundant")
             yield known_scene(
                 *about, swept={"scale": 10.0**power}, dof=row["dof"], integrability=label, redundancy=over

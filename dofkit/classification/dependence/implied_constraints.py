@@ -51,9 +51,10 @@ def _by_implication(reduced: Sequence[Reduced], setting: Setting, numbers: Seque
 def _equation_by_equation(
     reduced: Sequence[Reduced], setting: Setting, numbers: Sequence[int], kept: Sequence[int]
 ) -> tuple[dict[int, int], list[tuple[int, list[int]]]]:
-    """(equations of each that are independent of all before it, groups of equations within what is kept).
+    """Return the number of independent equations of each constraint, and the dependent groups among ``kept``.
 
-    What is finite comes before what is differential.
+    Each of ``numbers`` is compared with those before it, configuration-level ones first. ``kept`` are constraints none
+    of which is implied by the others. A group: the number of implied equations, and the constraints that take part.
     """
     order = sorted(numbers, key=lambda i: any(not isinstance(p, Finite) for n in reduced[i].normals for p in n.pieces))
     independent: dict[int, int] = {}
@@ -61,12 +62,12 @@ def _equation_by_equation(
     for k, i in enumerate(order):
         before = [j for j in order[:k] if j in kept]
         single = reduced[i].equations == 1
-        known_not_to = single and i in kept and before == order[:k]
-        said = [] if known_not_to else _equations_implied(reduced, i, order[:k], setting)
-        independent[i] = reduced[i].equations - len(said)
+        is_needed = single and i in kept and before == order[:k]
+        implied = [] if is_needed else _equations_implied(reduced, i, order[:k], setting)
+        independent[i] = reduced[i].equations - len(implied)
         if i in kept and not single:
-            said = said if before == order[:k] else _equations_implied(reduced, i, before, setting)
-            groups += [(len(said), sorted({i, *_needed(reduced, said, before, setting)}))] if said else []
+            implied = implied if before == order[:k] else _equations_implied(reduced, i, before, setting)
+            groups += [(len(implied), sorted({i, *_needed(reduced, implied, before, setting)}))] if implied else []
     return independent, groups
 
 
@@ -80,9 +81,9 @@ class _Implied:
     _redundant: set[frozenset[int]] = field(default_factory=set)
 
     def in_time(self, choice: Sequence[int]) -> bool | None:
-        """Return whether the other constraints imply some; None where that is undecided or there is no time to tell.
+        """Return whether the constraints outside ``choice`` imply all in it; None if undecided or out of time.
 
-        What is implied by the others and a constraint that they imply is implied by the others.
+        What the others imply together with a constraint that they imply, they imply without it.
         """
         kept = [j for j in self.numbers if j not in choice]
         asked = choice[-1:] if frozenset(choice[:-1]) in self._redundant else choice

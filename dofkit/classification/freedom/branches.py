@@ -264,7 +264,7 @@ class AnsweredBlocks:
         return [self.of(block, likenesses) for block in blocks]
 
     def of(self, block: Block, likenesses: Likenesses | None = None) -> Answer:
-        """The answer of one block; ``likenesses``: what it is compared by with others."""
+        """Return the answer of one block; ``likenesses`` finds a block equal up to names, whose answer is renamed."""
         same = _identity(block)
         if same not in self._answers:
             twins = _shape(block) in self._shapes and not any(isinstance(r.piece, JointEquation) for r in block.rows)

@@ -20,10 +20,11 @@ METHOD = "rank over GF(p) at the given configuration"
 
 
 def bridged_answer(block: Block, setting: Setting, solve: Callable[[Block, Setting], Answer]) -> Answer | None:
-    """The answer of a block by its parts, each of which ``solve`` answers; None where it has to be looked at whole.
+    """Return the answer of a block from those of the parts into which it falls without its bridges, by ``solve``.
 
-    So it has where a part does not hold at the reference, or something else is asked of it than finite relations; and
-    where it does not move, which may be seen at once.
+    A bridge is a joint that closes no loop: it gives one free coordinate and takes one away with its equation. None
+    where a part does not satisfy its equations at the reference configuration, where there are other than finite
+    relations, and where the block does not move: then it is answered as one.
     """
     joints = [row for row in block.rows if row.constraint in setting.bridges]
     if not joints or not _is_eligible(block, joints, setting):

@@ -270,7 +270,7 @@ def declared_functions(normals: Sequence[Normal]) -> list[Piece]:
 def traits_together(
     traits: Sequence[Traits], form: Form, labels: EntryLabels, timed: TraitAnswer | None
 ) -> EntryTraits:
-    """Return the traits of a constraint from those of its equations, with the time of what it integrates to."""
+    """Return the traits of a constraint from those of its equations; ``timed``: whether its integral has the time."""
     timeless = all_of([t.timeless for t in traits])
     still = all_of([t.catastatic for t in traits if t.catastatic is not None])
     closed = all_of([t.exact for t in traits if t.exact is not None])

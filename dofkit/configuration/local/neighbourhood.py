@@ -187,7 +187,10 @@ def holds_on_critical(ball: Manifold, critical: Split, direction: Sequence[float
 def _onto_critical(
     here: Neighbourhood, critical: Split, direction: Sequence[float], reach: float
 ) -> dict[Expr, arb] | None:
-    """Return the point of N whose free coordinates have moved by ``reach``: Newton's method on the gradients."""
+    """Return the point of the critical set N with its free coordinates moved by ``reach`` along ``direction``.
+
+    N is where the gradients of the dependent relations along M vanish; Newton's method solves for the other ones.
+    """
     symbols = dict(here.middle)
     for value, c in zip(direction, critical.free, strict=True):
         if here.ball.frame.free[c] not in here.number:

@@ -137,7 +137,7 @@ class _Problem:
         self.pose = pose
         self.is_far = is_far
         self.equations, columns = pose.j.shape
-        self.first = int(columns) - pose.rank
+        self.first_order = int(columns) - pose.rank
         self.rigid = len(pose.rigid_motions)
 
     @cached_property
@@ -156,14 +156,16 @@ def _independent(problem: _Problem) -> Conclusion | None:
     """Independent equations cut out a manifold [ImplicitFunctions]."""
     if problem.pose.rank < problem.equations:
         return None
-    return Conclusion(problem.first, "all equations are independent within the tolerance")
+    return Conclusion(problem.first_order, "all equations are independent within the tolerance")
 
 
 def _rigid_to_first_order(problem: _Problem) -> Conclusion | None:
     """Nothing moves but the system as a rigid body [AsimowRoth1978]."""
-    if problem.first > problem.rigid:
+    if problem.first_order > problem.rigid:
         return None
-    return Conclusion(problem.first, "the only infinitesimal motions are rigid motions of the system", confined=True)
+    return Conclusion(
+        problem.first_order, "the only infinitesimal motions are rigid motions of the system", confined=True
+    )
 
 
 def _indistinct(problem: _Problem) -> Conclusion | None:
@@ -176,7 +178,7 @@ def _indistinct(problem: _Problem) -> Conclusion | None:
         )
     if reach_of(problem.pose.tolerance) > LONGEST:
         return Conclusion(None, "the tolerance is too coarse to distinguish a finite motion from an infinitesimal one")
-    if len(problem.pose.flexes) != problem.first - problem.rigid:
+    if len(problem.pose.flexes) != problem.first_order - problem.rigid:
         return Conclusion(
             None, "rigid motions of the system cannot be distinguished from other motions within the tolerance"
         )
@@ -185,10 +187,10 @@ def _indistinct(problem: _Problem) -> Conclusion | None:
 
 def _indefinite_form(problem: _Problem) -> Conclusion | None:
     """One dependent equation whose second order takes both signs parts the manifold [HurewiczWallman1941]."""
-    if not problem.forms.change_sign:
+    if not problem.forms.is_indefinite:
         return None
     why = "branches cross here: the second-order form is indefinite by more than the tolerance"
-    return Conclusion(problem.first - 1, why)
+    return Conclusion(problem.first_order - 1, why)
 
 
 def _definite_combination(problem: _Problem) -> Conclusion | None:
@@ -200,11 +202,14 @@ def _definite_combination(problem: _Problem) -> Conclusion | None:
 
 
 def _continued(problem: _Problem) -> Conclusion | None:
-    """Random motions are continued both ways, and no second-order form is known not to vanish."""
+    """Conclude that all infinitesimal motions are finite: random ones can be continued both ways, within the noise.
+
+    No second-order form is known not to vanish.
+    """
     reach = reach_of(problem.pose.tolerance)
     if not problem.forms.vanish or not all(is_motion(*paths, reach) for paths in problem.paths):
         return None
-    return Conclusion(problem.first, FOLLOWED)
+    return Conclusion(problem.first_order, FOLLOWED)
 
 
 def _undecided(problem: _Problem) -> Conclusion:

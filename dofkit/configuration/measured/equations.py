@@ -336,8 +336,8 @@ class StressForms:
         return all(v.contains(0) for form in self.balls for row in form for v in row)
 
     @property
-    def change_sign(self) -> bool:
-        """Whether there is one form, and it takes both signs; no eigenvalue changes by more than the noise."""
+    def is_indefinite(self) -> bool:
+        """Whether there is one form, with eigenvalues of both signs beyond ``noise``, which bounds their error."""
         if len(self.forms) != 1:
             return False
         values = np.linalg.eigvalsh(self.forms[0])

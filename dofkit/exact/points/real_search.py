@@ -172,6 +172,7 @@ class RealSearch:
             return self._precise(symbols, j, seed)
 
     def _precise(self, symbols: Mapping[Expr, float], j: list[list[float]] | None, seed: int) -> RealPoint | None:
+        """Return the point refined with rows that floating point takes for independent, or else with exact ones."""
         if j is None:
             return self._refined(symbols, (), (), seed)
         rows, columns = independent_part(j)[2:]

@@ -158,7 +158,7 @@ def leads_with_minus(e: Expr) -> bool:
 
 
 def inverse_function(ring: Instructions, name: str, e: Expr) -> int:
-    """asin, acos, atan and atan2."""
+    """Return the node of asin, acos, atan or atan2 of ``e``: acos is written by asin, a sign is taken out."""
     u = e.args[1]
     if name == "acos":
         return ring.node(ex.HALF * ex.PI - ex.fn("asin", u))

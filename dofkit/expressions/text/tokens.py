@@ -333,6 +333,7 @@ def _splits(word: str, lookup: Lookup) -> list[tuple[WordPart, ...]]:
 
     @cache
     def readings(start: int, after_function: bool) -> tuple[tuple[WordPart, ...], ...]:
+        """Return at most two ways to read the rest of the word: two mean that it is ambiguous."""
         if start == len(word):
             return ((),)
         complete: list[tuple[WordPart, ...]] = []

@@ -155,11 +155,11 @@ def sheet_of(value: object, how: bool = False) -> Sheet:
     """Return the sheet of a value. Raises TypeError for a value that has none."""
     match value:
         case Report():
-            return _about(sheet_of_report(_printed(value), how=how), value._companion, value)
+            return _with_title_and_picture(sheet_of_report(_printed(value), how=how), value._companion, value)
         case ConstraintEntry():
             return sheet_of_entry(value)
         case MotionReport():
-            return _about(sheet_of_motion(_printed(value)), value._companion)
+            return _with_title_and_picture(sheet_of_motion(_printed(value)), value._companion)
         case Scene():
             return sheet_of_scene(value)._replace(picture=partial(picture_of, value))
         case Linkage():
@@ -176,7 +176,7 @@ def _printed(report: Shown) -> Shown:
     return as_the_scene(report, scene) if isinstance(scene, Scene) else report
 
 
-def _about(sheet: Sheet, companion: Companion, report: Report | None = None) -> Sheet:
+def _with_title_and_picture(sheet: Sheet, companion: Companion, report: Report | None = None) -> Sheet:
     """Return a sheet with the title and the picture of its scene, if the scene is known."""
     scene = companion.about
     if not isinstance(scene, Scene):

@@ -150,7 +150,10 @@ class PebbleGame:
         return True
 
     def _fixing(self, v: int, other: int) -> int:
-        """Return the block of two joints, neither of them ``other``, that joint v pays for links to."""
+        """Return the rigid block to which joint v is fixed, NONE where there is none.
+
+        Both pebbles of v lie on links, and the block holds the other ends of both, neither of which is ``other``.
+        """
         of, w, x = self.blocks.of, self.first[v], self.second[v]
         if x < 0 or w == other or x == other:
             return NONE
@@ -208,7 +211,7 @@ class PebbleGame:
     def _condense(self, a: int, b: int, reached: list[int]) -> None:
         """Make one rigid block of a and the joints that were reached, all held by a and b.
 
-        Both pebbles of a are free, and one of b: the other pays for a link between the two, or what stands for it.
+        Both pebbles of a are free, and one of b. The links of each joint reached become two, to a and to b.
         """
         first, second = self.first, self.second
         for v in reached:

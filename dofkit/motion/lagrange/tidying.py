@@ -95,7 +95,7 @@ class Tidier:
 
 
 def terms(e: Expr) -> int:
-    """No fewer than the terms of any sum in ``e`` once products and powers are written out."""
+    """Return an upper bound of the terms of any sum in ``e`` once it is expanded, `MANY` where it is larger."""
     memo: dict[Expr, int] = {}
     for node in ex.nodes(e):
         counts = [memo[child] for child in ex.children(node)]

@@ -103,7 +103,7 @@ def holds_at(
 
 
 def _sign(e: Expr, positive: frozenset[Expr]) -> int | None:
-    """The sign of a constant, for generic parameters that of some values of them."""
+    """Return the sign of an expression without coordinates; with parameters, its sign at one random choice of them."""
     ring = Ring([e], positive)
     node = ring.node(e)
     point = random_ball_point(ring, positive, 0)

@@ -233,7 +233,7 @@ class MeasuredJoint(NamedTuple):
         return self.measure.value(self.first, self.second, self.drawn)
 
     def rate(self, slope: Expr) -> JointRate:
-        """Return how its rate enters where the relation has that slope."""
+        """Return its term in the time derivative of a relation whose derivative by this joint is ``slope``."""
         axis = self.drawn.axis.vector if self.drawn.axes else ()
         return JointRate(
             self.name,
