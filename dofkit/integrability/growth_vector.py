@@ -269,7 +269,7 @@ def growth_at(rows: FormRows, frame: Pivots, point: FieldPoint, largest: int) ->
         flows.append(AdmissibleCurve(rows, frame, point))
         flows[-1].follow(LONGEST)
         before, dimensions = dimensions, _dimensions(flows)
-        rounds_without_gain = quiet + 1 if dimensions == before else 0
+        rounds_without_gain = rounds_without_gain + 1 if dimensions == before else 0
     reached = next((k + 1 for k, d in enumerate(dimensions) if d == largest), LONGEST + 1)
     return dimensions[: reached if reached <= certain + 1 else certain]
 
