@@ -150,10 +150,7 @@ class PebbleGame:
         return True
 
     def _fixing(self, v: int, other: int) -> int:
-        """Return the rigid block to which joint v is fixed, NONE where there is none.
-
-        Both pebbles of v lie on links, and the block holds the other ends of both, neither of which is ``other``.
-        """
+        """Return the block that holds both ends, neither of them ``other``, of the links with v's pebbles, or NONE."""
         of, w, x = self.blocks.of, self.first[v], self.second[v]
         if x < 0 or w == other or x == other:
             return NONE
