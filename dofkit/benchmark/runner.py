@@ -47,7 +47,7 @@ _warm: set[tuple[str, str, str]] = set()
 class TrialQuestion:
     """What a worker is asked: a question about a scene, for one method; ``limit`` in seconds of processor time.
 
-    ``again``: how often a short one is repeated; ``answering``: what knows the methods, as ``module:function``.
+    ``repeats``: how often a short one is repeated; ``answering``: what knows the methods, as ``module:function``.
     """
 
     scene: Mapping[str, Any]
@@ -56,7 +56,7 @@ class TrialQuestion:
     knobs: Knobs
     answer: Mapping[str, str] | None
     limit: float
-    again: int = AGAIN
+    repeats: int = AGAIN
     answering: str = ANSWERING
 
 
@@ -77,7 +77,7 @@ def timed_reply(asked: TrialQuestion) -> Json:
     except LateError:
         return None
     if seconds < SHORT:
-        seconds = min([seconds, *(_timed(function, asked)[1] for _ in range(asked.again))])
+        seconds = min([seconds, *(_timed(function, asked)[1] for _ in range(asked.repeats))])
     return {**asdict(reply), "seconds": seconds}
 
 
@@ -145,8 +145,10 @@ class Bench:
 
     def submit(self, task: TrialTask) -> Future[Ended]:
         """Begin with a trial."""
-        t, again = task.trial, 0 if task.knob else AGAIN
-        asked = TrialQuestion(t.scene, t.question, task.method, task.knobs, t.answer, self.limit, again, self.answering)
+        t, repeats = task.trial, 0 if task.knob else AGAIN
+        asked = TrialQuestion(
+            t.scene, t.question, task.method, task.knobs, t.answer, self.limit, repeats, self.answering
+        )
         return self.pool.submit(self.pool.run, Job(timed_reply, asked, PATIENCE * self.limit + SPARE))
 
     def line(self, task: TrialTask, ended: Ended) -> TrialLine:

@@ -41,8 +41,8 @@ class CountsBeside:
         """The count in general position; None without a reference configuration."""
         if not self.system.has_geometry:
             return None
-        look = partial(in_general_position, self.system, self.outcome.written_rows, self.setting)
-        result = unless_late(look, _LATE)
+        count = partial(in_general_position, self.system, self.outcome.written_rows, self.setting)
+        result = unless_late(count, _LATE)
         if result.rank is None:
             return Generic(dof=None, redundant_equations=None, differs=result.why, verdict="undecided")
         dof = len(self.system.coordinates) - result.rank

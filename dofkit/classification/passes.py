@@ -156,7 +156,7 @@ def of_entries(name: str, study: Study) -> Decided:
 
 
 def _claim(field: FieldVerdict) -> Claim:
-    """A claim again from what an entry tells of it."""
+    """The claim of an entry as the entry has it."""
     if field.verdict == "undecided":
         return OPEN
     bits = int(field.bound.removeprefix("2^-")) if field.verdict == "probable" and field.bound else None
@@ -294,8 +294,8 @@ def _special(study: Study, values: Values) -> Values:
     """
     if study.system.reference is not None and not any(block.forms for block in study.outcome.blocks):
         return {}
-    again = partial(fields.study, reductions=study.setting.reductions)
-    search = partial(special_cases, study, Report(**values), again)
+    reclassify = partial(fields.study, reductions=study.setting.reductions)
+    search = partial(special_cases, study, Report(**values), reclassify)
     late: Values = {"warnings": [*values["warnings"], NO_SPECIAL_CASES]}
     special = unless_late(search, late)
     branches = [case.where for case in special.get("special_cases", ()) if case.kind == "branch"]

@@ -82,8 +82,8 @@ class Study:
         conflicting = Conflict([])
         with part(DEPENDENCE):
             if self.outcome.consistent is False:
-                look = partial(conflict, self.reduced, self.setting, self.outcome)
-                conflicting = unless_late(look, conflicting)
+                find_conflict = partial(conflict, self.reduced, self.setting, self.outcome)
+                conflicting = unless_late(find_conflict, conflicting)
             dependent = unless_late(
                 partial(redundancy.redundancies, self.reduced, self.setting, self.outcome), [nothing]
             )

@@ -1,6 +1,6 @@
 """Lengths that no points can have, proved by geometry before anything is searched.
 
-A distance is at most the length of any way between its ends (the triangle inequality), and the Gram matrix of points
+A distance is at most the length of any route between its ends (the triangle inequality), and the Gram matrix of points
 all of whose distances are known, G_ij = (d_0i^2 + d_0j^2 - d_ij^2) / 2, is positive semidefinite and of rank at most d
 [Schoenberg1935]; its determinants are those of Cayley and Menger [Menger1928]. Floating point proposes, intervals
 decide; where they do not tell two sides apart, as in a triangle drawn out to a line, nothing is contradicted.
@@ -32,7 +32,7 @@ from dofkit.system import Distance, Place
 
 #: Precisions at which two lengths are compared, in bits.
 BITS = (64, 256, 1024)
-#: Steps of all searches for short ways, cliques that are looked at, and points of one body that are used.
+#: Steps of all searches for short routes, cliques that are looked at, and points of one body that are used.
 MAX_VISITS, MAX_CLIQUES, MAX_CARRIED = 100_000, 20_000, 40
 #: Ways that are longer than a distance by more than this fraction are no reason to doubt it.
 SLACK = 1e-9
@@ -119,22 +119,22 @@ class _Web:
         return False
 
     def polygon(self) -> Unmet | None:
-        """A distance longer than a way between its ends (each side of a polygon is at most the others together)."""
+        """A distance longer than a route between its ends (each side of a polygon is at most the others together)."""
         visits = 0
         for a, b, side in sorted(self._exact(), key=lambda edge: -edge[2].length):
             check()
             cutoff, weight = side.length * (1 + SLACK), partial(_length_but, side)
-            far, ways = nx.single_source_dijkstra(self.graph, a, cutoff=cutoff, weight=weight)
+            far, routes = nx.single_source_dijkstra(self.graph, a, cutoff=cutoff, weight=weight)
             visits += len(far)
-            if b in ways:
-                shortest = (_shortest(side, self.graph[u][v]) for u, v in pairwise(ways[b]))
+            if b in routes:
+                shortest = (_shortest(side, self.graph[u][v]) for u, v in pairwise(routes[b]))
                 others = [other for other in shortest if other is not None]
                 if self._longer(side, others):
-                    way, most = "-".join(node[1] for node in ways[b]), sum(o.length for o in others)
-                    claim = (
-                        f"the points {a[1]} and {b[1]} cannot be {_side_text(side)} apart: along {way} they are at most"
+                    route, most = "-".join(node[1] for node in routes[b]), sum(o.length for o in others)
+                    claim = f"the points {a[1]} and {b[1]} cannot be {_side_text(side)} apart"
+                    return Unmet(
+                        _owners((side, *others)), f"{claim}: along {route} they are at most {most:.{DIGITS}g} apart."
                     )
-                    return Unmet(_owners((side, *others)), f"{claim} {most:.{DIGITS}g} apart.")
             if visits > MAX_VISITS:
                 return None
         return None

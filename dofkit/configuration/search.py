@@ -67,12 +67,12 @@ def find(chart: Chart, pose: Mapping[Expr, Expr], seed: int = 0) -> Variety:
 
     Where no real point was found it is tried to prove that there is none.
     """
-    variety, look = _variety(chart, pose, seed), partial(_variety, pose={}, seed=seed)
+    variety, find_variety = _variety(chart, pose, seed), partial(_variety, pose={}, seed=seed)
     if _fixes_time(chart, variety):
         variety = Variety(None, None, "undecided", reasons=[FIXED], parted=True)
     timed = chart.time is not None and variety.consistent is None and "field" in chart.setting.engines
     if timed:
-        variety = by_cases(chart, variety, look)
+        variety = by_cases(chart, variety, find_variety)
     near = near_singular_point(chart, variety)
     unseen = near is variety and (variety.consistent is not True or ALLOWING in variety.reasons)
     looked = {"field", "balls"} <= chart.setting.engines and unseen and variety.verdict != "proved"
@@ -87,10 +87,10 @@ def find(chart: Chart, pose: Mapping[Expr, Expr], seed: int = 0) -> Variety:
         and (variety.consistent is None or variety.parted)
     )
     if by_case and not timed:
-        variety = by_cases(chart, variety, look)
+        variety = by_cases(chart, variety, find_variety)
     if variety.consistent is not False and variety.dimension is None and near.dimension is not None:
-        return of_largest_part(chart, near, look)
-    return of_largest_part(chart, variety, look, by_case or timed)
+        return of_largest_part(chart, near, find_variety)
+    return of_largest_part(chart, variety, find_variety, by_case or timed)
 
 
 def _fixes_time(chart: Chart, variety: Variety) -> bool:

@@ -146,12 +146,12 @@ class Renaming:
             renamed = (args[0], args[1], tuple(map(self.of, args[2])))
         else:
             renamed = tuple(map(self.of, args))
-        made = Expr(op, renamed)
-        made._functions = e._functions
+        renamed_expression = Expr(op, renamed)
+        renamed_expression._functions = e._functions
         if e.shape is not None:
-            made.shape = e.shape._replace(names=tuple(self.names.get(n, n) for n in e.shape.names))
-        self._renamed[id(e)] = e, made
-        return made
+            renamed_expression.shape = e.shape._replace(names=tuple(self.names.get(n, n) for n in e.shape.names))
+        self._renamed[id(e)] = e, renamed_expression
+        return renamed_expression
 
     def _symbol(self, symbol: Expr) -> Expr:
         renamed_symbol = self._symbols.get(symbol)

@@ -77,11 +77,11 @@ class Bridge:
         if kind == "time":
             return self.time
         if kind == "parameter":
-            made = (
+            symbol = (
                 self._sympy.Symbol(name, positive=True) if e in self._positive else self._sympy.Symbol(name, real=True)
             )
-            self._parameters[made] = e
-            return made
+            self._parameters[symbol] = e
+            return symbol
         orders = {"coordinate": 0, "velocity": 1, "differential": 1, "acceleration": 2}
         return self._sympy.Integer(1) if kind == "dt" else self.velocity(name, orders[kind])
 

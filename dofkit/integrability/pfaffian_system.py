@@ -103,7 +103,7 @@ def first_order_freedom(block: Block, setting: Setting, reference: Mapping[Expr,
 
 #: Choices of columns that are looked at, and minors that are divided out of each other.
 MAX_CHOICES, MAX_MINORS, MAX_SIZE = 400, 12, 8
-#: Ways in which several hidden relations hold together that are looked at.
+#: Alternatives in which several hidden relations hold together that are looked at.
 MAX_TOGETHER = 12
 
 
@@ -123,11 +123,11 @@ def confinements(forms: Codistribution, variety: Variety) -> tuple[tuple[Expr, .
     return None if free else hidden_relation(forms.rows, forms.n, point)
 
 
-def prolong(ways: Sequence[Sequence[Expr]], setting: Setting) -> tuple[tuple[Expr, ...], ...] | None:
+def prolong(alternatives: Sequence[Sequence[Expr]], setting: Setting) -> tuple[tuple[Expr, ...], ...] | None:
     """The branches of hidden relations; none where they cannot hold, None where they have too many together."""
-    if not ways:
+    if not alternatives:
         return ((),)
-    options = [_joint_branches(way, setting) for way in ways]
+    options = [_joint_branches(alternative, setting) for alternative in alternatives]
     every = [branches for branches in options if branches is not None]
     return tuple(dict.fromkeys(b for branches in every for b in branches)) if len(every) == len(options) else None
 
@@ -149,9 +149,9 @@ def _joint_branches(relations: Sequence[Expr], setting: Setting) -> list[tuple[E
 
 
 def hidden_relation(rows: FormRows, n: int, point: Point) -> tuple[tuple[Expr, ...], ...]:
-    """Return the ways in which all largest minors with the time column vanish: the common factor, or the quotients.
+    """Return the alternatives for the largest minors with the time column: the common factor vanishes, or quotients.
 
-    Each way is a tuple of expressions that vanish together. None is known where the minors grow too large.
+    Each alternative is a tuple of expressions that vanish together. None is known where the minors grow too large.
 
     ``n`` is the number of coordinate columns; time is column n. Which minors are not 0 is decided at a generic
     point of the variety.

@@ -173,7 +173,7 @@ class SampledPoints:
     passing: list[bool]
 
 
-def look(written: Written, numbers: Decider) -> SampledPoints | None:
+def sampled_points(written: Written, numbers: Decider) -> SampledPoints | None:
     """At the drawing where there is one, else at the points that the numbers find; None where they find none."""
     rows = WrittenRows(written)
     drawn = written.system.reference is not None

@@ -24,8 +24,8 @@ from dofkit.methods.as_written import (
     WrittenRows,
     as_written,
     drawn_value,
-    look,
     questions_at_points,
+    sampled_points,
 )
 from dofkit.methods.table import CONTRADICTORY, Knobs, Reply, cannot
 from dofkit.relations.linear_relations import explicit_relations
@@ -177,7 +177,7 @@ def _look(scene: Scene | System, knobs: Knobs) -> tuple[SampledPoints, Decider] 
     if written.system.tolerance is not None:
         return cannot("the geometry is measured, and rational arithmetic takes every number for exact")
     try:
-        sampled = look(written, numbers)
+        sampled = sampled_points(written, numbers)
     except IrrationalError as error:
         return cannot(str(error))
     except ContradictionError as error:

@@ -21,8 +21,8 @@ from dofkit.methods.as_written import (
     WrittenRows,
     as_written,
     drawn_value,
-    look,
     questions_at_points,
+    sampled_points,
 )
 from dofkit.methods.table import CONTRADICTORY, Knobs, Reply
 from dofkit.scene.scene import Scene
@@ -104,7 +104,7 @@ def singular_values(matrix: Matrix) -> Any:
 
 def _look(scene: Scene | System, knobs: Knobs) -> tuple[SampledPoints, Decider] | Reply:
     numbers = Floats(knobs.tolerance)
-    sampled = look(as_written(scene), numbers)
+    sampled = sampled_points(as_written(scene), numbers)
     return Reply(CONTRADICTORY, reason=NOWHERE.format(STARTS)) if sampled is None else (sampled, numbers)
 
 

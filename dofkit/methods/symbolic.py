@@ -48,8 +48,8 @@ class Symbols:
 
     def read(self, e: Expr) -> Any:
         """An expression of positions, parameters and time."""
-        made = self._bridge.sympy(e)
-        return made.xreplace(self._positions).xreplace({self._bridge.time: self._time})
+        expression = self._bridge.sympy(e)
+        return expression.xreplace(self._positions).xreplace({self._bridge.time: self._time})
 
     def row(self, form: Form) -> list[Any]:
         """A one-form's coefficients."""

@@ -16,7 +16,7 @@ from dofkit.exact.points.balls import precise_for
 from dofkit.exact.points.real_search import RealSearch
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.motion.continuation import STILL, Follower, Ways, trail
+from dofkit.motion.continuation import STILL, BothDirections, Follower, trail
 from dofkit.motion.poses import Array, Pose, PoseRelations, number
 from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian, Reduced
@@ -152,12 +152,12 @@ class MotionSampler:
         if along is not None and along not in self.names:
             raise NoMotionError(no_such(along, self.names, "coordinate"))
         target = None if along is None else self.relations.axis(along, self.start)
-        ways = self.follower.begin(self.start, target, step)
-        if target is None and not any(ways):
+        both_directions = self.follower.begin(self.start, target, step)
+        if target is None and not any(both_directions):
             raise NoMotionError("no motion was found that leaves the first configuration")
-        if target is not None and not any(w and abs(float(w.direction @ target)) > STILL for w in ways):
+        if target is not None and not any(w and abs(float(w.direction @ target)) > STILL for w in both_directions):
             raise NoMotionError(f"'{along}' cannot move at the first configuration")
-        return self._followed(self.follower, ways, steps, step, both)
+        return self._followed(self.follower, both_directions, steps, step, both)
 
     def free_motion(
         self, rates: Mapping[Expr, float], held: Sequence[Expr], steps: int, step: float
@@ -165,19 +165,19 @@ class MotionSampler:
         """Return configurations along a motion that begins with some velocities, while the ``held`` symbols rest."""
         rows = np.array([self.relations.step_of({symbol: 1.0}) for symbol in held])
         follower = Follower(self.relations, 1, rows.reshape(-1, self.relations.columns))
-        ways = follower.begin(self.start, self.relations.step_of(rates), step)
-        return self._followed(follower, ways, steps, step)
+        both_directions = follower.begin(self.start, self.relations.step_of(rates), step)
+        return self._followed(follower, both_directions, steps, step)
 
     def branches(self, steps: int, step: float) -> Iterator[tuple[Array, list[dict[str, float]]]]:
         """Yield each motion that was found to leave a singular first configuration: its direction, configurations."""
-        for ways in self.follower.branches(self.start, step):
-            direction = next(way.direction for way in ways if way)
-            yield direction, self._followed(self.follower, ways, steps, step)
+        for both_directions in self.follower.branches(self.start, step):
+            direction = next(reached.direction for reached in both_directions if reached)
+            yield direction, self._followed(self.follower, both_directions, steps, step)
 
     def _followed(
-        self, follower: Follower, ways: Ways, steps: int, step: float, both: bool = True
+        self, follower: Follower, both_directions: BothDirections, steps: int, step: float, both: bool = True
     ) -> list[dict[str, float]]:
-        ahead, back = ways
+        ahead, back = both_directions
         forward, closed = trail(follower, self.start, ahead, steps, step)
         backward = trail(follower, self.start, back, steps, step)[0] if both and not closed else []
         if steps and not forward and not backward:

@@ -40,7 +40,7 @@ class Reached:
 
 
 #: Forward and backward, where a motion begins.
-Ways = tuple[Reached | None, Reached | None]
+BothDirections = tuple[Reached | None, Reached | None]
 
 
 class Follower:
@@ -129,10 +129,10 @@ class Follower:
             pose = self.stepped(current.pose, wanted, np.vstack([along, self.held]))
             if pose is None:
                 return None
-            made = self.relations.between(current.pose, pose)
-            if float(np.linalg.norm(made - wanted)) > SLACK * float(np.linalg.norm(wanted)):
+            displacement = self.relations.between(current.pose, pose)
+            if float(np.linalg.norm(displacement - wanted)) > SLACK * float(np.linalg.norm(wanted)):
                 return None
-            direction = self.ahead(pose, 2 * made / length - current.direction)
+            direction = self.ahead(pose, 2 * displacement / length - current.direction)
         except FAULTS:
             return None
         if direction is None:
@@ -145,10 +145,10 @@ class Follower:
         relations = self.relations
         pose = relations.moved(start, wanted)
         for k in range(ROUNDS):
-            made = relations.between(start, pose)
+            displacement = relations.between(start, pose)
             f, j = relations.at(pose)
-            forms = relations.forms_at(relations.moved(start, made / 2))
-            wrong = np.concatenate([f, forms @ made, along @ (made - wanted)])
+            forms = relations.forms_at(relations.moved(start, displacement / 2))
+            wrong = np.concatenate([f, forms @ displacement, along @ (displacement - wanted)])
             if float(np.max(np.abs(wrong))) < HELD / 100:
                 break
             shift = float(np.linalg.norm(wrong)) ** (1 + (k > EASY))
@@ -160,7 +160,7 @@ class Follower:
         slip = float(np.max(np.abs(forms @ relations.between(start, pose)), initial=0.0))
         return pose if self.holds(pose) and slip < HELD else None
 
-    def begin(self, pose: Pose, target: Array | None, step: float) -> Ways:
+    def begin(self, pose: Pose, target: Array | None, step: float) -> BothDirections:
         """Where and in which direction motions begin, forward and backward."""
         basis = self.null_space(pose)
         stopped = self.clock is not None and float(np.sum(basis[:, self.clock] ** 2)) < SMALL
@@ -181,7 +181,7 @@ class Follower:
         weights[column] = 1.0
         return weights
 
-    def _leave(self, pose: Pose, target: Array | None, step: float, basis: Array) -> Ways:
+    def _leave(self, pose: Pose, target: Array | None, step: float, basis: Array) -> BothDirections:
         return self._both_ways(pose, self._departures(pose, step, basis), target)
 
     def _departures(self, pose: Pose, step: float, basis: Array) -> list[Reached]:
@@ -200,7 +200,7 @@ class Follower:
                 return regular
         return singular
 
-    def branches(self, pose: Pose, step: float) -> list[Ways]:
+    def branches(self, pose: Pose, step: float) -> list[BothDirections]:
         """Return the motions that were found to leave a singular pose, each forward and backward."""
         departures = self._departures(pose, step, self.null_space(pose))
         branches: list[Reached] = []
@@ -214,17 +214,17 @@ class Follower:
         moved = self.onto(self.relations.moved(pose, step), any_time=True)
         if moved is None:
             return None
-        made = self.relations.between(pose, moved)
-        size = float(np.linalg.norm(made))
+        displacement = self.relations.between(pose, moved)
+        size = float(np.linalg.norm(displacement))
         if not length / 4 < size < 4 * length:
             return None
         try:
-            direction = self.ahead(moved, made / size)
+            direction = self.ahead(moved, displacement / size)
         except FAULTS:
             return None
         return None if direction is None else Reached(moved, direction)
 
-    def _both_ways(self, pose: Pose, poses: list[Reached], target: Array | None) -> Ways:
+    def _both_ways(self, pose: Pose, poses: list[Reached], target: Array | None) -> BothDirections:
         if not poses:
             return None, None
         if self.clock is not None:

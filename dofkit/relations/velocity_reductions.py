@@ -24,8 +24,8 @@ from dofkit.relations.normal.normal_form import linear_form, normalise, velociti
 from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian
 from dofkit.relations.normal.zero_set import never_vanishes
 
-#: Ways to split the nonlinear relations that are looked at, and rounds of reduction.
-MAX_WAYS, MAX_ROUNDS = 16, 6
+#: The most alternatives into which nonlinear relations are split, and rounds of reduction.
+MAX_ALTERNATIVES, MAX_ROUNDS = 16, 6
 
 
 def rate(g: Expr) -> Expr:
@@ -70,7 +70,7 @@ class RewrittenRow:
         return self.rows == (self.written,)
 
 
-class Way(NamedTuple):
+class Alternative(NamedTuple):
     """All rows on one choice of branches, in the order in which they were written.
 
     ``slots``: what became of each row, where a relation nonlinear in the velocities is among them; ``reduced``: of
@@ -83,56 +83,59 @@ class Way(NamedTuple):
     divided: bool = False
 
     @classmethod
-    def of(cls, slots: tuple[RewrittenRow, ...], divided: bool) -> Way:
-        """Return the way with these rows."""
+    def of(cls, slots: tuple[RewrittenRow, ...], divided: bool) -> Alternative:
+        """Return the alternative with these rows."""
         linear = (s for s in slots if not s.unchanged and not any(isinstance(r.piece, Nonlinear) for r in s.rows))
         return cls([row for slot in slots for row in slot.rows], slots, tuple(linear), divided)
 
 
-def ways_of(rows: Sequence[Row], positive: frozenset[Expr]) -> list[Way]:
+def alternatives_of(rows: Sequence[Row], positive: frozenset[Expr]) -> list[Alternative]:
     """Return the rows with nonlinear ones reduced by the linear ones that share coordinates with them.
 
     Velocities that the linear rows give are put into the nonlinear ones, which may then split into linear ones:
     xdot^2 + ydot^2 = zdot^2 with y = 2 x is zdot = +-sqrt(5) xdot. What is new is used in the next round.
     """
-    ways, done = [Way.of(tuple(RewrittenRow(r, (r,)) for r in rows), False)], list[Way]()
+    alternatives, done = [Alternative.of(tuple(RewrittenRow(r, (r,)) for r in rows), False)], list[Alternative]()
     for _ in range(MAX_ROUNDS):
-        following: list[Way] = []
-        for way in ways:
-            changed = _step(way, positive)
+        following: list[Alternative] = []
+        for alternative in alternatives:
+            changed = _step(alternative, positive)
             if changed is None:
-                done.append(way)
+                done.append(alternative)
             else:
                 following += changed
-        ways = following[:MAX_WAYS]
-        if not ways:
+        alternatives = following[:MAX_ALTERNATIVES]
+        if not alternatives:
             break
-    return [*done, *ways][:MAX_WAYS]
+    return [*done, *alternatives][:MAX_ALTERNATIVES]
 
 
-def _step(way: Way, positive: frozenset[Expr]) -> list[Way] | None:
-    """The ways that one more reduction leaves; None where nothing is left to do."""
-    rows = way.rows
+def _step(alternative: Alternative, positive: frozenset[Expr]) -> list[Alternative] | None:
+    """The alternatives that one more reduction leaves; None where nothing is left to do."""
+    rows = alternative.rows
     if not any(isinstance(r.piece, Nonlinear) for r in rows):
         return None
     answer = {id(r): _ways(r, rows, positive) for r in rows if isinstance(r.piece, Nonlinear)}
     by_linear, divided = (
-        {i: rewriting.ways for i, rewriting in answer.items()},
+        {i: rewriting.alternatives for i, rewriting in answer.items()},
         any(rewriting.divided for rewriting in answer.values()),
     )
     if all(len(result) == 1 and len(result[0]) == 1 and id(result[0][0]) in by_linear for result in by_linear.values()):
         return None
     options: list[list[RewrittenRow]] = []
-    for slot in way.slots:
+    for slot in alternative.slots:
         choices = cartesian(*(by_linear.get(id(r), [(r,)]) for r in slot.rows))
         options.append([RewrittenRow(slot.written, tuple(r for part in choice for r in part)) for choice in choices])
-    return [Way.of(choice, way.divided or divided) for choice in islice(cartesian(*options), MAX_WAYS)]
+    return [
+        Alternative.of(choice, alternative.divided or divided)
+        for choice in islice(cartesian(*options), MAX_ALTERNATIVES)
+    ]
 
 
 class _Rewriting(NamedTuple):
     """The branches of a row; was there a division by what may vanish?"""
 
-    ways: list[tuple[Row, ...]]
+    alternatives: list[tuple[Row, ...]]
     divided: bool = False
 
 
@@ -157,9 +160,9 @@ def _ways(row: Row, rows: Sequence[Row], positive: frozenset[Expr]) -> _Rewritin
         except NoValueError:  # what was put in leaves 0 to a power, which has no value
             return _Rewriting([(row,)])
         divided = not all(never_vanishes(d, positive) for d in divisors)
-        ways = [b for b in result if not b] or result  # the branch that says nothing holds the others
-        if not (divided and any(isinstance(r.piece, Nonlinear) for w in ways for r in w)):
-            return _Rewriting(ways, divided)
+        alternatives = [b for b in result if not b] or result  # the branch that says nothing holds the others
+        if not (divided and any(isinstance(r.piece, Nonlinear) for w in alternatives for r in w)):
+            return _Rewriting(alternatives, divided)
     return _Rewriting([(row,)] if there == row.piece.expr else _branches(row, there, (), positive))
 
 
@@ -184,8 +187,8 @@ def _branches(
 ) -> list[tuple[Row, ...]]:
     """What a row says that now reads ``changed`` = 0."""
     normal = normalise(changed, positive, True)
-    ways = [tuple(Row(row.constraint, p) for p in (*b, *within)) for b in normal.branches]
-    return ways or [(Row(row.constraint, Finite(ex.ONE)),)]
+    alternatives = [tuple(Row(row.constraint, p) for p in (*b, *within)) for b in normal.branches]
+    return alternatives or [(Row(row.constraint, Finite(ex.ONE)),)]
 
 
 def _rows_near(row: Row, rows: Sequence[Row]) -> list[Row]:

@@ -80,9 +80,9 @@ class _MendedScene:
             if not fault.where or (fault.where[0] == "dimension" and placed):
                 return False
             self._mend(fault, fault.where)
-        again = standard_words(self.words.value)
-        places = {path: self.words.written(origin) for path, origin in again.places.items()}
-        self.words = StandardWords(again.value, {**self.words.places, **places})
+        mended = standard_words(self.words.value)
+        places = {path: self.words.written(origin) for path, origin in mended.places.items()}
+        self.words = StandardWords(mended.value, {**self.words.places, **places})
         return True
 
     def original_faults(self, faults: Sequence[Fault]) -> Iterator[Fault]:

@@ -37,7 +37,7 @@ def fronts(chart: ChartRun) -> Figure | None:
     across = min(2, len(asked))
     down = math.ceil(len(asked) / across)
     title = "Speed against accuracy: share of trials without the right answer, and time"
-    look = looks(dict.fromkeys(score.method for score in totals))
+    looks_of_methods = looks(dict.fromkeys(score.method for score in totals))
     figure = sheet(6.3 * across, 3.5 * down, title, chart.captions["fronts"], _front_keys())
     grid = figure.subplots(down, 2 * across, squeeze=False, gridspec_kw={"width_ratios": [1, 0.4] * across})
     panels, tables = grid[:, ::2].ravel(), grid[:, 1::2].ravel()
@@ -46,8 +46,8 @@ def fronts(chart: ChartRun) -> Figure | None:
         front = next((front for front in chart.fronts if front.question == question), None)
         panel.set_title(f"{QUESTIONS[question]}   ({max(score.trials for score in members)} trials)")
         _front_axes(panel, totals)
-        _front_panel(panel, members, front, look)
-        _front_table(table, members, look)
+        _front_panel(panel, members, front, looks_of_methods)
+        _front_table(table, members, looks_of_methods)
     for axes in (*tables, *panels[len(asked) :]):
         axes.set_axis_off()
     return figure
@@ -69,7 +69,9 @@ def _front_axes(axes: Axes, members: Sequence[Score]) -> None:
     axes.set_ylabel("not right (% of trials)")
 
 
-def _front_panel(axes: Axes, members: Sequence[Score], front: Front | None, look: Mapping[str, Look]) -> None:
+def _front_panel(
+    axes: Axes, members: Sequence[Score], front: Front | None, looks_of_methods: Mapping[str, Look]
+) -> None:
     """Draw the marks, and the front of the methods that are never wrong: a stair, since nothing lies between two."""
     by_name = {score.method: score for score in members}
     stair = [by_name[m] for m in front.never_wrong if m in by_name] if front else []
@@ -78,7 +80,7 @@ def _front_panel(axes: Axes, members: Sequence[Score], front: Front | None, look
     if stair:
         axes.step(x, y, where="post", color="#BBBBBB", linewidth=1.6, zorder=1)
     for score in members:
-        colour, height = look[score.method].colour, _not_right(score)
+        colour, height = looks_of_methods[score.method].colour, _not_right(score)
         ends = [_seconds(score.low_seconds), _seconds(score.high_seconds)]
         axes.plot(ends, [height, height], marker="|", markersize=5, color=colour, linewidth=1.2, alpha=0.75, zorder=3)
         style: dict[str, Any] = {"marker": "s", "markersize": 11 if score.method == AUTO else 9, "clip_on": False}
@@ -89,7 +91,7 @@ def _front_panel(axes: Axes, members: Sequence[Score], front: Front | None, look
     axes.annotate("better", (0.015, 0.03), (0.09, 0.125), arrowprops=arrow, color=GREY, style="italic", **place)
 
 
-def _front_table(axes: Axes, members: Sequence[Score], look: Mapping[str, Look]) -> None:
+def _front_table(axes: Axes, members: Sequence[Score], looks_of_methods: Mapping[str, Look]) -> None:
     """Draw the legend of the panel, the best first, with each method's wrong answers in red and the undecided ones."""
     axes.set_xlim(0, 1)
     axes.set_ylim(-max(9, len(members)), 0)
@@ -99,7 +101,7 @@ def _front_table(axes: Axes, members: Sequence[Score], look: Mapping[str, Look])
     for row, score in enumerate(sorted(members, key=lambda s: (1 - s.share_right, s.median_seconds or 0.0))):
         y, undecided = -1.2 - 0.95 * row, score.trials - score.right - score.wrong
         weight = "bold" if score.method == AUTO else "normal"
-        axes.plot([0.03], [y], marker="s", markersize=6, color=look[score.method].colour)
+        axes.plot([0.03], [y], marker="s", markersize=6, color=looks_of_methods[score.method].colour)
         axes.text(0.09, y, score.method, ha="left", color="#222222", fontweight=weight, **about)
         wrong = (percent(score.share_wrong), WRONG, "bold") if score.wrong else ("0", GREY, "normal")
         axes.text(0.68, y, wrong[0], ha="right", color=wrong[1], fontweight=wrong[2], **about)
@@ -145,7 +147,7 @@ def cost(chart: ChartRun) -> Figure | None:
     chosen = steepest(chart)
     if not chosen:
         return None
-    look = looks(dict.fromkeys(score.method for score in chart.scores))
+    looks_of_methods = looks(dict.fromkeys(score.method for score in chart.scores))
     across = min(ACROSS, len(chosen))
     figure = sheet(
         5.6 * across + 0.2, 3.3 * math.ceil(len(chosen) / across), "Processor time against size", chart.captions["cost"]
@@ -156,7 +158,7 @@ def cost(chart: ChartRun) -> Figure | None:
         fits = {fit.method: fit for fit in chart.fits if (fit.family, fit.question) == key and holds(fit)}
         axes.set_title(f"{key[0]}: {key[1]}")
         axes.set_xlabel(f"size: {COUNTED[key[0]]}" if key[0] in COUNTED else "size")
-        _cost_curves(axes, points, look, chart.ran.limit, fits)
+        _cost_curves(axes, points, looks_of_methods, chart.ran.limit, fits)
         _cost_axes(axes, sorted({point.size for point in points}))
         axes.set_ylim(top=3 * chart.ran.limit)
     for axes in grid[len(chosen) :]:
@@ -195,7 +197,11 @@ def _cost_axes(axes: Axes, sizes: Sequence[int]) -> None:
 
 
 def _cost_curves(
-    axes: Axes, points: Sequence[MedianTime], look: Mapping[str, Look], limit: float, fits: Mapping[str, Fit]
+    axes: Axes,
+    points: Sequence[MedianTime],
+    looks_of_methods: Mapping[str, Look],
+    limit: float,
+    fits: Mapping[str, Fit],
 ) -> None:
     """Draw a curve for every method, up to the first size that was not done within the limit: a cross on its line."""
     ends = min(point.size for point in points), max(point.size for point in points)
@@ -205,7 +211,9 @@ def _cost_curves(
         done = [p for p in curve if p.timed_out < p.trials]
         late = [p for p in curve if p.timed_out == p.trials][:1]
         coloured = method in COLOURED
-        colour, width = (look[method].colour, look[method].width) if coloured else ("#C4C4C4", 1.0)
+        colour, width = (
+            (looks_of_methods[method].colour, looks_of_methods[method].width) if coloured else ("#C4C4C4", 1.0)
+        )
         above = 6 if method == AUTO else 4 if coloured else 2
         power = f"  $n^{{{fits[method].exponent:.1f}}}$" if method in fits else ""
         label = f"{method}{power}" if coloured else None
@@ -213,7 +221,11 @@ def _cost_curves(
         style: dict[str, Any] = {"color": colour, "linewidth": width, "zorder": above, "label": label}
         if coloured:
             size = 9 if method == AUTO else 4.5
-            style |= {"marker": look[method].mark, "markersize": size, "markevery": [p in done for p in drawn]}
+            style |= {
+                "marker": looks_of_methods[method].mark,
+                "markersize": size,
+                "markevery": [p in done for p in drawn],
+            }
         axes.plot([p.size for p in drawn], [p.seconds for p in drawn], **style)
         if late:
             cross: dict[str, Any] = {"marker": "x", "markersize": 7, "markeredgewidth": 1.8, "zorder": above}

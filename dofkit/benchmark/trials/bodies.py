@@ -87,15 +87,18 @@ def named_loops(quick: bool) -> Iterator[KnownScene]:
 
 
 def trees(quick: bool) -> Iterator[KnownScene]:
-    """Joints of every type, each body on one before it; and one of the joints written again."""
-    because = "the freedoms of the joints of a tree add up; a joint written again adds nothing"
+    """Joints of every type, each body on one before it; and one of the joints written twice."""
+    because = "the freedoms of the joints of a tree add up; a joint written twice adds nothing"
     for d, n in ((d, n) for n in ((1, 2) if quick else (1, 2, 4, 8, 16)) for d in (2, 3)):
         for seed in range(1 if quick or n > 4 else 2):
             rng = random.Random(f"tree {d} {n} {seed}")
             made = tree(rng, d, n)
             joints = made.scene["constraints"]
-            again = {**rng.choice(joints), "name": "again"}
-            for name, constraints, redundant in (("", joints, []), (", one joint twice", [*joints, again], ["again"])):
+            doubled = {**rng.choice(joints), "name": "again"}
+            for name, constraints, redundant in (
+                ("", joints, []),
+                (", one joint twice", [*joints, doubled], ["again"]),
+            ):
                 about = f"{n} bodies in dimension {d}, {seed}{name}", {**made.scene, "constraints": constraints}
                 yield known_scene(*about, because, n, dof=made.dof, redundancy=redundant)
 
@@ -132,7 +135,7 @@ def rolling(quick: bool) -> Iterator[KnownScene]:
 
 def pendulums(quick: bool) -> Iterator[KnownScene]:
     """Links one after the other from the ground; closed on the ground; and with links written twice."""
-    because = "each link takes one; a chain that is not straight is regular; a link written again adds nothing"
+    because = "each link takes one; a chain that is not straight is regular; a link written twice adds nothing"
     for d, n in ((d, n) for n in ((2, 4) if quick else (2, 4, 8, 16, 32, 64, 128)) for d in (2, 3)):
         places = [[k, k * k % 3, k % 2][:d] for k in range(n + 1)]
         ends: list[Any] = [places[0], *(f"P{k}" for k in range(1, n + 1))]

@@ -68,22 +68,22 @@ def _scene(row: Row) -> dict[str, Any]:
 
 
 def answers(quick: bool) -> Iterator[KnownScene]:
-    """Every constraint in every way of writing it, and in the ways of its own."""
+    """Every constraint in every notation, and in those of its own."""
     for number, row in enumerate(TABLES["finite"]):
-        for turn, way in enumerate(TABLES["ways"]):
-            if (number + turn) % (16 if quick else 2) == 0 and (way["name"] != "in a cubic" or number < 2):
-                yield _rewritten(row, way)
+        for turn, notation in enumerate(TABLES["ways"]):
+            if (number + turn) % (16 if quick else 2) == 0 and (notation["name"] != "in a cubic" or number < 2):
+                yield _rewritten(row, notation)
     for row in () if quick else TABLES["moving"]:
-        yield from (_rewritten(row, way) for way in FOR_FORMS)
+        yield from (_rewritten(row, notation) for notation in FOR_FORMS)
     for row in (*TABLES["finite"], *TABLES["moving"]):
         for answer in row["answers"][:: 5 if quick else 1]:
             about = f"{row['name']}: {answer['text']}", _scene(row), answer["because"]
             yield known_scene(*about, equivalence=("asked", answer["text"], answer["same"]))
 
 
-def _rewritten(row: Row, way: Row) -> KnownScene:
-    answer = ("asked", way["text"].format(u=row["u"], q=row["q"]), way["same"])
-    about = f"{row['name']}, {way['name']}", _scene(row), way["because"]
+def _rewritten(row: Row, notation: Row) -> KnownScene:
+    answer = ("asked", notation["text"].format(u=row["u"], q=row["q"]), notation["same"])
+    about = f"{row['name']}, {notation['name']}", _scene(row), notation["because"]
     return known_scene(*about, equivalence=answer)
 
 

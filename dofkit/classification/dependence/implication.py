@@ -38,7 +38,7 @@ from dofkit.relations.normal.domain import DomainCondition, conditions_of
 from dofkit.relations.normal.no_solution import hold_nowhere, no_solution
 from dofkit.relations.normal.pieces import Finite, Nonlinear, Normal, Pfaffian, Piece
 from dofkit.relations.setting import Setting
-from dofkit.relations.velocity_reductions import MAX_WAYS, Way, form_rate, ways_of
+from dofkit.relations.velocity_reductions import MAX_ALTERNATIVES, Alternative, alternatives_of, form_rate
 
 #: What the others imply at drawn states.
 IMPLIED = Claim("probable", "implication", bits=BITS)
@@ -72,44 +72,44 @@ def follows(normal: Normal, others: Sequence[Normal], setting: Setting) -> bool 
     answer: list[bool | None] = []
     for choice in choices:
         rows = [Row(k, p) for k, b in enumerate(choice) for p in b]
-        ways = ways_of(rows, setting.positive)
-        if len(ways) >= MAX_WAYS:
+        alternatives = alternatives_of(rows, setting.positive)
+        if len(alternatives) >= MAX_ALTERNATIVES:
             return None
-        for way in ways:
+        for alternative in alternatives:
             check()
-            answer.append(_on(way, relation, here))
+            answer.append(_on(alternative, relation, here))
             if answer[-1] is False:
                 return False
     return all_of(answer)
 
 
-def _on(way: Way, relation: Normal, setting: Setting) -> bool | None:
+def _on(alternative: Alternative, relation: Normal, setting: Setting) -> bool | None:
     """Return whether one of the relation's branches is satisfied wherever the rows are."""
-    names = sorted({n for r in way.rows for n in coordinates_of(r.piece)})
-    blocks, _ = split(names, way.rows)
+    names = sorted({n for r in alternative.rows for n in coordinates_of(r.piece)})
+    blocks, _ = split(names, alternative.rows)
     answers = [in_time(b, setting) for b in blocks]
     if any(a.consistent is False for a in answers):
         return True
     hidden = [g for a in answers for g in a.hidden]
-    if _undefined(relation, names, way.rows, setting):
+    if _undefined(relation, names, alternative.rows, setting):
         return False
     all_consistent = all(a.consistent for a in answers)
-    domain = [r.piece for r in way.rows if isinstance(r.piece, DomainCondition)]
+    domain = [r.piece for r in alternative.rows if isinstance(r.piece, DomainCondition)]
     branches = [
         AskedBranch(
             tuple(form_rate(p) if isinstance(p, Pfaffian) else p.expr for p in b if isinstance(p, RELATIONS)),
             tuple(p for p in b if isinstance(p, DomainCondition) and p not in domain),
         )
         for b in relation.branches
-        if not _beyond(b, way.rows, hidden, setting)
+        if not _beyond(b, alternative.rows, hidden, setting)
     ]
     still = all(isinstance(p, Finite) for p in relation.pieces)
-    written = [s.written.piece.expr for s in way.slots if isinstance(s.written.piece, Nonlinear) and not still]
+    written = [s.written.piece.expr for s in alternative.slots if isinstance(s.written.piece, Nonlinear) and not still]
     more = [*(e for b in branches for e in b.relations), *(c.expr for b in branches for c in b.conditions)]
     more += [c.expr for c in domain]
     moving = {str(s.args[1]) for e in more for s in e.symbols if s.args[0] in ("coordinate", "velocity")}
     try:
-        states = States(sorted({*names, *moving}), way.rows, hidden, setting, [*more, *written], still)
+        states = States(sorted({*names, *moving}), alternative.rows, hidden, setting, [*more, *written], still)
         smaller = any(a.degenerate or a.dof is None for a in answers)
         held = _vanishes_on_states(states, branches, written, domain, smaller)
     except (OutOfTimeError, ArithmeticError):

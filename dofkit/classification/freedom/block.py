@@ -184,8 +184,8 @@ def _prolonged(block: Block, setting: Setting, result: Answer, relations: Sequen
             result.reasons.append("the constraints allow no motion through an interval of time")
             return result
         if len(outcome) > 1 and len(extra) < MAX_ROUNDS:
-            ways = [_prolonged(block, setting, Answer(), [*extra, *branch]) for branch in outcome]
-            return max(ways, key=_largest)
+            alternatives = [_prolonged(block, setting, Answer(), [*extra, *branch]) for branch in outcome]
+            return max(alternatives, key=_largest)
         fresh = [g for g in outcome[0] if g not in extra]
         if not fresh:
             break

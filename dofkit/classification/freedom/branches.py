@@ -28,7 +28,13 @@ from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.no_solution import holds_somewhere
 from dofkit.relations.normal.pieces import JointEquation, Nonlinear, Pfaffian, Reduced
 from dofkit.relations.setting import Setting
-from dofkit.relations.velocity_reductions import MAX_WAYS, RewrittenRow, Way, ways_of, with_boundaries
+from dofkit.relations.velocity_reductions import (
+    MAX_ALTERNATIVES,
+    Alternative,
+    RewrittenRow,
+    alternatives_of,
+    with_boundaries,
+)
 
 #: Choices of branches that are looked at.
 MAX_CHOICES = 16
@@ -83,8 +89,10 @@ class Outcome:
     @property
     def written_rows(self) -> list[Row]:
         """The rows with those of copies, which were answered as their originals."""
-        again = [Row(copy, row.piece) for copy, i in self.copies.items() for row in self.rows if row.constraint == i]
-        return [*self.rows, *again]
+        copied_rows = [
+            Row(copy, row.piece) for copy, i in self.copies.items() for row in self.rows if row.constraint == i
+        ]
+        return [*self.rows, *copied_rows]
 
     @property
     def dof(self) -> int | None:
@@ -154,11 +162,11 @@ def solve(reduced: Sequence[Reduced], setting: Setting, answered: AnsweredBlocks
             elif i not in copied:
                 rows += [Row(i, p) for p in normal.branches[branch]]
         plain = not any(isinstance(row.piece, Nonlinear | DomainCondition) for row in rows)
-        ways = [Way(rows)] if plain else ways_of(with_boundaries(rows), positive)
-        why = _LEFT_OUT if len(ways) >= MAX_WAYS else why
-        for way in reductions_at_reference(ways, setting):
-            outcome = _answered(names, way.rows, impossible, domain, answered)
-            outcome.reduced, outcome.divided = way.reduced, way.divided
+        alternatives = [Alternative(rows)] if plain else alternatives_of(with_boundaries(rows), positive)
+        why = _LEFT_OUT if len(alternatives) >= MAX_ALTERNATIVES else why
+        for alternative in reductions_at_reference(alternatives, setting):
+            outcome = _answered(names, alternative.rows, impossible, domain, answered)
+            outcome.reduced, outcome.divided = alternative.reduced, alternative.divided
             outcomes.append(outcome)
     best = _largest(outcomes, why, setting) if outcomes else Outcome([], [], [], names)
     if len(outcomes) == 1:

@@ -38,7 +38,7 @@ from dofkit.relations.normal.pieces import (
 )
 from dofkit.relations.normal.polynomial_zeros import PRODUCT_NOTE
 from dofkit.relations.setting import ALL, Reductions, Setting
-from dofkit.relations.velocity_reductions import Way
+from dofkit.relations.velocity_reductions import Alternative
 from dofkit.system import System
 
 #: The kinds of symbols that no finite relation holds.
@@ -158,12 +158,14 @@ def branches_at_reference(normal: Normal, setting: Setting) -> Normal:
     return normal._replace(branches=through) if through else normal
 
 
-def reductions_at_reference(ways: Sequence[Way], setting: Setting) -> Sequence[Way]:
+def reductions_at_reference(alternatives: Sequence[Alternative], setting: Setting) -> Sequence[Alternative]:
     """Return the reductions of rows that are valid at the reference; all if there is none, or none is valid."""
-    if setting.reference is None or len(ways) < 2:
-        return ways
-    valid = [way for way in ways if all(s.unchanged or _passes([r.piece for r in s.rows], setting) for s in way.slots)]
-    return valid or ways
+    if setting.reference is None or len(alternatives) < 2:
+        return alternatives
+    valid = [
+        a for a in alternatives if all(s.unchanged or _passes([r.piece for r in s.rows], setting) for s in a.slots)
+    ]
+    return valid or alternatives
 
 
 def has_kink_at_reference(normal: Normal, setting: Setting) -> bool:

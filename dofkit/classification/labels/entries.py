@@ -100,11 +100,11 @@ def _is_plain(piece: Clause) -> bool:
     return isinstance(piece, JointEquation) or not (isinstance(piece, Nonlinear) or TIME in piece.expr.symbols)
 
 
-def _is_nameless(made: ConstraintEntry) -> bool:
+def _is_nameless(entry: ConstraintEntry) -> bool:
     """Return whether everything in an entry is decided, and no coordinate occurs in it."""
-    decided = None not in (made.holonomic, made.holonomic_alone, made.scleronomic)
-    plain = made.form in ("finite", "inequality") or (made.form == "pfaffian" and made.holonomic is False)
-    return decided and plain and made.integral is None and made.integrating_factor is None
+    decided = None not in (entry.holonomic, entry.holonomic_alone, entry.scleronomic)
+    plain = entry.form in ("finite", "inequality") or (entry.form == "pfaffian" and entry.holonomic is False)
+    return decided and plain and entry.integral is None and entry.integrating_factor is None
 
 
 def _traits_of(setting: Setting, piece: Clause) -> Traits:
@@ -217,11 +217,11 @@ def by_itself(r: Reduced, labelled: Sequence[LabelledRow], answered: AnsweredBlo
         return Answer(None, verdict="undecided")
     if not any(isinstance(row.piece, Pfaffian | Nonlinear) for row in alone.rows):
         return None if alone.consistent is not None else Answer(None, verdict="undecided")
-    own = [label for a in alone.answers for label in a.labels.values()]
+    labels_alone = [label for a in alone.answers for label in a.labels.values()]
     return Answer(
         alone.consistent,
         verdict=weakest(*(a.verdict for a in alone.answers)),
-        labels=dict(enumerate(own)),
+        labels=dict(enumerate(labels_alone)),
         curved=any(a.curved for a in alone.answers),
     )
 

@@ -91,10 +91,10 @@ def _dependent(block: Block, a: Answer, matrix: Sequence[Sequence[Any]], p: int)
 MAX_EXPRESSIONS = 4
 _RECIPROCAL = "_reciprocal"
 
-Again = Callable[[System], Study]
+Reclassify = Callable[[System], Study]
 
 
-def branch_dimensions(study: Study, report: Report, again: Again) -> Iterator[SpecialCase]:
+def branch_dimensions(study: Study, report: Report, reclassify: Reclassify) -> Iterator[SpecialCase]:
     """Yield the branch to which the degrees of freedom belong, where the rest of the configuration space has fewer."""
     system, claim = study.system, report.verdicts.get("dof")
     if system.reference is not None or not report.dof or claim is None or claim.about == "component":
@@ -102,7 +102,7 @@ def branch_dimensions(study: Study, report: Report, again: Again) -> Iterator[Sp
     for h in list(dict.fromkeys(_separating(study.reduced, study.outcome)))[:MAX_EXPRESSIONS]:
         if expired():
             return
-        remainder = again(where_nonzero(system, h))
+        remainder = reclassify(where_nonzero(system, h))
         dof, elsewhere = remainder.outcome.dof, remainder.free
         if dof is None or elsewhere.about == "component" or not remainder.outcome.consistent:
             continue
@@ -159,17 +159,17 @@ SEARCHED = "special cases by the zeros of minors and of curvature"
 _UNFINISHED = (ArithmeticError, ValueError, OutOfTimeError)
 
 
-def special_cases(study: Study, report: Report, again: Again) -> dict[str, Any]:
+def special_cases(study: Study, report: Report, reclassify: Reclassify) -> dict[str, Any]:
     """Return what a report has of them: ``special_cases``, and in ``method`` that they were sought.
 
-    ``report``: the generic answer; ``again`` answers another system.
+    ``report``: the generic answer; ``reclassify`` answers another system.
     """
     if study.setting.tolerance is not None or len(study.outcome.blocks) > MAX_BLOCKS:
         return {}
     cases, searched = list[SpecialCase](), False
     with limited(MAX_SECONDS):
         with suppress(*_UNFINISHED):
-            cases.extend(branch_dimensions(study, report, again))
+            cases.extend(branch_dimensions(study, report, reclassify))
         for block, a in zip(study.outcome.blocks, study.outcome.answers, strict=True):
             if _is_small(block, a) and _is_plain(block, study) and not expired():
                 with suppress(*_UNFINISHED):

@@ -147,10 +147,10 @@ class Ring(Instructions):
 
     def another(self, expressions: Iterable[Expr]) -> Ring:
         """An empty ring for other expressions, whose points are points of this one: it splits arguments as finely."""
-        made = Ring(expressions, self.positive, self.alias)
+        ring = Ring(expressions, self.positive, self.alias)
         for key, denominator in self._denominators.items():
-            made._denominators[key] = lcm(made._denominators.get(key, 1), denominator)
-        return made
+            ring._denominators[key] = lcm(ring._denominators.get(key, 1), denominator)
+        return ring
 
     def _denominator(self, family: str, argument: Expr, factor: Fraction) -> int:
         """Return the parts in which an argument is counted. Raises NoValueError for a fraction of one."""

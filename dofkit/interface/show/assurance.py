@@ -69,7 +69,7 @@ LEFT_OUT = "; left out: "
 def how_sure(report: Report) -> list[Remark]:
     """Return the model, the method, the meaning of the verdicts and the argument behind each answer."""
     model, *lacks = report.modelled.replace(*_NO_TEST).split(LEFT_OUT)
-    remarks = [Remark(label, text) for label, text in (("model", model), ("method", way(report))) if text]
+    remarks = [Remark(label, text) for label, text in (("model", model), ("method", method_in_words(report))) if text]
     remarks += [Remark("not modelled", text) for text in lacks]
     used = {report.verdict, *(e.verdict for e in report.constraints), *(case.verdict for case in report.special_cases)}
     remarks += [Remark(verdict, meaning) for verdict, meaning in VERDICT_MEANS.items() if verdict in used]
@@ -108,7 +108,7 @@ def _gap(bound: str, method: str) -> str:
     return gap_in_words(float(bound), "singular value" if "singular values" in method else "value")
 
 
-def way(report: Report) -> str:
+def method_in_words(report: Report) -> str:
     """Return the method in words."""
     if report.method == "count":
         return "counting: each equation is evidently independent of the others"

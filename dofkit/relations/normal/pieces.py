@@ -191,10 +191,12 @@ def in_names(normal: Normal, renaming: Renaming) -> Normal:
 
 def _renamed(piece: Piece, renaming: Renaming) -> Piece:
     names, shape, renamed = renaming.names, piece_shape(piece), renaming.of
-    made: Piece
+    renamed_piece: Piece
     if isinstance(piece, Pfaffian):
-        made = Pfaffian({names.get(n, n): renamed(e) for n, e in piece.coefficients.items()}, renamed(piece.dt))
+        renamed_piece = Pfaffian(
+            {names.get(n, n): renamed(e) for n, e in piece.coefficients.items()}, renamed(piece.dt)
+        )
     else:
-        made = replace(piece, expr=renamed(piece.expr))
-    vars(made)[_SHAPE] = PieceShape(shape.key, tuple([names.get(n, n) for n in shape.names]))
-    return made
+        renamed_piece = replace(piece, expr=renamed(piece.expr))
+    vars(renamed_piece)[_SHAPE] = PieceShape(shape.key, tuple([names.get(n, n) for n in shape.names]))
+    return renamed_piece
