@@ -37,13 +37,16 @@ def with_values_in_motion(
     members = [i for i, block in enumerate(blocks) if not names.isdisjoint(block.coordinates)]
     if not members or any(a.consistent is not True for a in answers):
         return list(answers)
-    block = merged([blocks[i] for i in members], (), setting)
     conditions = tuple(dict.fromkeys(c for _, c in domain))
+    together = [blocks[i] for i in members]
+    within = tuple(c for block in together for c in block.conditions)
+    block = replace(merged(together, conditions, setting), conditions=within)
     why = f"as written, the equations require {text_of_conditions(conditions)}, which"
     if hold_nowhere(_equations_of_motion(block), conditions, setting.positive):
         none = Answer(False, verdict="proved", argument="outside the domain", reasons=[f"{why} no motion satisfies"])
         return [none if i in members else a for i, a in enumerate(answers)]
-    freedoms = _freedoms([answers[i] for i in members])
+    free = len(block.coordinates) - sum(len(block.coordinates) for block in together)
+    freedoms = [n if n is None else n + free for n in _freedoms([answers[i] for i in members])]
     # the states of what is nonlinear are searched where it has a value
     owners = {row.constraint for row in block.nonlinear}
     forms = [(i, linear_form(c.expr) if c.sense == "!=" else None) for i, c in domain if i not in owners]
