@@ -11,7 +11,7 @@ from typing import Any
 
 from flint import arb, ctx, fmpq
 
-from dofkit.checker.trees import PRECISION, CheckedPoint, CheckError, Tree, derivative, evaluated, number
+from dofkit.checker.trees import PRECISION, CheckError, Tree, derivative, evaluated
 from dofkit.methods.certificates.numerics import Estimates, NoEstimateError, Pivot, echelon, least_step, solved
 from dofkit.methods.certificates.scenery import Scenery, floats_of, number_text, text_of
 
@@ -282,8 +282,9 @@ class PointSearch:
         return {name: values[name] for name in (*first, *(n for n in values if n not in first))}
 
     def _holds(self, values: Mapping[str, Fraction], names: Sequence[str]) -> bool:
-        point = CheckedPoint("", {n: number(v) for n, v in values.items()}, {}, self.scenery.effort)
-        return all(self.scenery.evidence.ring.vanishes(point.prepared(self.scenery.tree(name))) for name in names)
+        """Whether relations are 0 to all digits at rational values; the checker asks whether they are 0 exactly."""
+        balls = {name: arb(fmpq(v.numerator, v.denominator)) for name, v in values.items()} | {"tdot": arb(1)}
+        return all(evaluated(self.scenery.tree(name), balls, self.scenery.effort).contains(0) for name in names)
 
 
 def _fraction(text: str) -> Fraction:
