@@ -9,7 +9,6 @@ from typing import Any
 from dofkit.checker.geometry import CheckedFrame, MaterialPoint, Vector, apart, cross, dot, length, less, scaled, square
 from dofkit.checker.grammar import KnownNames, Sided, parse, parse_relations
 from dofkit.checker.trees import (
-    MINUS,
     ONE,
     TWO,
     ZERO,
@@ -21,6 +20,7 @@ from dofkit.checker.trees import (
     evaluated,
     in_velocities,
     not_zero,
+    number,
     power,
     refuse,
     substituted,
@@ -281,7 +281,7 @@ def turned(first: CheckedFrame, second: CheckedFrame, n: Vector, u: Vector) -> t
 
 def displaced(frame: CheckedFrame, point: MaterialPoint, place: Vector, n: Vector) -> Tree:
     """How far a point has moved from a place of a body, along n."""
-    return times(frame.offset(point, place, n), power(times(frame.under, point.under, length(n)), MINUS))
+    return times(frame.offset(point, place, n), power(times(frame.under, point.under, length(n)), number(-1)))
 
 
 def coupling(world: Surroundings, entry: Entry) -> Iterator[Sided]:
@@ -320,7 +320,7 @@ def parallel(first: CheckedFrame, second: CheckedFrame) -> Iterable[Tree]:
     if first.cayley is not None and second.cayley is not None:
         return less(second.cayley, first.cayley)
     a, b = (tuple(zip(*frame.turn, strict=True)) for frame in (first, second))
-    half = power(add(times(first.under, second.under), *(dot(a[i], b[i]) for i in range(3))), MINUS)
+    half = power(add(times(first.under, second.under), *(dot(a[i], b[i]) for i in range(3))), difference(ZERO, ONE))
     return [times(half, difference(dot(a[i], b[j]), dot(a[j], b[i]))) for i, j in ((0, 1), (1, 2), (2, 0))]
 
 

@@ -8,21 +8,7 @@ read with Cayley parameters g = (a, b, c), A = ((1 - g.g) I + 2 g g^T + 2 [g]) /
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
-from dofkit.checker.trees import (
-    MINUS,
-    ONE,
-    TWO,
-    ZERO,
-    Tree,
-    add,
-    call,
-    difference,
-    negative,
-    number,
-    power,
-    symbol,
-    times,
-)
+from dofkit.checker.trees import ONE, TWO, ZERO, Tree, add, call, difference, negative, number, power, symbol, times
 
 Vector = tuple[Tree, ...]
 Matrix = tuple[Vector, ...]
@@ -107,7 +93,7 @@ class MaterialPoint(NamedTuple):
     @property
     def place(self) -> Vector:
         """X."""
-        return self.over if self.under == ONE else scaled(power(self.under, MINUS), self.over)
+        return self.over if self.under == ONE else scaled(power(self.under, number(-1)), self.over)
 
 
 def apart(first: MaterialPoint, second: MaterialPoint) -> tuple[Vector, Tree]:

@@ -13,7 +13,6 @@ from typing import NamedTuple
 
 from dofkit.checker.trees import (
     FUNCTIONS,
-    MINUS,
     ONE,
     ZERO,
     Tree,
@@ -215,7 +214,7 @@ class _Reader:
             refuse(unclear, "what a fraction line covers is unclear")
             sign, factor = self.accepted("*", "/").kind, self.factor()
             quotient = sign == "/" and factor != _STEP
-            factors.append(_power(factor, MINUS) if sign == "/" else factor)
+            factors.append(_power(factor, number(-1)) if sign == "/" else factor)
         product = times(*factors)
         return Tree("product", tuple(factors)) if product == ZERO and any(map(_is_partial, factors)) else product
 
