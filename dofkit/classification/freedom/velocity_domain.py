@@ -7,7 +7,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 
+from dofkit.base.deadline import unless_late
 from dofkit.base.verdicts import weakest
 from dofkit.classification.freedom.common_point import merged, text_of_conditions
 from dofkit.expressions.renaming import coordinates_in
@@ -42,7 +44,7 @@ def with_values_in_motion(
     within = tuple(c for block in together for c in block.conditions)
     block = replace(merged(together, conditions, setting), conditions=within)
     why = f"as written, the equations require {text_of_conditions(conditions)}, which"
-    if hold_nowhere(_equations_of_motion(block), conditions, setting.positive):
+    if unless_late(partial(hold_nowhere, _equations_of_motion(block), conditions, setting.positive), False):
         none = Answer(False, verdict="proved", argument="outside the domain", reasons=[f"{why} no motion satisfies"])
         return [none if i in members else a for i, a in enumerate(answers)]
     free = len(block.coordinates) - sum(len(block.coordinates) for block in together)
