@@ -14,7 +14,8 @@ Mechanisms, in the order of checking
        balls; `constraints` and `geometry` write the equations of every constraint type.
     2. `relations` are those of the scene and those that steps of the certificate derive from them by identities in
        the `ring` of normal forms.
-    3. `evidence` has what a certificate puts forward: points, minors of rows that hold there, velocity fields.
+    3. `evidence` has what a certificate puts forward: points (`point`), minors of rows that hold there, velocity
+       fields.
     4. `dimension_rules`, `label_rules` and `motion` are the rules: one function for each kind of claim, which checks
        its hypotheses.
     5. `verification` reads the certificate with care, bounded in work, and asks the rules. The format is described in

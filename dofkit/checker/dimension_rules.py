@@ -9,7 +9,8 @@ from flint import fmpq_mat
 
 from dofkit.checker.evidence import MOST, CheckedEvidence, CheckedMinor, Told, admissible, independent, of_word, span
 from dofkit.checker.geometry import determinant, dot
-from dofkit.checker.trees import ONE, CheckedPoint, derivative, not_zero, refuse, times
+from dofkit.checker.point import CheckedPoint
+from dofkit.checker.trees import ONE, derivative, not_zero, refuse, times
 
 MOST_FORMS = 6
 

@@ -11,12 +11,12 @@ from typing import Any, NamedTuple
 
 from flint import arb, arb_mat, ctx
 
+from dofkit.checker.point import CheckedPoint
 from dofkit.checker.relations import CheckedRelations, Consequence, total_derivative
 from dofkit.checker.trees import (
     ONE,
     PRECISION,
     ZERO,
-    CheckedPoint,
     Tree,
     along,
     call,
@@ -184,6 +184,9 @@ class CheckedEvidence(CheckedRelations):
         """
         fits = about in ("here", "reference" if self.reference else "component")
         refuse(not fits, "the claim has to be about the scene's configuration, if it has one")
+        return self.once(("place", point.name, *exempt), lambda: self._place(point, exempt))
+
+    def _place(self, point: CheckedPoint, exempt: Collection[tuple[str, ...]]) -> str:
         for tilt in (angles[1] for angles in self.problem.turns if angles not in exempt):
             upright = tilt in point.balls and not not_zero(point.value(call("sin", symbol(tilt))))
             refuse(upright, f"the angles are no chart of the poses around, as sin({tilt}) may be 0")

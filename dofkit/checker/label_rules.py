@@ -6,10 +6,10 @@ from typing import Any
 
 from dofkit.checker.dimension_rules import names_told, same_place
 from dofkit.checker.evidence import CheckedEvidence, Told, admissible, involutive, of_word
+from dofkit.checker.point import CheckedPoint
 from dofkit.checker.trees import (
     ONE,
     ZERO,
-    CheckedPoint,
     Tree,
     add,
     derivative,
@@ -156,7 +156,7 @@ def timeless(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
     return True
 
 
-def turns(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
+def time_dependent(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
     """Return False, the label of a constraint that depends on time, where a point of the relation shows it.
 
     There its derivative by t is not 0; or the direction of the form changes with t; or the form integrates with dt.
@@ -167,7 +167,10 @@ def turns(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
     name, point, catastatic = claim["relation"], evidence.point(claim["at"]), claim["field"] == "catastatic"
     names, checked = constraint_relations(evidence, claim, EVERY), evidence.relation(claim["relation"])
     plain = len(names) == 1 or all(evidence.relation(other).kind == "finite" for other in names)
-    refuse(name not in names or not plain, "the rule `turns` is for one relation of the constraint, or finite ones")
+    refuse(
+        name not in names or not plain,
+        "one relation of the constraint is needed, or finite ones",
+    )
     turned = derivative(checked.tree, "t")
     if checked.kind == "velocity" and evidence.is_linear(name):
         turned = evidence.slope(name, "t")

@@ -143,13 +143,8 @@ class CheckedProblem(NamedTuple):
     world: Surroundings
 
 
-def read_problem(document: Mapping[str, Any], cayley: frozenset[str] = frozenset()) -> CheckedProblem:
-    """The problem of a document; bodies in ``cayley`` are read with Cayley parameters in the place of angles."""
-    return problem_of_canonical(canonical(document), cayley)
-
-
 def problem_of_canonical(scene: Entry, cayley: frozenset[str] = frozenset()) -> CheckedProblem:
-    """The same of a document in its canonical form."""
+    """The problem of a document in its canonical form; bodies in ``cayley`` have Cayley parameters, not angles."""
     try:
         known_fields(scene, KEYS)
         world, coordinates, configured = _surroundings(scene, cayley)

@@ -13,11 +13,11 @@ from flint import arb
 
 from dofkit.checker.constraints import nowhere_zero
 from dofkit.checker.grammar import KnownNames, parse
+from dofkit.checker.point import CheckedPoint
 from dofkit.checker.problem import CheckedProblem, CheckedRelation
 from dofkit.checker.ring import CheckedRing
 from dofkit.checker.trees import (
     TWO,
-    CheckedPoint,
     CheckError,
     Effort,
     Tree,

@@ -119,17 +119,6 @@ class QuotientRing:
             return fmpq(0)
         return above.leading_coefficient() if above.is_constant() and below.is_constant() else None
 
-    def text_of(self, polynomial: Any) -> str | None:
-        """A polynomial in symbols as a text; None where it holds anything else."""
-        names = {place: key[1] for key, place in self.places.items() if key[0] == "symbol"}
-        terms = []
-        for exponents, coefficient in polynomial.terms():
-            powers = [(place, k) for place, k in enumerate(reversed(exponents)) if k]
-            if not {place for place, _ in powers} <= names.keys():
-                return None
-            terms.append("*".join([f"({coefficient})", *(f"{names[place]}^{k}" for place, k in powers)]))
-        return " + ".join(terms)
-
     def root(self, u: Quotient, order: int) -> Quotient:
         """The root of a quantity that is not negative: of a / b, by the generator b root(a / b)."""
         value = self.value_of(u)

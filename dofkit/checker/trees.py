@@ -13,10 +13,9 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import lru_cache, reduce
-from math import prod
 from typing import Any, TypeVar
 
-from flint import arb, arb_mat, ctx, fmpq
+from flint import arb, ctx, fmpq
 
 _NAMES = "sin cos tan cot sec csc asin acos atan atan2 sinh cosh tanh exp log sqrt abs"
 FUNCTIONS = tuple(_NAMES.split())
@@ -49,6 +48,9 @@ class Effort:
         refuse(self.remaining < 0, "the work that a certificate may cost is used up")
 
 
+_NAMELESS: frozenset[str] = frozenset()
+
+
 @dataclass(frozen=True, slots=True)
 class Tree:
     """One node of an expression; ``symbols`` are those in it; ``applied``: a declared function occurs."""
@@ -60,21 +62,30 @@ class Tree:
     size: int = field(init=False, compare=False, repr=False)
     symbols: frozenset[str] = field(init=False, compare=False, repr=False)
     applied: bool = field(init=False, compare=False, repr=False)
+    hashed: int = field(init=False, compare=False, repr=False)
 
     def __post_init__(self) -> None:
         """Parts may be shared, so that a short text writes a huge tree, and powers of powers a huge number."""
-        exponent = self.below[1].value if self.head == "power" else 1
-        often = max(1, int(abs(exponent))) if isinstance(exponent, Fraction) else 1
-        digits = self.value.as_integer_ratio() if isinstance(self.value, Fraction) else (0,)
-        words = 1 + max(map(int.bit_length, digits)) // 64
-        object.__setattr__(self, "size", words + often * sum(part.size for part in self.below))
-        named = frozenset((str(self.value),) if self.head == "symbol" else ())
-        object.__setattr__(self, "symbols", named.union(*(part.symbols for part in self.below)))
-        object.__setattr__(self, "applied", self.head == "apply" or any(part.applied for part in self.below))
-        refuse(self.size > LARGEST or words > LARGEST_NUMBER, "an expression or a number is too large")
+        often, words, below = 1, 1, self.below
+        if self.head == "power" and isinstance(exponent := below[1].value, Fraction):
+            often = max(1, int(abs(exponent)))
+        elif self.head == "number" and isinstance(self.value, Fraction):
+            words += max(map(int.bit_length, self.value.as_integer_ratio())) // 64
+        named = _NAMELESS if self.head != "symbol" else frozenset((str(self.value),))
+        size = words + often * sum([part.size for part in below])
+        object.__setattr__(self, "size", size)
+        object.__setattr__(self, "symbols", named.union(*[part.symbols for part in below]) if below else named)
+        object.__setattr__(self, "applied", self.head == "apply" or any(part.applied for part in below))
+        object.__setattr__(self, "hashed", hash((self.head, below, self.value, self.orders)))
+        refuse(size > LARGEST or words > LARGEST_NUMBER, "an expression or a number is too large")
+
+    def __hash__(self) -> int:
+        """Trees are keys of memories again and again."""
+        return self.hashed
 
 
-ZERO, ONE = (Tree("number", (), Fraction(k)) for k in (0, 1))
+ZERO, ONE, TWO, MINUS = (Tree("number", (), Fraction(k)) for k in (0, 1, 2, -1))
+HALF = Tree("number", (), Fraction(1, 2))
 
 
 def number(value: Fraction | int) -> Tree:
@@ -89,14 +100,17 @@ def symbol(name: str) -> Tree:
 
 def _split(operands: Sequence[Tree]) -> tuple[list[Fraction], list[Tree]]:
     """The numbers among terms or factors, and the others."""
-    refuse(sum(p.size - 1 for p in operands if p.head == "number") > LARGEST_NUMBER, "a number is too large")
-    return [p.value for p in operands if isinstance(p.value, Fraction)], [p for p in operands if p.head != "number"]
+    numbers, others = list[Tree](), list[Tree]()
+    for operand in operands:
+        (numbers if operand.head == "number" else others).append(operand)
+    refuse(numbers and sum([p.size - 1 for p in numbers]) > LARGEST_NUMBER, "a number is too large")
+    return [p.value for p in numbers if isinstance(p.value, Fraction)], others
 
 
 def add(*terms: Tree) -> Tree:
     """A sum; numbers are added up and 0 is left out."""
     numbers, others = _split(terms)
-    if constant := sum(numbers, Fraction(0)):
+    if numbers and (constant := reduce(operator.add, numbers)):
         others.append(number(constant))
     return others[0] if len(others) == 1 else Tree("sum", tuple(others)) if others else ZERO
 
@@ -104,7 +118,7 @@ def add(*terms: Tree) -> Tree:
 def times(*factors: Tree) -> Tree:
     """A product; numbers are multiplied and 1 is left out, 0 is 0."""
     numbers, others = _split(factors)
-    constant = prod(numbers, start=Fraction(1))
+    constant = reduce(operator.mul, numbers) if numbers else 1
     if constant == 0:
         return ZERO
     if constant != 1 or not others:
@@ -114,7 +128,7 @@ def times(*factors: Tree) -> Tree:
 
 def negative(term: Tree) -> Tree:
     """Times -1."""
-    return times(number(-1), term)
+    return times(MINUS, term)
 
 
 def difference(a: Tree, b: Tree) -> Tree:
@@ -134,7 +148,6 @@ def call(name: str, *arguments: Tree) -> Tree:
     return _MEANINGS[name](*arguments) if name in _MEANINGS else Tree(name, arguments)
 
 
-TWO, HALF, MINUS = number(2), number(Fraction(1, 2)), number(-1)
 #: Each is the same real number, and has a value and is smooth at the same places.
 _MEANINGS: dict[str, Callable[..., Tree]] = {
     "tan": lambda u: times(call("sin", u), call("sec", u)), "sec": lambda u: power(call("cos", u), MINUS),
@@ -203,7 +216,7 @@ def substituted(tree: Tree, values: Mapping[str, Tree], functions: Choices | Non
         return MAKERS[node.head](*below) if node.head in MAKERS else Tree(node.head, below, node.value, node.orders)
 
     def unchanged(node: Tree) -> Tree | None:
-        return None if (functions and node.applied) or any(name in values for name in node.symbols) else node
+        return node if node.symbols.isdisjoint(values) and not (functions and node.applied) else None
 
     return folded(tree, replaced, unchanged)
 
@@ -336,60 +349,3 @@ def _value(node: Tree, values: Mapping[str, Any], below: tuple[Any, ...]) -> Any
     zero = u == 0 and other > 0 and not node.symbols
     refuse(head != "power" or not (u > 0 or zero), f"a {head} has no smooth value at the point, or may have none")
     return u if zero else u**other
-
-
-@dataclass
-class CheckedPoint:
-    """A point that was checked: ``exact`` values, ``functions`` chosen, and ``balls`` for all symbols.
-
-    The relations ``rows`` hold at it by interval Newton.
-    """
-
-    name: str
-    exact: dict[str, Tree]
-    functions: Choices
-    effort: Effort
-    balls: dict[str, Any] = field(default_factory=dict)
-    rows: frozenset[str] = frozenset()
-    memory: dict[int, tuple[Tree, Any]] = field(default_factory=dict)
-
-    def prepared(self, tree: Tree) -> Tree:
-        """A tree with the exact values and the chosen functions put in; velocities are by ``t``."""
-        return substituted(substituted(tree, {}, self.functions), {"tdot": ONE, **self.exact})
-
-    def value(self, tree: Tree) -> Any:
-        """The ball of a tree at the point, every part of which has a value."""
-        if id(tree) not in self.memory:
-            self.memory[id(tree)] = (tree, self.value_with(tree, {}))
-        return self.memory[id(tree)][1]
-
-    def value_with(self, tree: Tree, others: Mapping[str, Any]) -> Any:
-        """The ball of a tree at the point, with other balls for some symbols."""
-        chosen = substituted(tree, {}, self.functions) if tree.applied else tree
-        return evaluated(chosen, {"tdot": arb(1), **self.balls, **others}, self.effort)
-
-    def is_regular(self, matrix: Sequence[Sequence[Tree]]) -> None:
-        """`CheckError` unless a square matrix is regular at the point."""
-        self.effort.spend(len(matrix) ** 3 // 10 + 1)
-        rows = [[self.value(tree) for tree in row] for row in matrix]
-        with ctx.workprec(PRECISION):
-            refuse(rows and not not_zero(arb_mat(rows).det()), "the minor may be 0")
-
-    def settle(self, equations: Sequence[Tree], columns: Sequence[str], radius: Any) -> None:
-        """The balls of columns become those of the only zero of as many equations in a box around them.
-
-        Where all matrices in F'(X) are regular and y - F'(X)^-1 F(y) lies inside X, F has exactly one zero in X, and it
-        lies there (Moore 1966, Nickel 1971).
-        """
-        refuse(not radius > 0, "the radius of a box is positive")
-        with ctx.workprec(PRECISION):
-            middle = {name: self.balls[name].mid() for name in columns}
-            box = {name: ball + arb(0, radius.mid()) for name, ball in middle.items()}
-            smooth = all(self.value_with(equation, box).is_finite() for equation in equations)
-            slopes = [[self.value_with(derivative(equation, name), box) for name in columns] for equation in equations]
-            values = arb_mat([[self.value_with(equation, middle)] for equation in equations])
-            steps = arb_mat(slopes).solve(values, nonstop=True, algorithm="precond")
-            for i, name in enumerate(columns):
-                self.balls[name] = middle[name] - steps[i, 0]
-                inside = smooth and box[name].contains_interior(self.balls[name])
-                refuse(not inside, f"interval Newton does not certify a zero: `{name}` leaves its box")

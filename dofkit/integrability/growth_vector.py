@@ -175,7 +175,10 @@ def _frame_variation(flow: AdmissibleCurve, at: list[Any], point: DualPoint, mov
     of_dependent = [some_columns(m, frame.dependent, flow.numbers) for m in rows]
     bent = flow.lifted(lambda k: -(first[k] + product_coefficient(of_dependent, flow.slope, k)), order)
     turned = flow.lifted(lambda k: -product_coefficient(rows, flow.full_frame, k), order)
-    full_bent, full_turned = [flow.full(m, None) for m in bent], [flow.full(m, None) for m in turned]
+    full_bent, full_turned = (
+        [flow.over_all_columns(m, None) for m in bent],
+        [flow.over_all_columns(m, None) for m in turned],
+    )
     back = [flow.back[0] * (flow.sample * 0)]
     for k in range(order - 1):
         total = product_coefficient(back, flow.full_slope, k) + product_coefficient(flow.back, full_bent, k)
@@ -197,7 +200,7 @@ def _slope(flow: AdmissibleCurve, direction: Matrix) -> Matrix:
     right = flow.numbers.matrix(
         len(gradients), n, [g.get(c, zero) if c >= 0 else zero for g in gradients for c in rows.columns]
     )
-    return flow.full(-(flow.inverse * right), None)
+    return flow.over_all_columns(-(flow.inverse * right), None)
 
 
 def spanning_curves(

@@ -197,7 +197,7 @@ class AdmissibleCurve:
             for k in range(self.order)
         ]
 
-    def full(self, dependent: Matrix, free: Matrix | None) -> Matrix:
+    def over_all_columns(self, dependent: Matrix, free: Matrix | None) -> Matrix:
         """A matrix over all columns from its rows for the dependent ones; ``free`` None: 0 in the free ones."""
         zero, width = self.sample * 0, dependent.ncols()
         entries = [zero] * (len(self.path) * width)
@@ -215,8 +215,8 @@ class AdmissibleCurve:
     def _pull_back(self) -> None:
         """Psi' = -Psi S, and V = Psi B: k! V_k is ad_X^k B at the point."""
         free = self.identity(len(self.frame.free))
-        self.full_slope = [self.full(m, None) for m in self.slope]
-        self.full_frame = [self.full(m, free if k == 0 else None) for k, m in enumerate(self.frames)]
+        self.full_slope = [self.over_all_columns(m, None) for m in self.slope]
+        self.full_frame = [self.over_all_columns(m, free if k == 0 else None) for k, m in enumerate(self.frames)]
         self.back = [self.identity(len(self.path))]
         for k in range(self.order - 1):
             check()

@@ -42,7 +42,7 @@ class CountedJoint:
 def joints_of(system: System, equations: Sequence[int]) -> list[CountedJoint]:
     """Return the constraints that count as joints; ``equations`` of every constraint."""
     moving = set(system.bodies)
-    whole = full(system)
+    whole = freedom_of_body(system)
     joints = []
     for c in system.connections:
         members = [m for m in c.members if m != GROUND]
@@ -69,8 +69,8 @@ def without_drives(system: System) -> System | None:
     )
 
 
-def full(system: System) -> int:
-    """D: the freedom of a body."""
+def freedom_of_body(system: System) -> int:
+    """Return d (d + 1) / 2, the degrees of freedom of a free body."""
     return system.dimension * (system.dimension + 1) // 2
 
 
@@ -81,7 +81,7 @@ def kutzbach_count(
     joints = joints_of(system, equations)
     if not joints:
         return None
-    whole, bodies = full(system), len(system.bodies)
+    whole, bodies = freedom_of_body(system), len(system.bodies)
     terms = _terms(system, joints, others - sum(equations[j.constraint] for j in joints))
     base = whole * (bodies - len(joints)) + sum(j.freedom for j in joints)
     kutzbach = base + sum(number for _, number, _ in terms)
@@ -104,7 +104,7 @@ def kutzbach_count(
 def _terms(system: System, joints: Sequence[CountedJoint], equations: int) -> list[tuple[str, int, str]]:
     """(sign, number, what it counts) of what is counted besides."""
     driven = sum(j.driven for j in joints)
-    owned = full(system) * len(system.bodies) + system.dimension * len(system.particles)
+    owned = freedom_of_body(system) * len(system.bodies) + system.dimension * len(system.particles)
     further = len(system.coordinates) - owned
     terms = [
         ("-", -driven, "driven joints"),
@@ -130,7 +130,7 @@ def _why(system: System, joints: Sequence[CountedJoint], kutzbach: int, freedom:
 
 def _of_screws(system: System, joints: Sequence[CountedJoint], freedom: int, drawn: Placement) -> str:
     """What the joints' screws say: the dimension of their span, all together or loop by loop."""
-    whole, d = full(system), system.dimension
+    whole, d = freedom_of_body(system), system.dimension
     names = [c.name for c in system.constraints]
     screws = {j: allowed(drawn.located[j.constraint], d, drawn.p) for j in joints}
     span = rank_of_rows([s for j in joints for s in screws[j]], drawn.p)

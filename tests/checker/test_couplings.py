@@ -8,7 +8,7 @@ from checker.test_problem import agrees, read
 from checker.values import of_tree
 
 from dofkit.checker import CheckError, verify
-from dofkit.checker.problem import read_problem
+from dofkit.checker.problem import canonical, problem_of_canonical
 
 ARM = """
 dimension: 2
@@ -67,7 +67,7 @@ def test_a_coupling_that_is_unclear_is_an_error(fields: str) -> None:
 def test_a_type_that_is_not_known_is_told() -> None:
     """What it says is not known: nothing of the scene is claimed as verified, and nothing fails."""
     document = {"coordinates": ["x"], "constraints": [{"name": "odd", "type": "revolut"}, "x = 0"]}
-    assert read_problem(document).world.unread == ["odd"]
+    assert problem_of_canonical(canonical(document)).world.unread == ["odd"]
     claims = [{"path": f"/constraints/{name}/holonomic", "value": True, "rule": "finite"} for name in ("odd", "c2")]
     verification = verify(document, certificate(document, claims, uncovered=["/dof"]))
     assert (verification.claims, verification.verified, verification.failed) == (2, 0, [])

@@ -9,12 +9,12 @@ from checker.values import of_tree
 
 from dofkit.checker.grammar import KnownNames, parse
 from dofkit.checker.motion import CheckedEnergies
-from dofkit.checker.problem import read_problem
+from dofkit.checker.problem import canonical, problem_of_canonical
 from dofkit.checker.trees import Tree, symbol
 
 
 def read(**scene: Any) -> CheckedEnergies:
-    return CheckedEnergies(read_problem(scene))
+    return CheckedEnergies(problem_of_canonical(canonical(scene)))
 
 
 def agrees(energies: CheckedEnergies, tree: Tree, text: str) -> None:

@@ -14,7 +14,7 @@ from checker.values import of_engine, of_tree, rows_of_engine, rows_of_trees
 from shared.known_scenes import SCENES, few, scene_of, stem
 
 from dofkit.checker.problem import CheckedProblem as Problem
-from dofkit.checker.problem import document_of, read_problem
+from dofkit.checker.problem import canonical, document_of, problem_of_canonical
 from dofkit.expressions.calculus import in_velocities
 from dofkit.expressions.tree import Expr, coordinate, parameter, sym, velocity
 from dofkit.scene.lowering import lower
@@ -34,7 +34,7 @@ def system_of(path: Path) -> System:
 @cache
 def problem_of(path: Path) -> Problem:
     turning = {rotation.body for rotation in system_of(path).rotations if rotation.chart == "gibbs"}
-    return read_problem(document_of(path.read_text(encoding="utf-8")), frozenset(turning))
+    return problem_of_canonical(canonical(document_of(path.read_text(encoding="utf-8"))), frozenset(turning))
 
 
 KNOWN = [path for path in SCENES if path.stem not in UNREAD]

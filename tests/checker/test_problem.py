@@ -17,12 +17,12 @@ from shared.known_scenes import SCENES, few, scene_of, stem
 import dofkit
 from dofkit.checker.grammar import KnownNames, parse
 from dofkit.checker.problem import CheckedProblem as Problem
-from dofkit.checker.problem import canonical, document_of, read_problem, sha256_of
+from dofkit.checker.problem import canonical, document_of, problem_of_canonical, sha256_of
 from dofkit.checker.trees import CheckError, number
 
 
 def read(text: str, *cayley: str) -> Problem:
-    return read_problem(document_of(text), frozenset(cayley))
+    return problem_of_canonical(canonical(document_of(text)), frozenset(cayley))
 
 
 def said(problem: Problem) -> dict[str, str]:
@@ -266,7 +266,10 @@ def test_a_loaded_scene_has_the_hash_of_its_file(path: Path) -> None:
     written = document_of(path.read_text(encoding="utf-8"))
     loaded = scene_of(path).model_dump(mode="json")
     assert canonical(written) == canonical(loaded)
-    assert dofkit.loads(path.read_text(encoding="utf-8")).dimension == read_problem(loaded).world.dimension
+    assert (
+        dofkit.loads(path.read_text(encoding="utf-8")).dimension
+        == problem_of_canonical(canonical(loaded)).world.dimension
+    )
 
 
 SPATIAL = [path for path in SCENES if scene_of(path).dimension == 3 and scene_of(path).bodies]
@@ -305,9 +308,9 @@ def test_both_charts_of_a_body_say_the_same(path: Path) -> None:
     names = {body.name: body.coordinates or [f"{q}_{body.name}" for q in ROLES] for body in scene_of(path).bodies}
     turned = {q: value for own in names.values() for q, value in zip(own[3:], START, strict=True)}
     document["configuration"] = {**turned, **(document.get("configuration") or {})}
-    angles = read_problem(document)
+    angles = problem_of_canonical(canonical(document))
     try:
-        cayley = read_problem(document, frozenset(names))
+        cayley = problem_of_canonical(canonical(document), frozenset(names))
     except CheckError:
         assert path.stem in ANGLES_IN_TEXTS
         return

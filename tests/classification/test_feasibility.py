@@ -36,6 +36,8 @@ MET = [
     ("sin(a) xdot - cos(a) ydot = 0; xdot >= 1; ydot >= 1; x <= 0", "an ice skate that heads up and right"),
     ("xdot^2 + ydot^2 = 4; xdot >= 1; x > 0", "a given speed"),
     ("xdot^2 + ydot^2 <= 0; x >= 1", "at rest"),
+    ("ydot/xdot > 2", "in motion only: the slope has no value at rest"),
+    ("ydot/xdot > 2; y = 3 x", "along a line of slope 3"),
     ("sqrt(x) >= 2; x < 5", "4 <= x < 5"),
     ("exp(x) >= y; y >= 3", "x above log 3"),
     ("tan(x) >= 1; cos(x) >= 1/10", "x = 1"),
@@ -53,6 +55,7 @@ def test_what_can_be_met(texts: str, why: str) -> None:
 UNMET = [
     ("x^2 + y^2 = 1; x >= 2", "c1 c2", "the circle ends at 1"),
     ("x > 1; x < 0", "c1 c2", "a half-line each"),
+    ("ydot/xdot > 2; x = 3", "c1 c2", "the slope has no value where x rests"),
     ("x > 0; x < 0; y > 0", "c1 c2", "y has no part in it"),
     ("x > 0; x <= 0", "c1 c2", "they touch, one of them open"),
     ("x^2 + y^2 < 1; x >= 1", "c1 c2", "they touch, the disc open"),

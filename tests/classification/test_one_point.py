@@ -54,6 +54,13 @@ NEVER += [
     ("sin(x)^2/sin(x) at pi", scene("x y", "y = sin(x)^2/sin(x)", "x = pi")),
     ("tan(x) cos(x) at pi/2", scene("x y", "y = tan(x)*cos(x)", "x = pi/2")),
     ("0/x at 0", scene("x", "0/x = 0", "x = 0")),
+    ("dy/dx where x rests", scene("x y", "dy/dx = 2", "x = 3")),
+    ("dy/dx where the two directions differ", scene("x y", "dy/dx = 2", "y = 3")),
+    ("a branch of a quadratic equation in dy/dx, where x rests", scene("x y", "(ydot/xdot)^2 = 4", "x = 3")),
+    ("dx/dx where x rests", scene("x y", "xdot/xdot = 1", "x = 3")),
+    ("the root of a negative velocity", scene("x y", "sqrt(xdot) = ydot", "xdot = -1")),
+    ("dy/dx = 2 nowhere on a circle", scene("x y", "dy/dx = 2", "x^2 + y^2 = 1")),
+    ("three rates of rest", scene("x y z", "dy/dx = 2", "dy/dz = 1", "x = z")),
     ("1/z - 1/z where another equation says z = 0", scene("x z", "x = 1/z - 1/z", "z^2 = 0")),
     (
         "x/x on a curve that meets x = 0 only",
@@ -98,6 +105,10 @@ SOMETIMES: list[tuple[str, dict[str, Any], int]] = [
     ("x = -2 where the quotient vanishes", scene("x y", "(x^2-4)/(x-2) = 0"), 1),
     ("x is not 0", scene("x y", "x/x = 1", "y = x"), 1),
     ("a circle, at times after 0", scene("x y", "x^2 + y^2 = exp(log(t))"), 1),
+    ("dy/dx along a line", scene("x y", "dy/dx = 2", "y = 2 x + 1"), 1),
+    ("dy/dx in a motion that is given", scene("x y", "dy/dx = 2", "x = 3 + t"), 0),
+    ("dy/dx of a skate that keeps its heading", scene("x y a", "dy/dx = tan(a)", "a = pi/4"), 1),
+    ("three rates of one straight motion", scene("x y z", "dx/dy = 2", "dy/dz = 3", "dz/dx = 1/6"), 1),
     ("x = abs(t)", scene("x", "sqrt(x^2)*x = t^2", "x^2 = t^2"), 0),
 ]
 
@@ -120,3 +131,11 @@ def test_with_a_common_point(made: dict[str, Any], dof: int) -> None:
     near = report.dof is not None and report.verdicts["dof"].about == "component"
     assert report.dof in (dof, None) or (near and report.dof <= dof)
     assert report.dof is not None or report.verdict == "undecided"
+
+
+def test_a_quotient_of_velocities_has_no_value_at_rest() -> None:
+    """The constraints x = 3 and dy/dx = 2 allow no motion along which dy/dx has a value; either can be satisfied."""
+    report = dofkit.classify(scene("x y", "dy/dx = 2", "x = 3"))
+    assert (report.consistent, report.verdicts["consistent"].verdict) == (False, "proved")
+    assert report.conflicting == ["c1", "c2"]
+    assert "xdot != 0, which no motion satisfies" in " ".join(report.warnings)

@@ -714,7 +714,7 @@ export class Rules {
       }
       return {};
     }
-    refuse(claim.rule !== "turns" || claim.value !== false, "another rule");
+    refuse(claim.rule !== "time-dependent" || claim.value !== false, "another rule");
     const point = this.e.point(claim.at);
     const r = own.find((one) => one.id === claim.relation);
     refuse(!r, "the relation is not of the constraint");

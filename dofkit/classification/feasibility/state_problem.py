@@ -19,6 +19,7 @@ from typing import Literal, NamedTuple
 
 from flint import fmpq
 
+from dofkit.base.errors import NoValueError
 from dofkit.exact.linear_inequalities import LinearCondition, solution
 from dofkit.exact.matrices.sparse import components
 from dofkit.exact.zero import zero_and_verdict
@@ -222,18 +223,30 @@ def problems_of(
     finite += [e for e in boundaries if not velocities_of(e)]
     others += [e for e in boundaries if velocities_of(e)]
     places = tuple(ex.coordinate(name) for name in names)
-    remainder = {ex.velocity(name): ex.ZERO for name in names}
+    rest = {ex.velocity(name): ex.ZERO for name in names}
     asked = [*finite, *others, *(c.expr for c in conditions)]
     finite = _independent(finite)
     timed = any(ex.TIME in e.symbols for e in asked)
-    if not timed and all(zero_and_verdict(substitute(e, remainder), frozenset()) == (True, "proved") for e in others):
-        still = tuple(DomainCondition(substitute(c.expr, remainder), c.sense) for c in conditions)
+    still = None if timed else _at_rest(others, conditions, rest)
+    if still is not None:
         yield StateProblem(tuple(finite), still, places, still=True)
     elif not others and not any(map(velocities_of, asked)):
         yield StateProblem(tuple(finite), conditions, places)
     if any(map(velocities_of, asked)) and (timed or others or any(velocities_of(c.expr) for c in conditions)):
         moving = (*(rate(g) for g in finite), *others)
-        yield StateProblem((*finite, *moving), conditions, places, tuple(remainder), moving)
+        yield StateProblem((*finite, *moving), conditions, places, tuple(rest), moving)
+
+
+def _at_rest(
+    others: Sequence[Expr], conditions: Sequence[DomainCondition], rest: Mapping[Expr, Expr]
+) -> tuple[DomainCondition, ...] | None:
+    """The conditions at velocities 0; None where the relations are not satisfied, or have no value, there."""
+    try:
+        if all(zero_and_verdict(substitute(e, rest), frozenset()) == (True, "proved") for e in others):
+            return tuple(DomainCondition(substitute(c.expr, rest), c.sense) for c in conditions)
+    except NoValueError:
+        pass
+    return None
 
 
 def _boundaries(conditions: Sequence[DomainCondition]) -> tuple[list[Expr], tuple[DomainCondition, ...]]:

@@ -18,14 +18,16 @@ from dofkit.classification.freedom.preparation import (
     has_kink_at_reference,
     reductions_at_reference,
 )
+from dofkit.classification.freedom.velocity_domain import with_values_in_motion
 from dofkit.configuration.linear_blocks import confirmed
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.nonlinear_velocities import NOT_EQUIVALENT, with_reductions_checked
 from dofkit.integrability.traits import is_curved
 from dofkit.relations.answer import Answer, AnsweredPart
 from dofkit.relations.blocks import Block, Row, blocks_of
-from dofkit.relations.normal.domain import DomainCondition
+from dofkit.relations.normal.domain import DomainCondition, is_always_satisfied
 from dofkit.relations.normal.no_solution import holds_somewhere
+from dofkit.relations.normal.normal_form import velocities_of
 from dofkit.relations.normal.pieces import JointEquation, Nonlinear, Pfaffian, Reduced
 from dofkit.relations.setting import Setting
 from dofkit.relations.velocity_reductions import (
@@ -237,8 +239,13 @@ def _answered(
     setting = answered.setting
     blocks, untouched = blocks_of(names, rows, setting.reductions)
     result = CommonPoint(list(blocks), answered.answers(blocks))
-    if domain or len(blocks) > 1:
-        result = at_one_point(*result[:2], domain, setting, partial(in_time, setting=setting))
+    moving = [(i, c) for i, c in domain if velocities_of(c.expr) and not is_always_satisfied(c, setting.positive)]
+    still = [(i, c) for i, c in domain if not velocities_of(c.expr)]
+    if still or len(blocks) > 1:
+        result = at_one_point(*result[:2], still, setting, partial(in_time, setting=setting))
+    if moving:
+        answers = with_values_in_motion(*result[:2], moving, setting, answered.of)
+        result = result._replace(answers=answers)
     never = [*impossible, *result.nowhere]
     return Outcome(
         rows, result.blocks, result.answers, untouched, never, unsettled=[*result.unsettled], witness=result.witness

@@ -128,18 +128,21 @@ def _hold_strictly(conditions: Iterable[DomainCondition], point: Mapping[Expr, a
     return all(v is not None and not v.contains(0) and (c.sense == "!=" or bool(v > 0)) for c, v in balls)
 
 
-def _text(block: Block) -> str:
-    return " and ".join(f"{to_text(c.expr)} {c.sense} 0" for c in block.conditions)
+def text_of_conditions(conditions: Iterable[DomainCondition]) -> str:
+    """Return conditions as a text."""
+    return " and ".join(f"{to_text(c.expr)} {c.sense} 0" for c in conditions)
 
 
 def _nowhere(block: Block, result: Answer) -> Answer:
-    why = f"as written, the equations require {_text(block)}, which is satisfied nowhere where they are"
+    conditions = text_of_conditions(block.conditions)
+    why = f"as written, the equations require {conditions}, which is satisfied nowhere where they are"
     reasons = [*result.reasons, why]
     return Answer(False, verdict="proved", argument="outside the domain", hidden=result.hidden, reasons=reasons)
 
 
 def _undecided(block: Block, result: Answer) -> Answer:
-    why = f"no configuration was found that satisfies the equations and, as they require, {_text(block)}"
+    conditions = text_of_conditions(block.conditions)
+    why = f"no configuration was found that satisfies the equations and, as they require, {conditions}"
     most = result.dof if result.verdict == "proved" and result.about != "component" else None
     return Answer(None, verdict="undecided", hidden=result.hidden, reasons=[*result.reasons, why], most=most)
 
@@ -191,9 +194,9 @@ def at_one_point(
         if not added:
             continue
         conditions = tuple(dict.fromkeys(c for _, c in added))
-        merged = _merged([written[i] for i in members], conditions, setting)
-        values_of = answered(merged)
-        free = len(merged.coordinates) - sum(len(blocks[i].coordinates) for i in members)
+        whole = merged([written[i] for i in members], conditions, setting)
+        values_of = answered(whole)
+        free = len(whole.coordinates) - sum(len(blocks[i].coordinates) for i in members)
         if values_of.consistent and values_of.dof == free + sum(result[i].dof or 0 for i in members):
             free_values |= values_of.witness or {}
             for i in members:
@@ -305,7 +308,7 @@ def _not_consistent(a: Answer, together: Answer, why: str) -> Answer:
     return replace(answers, argument=together.argument if impossible else None, reasons=reasons, method=a.method)
 
 
-def _merged(blocks: Sequence[Block], conditions: Sequence[DomainCondition], setting: Setting) -> Block:
+def merged(blocks: Sequence[Block], conditions: Sequence[DomainCondition], setting: Setting) -> Block:
     """Return several blocks as one, with more conditions."""
     order = {c.name: k for k, c in enumerate(setting.roles)}
     every = tuple(dict.fromkeys((*(c for block in blocks for c in block.conditions), *conditions)))

@@ -6,7 +6,8 @@ listed as uncovered; a claim whose evidence gives another value is lowered.
 
 Types
     A `scenery.Scenery` is the checker's reading of a scene with values chosen for parameters and unknown functions. A
-    `room.Room` adds the report, a main point, and rows of equations that are independent there (`room.Standing`).
+    `context.Context` adds the report, a main point, and rows of equations that are independent there
+    (`context.Standing`).
 
 From a report to a certificate
     1. `certificate` has a table: for each field of a report the function that yields evidence for it.

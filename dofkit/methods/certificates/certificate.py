@@ -9,12 +9,12 @@ from dofkit.checker.problem import CheckedProblem as Problem
 from dofkit.checker.problem import canonical, problem_of_canonical
 from dofkit.checker.trees import CheckError
 from dofkit.methods.certificates import emptiness, fields, freedom, labels
+from dofkit.methods.certificates.context import ClaimTrial, Context, Told, empty_certificate
 from dofkit.methods.certificates.numerics import NoEstimateError
-from dofkit.methods.certificates.room import ClaimTrial, Room, Told, empty_certificate
 from dofkit.methods.certificates.scenery import FAR, Scenery
 from dofkit.report import ConstraintEntry, Report
 
-Maker = Callable[[Room], Iterator[Told]]
+Maker = Callable[[Context], Iterator[Told]]
 
 NUMBERS: dict[str, Maker] = {
     "consistent": freedom.consistent,
@@ -33,7 +33,7 @@ NUMBERS: dict[str, Maker] = {
     "growth_vector": fields.growth_vector,
     "conflicting": emptiness.conflicting,
 }
-LABELS: dict[str, Callable[[Room, ConstraintEntry, str], Iterator[Told]]] = {
+LABELS: dict[str, Callable[[Context, ConstraintEntry, str], Iterator[Told]]] = {
     "holonomic": labels.holonomic,
     "holonomic_alone": labels.holonomic,
     "exact": labels.exact,
@@ -63,19 +63,19 @@ class Certifying:
     def __init__(self, document: Mapping[str, Any], report: Report, readings: Mapping[str, str] | None = None) -> None:
         self.document, self.report = canonical(document), report
         self.certificate = empty_certificate(report.scene, self.document, readings or {})
-        self.rooms: list[Room] = []
+        self.contexts: list[Context] = []
         self.trial: ClaimTrial | None = None
         self.contradictions: dict[str, str] = {}
 
     def written(self) -> dict[str, Any]:
         """All claims that are said to be proved, each with evidence or among the uncovered."""
         try:
-            self.rooms = _rooms(self.document, self.report, self.certificate)
-            self.trial = ClaimTrial(self.document, self.certificate, self.rooms[-1].problem)
-            for room in self.rooms:
-                self.trial.admit(room.scenery)
+            self.contexts = _contexts(self.document, self.report, self.certificate)
+            self.trial = ClaimTrial(self.document, self.certificate, self.contexts[-1].problem)
+            for context in self.contexts:
+                self.trial.admit(context.scenery)
         except CheckError:
-            self.rooms = []
+            self.contexts = []
         claims, uncovered = self.certificate["claims"], self.certificate["uncovered"]
         for path, value, make in sorted(_asked(self.report), key=lambda asked: asked[0] in LAST):
             verdict = self.report.verdicts.get(path[1:])
@@ -91,19 +91,24 @@ class Certifying:
     def _confirmed(self, path: str, value: Any, make: Maker, is_proved: bool) -> Told | None:
         """A claim that the checker accepts, or None; where the evidence for it gives another value, that is noted."""
         contradicted = ""
-        for room in self.rooms:
-            for evidence in _guarded(make(room)):
-                claim = {"path": path, "value": value, **evidence, **({"cayley": True} if room.scenery.cayley else {})}
+        for context in self.contexts:
+            for evidence in _guarded(make(context)):
+                claim = {
+                    "path": path,
+                    "value": value,
+                    **evidence,
+                    **({"cayley": True} if context.scenery.cayley else {}),
+                }
                 outcome = self.trial.outcome(claim) if self.trial else "open"
                 if outcome == "shown":
                     return claim
-                if outcome == "contradicted" and self.trial and self._is_of_same_points(room, claim):
+                if outcome == "contradicted" and self.trial and self._is_of_same_points(context, claim):
                     contradicted = contradicted or self.trial.reasons[path]
         if contradicted and is_proved:
             self.contradictions[path] = contradicted
         return None
 
-    def _is_of_same_points(self, room: Room, claim: Told) -> bool:
+    def _is_of_same_points(self, context: Context, claim: Told) -> bool:
         """Whether evidence is of the configuration, of all points as the report is, or of no point.
 
         Numbers at a point that was looked for may be those of another component of the set. What vanishes at the
@@ -111,15 +116,15 @@ class Certifying:
         """
         field = claim["path"][1:]
         verdict = self.report.verdicts.get(field)
-        if field == "instantaneous_dof" and _has_stationary_row(room):
+        if field == "instantaneous_dof" and _has_stationary_row(context):
             return False
         whole = verdict is not None and claim.get("about") == "everywhere" == verdict.about
-        return whole or room.at_reference or not any(key in claim for key in ("minor", "at", "most"))
+        return whole or context.at_reference or not any(key in claim for key in ("minor", "at", "most"))
 
 
-def _has_stationary_row(room: Room) -> bool:
+def _has_stationary_row(context: Context) -> bool:
     """Whether an equation has the differential 0 at the main point, as far as floats tell."""
-    rows = [] if room.point is None else [room.row(name, room.point) for name in room.equations]
+    rows = [] if context.point is None else [context.row(name, context.point) for name in context.equations]
     return any(all(abs(value) <= FAR for value in row.values()) for row in rows)
 
 
@@ -163,17 +168,17 @@ def _texts_in(value: Any) -> set[str]:
     return {text for item in value for text in _texts_in(item)} if isinstance(value, list) else set()
 
 
-def _rooms(document: Mapping[str, Any], report: Report, certificate: dict[str, Any]) -> list[Room]:
+def _contexts(document: Mapping[str, Any], report: Report, certificate: dict[str, Any]) -> list[Context]:
     """The readings that evidence is looked for in: with Cayley parameters first, where a drawing is given."""
     plain = problem_of_canonical(document)
-    rooms = [Room(report, Scenery(plain, False, certificate))]
+    contexts = [Context(report, Scenery(plain, False, certificate))]
     bodies = frozenset(plain.world.frames) - {"ground"}
     if plain.world.dimension == 3 and bodies and plain.reference:
         chart = _with_cayley(document, bodies)
         if chart is not None:
             certificate["cayley"] = sorted(bodies)
-            rooms.insert(0, Room(report, Scenery(chart, True, certificate)))
-    return rooms
+            contexts.insert(0, Context(report, Scenery(chart, True, certificate)))
+    return contexts
 
 
 def _with_cayley(document: Mapping[str, Any], bodies: frozenset[str]) -> Problem | None:
@@ -198,11 +203,11 @@ def _asked(report: Report) -> Iterator[tuple[str, Any, Maker]]:
                 yield f"/constraints/{name}/{field}", values[field], _label_maker(entry, field)
 
 
-def _nothing(room: Room) -> Iterator[Told]:
+def _nothing(context: Context) -> Iterator[Told]:
     """No rule is known."""
     yield from ()
 
 
 def _label_maker(entry: ConstraintEntry, field: str) -> Maker:
     make = LABELS.get(field)
-    return lambda room: make(room, entry, field) if make else iter(())
+    return lambda context: make(context, entry, field) if make else iter(())

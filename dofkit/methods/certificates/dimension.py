@@ -7,16 +7,18 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from functools import partial
 from itertools import combinations
+from typing import Any
 
 from flint import arb
 
 from dofkit.checker.dimension_rules import free_coordinates
 from dofkit.checker.evidence import HIGHEST_ORDER, along_curve
 from dofkit.checker.geometry import determinant, dot
+from dofkit.checker.ring import CheckedRing
 from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, number, power, symbol, times
+from dofkit.methods.certificates.context import Context, Standing, Told
 from dofkit.methods.certificates.fields import LARGEST_CRAMER, backing, kept_motions, orbit
 from dofkit.methods.certificates.numerics import echelon, solved
-from dofkit.methods.certificates.room import Room, Standing, Told
 from dofkit.methods.certificates.scenery import FAR, number_text, text_of
 from dofkit.methods.certificates.steps import Order, accounted, given_in_order, operands
 
@@ -27,31 +29,31 @@ MOST_FOLLOWED = 6000
 Samples = list[dict[str, float]]
 
 
-def families(room: Room, size: int) -> Iterator[Told]:
+def families(context: Context, size: int) -> Iterator[Told]:
     """The rule `family` with so many freedoms, for a motion through the main point."""
-    point, scenery = room.point, room.scenery
-    size_of_all = sum(relation.tree.size for relation in room.problem.relations) * len(room.problem.coordinates)
+    point, scenery = context.point, context.scenery
+    size_of_all = sum(relation.tree.size for relation in context.problem.relations) * len(context.problem.coordinates)
     if point is None or scenery.evidence.moving or size_of_all > MOST_FOLLOWED:
         return
     assumed = []
-    for i, text in enumerate(_linear_relations(room, _samples(room))):
+    for i, text in enumerate(_linear_relations(context, _samples(context))):
         step = f"{scenery.label}family {i}"
         if not scenery.has_step(step):
             scenery.add_step({"id": step, "by": "assumed", "function": text})
         assumed.append(step)
-    standing = room.standing_of([*assumed, *scenery.evidence.finite])
-    if standing is None or len(standing.rows) != len(room.problem.coordinates) - size:
+    standing = context.standing_of([*assumed, *scenery.evidence.finite])
+    if standing is None or len(standing.rows) != len(context.problem.coordinates) - size:
         return
     others = [name for name in standing.dependent if name not in assumed]
     if all(accounted(scenery, name, standing.rows, point, "family") for name in others):
         yield {"rule": "family", "minor": {"at": point.name, "rows": standing.rows, "columns": standing.columns}}
 
 
-def _samples(room: Room) -> Samples:
+def _samples(context: Context) -> Samples:
     """Configurations along a motion that leaves the main point: as many as span its linear hull."""
     drawn, samples = random.Random(0), Samples()
-    coordinates = room.problem.coordinates
-    now = before = dict(room.point.floats) if room.point is not None else {}
+    coordinates = context.problem.coordinates
+    now = before = dict(context.point.floats) if context.point is not None else {}
     for place in range(len(coordinates) + 4):
         far = max((abs(now[q] - before[q]) for q in coordinates), default=0.0)
         noise = NOISE if place else STEP
@@ -59,16 +61,16 @@ def _samples(room: Room) -> Samples:
             q: now[q] + (now[q] - before[q]) * STEP / (far or 1.0) + noise * drawn.uniform(-1, 1) for q in coordinates
         }
         start = {name: Fraction(value) for name, value in {**now, **moved}.items()}
-        reached = room.search.approached(start, room.equations, set(coordinates))
+        reached = context.search.approached(start, context.equations, set(coordinates))
         if reached is not None:
             samples.append(reached)
             before, now = now, reached
     return samples
 
 
-def _linear_relations(room: Room, samples: Samples) -> Iterator[str]:
+def _linear_relations(context: Context, samples: Samples) -> Iterator[str]:
     """Texts that are 0 at the main point and at all samples, linear with rational coefficients, each in few terms."""
-    point, coordinates = room.point, room.problem.coordinates
+    point, coordinates = context.point, context.problem.coordinates
     if point is None or not samples:
         return
     rows = [{q: sample[q] - point.floats[q] for q in coordinates} for sample in samples]
@@ -92,61 +94,61 @@ def _from(value: str, q: str) -> str:
 # Evidence that no part of the set is larger: graphs, single relations, relations with symbols of their own.
 
 
-def everywhere(room: Room) -> Iterator[Told]:
+def everywhere(context: Context) -> Iterator[Told]:
     """dof of the whole set; with forms from that near the main point."""
-    if room.scenery.cayley or room.standing is None:
+    if context.scenery.cayley or context.standing is None:
         return
-    evidence, finite = room.scenery.evidence, room.finite_standing
+    evidence, finite = context.scenery.evidence, context.finite_standing
     if not evidence.moving:
-        yield from _of_set(room, room.standing)
+        yield from _of_set(context, context.standing)
         return
-    for local in orbit(room):
-        for cover in _of_forms(room):
+    for local in orbit(context):
+        for cover in _of_forms(context):
             yield {**local, **cover}
-        for cover in _of_set(room, finite) if finite is not None else ():
+        for cover in _of_set(context, finite) if finite is not None else ():
             yield {**local, **cover}
 
 
-def velocities_everywhere(room: Room) -> Iterator[Told]:
+def velocities_everywhere(context: Context) -> Iterator[Told]:
     """The independent velocities, at the whole set."""
-    if not room.scenery.cayley and room.standing is not None:
-        yield from _of_forms(room)
+    if not context.scenery.cayley and context.standing is not None:
+        yield from _of_forms(context)
 
 
-def _of_forms(room: Room) -> Iterator[Told]:
+def _of_forms(context: Context) -> Iterator[Told]:
     """Yield claims by the rule `everywhere`: each relation gives a coordinate that those before do not hold.
 
     Then the rank is the number of relations at all points. All relations are in such an order; or the finite ones are,
     and a single form stands beside them. ``standing`` is the point at which the relations are known to hold, with the
     rows that account for all.
     """
-    evidence, standing = room.scenery.evidence, room.standing
+    evidence, standing = context.scenery.evidence, context.standing
     if standing is None or not standing.accounted:
         return
-    claim = {"rule": "everywhere", "about": "everywhere", "minor": room.minor(standing)}
-    order, unordered = graph_order(room, _needed(standing, evidence.equations))
+    claim = {"rule": "everywhere", "about": "everywhere", "minor": context.minor(standing)}
+    order, unordered = graph_order(context, _needed(standing, evidence.equations))
     moving = _needed(standing, evidence.moving)
     if not unordered:
         yield {**claim, "order": order}
         return
-    if {*unordered} <= {*moving} and (gram := _gram(room, unordered)):
+    if {*unordered} <= {*moving} and (gram := _gram(context, unordered)):
         yield {**claim, "order": order, "gram": gram}
     if len(moving) == 1:
-        order, unordered = graph_order(room, _needed(standing, evidence.finite))
+        order, unordered = graph_order(context, _needed(standing, evidence.finite))
         if not unordered:
             yield {**claim, "order": order, "blocks": moving}
 
 
-def _gram(room: Room, forms: list[str]) -> Told | None:
+def _gram(context: Context, forms: list[str]) -> Told | None:
     """Return the Gram determinant of forms, where it is one of parameters alone, each column divided by its own."""
-    evidence, coordinates = room.scenery.evidence, room.problem.coordinates
+    evidence, coordinates = context.scenery.evidence, context.problem.coordinates
     if len(forms) > LARGEST_CRAMER:
         return None
     rows = [[evidence.slope(name, q) for q in coordinates] for name in forms]
     scales: dict[str, Tree] = {}
     for q, column in zip(coordinates, zip(*rows, strict=True), strict=True):
         shared = [{*operands(entry, "product")} for entry in column if entry != ZERO]
-        letters = [symbol(name) for name, sign in room.problem.world.signs.items() if sign == "positive"]
+        letters = [symbol(name) for name, sign in context.problem.world.signs.items() if sign == "positive"]
         common = [
             power(letter, number(-2)) for letter in letters if shared and all(letter in factors for factors in shared)
         ]
@@ -156,11 +158,23 @@ def _gram(room: Room, forms: list[str]) -> Told | None:
         value = evidence.ring.read(determinant([[dot(row, other) for other in scaled] for row in rows]))
     except CheckError:
         return None
-    texts = [evidence.ring.text_of(part) for part in value]
+    texts = [_polynomial_text(evidence.ring, part) for part in value]
     determinant_text = f"({texts[0]})/({texts[1]})"
     if None in texts or not evidence.is_nowhere_zero(evidence.text(determinant_text), True):
         return None
     return {"forms": forms, "scales": {q: text_of(tree) for q, tree in scales.items()}, "value": determinant_text}
+
+
+def _polynomial_text(ring: CheckedRing, polynomial: Any) -> str | None:
+    """Return a polynomial in symbols as a text; None where it contains anything else."""
+    names = {place: key[1] for key, place in ring.places.items() if key[0] == "symbol"}
+    terms = []
+    for exponents, coefficient in polynomial.terms():
+        powers = [(place, k) for place, k in enumerate(reversed(exponents)) if k]
+        if not {place for place, _ in powers} <= names.keys():
+            return None
+        terms.append("*".join([f"({coefficient})", *(f"{names[place]}^{k}" for place, k in powers)]))
+    return " + ".join(terms)
 
 
 def _needed(standing: Standing, names: Sequence[str]) -> list[str]:
@@ -168,23 +182,23 @@ def _needed(standing: Standing, names: Sequence[str]) -> list[str]:
     return [name for name in names if not (standing.accounted and name in standing.dependent)]
 
 
-def _of_set(room: Room, standing: Standing) -> Iterator[Told]:
+def _of_set(context: Context, standing: Standing) -> Iterator[Told]:
     """What the geometric equations define."""
-    evidence = room.scenery.evidence
+    evidence = context.scenery.evidence
     finite = _needed(standing, evidence.finite)
-    order, unordered = graph_order(room, finite, columns=["t"])
+    order, unordered = graph_order(context, finite, columns=["t"])
     claim: Told = {"rule": "everywhere", "about": "everywhere"}
     if not unordered:
         yield {**claim, "order": order}
-    claim["minor"] = room.minor(standing)
+    claim["minor"] = context.minor(standing)
     if not unordered:
         yield {**claim, "order": order}
-    letters = (*room.problem.world.generic, *room.problem.world.signs)
+    letters = (*context.problem.world.generic, *context.problem.world.signs)
     symbols = {name: letter for name in evidence.finite if (letter := evidence.own_symbol(name, letters))}
     if not standing.dependent or standing.accounted:
-        for tried in (order, given_in_order(finite, room.scenery, partial(_gives, room)), []):
+        for tried in (order, given_in_order(finite, context.scenery, partial(_gives, context)), []):
             remaining = [name for name in finite if all(name != chosen for chosen, _ in tried)]
-            blocks, generic = _split(room, tried, remaining, symbols)
+            blocks, generic = _split(context, tried, remaining, symbols)
             if all(name in symbols for name in generic):
                 yield {
                     **claim,
@@ -192,20 +206,22 @@ def _of_set(room: Room, standing: Standing) -> Iterator[Told]:
                     "blocks": blocks,
                     "generic": [[name, symbols[name]] for name in generic],
                 }
-    if all(name in symbols for name in evidence.finite) and (backed := backing(room, standing)):
+    if all(name in symbols for name in evidence.finite) and (backed := backing(context, standing)):
         yield {**claim, "generic": [[name, symbols[name]] for name in evidence.finite], **backed}
 
 
-def graph_order(room: Room, names: Sequence[str] | None = None, columns: Sequence[str] = ()) -> tuple[Order, list[str]]:
+def graph_order(
+    context: Context, names: Sequence[str] | None = None, columns: Sequence[str] = ()
+) -> tuple[Order, list[str]]:
     """Relations with a coordinate that each alone gives, once those after it are taken away; and those left over.
 
     ``names``: the finite ones where it is left out; ``columns``: what may be given besides coordinates.
     """
     remaining, columns = (
-        list(room.scenery.evidence.finite if names is None else names),
-        [*room.problem.coordinates, *columns],
+        list(context.scenery.evidence.finite if names is None else names),
+        [*context.problem.coordinates, *columns],
     )
-    held = {name: _moved(room, name) for name in remaining}
+    held = {name: _moved(context, name) for name in remaining}
     order: Order = []
     pair: list[str] | None = []
     while remaining and pair is not None:
@@ -216,7 +232,7 @@ def graph_order(room: Room, names: Sequence[str] | None = None, columns: Sequenc
                 for name in remaining
                 if q in held[name]
                 and not any(q in held[other] for other in remaining if other != name)
-                and _gives(room, name, q)
+                and _gives(context, name, q)
             ),
             None,
         )
@@ -226,24 +242,24 @@ def graph_order(room: Room, names: Sequence[str] | None = None, columns: Sequenc
     return order, remaining
 
 
-def _moved(room: Room, name: str) -> set[str]:
+def _moved(context: Context, name: str) -> set[str]:
     """The variables of a finite relation; those with velocities in another."""
-    equation = room.scenery.evidence.relation(name)
+    equation = context.scenery.evidence.relation(name)
     held = equation.tree.symbols
     if equation.kind == "finite":
-        return set(held) & set(room.scenery.evidence.variables)
-    return {q for q in room.problem.coordinates if f"{q}dot" in held}
+        return set(held) & set(context.scenery.evidence.variables)
+    return {q for q in context.problem.coordinates if f"{q}dot" in held}
 
 
-def _gives(room: Room, name: str, q: str) -> bool:
+def _gives(context: Context, name: str, q: str) -> bool:
     """Whether a relation gives a coordinate with a factor of numbers and parameters."""
-    evidence = room.scenery.evidence
+    evidence = context.scenery.evidence
     try:
         slope = evidence.slope(name, q)
         plain = (
             slope.symbols <= evidence.chosen
-            and room.point is not None
-            and room.scenery.differs(slope, room.point.estimates)
+            and context.point is not None
+            and context.scenery.differs(slope, context.point.estimates)
         )
         return plain or bool(evidence.ring.rational(slope))
     except CheckError:
@@ -251,10 +267,10 @@ def _gives(room: Room, name: str, q: str) -> bool:
 
 
 def _split(
-    room: Room, order: Order, remaining: list[str], own_symbols_of: dict[str, str]
+    context: Context, order: Order, remaining: list[str], own_symbols_of: dict[str, str]
 ) -> tuple[list[str], list[str]]:
     """What is left as single relations, and those that share coordinates."""
-    evidence, dependencies = room.scenery.evidence, dict[str, frozenset[str]]()
+    evidence, dependencies = context.scenery.evidence, dict[str, frozenset[str]]()
     for name, q in order:
         dependencies[q] = free_coordinates(evidence, name, dependencies) - {q}
     sets = {name: free_coordinates(evidence, name, dependencies) for name in remaining}
@@ -271,44 +287,44 @@ SIGNS = (1, -1)
 ISOLATED, CROSSING = "isolated zero of one variable", "indefinite form"
 
 
-def stationary(room: Room) -> Iterator[Told]:
+def stationary(context: Context) -> Iterator[Told]:
     """Yield dof near a point at which a relation depends on the others to first order alone, by the rule `isolated`."""
-    standing = room.standing
-    if standing is None or room.report.verdicts["dof"].argument not in (ISOLATED, CROSSING):
+    standing = context.standing
+    if standing is None or context.report.verdicts["dof"].argument not in (ISOLATED, CROSSING):
         return
-    for least in _motions_from(room, standing, room.report.dof or 0):
-        for most in _isolated(room, standing):
-            yield {"rule": "squeeze", "about": room.about, "most": most, "least": least}
+    for least in _motions_from(context, standing, context.report.dof or 0):
+        for most in _isolated(context, standing):
+            yield {"rule": "squeeze", "about": context.about, "most": most, "least": least}
 
 
-def _motions_from(room: Room, standing: Standing, size: int) -> Iterator[Told]:
+def _motions_from(context: Context, standing: Standing, size: int) -> Iterator[Told]:
     """Yield ``size`` motions from the point: rigid ones of all together, none, or a family."""
-    fields = kept_motions(room, standing.point) if size else {}
+    fields = kept_motions(context, standing.point) if size else {}
     if len(fields) == size:
         orbit_of = {"fields": list(fields), "words": [[name] for name in fields], "columns": list(fields.values())}
-        yield {"rule": "span", "at": standing.point.name, "rows": list(room.scenery.evidence.finite), **orbit_of}
-    yield from families(room, size)
+        yield {"rule": "span", "at": standing.point.name, "rows": list(context.scenery.evidence.finite), **orbit_of}
+    yield from families(context, size)
 
 
-def _isolated(room: Room, standing: Standing) -> Iterator[Told]:
+def _isolated(context: Context, standing: Standing) -> Iterator[Told]:
     """Yield directions in which another relation has a derivative that is not 0, of the lowest order."""
-    free = [q for q in room.problem.coordinates if q not in standing.columns]
+    free = [q for q in context.problem.coordinates if q not in standing.columns]
     ways = [{q: 1} for q in free] + [{a: 1, b: sign} for a, b in combinations(free, 2) for sign in SIGNS]
     for order in range(2, HIGHEST_ORDER + 1):
         for zero in standing.dependent:
             for way in ways:
-                if abs(_bends(room, standing, zero, way, order)) > FAR:
+                if abs(_bends(context, standing, zero, way, order)) > FAR:
                     speeds = {q: str(value) for q, value in way.items()}
-                    rows = {"minor": room.minor(standing), "zero": zero, "speeds": speeds}
+                    rows = {"minor": context.minor(standing), "zero": zero, "speeds": speeds}
                     yield {"rule": "isolated", **rows, "order": order}
                     return
 
 
-def _bends(room: Room, standing: Standing, zero: str, way: dict[str, int], order: int) -> float:
+def _bends(context: Context, standing: Standing, zero: str, way: dict[str, int], order: int) -> float:
     """Return the derivative of a relation in a direction, or 0 where it has none."""
-    evidence = room.scenery.evidence
+    evidence = context.scenery.evidence
     try:
-        minor = evidence.minor(room.minor(standing))
+        minor = evidence.minor(context.minor(standing))
         speeds = {q: arb(value) for q, value in way.items()}
         return float(along_curve(evidence, minor, speeds, evidence.relation(zero).tree, order).mid())
     except (CheckError, ArithmeticError):

@@ -6,63 +6,65 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
 from dofkit.checker.trees import MINUS
-from dofkit.methods.certificates.room import Room, Told
+from dofkit.methods.certificates.context import Context, Told
 from dofkit.methods.certificates.scenery import number_text, text_of
 from dofkit.methods.certificates.steps import constant_cofactors, positive_sum, rate_of
 
 
-def inconsistent(room: Room) -> Iterator[Told]:
+def inconsistent(context: Context) -> Iterator[Told]:
     """No configuration, or no motion, meets the equations."""
-    yield from refutations(room, [relation.name for relation in room.problem.relations])
+    yield from refutations(context, [relation.name for relation in context.problem.relations])
 
 
-def conflicting(room: Room) -> Iterator[Told]:
+def conflicting(context: Context) -> Iterator[Told]:
     """The constraints that cannot be met together, each of them needed."""
-    evidence, members = room.scenery.evidence, room.report.conflicting
+    evidence, members = context.scenery.evidence, context.report.conflicting
     kinds = ("finite", "velocity", "inequality")
-    for refutation in refutations(room, [relation for name in members for relation in evidence.owned(name, kinds)]):
+    for refutation in refutations(context, [relation for name in members for relation in evidence.owned(name, kinds)]):
         minimal: Told = {}
         for name in members:
             others = [relation for other in members if other != name for relation in evidence.owned(other)]
-            if others and (witness := _met(room, name, others)):
+            if others and (witness := _met(context, name, others)):
                 minimal[name] = witness
         yield {"rule": "conflict", "refutation": refutation, "minimal": minimal}
 
 
-def _met(room: Room, name: str, others: Sequence[str]) -> Told | None:
+def _met(context: Context, name: str, others: Sequence[str]) -> Told | None:
     """What shows that the others can be met without one."""
-    relation = room.scenery.evidence.relation
+    relation = context.scenery.evidence.relation
     finite = [other for other in others if relation(other).kind == "finite"]
-    point = room.search.somewhere(finite, room.problem.coordinates, 300)
+    point = context.search.somewhere(finite, context.problem.coordinates, 300)
     if point is None:
         return None
     point.name = f"without {name}"
-    room.add_point(point)
-    standing = room.standing_of(others, point=point)
+    context.add_point(point)
+    standing = context.standing_of(others, point=point)
     if standing is not None and standing.rows and not standing.dependent:
-        return {"rule": "regular", "minor": room.minor(standing)}
+        return {"rule": "regular", "minor": context.minor(standing)}
     return {"rule": "point", "at": point.name}
 
 
-def refutations(room: Room, names: Sequence[str]) -> Iterator[Told]:
+def refutations(context: Context, names: Sequence[str]) -> Iterator[Told]:
     """Ways in which relations cannot be met."""
-    evidence = room.scenery.evidence
+    evidence = context.scenery.evidence
     equations = [name for name in names if evidence.relation(name).kind != "inequality"]
     rates = [
-        rate for name in equations if evidence.relation(name).kind == "finite" and (rate := rate_of(room.scenery, name))
+        rate
+        for name in equations
+        if evidence.relation(name).kind == "finite" and (rate := rate_of(context.scenery, name))
     ]
     for chosen in (equations, [*equations, *rates]):
-        if (factors := constant_cofactors(room.scenery, MINUS, chosen)) is not None:
+        if (factors := constant_cofactors(context.scenery, MINUS, chosen)) is not None:
             yield {"rule": "nullstellensatz", "c": factors, "number": "1"}
     for name in names:
-        yield from _by_squares(room, name)
+        yield from _by_squares(context, name)
 
 
-def _by_squares(room: Room, name: str) -> Iterator[Told]:
+def _by_squares(context: Context, name: str) -> Iterator[Told]:
     """Yield evidence that one relation is never satisfied: it is a positive number and squares, or their negative."""
-    checked = room.scenery.evidence.relation(name)
+    checked = context.scenery.evidence.relation(name)
     for sign in (1, -1):
-        positive = positive_sum(room.scenery, checked.tree, Fraction(sign))
+        positive = positive_sum(context.scenery, checked.tree, Fraction(sign))
         if positive is None:
             continue
         squares = [[c, text_of(base)] for c, base in positive[1]]

@@ -13,9 +13,9 @@ from dofkit.checker.constraints import Surroundings
 from dofkit.checker.evidence import CheckedEvidence, VelocityField, bracket, field_named, tangent
 from dofkit.checker.geometry import determinant
 from dofkit.checker.trees import ZERO, CheckError, Tree, negative
+from dofkit.methods.certificates.context import Context, Standing, Told
 from dofkit.methods.certificates.numerics import Estimates, NoEstimateError, echelon
 from dofkit.methods.certificates.points import FoundPoint
-from dofkit.methods.certificates.room import Room, Standing, Told
 from dofkit.methods.certificates.scenery import Scenery, text_of
 
 
@@ -34,21 +34,21 @@ def motions(world: Surroundings) -> list[dict[str, str]]:
     return fields
 
 
-def backing(room: Room, standing: Standing | None) -> Told | None:
+def backing(context: Context, standing: Standing | None) -> Told | None:
     """What a claim says besides its minor so that all relations follow: nothing, or covers; None where they do not."""
     if standing is None:
         return None
     if standing.accounted:
         return {}
-    if (blocks := covering(room, standing)) is None:
+    if (blocks := covering(context, standing)) is None:
         return None
-    return {"covers": [room.scenery.entry_id("covers", {"minor": room.minor(standing), "blocks": blocks})]}
+    return {"covers": [context.scenery.entry_id("covers", {"minor": context.minor(standing), "blocks": blocks})]}
 
 
-def covering(room: Room, standing: Standing) -> list[Told] | None:
+def covering(context: Context, standing: Standing) -> list[Told] | None:
     """Blocks of relations whose rank is told by how many there are, or by rigid motions."""
-    scenery, blocks = room.scenery, []
-    candidates = motions(room.problem.world)
+    scenery, blocks = context.scenery, []
+    candidates = motions(context.problem.world)
     accounted = {*standing.rows, *standing.dependent}
     finite = [name for name in scenery.evidence.finite if name in accounted]
     for names in parts_of(scenery, finite):
@@ -57,7 +57,7 @@ def covering(room: Room, standing: Standing) -> list[Told] | None:
             blocks.append({"rows": names, "fields": [], "columns": []})
             continue
         held = {symbol for name in names for symbol in scenery.evidence.relation(name).tree.symbols}
-        variables = [q for q in room.problem.coordinates if q in held]
+        variables = [q for q in context.problem.coordinates if q in held]
         fields = [{q: text for q, text in motion.items() if q in held} for motion in candidates]
         columns = _chosen(scenery, fields, standing)
         ids = [scenery.entry_id("fields", {"components": fields[place]}) for place, _ in columns]
@@ -67,11 +67,11 @@ def covering(room: Room, standing: Standing) -> list[Told] | None:
     return blocks
 
 
-def kept_motions(room: Room, point: FoundPoint) -> dict[str, str]:
+def kept_motions(context: Context, point: FoundPoint) -> dict[str, str]:
     """Motions of all together that keep all finite relations, each with a column: independent at the point."""
-    scenery = room.scenery
+    scenery = context.scenery
     finite = list(scenery.evidence.finite)
-    ids = [scenery.entry_id("fields", {"components": motion}) for motion in motions(room.problem.world)]
+    ids = [scenery.entry_id("fields", {"components": motion}) for motion in motions(context.problem.world)]
     kept = [motion for motion in ids if _kept(scenery, [motion], finite)]
     fields = [field_named(scenery.evidence, motion) for motion in kept]
     rows = [{q: point.estimates.value(tree) for q, tree in motion.items()} for motion in fields]
@@ -123,15 +123,15 @@ class Words:
     levels: list[int]
 
 
-def tangent_fields(room: Room, standing: Standing) -> list[str] | None:
+def tangent_fields(context: Context, standing: Standing) -> list[str] | None:
     """Fields that span the kernel of rows: one for every coordinate (and time) that is no column."""
-    scenery, pairs = room.scenery, dict(zip(standing.rows, standing.columns, strict=True))
+    scenery, pairs = context.scenery, dict(zip(standing.rows, standing.columns, strict=True))
     evidence = scenery.evidence
     timed = any(not {"t", "tdot"}.isdisjoint(evidence.relation(row).tree.symbols) for row in standing.rows)
-    free = [q for q in (*room.problem.coordinates, *(["t"] if timed else [])) if q not in pairs.values()]
+    free = [q for q in (*context.problem.coordinates, *(["t"] if timed else [])) if q not in pairs.values()]
     ids = []
     for coordinate in free:
-        touched = _touched(room, standing, coordinate)
+        touched = _touched(context, standing, coordinate)
         if len(touched) > LARGEST_CRAMER:
             return None
         components = _by_cramer(evidence, touched, [pairs[row] for row in touched], coordinate)
@@ -151,10 +151,10 @@ def _by_cramer(evidence: CheckedEvidence, rows: Sequence[str], columns: Sequence
     return {name: text_of(tree) for name, tree in components.items() if tree != ZERO}
 
 
-def _touched(room: Room, standing: Standing, free: str) -> list[str]:
+def _touched(context: Context, standing: Standing, free: str) -> list[str]:
     """The rows that move together when one free coordinate moves."""
-    evidence = room.scenery.evidence
-    groups = parts_of(room.scenery, standing.rows)
+    evidence = context.scenery.evidence
+    groups = parts_of(context.scenery, standing.rows)
     if free == "t":
         moved = [part for part in groups if any(_holds(evidence.relation(row).tree, "t") for row in part)]
     else:
@@ -166,30 +166,30 @@ def _holds(tree: Tree, name: str) -> bool:
     return not {name, f"{name}dot"}.isdisjoint(tree.symbols)
 
 
-def words_of(room: Room, standing: Standing, most: int) -> Words | None:
+def words_of(context: Context, standing: Standing, most: int) -> Words | None:
     """Left-normed brackets, level by level, until ``most`` are independent at the point or nothing new comes."""
     key = (*standing.rows, "", *standing.columns, str(most))
-    if key not in room.words:
+    if key not in context.words:
         try:
-            fields = tangent_fields(room, standing)
-            room.words[key] = _grown(room, standing, fields, most) if fields else None
+            fields = tangent_fields(context, standing)
+            context.words[key] = _grown(context, standing, fields, most) if fields else None
         except (CheckError, NoEstimateError, RecursionError):
-            room.words[key] = None
-    grown: Words | None = room.words[key]
+            context.words[key] = None
+    grown: Words | None = context.words[key]
     return grown
 
 
-def reach(room: Room) -> int:
+def reach(context: Context) -> int:
     """How many directions all words of the scene's fields span at most, as far as it is told."""
-    whole = len(room.problem.coordinates) if room.report.dof is None else room.report.dof
-    return whole + room.scenery.evidence.timed
+    whole = len(context.problem.coordinates) if context.report.dof is None else context.report.dof
+    return whole + context.scenery.evidence.timed
 
 
-def _grown(room: Room, standing: Standing, fields: list[str], most: int) -> Words:
+def _grown(context: Context, standing: Standing, fields: list[str], most: int) -> Words:
     estimates = standing.point.estimates
-    chosen = room.scenery.chosen
+    chosen = context.scenery.chosen
     bases: dict[str, VelocityField] = {
-        name: {q: chosen(tree) for q, tree in field_named(room.scenery.evidence, name).items()} for name in fields
+        name: {q: chosen(tree) for q, tree in field_named(context.scenery.evidence, name).items()} for name in fields
     }
     level = [([name], bases[name]) for name in fields]
     words: list[list[str]] = []
@@ -210,7 +210,7 @@ def _grown(room: Room, standing: Standing, fields: list[str], most: int) -> Word
         if len(words) >= most or not fresh:
             break
         level = [
-            ([*word, name], bracket(room.scenery.evidence, value, bases[name]))
+            ([*word, name], bracket(context.scenery.evidence, value, bases[name]))
             for word, value in fresh
             for name in fields
             if word != [name]
@@ -219,23 +219,23 @@ def _grown(room: Room, standing: Standing, fields: list[str], most: int) -> Word
     return Words(fields, list(standing.rows), words, columns, vectors, levels)
 
 
-def orbit(room: Room) -> Iterator[Told]:
+def orbit(context: Context) -> Iterator[Told]:
     """dof of a scene with forms: from below what brackets reach, from above finite rows and what integrates."""
-    standing, freedom = room.standing, room.report.dof
-    if standing is None or not standing.accounted or freedom is None or room.nonlinear:
+    standing, freedom = context.standing, context.report.dof
+    if standing is None or not standing.accounted or freedom is None or context.nonlinear:
         return
-    least = _least(room, standing, freedom)
+    least = _least(context, standing, freedom)
     if least is None:
         return
-    for most in _most(room, freedom):
-        yield {"rule": "squeeze", "most": most, "least": least, "about": room.about}
+    for most in _most(context, freedom):
+        yield {"rule": "squeeze", "most": most, "least": least, "about": context.about}
 
 
-def _least(room: Room, standing: Standing, dof: int) -> Told | None:
-    size = len(room.problem.coordinates)
+def _least(context: Context, standing: Standing, dof: int) -> Told | None:
+    size = len(context.problem.coordinates)
     if dof == size - len(standing.rows):
-        return {"rule": "regular", "minor": room.minor(standing)}
-    words = words_of(room, standing, reach(room))
+        return {"rule": "regular", "minor": context.minor(standing)}
+    words = words_of(context, standing, reach(context))
     if words is None:
         return None
     moves = any("t" in vector for vector in words.vectors)
@@ -253,50 +253,50 @@ def _columns(words: Words, count: int) -> list[str]:
     return [p.column for p in echelon(words.vectors[:count]).pivots]
 
 
-def _most(room: Room, dof: int) -> Iterator[Told]:
-    finite = room.finite_standing
-    if finite is not None and dof >= len(room.problem.coordinates) - len(finite.rows):
-        yield {"rule": "minor", "minor": room.minor(finite)}
-    yield from involutive_rows(room, integrable_names(room))
+def _most(context: Context, dof: int) -> Iterator[Told]:
+    finite = context.finite_standing
+    if finite is not None and dof >= len(context.problem.coordinates) - len(finite.rows):
+        yield {"rule": "minor", "minor": context.minor(finite)}
+    yield from involutive_rows(context, integrable_names(context))
 
 
-def integrable_names(room: Room) -> list[str]:
+def integrable_names(context: Context) -> list[str]:
     """The finite relations, and the forms that are said to be holonomic."""
-    owners = {entry.name for entry in room.report.constraints if entry.holonomic}
+    owners = {entry.name for entry in context.report.constraints if entry.holonomic}
     return [
         relation.name
-        for relation in room.problem.relations
+        for relation in context.problem.relations
         if relation.kind != "inequality" and relation.owner in owners
     ]
 
 
-def involutive_rows(room: Room, names: Sequence[str], columns: Sequence[str] | None = None) -> Iterator[Told]:
+def involutive_rows(context: Context, names: Sequence[str], columns: Sequence[str] | None = None) -> Iterator[Told]:
     """Rows whose kernel is closed under brackets, for the rule `frobenius`; ``columns`` those of the minor."""
-    standing = room.standing_of(names, columns)
+    standing = context.standing_of(names, columns)
     if standing is None or not standing.rows or (columns is not None and len(columns) != len(standing.rows)):
         return
-    fields = tangent_fields(room, standing)
+    fields = tangent_fields(context, standing)
     if fields is not None:
-        free = [q for q in (*room.problem.coordinates, "t") if q not in standing.columns][: len(fields)]
-        yield {"rule": "frobenius", "minor": room.minor(standing), "fields": fields, "columns": free}
+        free = [q for q in (*context.problem.coordinates, "t") if q not in standing.columns][: len(fields)]
+        yield {"rule": "frobenius", "minor": context.minor(standing), "fields": fields, "columns": free}
 
 
-def growth_vector(room: Room) -> Iterator[Told]:
+def growth_vector(context: Context) -> Iterator[Told]:
     """Words for every entry, of as many entries as are claimed, and until nothing new comes."""
-    standing, vector = room.standing, room.report.growth_vector
-    if standing is None or not standing.accounted or not vector or room.nonlinear:
+    standing, vector = context.standing, context.report.growth_vector
+    if standing is None or not standing.accounted or not vector or context.nonlinear:
         return
-    words = words_of(room, standing, reach(room))
+    words = words_of(context, standing, reach(context))
     if words is None:
         return
     claim = {"rule": "span", "at": standing.point.name, "fields": words.fields, "rows": words.rows}
-    claim["minor"] = room.minor(standing)
+    claim["minor"] = context.minor(standing)
     for steps in sorted({len(vector), len(words.levels)}, reverse=True):
         levels = [*words.levels, *words.levels[-1:] * steps][:steps]
         yield {**claim, "spans": [{"words": words.words[:k], "columns": _columns(words, k)} for k in levels]}
 
 
-def pairing(room: Room, name: str, point: FoundPoint, vector: dict[str, float]) -> float:
+def pairing(context: Context, name: str, point: FoundPoint, vector: dict[str, float]) -> float:
     """The value of a form in a direction."""
-    rates = {f"{q}dot": vector.get(q, 0.0) for q in (*room.problem.coordinates, "t")}
-    return Estimates({**point.floats, **rates}).value(room.scenery.tree(name))
+    rates = {f"{q}dot": vector.get(q, 0.0) for q in (*context.problem.coordinates, "t")}
+    return Estimates({**point.floats, **rates}).value(context.scenery.tree(name))

@@ -8,6 +8,7 @@ from itertools import combinations
 from dofkit.checker.geometry import determinant
 from dofkit.checker.label_rules import exterior_part, form_of
 from dofkit.checker.trees import ZERO, CheckError, Tree, add, derivative, negative, number, symbol, times
+from dofkit.methods.certificates.context import Context, Told
 from dofkit.methods.certificates.fields import (
     LARGEST_CRAMER,
     integrable_names,
@@ -18,7 +19,6 @@ from dofkit.methods.certificates.fields import (
 )
 from dofkit.methods.certificates.numerics import Estimates, NoEstimateError, echelon, solved
 from dofkit.methods.certificates.points import FoundPoint
-from dofkit.methods.certificates.room import Room, Told
 from dofkit.methods.certificates.scenery import FAR, text_of
 from dofkit.methods.certificates.steps import Order, needed_puts, puts, rate_of, with_puts
 from dofkit.report import ConstraintEntry
@@ -26,83 +26,83 @@ from dofkit.report import ConstraintEntry
 Components = dict[str, Tree]
 
 
-def integral_of_text(room: Room, text: str) -> str | None:
+def integral_of_text(context: Context, text: str) -> str | None:
     """A step for a text such as ``x*y = C`` or ``g = 0``."""
     function, _, right = text.rpartition("=")
-    return combined_integral(room, function.strip()) if right.strip() != "0" else None
+    return combined_integral(context, function.strip()) if right.strip() != "0" else None
 
 
-def combined_integral(room: Room, function: str, alone: str = "") -> str | None:
+def combined_integral(context: Context, function: str, alone: str = "") -> str | None:
     """Return the id of a step by which a function keeps its value: by one form ``alone``, or whatever that takes."""
-    name = f"{room.scenery.label}{function} is constant{f' by {alone}' if alone else ''}"
-    if name in room.scenery.evidence.by_name:
+    name = f"{context.scenery.label}{function} is constant{f' by {alone}' if alone else ''}"
+    if name in context.scenery.evidence.by_name:
         return name
-    if room.point is None:
+    if context.point is None:
         return None
     try:
-        tree = room.scenery.evidence.text(function)
+        tree = context.scenery.evidence.text(function)
     except CheckError:
         return None
-    target = {v: derivative(tree, v) for v in room.scenery.evidence.variables}
+    target = {v: derivative(tree, v) for v in context.scenery.evidence.variables}
     step = {"id": name, "by": "integral", "function": function}
-    return name if _combined(room, step, target, [alone] if alone else moving_rows(room)) else None
+    return name if _combined(context, step, target, [alone] if alone else moving_rows(context)) else None
 
 
-def moving_rows(room: Room) -> list[str]:
+def moving_rows(context: Context) -> list[str]:
     """The velocity relations, and the rates of the finite ones."""
     rows = []
-    for name in room.equations:
-        finite = room.scenery.evidence.relation(name).kind == "finite"
-        row = rate_of(room.scenery, name) if finite else name
+    for name in context.equations:
+        finite = context.scenery.evidence.relation(name).kind == "finite"
+        row = rate_of(context.scenery, name) if finite else name
         rows += [row] if row else []
     return rows
 
 
-def follows_from_integrals(room: Room, name: str, steps: Sequence[str], alone: bool = False) -> bool:
+def follows_from_integrals(context: Context, name: str, steps: Sequence[str], alone: bool = False) -> bool:
     """Whether a step was found by which a form follows from integrals, and finite relations if not ``alone``."""
-    step = f"{room.scenery.label}{name} from {' and '.join(steps) if alone else 'integrals'}"
-    if room.scenery.has_step(step):
+    step = f"{context.scenery.label}{name} from {' and '.join(steps) if alone else 'integrals'}"
+    if context.scenery.has_step(step):
         return True
-    sources = [*steps, *(() if alone else room.scenery.evidence.finite)]
-    rates = [rate for source in sources if (rate := rate_of(room.scenery, source))]
-    return _combined(room, {"id": step, "by": "implied", "of": name}, components(room, name), rates)
+    sources = [*steps, *(() if alone else context.scenery.evidence.finite)]
+    rates = [rate for source in sources if (rate := rate_of(context.scenery, source))]
+    return _combined(context, {"id": step, "by": "implied", "of": name}, components(context, name), rates)
 
 
-def integral_alone(room: Room, entry: ConstraintEntry, name: str) -> str | None:
+def integral_alone(context: Context, entry: ConstraintEntry, name: str) -> str | None:
     """Return the step of the integral that is claimed of a form, where each follows from the other alone."""
     function = integral_text(entry)
-    step = combined_integral(room, function, name) if function and form_or_none(room, name) is not None else None
-    return step if step and follows_from_integrals(room, name, [step], alone=True) else None
+    step = combined_integral(context, function, name) if function and form_or_none(context, name) is not None else None
+    return step if step and follows_from_integrals(context, name, [step], alone=True) else None
 
 
-def _combined(room: Room, step: Told, target: Components, sources: Sequence[str]) -> bool:
+def _combined(context: Context, step: Told, target: Components, sources: Sequence[str]) -> bool:
     """Whether a step stands up with cofactors, where need be after coordinates that relations give are put in."""
-    rows = {source: components(room, source) for source in sources}
-    for order in ([], puts(room.scenery, room.scenery.evidence.finite)):
-        placed = {source: _placed(room, row, order) for source, row in rows.items()}
-        combination = cofactors(room, _placed(room, target, order), placed)
+    rows = {source: components(context, source) for source in sources}
+    for order in ([], puts(context.scenery, context.scenery.evidence.finite)):
+        placed = {source: _placed(context, row, order) for source, row in rows.items()}
+        combination = cofactors(context, _placed(context, target, order), placed)
         if combination is None:
             continue
         h, factors = combination
         used = [*target.values(), h, *factors.values(), *(tree for row in factors for tree in rows[row].values())]
         multipliers = {"h": text_of(h), "c": {row: text_of(factor) for row, factor in factors.items()}}
-        put = needed_puts(room.scenery, used, order)
+        put = needed_puts(context.scenery, used, order)
         try:
-            room.scenery.add_step({**step, **multipliers, **({"put": put} if put else {})})
+            context.scenery.add_step({**step, **multipliers, **({"put": put} if put else {})})
         except CheckError:
             continue
         return True
     return False
 
 
-def _placed(room: Room, row: Components, order: Order) -> Components:
-    return {v: with_puts(room.scenery, tree, order) for v, tree in row.items()} if order else row
+def _placed(context: Context, row: Components, order: Order) -> Components:
+    return {v: with_puts(context.scenery, tree, order) for v, tree in row.items()} if order else row
 
 
-def form_or_none(room: Room, name: str) -> Components | None:
+def form_or_none(context: Context, name: str) -> Components | None:
     """Return the components of a relation that is a linear form, or None."""
     try:
-        return form_of(room.scenery.evidence, name)
+        return form_of(context.scenery.evidence, name)
     except CheckError:
         return None
 
@@ -112,18 +112,18 @@ def variables_of(form: Components) -> frozenset[str]:
     return frozenset(form).union(*(tree.symbols for tree in form.values()))
 
 
-def components(room: Room, name: str) -> Components:
+def components(context: Context, name: str) -> Components:
     """The components of a linear relation of velocities."""
-    tree = room.scenery.evidence.relation(name).tree
-    return {v: derivative(tree, f"{v}dot") for v in room.scenery.evidence.variables}
+    tree = context.scenery.evidence.relation(name).tree
+    return {v: derivative(tree, f"{v}dot") for v in context.scenery.evidence.variables}
 
 
-def cofactors(room: Room, target: Components, rows: dict[str, Components]) -> tuple[Tree, dict[str, Tree]] | None:
+def cofactors(context: Context, target: Components, rows: dict[str, Components]) -> tuple[Tree, dict[str, Tree]] | None:
     """h and c_i with h target = sum c_i row_i identically; None where a few rows do not do."""
-    if room.point is None:
+    if context.point is None:
         return None
     try:
-        chosen, columns = _chosen(room, target, rows)
+        chosen, columns = _chosen(context, target, rows)
     except NoEstimateError:
         return None
     if len(chosen) > LARGEST_CRAMER:
@@ -135,44 +135,44 @@ def cofactors(room: Room, target: Components, rows: dict[str, Components]) -> tu
         row: determinant([[*line[:i], b, *line[i + 1 :]] for line, b in zip(matrix, right, strict=True)])
         for i, row in enumerate(chosen)
     }
-    ring = room.scenery.evidence.ring
-    for v in room.scenery.evidence.variables:
+    ring = context.scenery.evidence.ring
+    for v in context.scenery.evidence.variables:
         total = add(*(times(factor, rows[row][v]) for row, factor in multipliers.items()))
         if not ring.vanishes(add(times(h, target[v]), negative(total))):
             return None
     return h, multipliers
 
 
-def _chosen(room: Room, target: Components, rows: dict[str, Components]) -> tuple[list[str], list[str]]:
+def _chosen(context: Context, target: Components, rows: dict[str, Components]) -> tuple[list[str], list[str]]:
     """The sources that matter, at the point or beside it, and columns in which they are independent."""
     used: set[str] = set()
-    floats = room.point.floats if room.point is not None else {}
+    floats = context.point.floats if context.point is not None else {}
     for shift in (0.0, 0.0625):
         moved = {name: value + shift * (1 + i % 5) for i, (name, value) in enumerate(floats.items())}
         estimates = Estimates(moved)
-        numbers = {row: _floats(room, estimates, components) for row, components in rows.items()}
+        numbers = {row: _floats(context, estimates, components) for row, components in rows.items()}
         pivots = echelon(list(numbers.values())).pivots
         kept = [list(rows)[p.row] for p in pivots]
-        goal = _floats(room, estimates, target)
+        goal = _floats(context, estimates, target)
         square = [{row: numbers[row].get(p.column, 0.0) for row in kept} for p in pivots]
         solution = solved(square, [goal.get(p.column, 0.0) for p in pivots], kept) or {}
         used |= {row for row, value in solution.items() if abs(value) > 1e-9}
     chosen = [row for row in rows if row in used]
     estimates = Estimates(floats)
-    pivots = echelon([_floats(room, estimates, rows[row]) for row in chosen]).pivots
+    pivots = echelon([_floats(context, estimates, rows[row]) for row in chosen]).pivots
     return [chosen[p.row] for p in pivots], [p.column for p in pivots]
 
 
-def _floats(room: Room, estimates: Estimates, row: Components) -> dict[str, float]:
-    return {v: estimates.value(room.scenery.chosen(tree)) for v, tree in row.items() if tree != ZERO}
+def _floats(context: Context, estimates: Estimates, row: Components) -> dict[str, float]:
+    return {v: estimates.value(context.scenery.chosen(tree)) for v, tree in row.items() if tree != ZERO}
 
 
 # Evidence for the labels of one constraint.
 
 
-def holonomic(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
+def holonomic(context: Context, entry: ConstraintEntry, field: str) -> Iterator[Told]:
     """Finite, an inequality, integrated, or reached across."""
-    evidence = room.scenery.evidence
+    evidence = context.scenery.evidence
     if evidence.owned(entry.name, ("inequality",)):
         yield {"rule": "inequality"}
         return
@@ -184,53 +184,53 @@ def holonomic(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
     if alone and len(names) == 1 and getattr(entry, field) is True:
         yield {"rule": "wedge"}
     if getattr(entry, field) is False:
-        if alone and len(names) == 1 and (claim := _wedge(room, names[0])):
+        if alone and len(names) == 1 and (claim := _wedge(context, names[0])):
             yield claim
-        if claim := _reached(room, entry.name, alone):
+        if claim := _reached(context, entry.name, alone):
             yield claim
         return
-    if claim := _integrated(room, entry):
+    if claim := _integrated(context, entry):
         yield claim
-    yield from involutive_rows(room, names if alone else integrable_names(room))
+    yield from involutive_rows(context, names if alone else integrable_names(context))
 
 
-def _wedge(room: Room, name: str) -> Told | None:
+def _wedge(context: Context, name: str) -> Told | None:
     """A point and three variables where omega ^ d(omega) is not 0."""
-    point = room.point
-    form = form_or_none(room, name)
+    point = context.point
+    form = form_or_none(context, name)
     if point is None or form is None:
         return None
-    for triple in combinations([v for v in room.scenery.evidence.variables if v in variables_of(form)], 3):
-        if room.scenery.differs(exterior_part(form, *triple), point.estimates):
+    for triple in combinations([v for v in context.scenery.evidence.variables if v in variables_of(form)], 3):
+        if context.scenery.differs(exterior_part(form, *triple), point.estimates):
             return {"rule": "wedge", "at": point.name, "triple": list(triple)}
     return None
 
 
-def _reached(room: Room, owner: str, alone: bool) -> Told | None:
+def _reached(context: Context, owner: str, alone: bool) -> Told | None:
     """A word of brackets that a form of the constraint does not allow."""
-    evidence = room.scenery.evidence
-    standing = room.standing_of(evidence.owned(owner)) if alone else room.standing
-    if standing is None or room.nonlinear or not (alone or standing.accounted):
+    evidence = context.scenery.evidence
+    standing = context.standing_of(evidence.owned(owner)) if alone else context.standing
+    if standing is None or context.nonlinear or not (alone or standing.accounted):
         return None
-    words = words_of(room, standing, len(room.problem.coordinates) + 1 if alone else reach(room))
+    words = words_of(context, standing, len(context.problem.coordinates) + 1 if alone else reach(context))
     if words is None:
         return None
     for name in evidence.owned(owner, ("velocity",)):
         for word, vector in zip(words.words, words.vectors, strict=True):
-            if len(word) > 1 and abs(pairing(room, name, standing.point, vector)) > FAR:
+            if len(word) > 1 and abs(pairing(context, name, standing.point, vector)) > FAR:
                 used = {"fields": words.fields, "rows": words.rows, "word": word, "pairs": name}
                 if any(map(evidence.is_open, (evidence.relation(other).tree for other in evidence.finite))):
-                    used["minor"] = room.minor(standing)
+                    used["minor"] = context.minor(standing)
                 return {"rule": "bracket", "at": standing.point.name, **used}
     return None
 
 
-def _integrated(room: Room, entry: ConstraintEntry) -> Told | None:
+def _integrated(context: Context, entry: ConstraintEntry) -> Told | None:
     """Return the rule `integral`, by a step for the integral that is claimed and one by which the form follows."""
-    names = room.scenery.evidence.owned(entry.name)
-    if len(names) != 1 or room.point is None or (step := integral_alone(room, entry, names[0])) is None:
+    names = context.scenery.evidence.owned(entry.name)
+    if len(names) != 1 or context.point is None or (step := integral_alone(context, entry, names[0])) is None:
         return None
-    return {"rule": "integral", "at": room.point.name, "integrals": [step]}
+    return {"rule": "integral", "at": context.point.name, "integrals": [step]}
 
 
 def integral_text(entry: ConstraintEntry) -> str | None:
@@ -238,92 +238,96 @@ def integral_text(entry: ConstraintEntry) -> str | None:
     return entry.integral.rpartition("=")[0].strip() if entry.integral else None
 
 
-def integral(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
+def integral(context: Context, entry: ConstraintEntry, field: str) -> Iterator[Told]:
     """The integral that is told: of the form alone, or in the system."""
-    names = room.scenery.evidence.owned(entry.name, ("velocity",))
+    names = context.scenery.evidence.owned(entry.name, ("velocity",))
     function = integral_text(entry)
-    if len(names) != 1 or room.point is None or function is None:
+    if len(names) != 1 or context.point is None or function is None:
         return
-    claim = {"rule": "integral", "at": room.point.name}
-    if alone := integral_alone(room, entry, names[0]):
+    claim = {"rule": "integral", "at": context.point.name}
+    if alone := integral_alone(context, entry, names[0]):
         yield {**claim, "step": alone}
-        if other := room.search.somewhere(room.scenery.evidence.finite, room.problem.coordinates, seed=1):
-            yield {**claim, "step": alone, "at": room.add_point(other)}
-    if (step := combined_integral(room, function)) is None:
+        if other := context.search.somewhere(context.scenery.evidence.finite, context.problem.coordinates, seed=1):
+            yield {**claim, "step": alone, "at": context.add_point(other)}
+    if (step := combined_integral(context, function)) is None:
         return
-    if follows_from_integrals(room, names[0], [step]):
+    if follows_from_integrals(context, names[0], [step]):
         yield {**claim, "step": step}
-    texts = [step_id for other in room.report.constraints if (step_id := integral_text(other))]
-    others = [step_id for text in texts if (step_id := combined_integral(room, text)) and step_id != step]
+    texts = [step_id for other in context.report.constraints if (step_id := integral_text(other))]
+    others = [step_id for text in texts if (step_id := combined_integral(context, text)) and step_id != step]
     others = list(dict.fromkeys(others))
-    standing = room.standing_of([*room.scenery.evidence.finite, *others, names[0]])
-    if follows_from_integrals(room, names[0], [step, *others]) and standing is not None and names[0] in standing.rows:
-        yield {**claim, "step": step, "integrals": others, "minor": room.minor(standing)}
+    standing = context.standing_of([*context.scenery.evidence.finite, *others, names[0]])
+    if (
+        follows_from_integrals(context, names[0], [step, *others])
+        and standing is not None
+        and names[0] in standing.rows
+    ):
+        yield {**claim, "step": step, "integrals": others, "minor": context.minor(standing)}
 
 
-def exact(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
+def exact(context: Context, entry: ConstraintEntry, field: str) -> Iterator[Told]:
     """Closed, or a point where it is not."""
     if entry.exact:
         yield {"rule": "exact"}
         return
-    if room.scenery.cayley:
+    if context.scenery.cayley:
         return
-    names, point = room.scenery.evidence.owned(entry.name, ("velocity",)), room.point
+    names, point = context.scenery.evidence.owned(entry.name, ("velocity",)), context.point
     if point is None:
         return
     for name in names:
-        form = form_or_none(room, name) or {}
-        for i, j in combinations([v for v in room.scenery.evidence.variables if v in variables_of(form)], 2):
-            if room.scenery.differs(exterior_part(form, i, j), point.estimates):
+        form = form_or_none(context, name) or {}
+        for i, j in combinations([v for v in context.scenery.evidence.variables if v in variables_of(form)], 2):
+            if context.scenery.differs(exterior_part(form, i, j), point.estimates):
                 which = {"relation": name} if len(names) > 1 else {}
                 yield {"rule": "not exact", "at": point.name, "pair": [i, j], **which}
                 break
 
 
-def scleronomic(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
+def scleronomic(context: Context, entry: ConstraintEntry, field: str) -> Iterator[Told]:
     """Time does not occur, or matters at a point."""
     if getattr(entry, field):
         yield {"rule": "timeless"}
         return
-    evidence = room.scenery.evidence
+    evidence = context.scenery.evidence
     for name in evidence.owned(entry.name, ("finite", "velocity", "inequality")):
-        for place in _turning(room, name, field):
-            yield {"rule": "turns", "relation": name, **place}
+        for place in _time_dependence(context, name, field):
+            yield {"rule": "time-dependent", "relation": name, **place}
 
 
-def _turning(room: Room, name: str, field: str) -> Iterator[Told]:
-    if room.scenery.evidence.relation(name).kind == "velocity":
-        yield from _turning_form(room, name, field)
+def _time_dependence(context: Context, name: str, field: str) -> Iterator[Told]:
+    if context.scenery.evidence.relation(name).kind == "velocity":
+        yield from _time_dependent_form(context, name, field)
         return
-    turned = derivative(room.scenery.tree(name), "t")
+    turned = derivative(context.scenery.tree(name), "t")
     if turned == number(0):
         return
-    for point in _points_of(room, name):
-        if point is not None and room.scenery.differs(turned, point.estimates):
-            yield {"at": room.add_point(point)}
+    for point in _points_of(context, name):
+        if point is not None and context.scenery.differs(turned, point.estimates):
+            yield {"at": context.add_point(point)}
 
 
-def _points_of(room: Room, name: str) -> Iterator[FoundPoint | None]:
+def _points_of(context: Context, name: str) -> Iterator[FoundPoint | None]:
     """The main point, where it is one of the relation, and others."""
-    if room.scenery.evidence.relation(name).kind != "inequality":
-        yield room.point
-    yield from (room.search.touching(name, seed) for seed in (50, 60))
+    if context.scenery.evidence.relation(name).kind != "inequality":
+        yield context.point
+    yield from (context.search.touching(name, seed) for seed in (50, 60))
 
 
-def _turning_form(room: Room, name: str, field: str) -> Iterator[Told]:
-    form, point = form_or_none(room, name), room.point
+def _time_dependent_form(context: Context, name: str, field: str) -> Iterator[Told]:
+    form, point = form_or_none(context, name), context.point
     if point is None:
         return
-    tree = room.scenery.tree(name)
-    rates = {v: times(symbol(v), derivative(tree, v)) for v in room.scenery.evidence.velocities if v in tree.symbols}
+    tree = context.scenery.tree(name)
+    rates = {v: times(symbol(v), derivative(tree, v)) for v in context.scenery.evidence.velocities if v in tree.symbols}
     turned = form.get("t", number(0)) if form else derivative(tree, "t")
     if field == "catastatic" and form is None:
         turned = add(*rates.values())
-    if room.scenery.differs(turned, point.estimates):
+    if context.scenery.differs(turned, point.estimates):
         yield {"at": point.name}
     if form is None:
         return
     for a, b in combinations(form, 2) if field == "scleronomic" else ():
         back = negative(times(form[b], derivative(form[a], "t")))
-        if room.scenery.differs(add(times(form[a], derivative(form[b], "t")), back), point.estimates):
+        if context.scenery.differs(add(times(form[a], derivative(form[b], "t")), back), point.estimates):
             yield {"at": point.name, "pair": [a, b]}

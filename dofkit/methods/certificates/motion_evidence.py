@@ -11,10 +11,10 @@ from dofkit.checker.problem import CheckedProblem as Problem
 from dofkit.checker.problem import canonical, problem_of_canonical
 from dofkit.checker.trees import MINUS, ONE, Tree, along, number, power, substituted, symbol, times
 from dofkit.methods.certificates.certificate import HINDRANCES, without_spare_parts
+from dofkit.methods.certificates.context import ClaimTrial, Context, Told, empty_certificate
 from dofkit.methods.certificates.lowering import scene_of_checker
 from dofkit.methods.certificates.numerics import Estimates
 from dofkit.methods.certificates.points import FoundPoint
-from dofkit.methods.certificates.room import ClaimTrial, Room, Told, empty_certificate
 from dofkit.methods.certificates.scenery import Scenery, number_text, text_of
 from dofkit.report import Report
 from dofkit.scene.scene import Scene
@@ -34,10 +34,10 @@ def certificate_of_motion(scene: Scene, motion: Mapping[str, Any], report: Repor
     certificate = empty_certificate(report.scene, document, readings) | {"uncovered": [PATH]}
     try:
         problem = problem_of_canonical(document)
-        room = Room(report, Scenery(problem, False, certificate))
+        context = Context(report, Scenery(problem, False, certificate))
         trial = ClaimTrial(document, certificate, problem)
-        trial.admit(room.scenery)
-        for evidence in MotionEvidence(room, {name: motion[name] for name in MOTION_FIELDS}).claims():
+        trial.admit(context.scenery)
+        for evidence in MotionEvidence(context, {name: motion[name] for name in MOTION_FIELDS}).claims():
             if trial.outcome(evidence) == "shown":
                 certificate |= {"claims": [evidence], "uncovered": []}
                 break
@@ -49,9 +49,9 @@ def certificate_of_motion(scene: Scene, motion: Mapping[str, Any], report: Repor
 class MotionEvidence:
     """A motion of the report, in the checker's reading."""
 
-    def __init__(self, room: Room, motion: dict[str, Any]) -> None:
-        self.room, self.motion, self.evidence = room, motion, room.scenery.evidence
-        self.problem: Problem = room.problem
+    def __init__(self, context: Context, motion: dict[str, Any]) -> None:
+        self.context, self.motion, self.evidence = context, motion, context.scenery.evidence
+        self.problem: Problem = context.problem
         self.constants = self._constants()
         self.places = {q: self.read(text) for q, text in motion["eliminated"].items()}
         self.limits = dict(zip(motion["multipliers"], map(self.read, motion["constraints"]), strict=True))
@@ -77,11 +77,11 @@ class MotionEvidence:
         claim |= {"constants": self.constants} if self.constants else {}
         size = len(self.places) + len(self.limits)
         for point in self.points() if size else ():
-            standing = self.room.standing_of(self.room.equations, point=point)
+            standing = self.context.standing_of(self.context.equations, point=point)
             if standing is not None and len(standing.rows) == size:
-                self.room.add_point(point)
+                self.context.add_point(point)
                 for factors in self.factors():
-                    yield {**claim, **factors, "minor": self.room.minor(standing)}
+                    yield {**claim, **factors, "minor": self.context.minor(standing)}
         if not size:
             for factors in self.factors():
                 yield {**claim, **factors}
@@ -108,20 +108,20 @@ class MotionEvidence:
 
     def points(self) -> Iterator[FoundPoint]:
         """The configuration; else points whose eliminated coordinates are put in, or any."""
-        search = self.room.search
+        search = self.context.search
         if self.problem.reference:
             if (configuration := search.reference()) is not None:
                 yield configuration
             return
         if not self.limits:
             yield from filter(None, map(self._put_in, range(MOST_POINTS)))
-        elif self.room.point is not None:
-            yield self.room.point
+        elif self.context.point is not None:
+            yield self.context.point
 
     def _put_in(self, attempt: int) -> FoundPoint | None:
-        values = dict(self.room.scenery.parameters)
+        values = dict(self.context.scenery.parameters)
         values |= {q: Fraction(k + attempt + 2, 7 + 2 * attempt) for k, q in enumerate(self.motion["coordinates"])}
-        values |= {"t": Fraction(attempt, 3)} if self.room.scenery.timed else {}
+        values |= {"t": Fraction(attempt, 3)} if self.context.scenery.timed else {}
         values |= {name: Fraction(self.constants[name]) for name in self.constants}
         texts = {name: number_text(value) for name, value in values.items() if name not in self.constants}
         floats = {name: float(value) for name, value in values.items()}
@@ -129,10 +129,10 @@ class MotionEvidence:
         try:
             for q, tree in self.places.items():
                 texts[q] = text_of(substituted(tree, numbers))
-                floats[q] = Estimates(floats).value(self.room.scenery.chosen(tree))
+                floats[q] = Estimates(floats).value(self.context.scenery.chosen(tree))
         except HINDRANCES:
             return None
-        return FoundPoint(f"T{attempt}", texts, floats, self.room.scenery.functions)
+        return FoundPoint(f"T{attempt}", texts, floats, self.context.scenery.functions)
 
 
 def _exponentials(tree: Tree) -> set[str]:

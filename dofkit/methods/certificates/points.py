@@ -11,7 +11,8 @@ from typing import Any
 
 from flint import arb, ctx, fmpq
 
-from dofkit.checker.trees import PRECISION, CheckedPoint, CheckError, Tree, derivative, evaluated, number
+from dofkit.checker.point import CheckedPoint
+from dofkit.checker.trees import PRECISION, CheckError, Tree, derivative, evaluated, number
 from dofkit.methods.certificates.numerics import Estimates, NoEstimateError, Pivot, echelon, least_step, solved
 from dofkit.methods.certificates.scenery import Scenery, floats_of, number_text, text_of
 
@@ -282,8 +283,12 @@ class PointSearch:
         return {name: values[name] for name in (*first, *(n for n in values if n not in first))}
 
     def _holds(self, values: Mapping[str, Fraction], names: Sequence[str]) -> bool:
-        point = CheckedPoint("", {n: number(v) for n, v in values.items()}, {}, self.scenery.effort)
-        return all(self.scenery.evidence.ring.vanishes(point.prepared(self.scenery.tree(name))) for name in names)
+        """Whether relations have the value 0 at rational values, and the checker can show that they are exactly 0."""
+        balls = {name: arb(fmpq(v.numerator, v.denominator)) for name, v in values.items()} | {"tdot": arb(1)}
+        point = CheckedPoint("", {n: number(v) for n, v in values.items()}, {}, self.scenery.effort, balls)
+        trees = [self.scenery.tree(name) for name in names]
+        is_near = all(point.value(tree).contains(0) for tree in trees)
+        return is_near and all(map(self.scenery.evidence.ring.vanishes, map(point.prepared, trees)))
 
 
 def _fraction(text: str) -> Fraction:

@@ -43,7 +43,7 @@ def conditions_of(e: Expr, positive: frozenset[Expr]) -> tuple[DomainCondition, 
     below = _denominator(e, positive)
     if below is not None:
         result.append(DomainCondition(below, "!="))
-    return tuple(c for c in dict.fromkeys(result) if not _always(c, positive))
+    return tuple(c for c in dict.fromkeys(result) if not is_always_satisfied(c, positive))
 
 
 def _inside(e: Expr, outermost: bool) -> Iterator[DomainCondition]:
@@ -77,7 +77,7 @@ def _denominator(e: Expr, positive: frozenset[Expr]) -> Expr | None:
         return None
 
 
-def _always(c: DomainCondition, positive: frozenset[Expr]) -> bool:
+def is_always_satisfied(c: DomainCondition, positive: frozenset[Expr]) -> bool:
     """Return whether a condition is proved to be satisfied wherever its expression has a value."""
     if c.sense == "!=":
         return never_vanishes(c.expr, positive)

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import in_velocities
 from dofkit.expressions.renaming import Renaming, Unwritten, shape_of
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.domain import DomainCondition
@@ -111,10 +112,6 @@ def unwritten(joint: Unwritten[Relation]) -> tuple[Normal, ...]:
     return tuple(Normal(((JointEquation(joint, k),),)) for k in range(len(joint)))
 
 
-#: The kinds of symbols that a configuration gives values.
-FINITE = frozenset({"coordinate", "parameter", "time"})
-
-
 class Reduced(NamedTuple):
     """A constraint with every relation reduced; ``inequalities`` apart. ``written``: the relation of each normal."""
 
@@ -129,12 +126,12 @@ class Reduced(NamedTuple):
 
     @property
     def domain(self) -> tuple[DomainCondition, ...]:
-        """Where its equations, as they were written, have a value; velocities have one wherever there is a motion."""
+        """Where its equations, as they were written, have a value, in velocities in place of differentials."""
         relations = self.constraint.relations
         if isinstance(relations, Unwritten) or not (self.normals or self.inequalities):
             return ()
-        written = (DomainCondition(*required) for r in relations if r.sense == "=" for required in r.domain)
-        return tuple(dict.fromkeys(c for c in written if {s.args[0] for s in c.expr.symbols} <= FINITE))
+        written = ((in_velocities(e)[0], sense) for r in relations if r.sense == "=" for e, sense in r.domain)
+        return tuple(dict.fromkeys(DomainCondition(*required) for required in written))
 
 
 #: Under which a piece keeps its shape.

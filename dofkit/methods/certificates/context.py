@@ -62,8 +62,6 @@ class ClaimTrial:
                     del evidence.seen[key]
 
 
-# What one certificate is made of while it is made: both readings of the scene, the main point, rows and columns.
-
 Told = dict[str, Any]
 
 
@@ -79,8 +77,8 @@ class Standing:
 
 
 @dataclass
-class Room:
-    """A report and a reading of its scene, the main point, and rows that are independent there."""
+class Context:
+    """The context of a certificate: a report, a reading of its scene, the main point, and rows independent there."""
 
     report: Report
     scenery: Scenery
@@ -218,8 +216,8 @@ class Room:
         return standing
 
 
-def states_of(room: Room) -> tuple[list[str], list[str]]:
+def states_of(context: Context) -> tuple[list[str], list[str]]:
     """The relations that hold of a configuration with its velocities, and the symbols of both."""
-    rates = [step for name in room.scenery.evidence.finite if (step := rate_of(room.scenery, name))]
-    symbols = [*room.problem.coordinates, *room.problem.world.generic]
-    return [*room.finite_first, *rates], [*symbols, *(f"{q}dot" for q in room.problem.coordinates)]
+    rates = [step for name in context.scenery.evidence.finite if (step := rate_of(context.scenery, name))]
+    symbols = [*context.problem.coordinates, *context.problem.world.generic]
+    return [*context.finite_first, *rates], [*symbols, *(f"{q}dot" for q in context.problem.coordinates)]

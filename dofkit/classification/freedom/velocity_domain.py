@@ -1,0 +1,80 @@
+"""Motions along which every expression of velocities has a value as it was written.
+
+The equation dy/dx = 2 says dy - 2 dx = 0 where dx is not 0. Beside x = 3, dy/dx has a value along no motion.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from functools import partial
+
+from dofkit.base.deadline import unless_late
+from dofkit.base.verdicts import weakest
+from dofkit.classification.freedom.common_point import merged, text_of_conditions
+from dofkit.expressions.renaming import coordinates_in
+from dofkit.expressions.tree import Expr
+from dofkit.relations.answer import Answer
+from dofkit.relations.blocks import Block, Row
+from dofkit.relations.normal.domain import DomainCondition
+from dofkit.relations.normal.no_solution import hold_nowhere
+from dofkit.relations.normal.normal_form import linear_form
+from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian
+from dofkit.relations.setting import Setting
+from dofkit.relations.velocity_reductions import form_rate, rate
+
+
+def with_values_in_motion(
+    blocks: Sequence[Block],
+    answers: Sequence[Answer],
+    domain: Sequence[tuple[int, DomainCondition]],
+    setting: Setting,
+    answered: Callable[[Block], Answer],
+) -> list[Answer]:
+    """Return the answers, inconsistent where no motion meets the ``domain``, undecided where none is known to.
+
+    ``domain``: where each constraint, as it was written, has a value, by its velocities.
+    """
+    names = frozenset[str]().union(*(coordinates_in(c.expr) for _, c in domain))
+    members = [i for i, block in enumerate(blocks) if not names.isdisjoint(block.coordinates)]
+    if not members or any(a.consistent is not True for a in answers):
+        return list(answers)
+    conditions = tuple(dict.fromkeys(c for _, c in domain))
+    together = [blocks[i] for i in members]
+    within = tuple(c for block in together for c in block.conditions)
+    block = replace(merged(together, conditions, setting), conditions=within)
+    why = f"as written, the equations require {text_of_conditions(conditions)}, which"
+    if unless_late(partial(hold_nowhere, _equations_of_motion(block), conditions, setting.positive), False):
+        none = Answer(False, verdict="proved", argument="outside the domain", reasons=[f"{why} no motion satisfies"])
+        return [none if i in members else a for i, a in enumerate(answers)]
+    free = len(block.coordinates) - sum(len(block.coordinates) for block in together)
+    freedoms = [n if n is None else n + free for n in _freedoms([answers[i] for i in members])]
+    # the states of what is nonlinear are searched where it has a value
+    owners = {row.constraint for row in block.nonlinear}
+    forms = [(i, linear_form(c.expr) if c.sense == "!=" else None) for i, c in domain if i not in owners]
+    still = [Answer(None) if f is None else answered(replace(block, rows=(*block.rows, Row(i, f)))) for i, f in forms]
+    if None not in freedoms and all(_is_less(a, freedoms) for a in still):
+        sure = [a.verdict for a in still]
+        return [replace(a, verdict=weakest(a.verdict, *sure)) if i in members else a for i, a in enumerate(answers)]
+    unknown = Answer(None, verdict="undecided", reasons=[f"{why} no motion is known to satisfy"])
+    return [unknown if i in members else a for i, a in enumerate(answers)]
+
+
+def _equations_of_motion(block: Block) -> list[Expr]:
+    """What is 0 at every state of a motion."""
+    finite = [row.piece.expr for row in block.finite if isinstance(row.piece, Finite)]
+    forms = [form_rate(row.piece) for row in block.forms if isinstance(row.piece, Pfaffian)]
+    others = [row.piece.expr for row in block.nonlinear if isinstance(row.piece, Nonlinear)]
+    return [*finite, *map(rate, finite), *forms, *others]
+
+
+def _is_less(still: Answer, freedoms: Sequence[int | None]) -> bool:
+    """Return whether some motion is none of those for which one more velocity is 0: of these there are fewer."""
+    fewer = _freedoms([still])
+    return still.consistent is False or bool(still.consistent and None not in fewer and fewer != freedoms)
+
+
+def _freedoms(answers: Sequence[Answer]) -> list[int | None]:
+    """The sums of the numbers of freedoms and of velocities; None where one is not known."""
+    numbers = [a.dof for a in answers], [a.velocity_dof for a in answers]
+    return [None if None in some else sum(n for n in some if n is not None) for some in numbers]
