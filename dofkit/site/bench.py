@@ -22,10 +22,10 @@ from dofkit.site.gallery import ShownScene
 from dofkit.site.runtime import SOURCES, build_runtime, run
 
 #: Files that are kept for a visit without a network only once they were used.
-SELDOM = ("runtime/symbols.zip", "runtime/sheets.zip")
+SELDOM = ("runtime/symbols.zst", "runtime/sheets.zst")
 #: All that reads answers in one script, for the pages of sheets; the files in it beside its worker.
 ONE_SCRIPT, WORKER = "runtime.js", "runtime-worker.js"
-IN_ONE_SCRIPT = ("pyodide-lock.json", "core.bin", "extras.zip", "sheets.zip")
+IN_ONE_SCRIPT = ("pyodide-lock.json", "core.bin", "extras.zst", "sheets.zst")
 #: What a scene of the catalog expects of its report: the bench is not for reading that.
 _EXPECTED = re.compile(r"^expect:.*\n(?:[ \t#].*\n|\n)*", re.MULTILINE)
 

@@ -45,18 +45,18 @@ async function ask(call, ...args) {
   return new Promise(() => {});
 }
 
+/** Faults at once, the report after a rest. */
 function changed() {
   state.text = view.state.doc.toString();
   state.round += 1;
   state.leftOut.clear();
   if (engine.busy > PATIENCE) engine.replace();
-  run();
-}
-
-/** Faults at once, the report after a rest. */
-async function run() {
   clearTimeout(timer);
   timer = window.setTimeout(report, REST);
+  check();
+}
+
+async function check() {
   try {
     const { faults, names } = await ask("check", state.text);
     showFaults(faults);
@@ -247,7 +247,7 @@ async function start() {
   [catalog, state.schema] = [scenes, schema];
   view = editor(at("editor"), await addressed(), changed, () => state);
   state.text = view.state.doc.toString();
-  run();
+  check();
   report();
 }
 

@@ -1,7 +1,7 @@
 // Runs dofkit in the background. A page asks by messages {id, call, args}, and is answered by {id, value} or {id, error};
 // {ready: true} comes once Python has started. runtime.py says what is beside this file.
 import { loadPyodide } from "./pyodide.mjs";
-import { startPython } from "./start.js";
+import { imported, startPython } from "./start.js";
 
 /** Where numpy is had from; everything else comes from this folder. */
 const DISTRIBUTION = "https://cdn.jsdelivr.net/pyodide/v314.0.7/full/";
@@ -20,8 +20,8 @@ const loaded = new Set();
 const ready = start();
 
 async function file(/** @type {string} */ name) {
-  const answer = await fetch(new URL(name, import.meta.url));
-  if (!answer.ok || !answer.body) throw new Error(`${name}: ${answer.status}`);
+  const answer = await fetch(new URL(name, import.meta.url)).catch(() => null);
+  if (!answer?.ok || !answer.body) throw new Error(`${name} could not be loaded`);
   return answer;
 }
 
@@ -33,15 +33,15 @@ async function start() {
     env: { PYTHONDONTWRITEBYTECODE: "1", HOME: "/home/pyodide" },
   });
   const { answer } = runtime.python.pyimport("dofkit.site.browser");
-  runtime.python.pyimport("dofkit.site.browser.reports").destroy();
+  imported(runtime.python, "dofkit.site.browser.reports").destroy();
   postMessage({ ready: true });
   return { ...runtime, answer };
 }
 
 /** @param {{packages?: string[], archives?: string[]}} needs @param {Awaited<ReturnType<typeof start>>} runtime */
-async function provide({ packages = [], archives = [] }, { python, site }) {
+async function provide({ packages = [], archives = [] }, { python, unpack }) {
   for (const name of archives.filter((name) => !loaded.has(name))) {
-    python.unpackArchive(await (await file(`${name}.zip`)).arrayBuffer(), "zip", { extractDir: site });
+    unpack(new Uint8Array(await (await file(`${name}.zst`)).arrayBuffer()));
     loaded.add(name);
   }
   for (const name of packages.filter((name) => !loaded.has(name))) {
