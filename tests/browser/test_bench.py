@@ -162,6 +162,21 @@ def test_only_an_example_is_answered_before_python_has_started(served: Served, v
     assert bench.page.inner_text("#report") == built
 
 
+def test_a_long_run_is_named_and_can_be_stopped(served: Served, bench: Any) -> None:
+    names = "abcdefg"
+    sums = [" + ".join(f"{(3 * i + 5 * k) % 11 + 1} {name}" for i, name in enumerate(names)) for k in range(5)]
+    texts = [f'- "({total})^6 + {name}^2 = 1"' for total, name in zip(sums, names, strict=False)]
+    page = bench.page
+    write(page, "\n".join((f"coordinates: [{', '.join(names)}]", "constraints:", *texts)))
+    seen(page, "#state", "Classifying")
+    page.get_by_role("button", name="Stop").click()
+    seen(page, "#state", "Stopped")
+    assert "Upright disc" in page.inner_text("#report h2")
+    write(page, KNIFE)
+    page.locator("#report th", has_text="edge").wait_for(timeout=4 * SOON)
+    assert bench.errors == []
+
+
 def test_equations_of_motion_are_derived_on_request(served: Served, bench: Any) -> None:
     page = bench.page
     page.goto(f"{served.url}/bench/#example=pendulum-angle")

@@ -49,7 +49,7 @@ WEIGH = """async ([url, texts]) => {
     const hear = ({data}) => { if (holds(data)) { worker.removeEventListener("message", hear); resolve(data); } };
     worker.addEventListener("message", hear);
   });
-  await heard((data) => data.ready);
+  await heard((data) => data.state === "ready");
   const memories = [];
   for (const [id, text] of texts.entries()) {
     const answer = heard((data) => data.id === id);

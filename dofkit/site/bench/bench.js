@@ -4,9 +4,9 @@ import { Engine, Stopped } from "./engine.js";
 import { packed, unpacked } from "./fragment.js";
 import { element, sheet } from "./show.js";
 
-/** Milliseconds of rest before a report begins, and of a run that a keystroke lets end by itself. */
+/** Milliseconds of rest before a report begins, and of a run that a keystroke lets end: Python takes longer to start anew. */
 const REST = 300;
-const PATIENCE = 700;
+const PATIENCE = 3000;
 const FIRST = "disc-rolling-on-plane";
 /** @param {string} id @returns {any} */
 const at = (id) => document.getElementById(id);
@@ -91,7 +91,7 @@ async function report() {
   const known = catalog.find((scene) => scene.text === text);
   history.replaceState(null, "", known ? `#example=${known.name}` : `#scene=${await packed(text)}`);
   at("open").href = `./${location.hash}`;
-  const slow = window.setTimeout(() => engine.ready && say("Classifying", true), REST);
+  const slow = window.setTimeout(() => engine.busy && say("Classifying", true), REST);
   try {
     // the report on an example is at hand before Python is: it was built with the site
     const answer = known && !state.leftOut.size ? known.answer : await ask("report", text, [...state.leftOut]);

@@ -1,5 +1,6 @@
 // Runs dofkit in the background. A page asks by messages {id, call, args}, and is answered by {id, value} or {id, error};
-// {ready: true} comes once Python has started. runtime.py says what is beside this file.
+// {state} comes once Python is "ready", and when it is "running" for a question, for which files may have to be loaded
+// first, and then "idle". runtime.py says what is beside this file.
 import { loadPyodide } from "./pyodide.mjs";
 import { imported, startPython } from "./start.js";
 
@@ -34,7 +35,7 @@ async function start() {
   });
   const { answer } = runtime.python.pyimport("dofkit.site.browser");
   imported(runtime.python, "dofkit.site.browser.reports").destroy();
-  postMessage({ ready: true });
+  postMessage({ state: "ready" });
   return { ...runtime, answer };
 }
 
@@ -61,7 +62,14 @@ function reason(error) {
 async function answered({ module, ...needs }, call, args) {
   const runtime = await ready;
   await provide(needs, runtime);
-  const ask = () => JSON.parse(runtime.answer(module, call, JSON.stringify(args)));
+  const ask = () => {
+    postMessage({ state: "running" });
+    try {
+      return JSON.parse(runtime.answer(module, call, JSON.stringify(args)));
+    } finally {
+      postMessage({ state: "idle" });
+    }
+  };
   try {
     return ask();
   } catch (error) {
