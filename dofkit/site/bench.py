@@ -18,7 +18,7 @@ from pathlib import Path
 from dofkit.pictures.player import player_script
 from dofkit.scene.schema import scene_schema
 from dofkit.site.browser.reports import report
-from dofkit.site.gallery import ShownScene
+from dofkit.site.gallery import ShownScene, folders
 from dofkit.site.runtime import SOURCES, build_runtime, run
 
 #: Files that are kept for a visit without a network only once they were used.
@@ -49,10 +49,11 @@ def _write_catalog(out: Path, catalog: Sequence[ShownScene]) -> None:
     (out / "pictures").mkdir()
     for scene in catalog:
         (out / "pictures" / f"{scene.name}.svg").write_text(scene.svg, encoding="utf-8")
+    topics = {name: title.partition(" (")[0] for name, title in folders().items()}
     fields = [
         {
             "name": s.name,
-            "folder": s.folder,
+            "topic": topics[s.folder],
             "title": s.title,
             "text": text,
             "alternative": s.alternative,

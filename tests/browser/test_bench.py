@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import json
+from pathlib import Path
 from typing import Any
+from xml.etree import ElementTree
 
 import pytest
 from shared.browsed import KNIFE, SOON, seen, shot, violations, write
@@ -51,6 +54,7 @@ def test_an_example_is_found_by_its_words(served: Served, bench: Any) -> None:
     page.get_by_role("button", name="Examples").click()
     page.get_by_label("Search").fill("pendulum angle")
     page.locator("#matching button").first.wait_for()
+    assert "Lecture 6: Lagrange mechanics" in page.locator("#matching h3").all_inner_texts()
     shot(page, served, "examples")
     page.get_by_role("button", name="pendulum", exact=False).first.click()
     seen(page, "#report h2", "endulum")
@@ -70,6 +74,27 @@ def test_a_link_holds_the_scene(served: Served, bench: Any, visit: Any) -> None:
     fresh.goto(f"{served.url}/bench/{fragment(KNIFE.replace('edge', 'blade'))}")
     seen(fresh, "#report th", "blade")
     assert visit.errors == []
+
+
+def test_scene_report_and_picture_are_exported(bench: Any, tmp_path: Path) -> None:
+    page = bench.page
+    saved = {}
+    for name in ("yaml", "json", "report", "svg"):
+        with page.expect_download() as download:
+            page.get_by_label("Export").select_option(name)
+        path = tmp_path / download.value.suggested_filename
+        download.value.save_as(path)
+        saved[name] = path
+    for name in ("yaml", "json"):
+        assert dofkit.load(saved[name]) == dofkit.load(saved["yaml"])
+        report = dofkit.classify(saved[name]).to_dict()
+        assert report["constraints"] == json.loads(saved["report"].read_text())["constraints"]
+    assert ElementTree.parse(saved["svg"]).getroot().tag == "{http://www.w3.org/2000/svg}svg"
+    page.context.grant_permissions(["clipboard-read", "clipboard-write"])
+    page.get_by_role("button", name="Copy link").click()
+    seen(page, "#state", "The link was copied")
+    assert page.evaluate("navigator.clipboard.readText()") == page.url
+    assert bench.errors == []
 
 
 @pytest.mark.parametrize(

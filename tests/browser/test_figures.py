@@ -67,7 +67,7 @@ WEIGH = """async ([url, texts]) => {
 TIMED = """() => {
   window.answered = new Promise((resolve) => {
     let start;
-    addEventListener("beforeinput", () => { start = performance.now(); }, { capture: true, once: true });
+    addEventListener("keydown", () => { start = performance.now(); }, { capture: true, once: true });
     new MutationObserver((_, observer) => { observer.disconnect(); resolve(performance.now() - start); })
       .observe(document.getElementById("report"), { childList: true });
   });

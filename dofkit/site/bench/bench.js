@@ -14,7 +14,7 @@ const embedded = new URLSearchParams(location.search).has("embed");
 document.documentElement.classList.toggle("embedded", embedded);
 
 const state = { text: "", names: [], schema: null, leftOut: new Set(), report: null, svg: "", round: 0, drawn: "" };
-/** @type {{name: string, folder: string, title: string, text: string, alternative: string, answer: any}[]} */
+/** @type {{name: string, topic: string, title: string, text: string, alternative: string, answer: any}[]} */
 let catalog = [];
 /** @type {import("@codemirror/view").EditorView} */
 let view;
@@ -210,9 +210,9 @@ const EXPORTS = {
 function menu() {
   const words = at("search").value.toLowerCase().split(/\s+/);
   const matching = catalog.filter(({ name, title, text }) => words.every((w) => `${name} ${title} ${text}`.toLowerCase().includes(w)));
-  const folders = Map.groupBy ? Map.groupBy(matching, ({ folder }) => folder) : new Map([["", matching]]);
-  const groups = [...folders].map(([folder, scenes]) =>
-    element("section", {}, element("h3", { textContent: folder }), element("ul", {}, ...scenes.map(example))));
+  const topics = Map.groupBy ? Map.groupBy(matching, ({ topic }) => topic) : new Map([["", matching]]);
+  const groups = [...topics].map(([topic, scenes]) =>
+    element("section", {}, element("h3", { textContent: topic }), element("ul", {}, ...scenes.map(example))));
   at("matching").replaceChildren(...(groups.length ? groups : [element("p", { textContent: "No example has these words." })]));
 }
 
@@ -259,8 +259,12 @@ at("search").addEventListener("keydown", (event) => {
   at("matching").querySelector("button")?.click();
 });
 at("copy").addEventListener("click", async () => {
-  await navigator.clipboard.writeText(location.href.replace("?embed", ""));
-  say("The link was copied.");
+  try {
+    await navigator.clipboard.writeText(location.href.replace("?embed", ""));
+    say("The link was copied.");
+  } catch {
+    say("The browser does not let this page copy: the link is the address of the page.");
+  }
 });
 at("export").addEventListener("change", ({ target }) => { EXPORTS[target.value]?.(); target.value = ""; });
 at("stop").addEventListener("click", () => { state.round += 1; engine.replace(); say("Stopped."); });
