@@ -9,12 +9,20 @@ from xml.etree import ElementTree
 
 import pytest
 from shared.browsed import KNIFE, SOON, seen, shot, violations, write
+from shared.documented import ROOT
 from shared.served import Served
 
 import dofkit
 from dofkit.site.markdown import fragment
+from dofkit.site.reference_pages import readme_page
 
 pytestmark = [pytest.mark.browser, pytest.mark.xdist_group("browser"), pytest.mark.timeout(900)]
+LINK = """\
+dimension: 2
+particles: [{name: base}, {name: tip}]
+constraints:
+- {type: link, between: [base, tip], length: 1}
+"""
 HOSTILE = """\
 title: "<img src=x onerror=alert(1)><script>alert(2)</script>"
 coordinates: [x, y]
@@ -35,6 +43,12 @@ def test_a_fault_is_shown_while_typing_and_mended_by_a_click(served: Served, ben
     page.locator("#faults li").wait_for(state="detached", timeout=SOON)
     seen(page, "#report th", "edge")
     seen(page, "#report td", "(2, 3)")
+    write(page, LINK.replace("link, between", "link, betwen"))
+    page.get_by_role("button", name="Write between").click()
+    page.locator("#faults li").wait_for(state="detached", timeout=SOON)
+    write(page, LINK.replace("[base, tip]", "[base, tpi]"))
+    page.get_by_role("button", name="Write tip").click()
+    seen(page, "#report td", "2*2 - 1 = 3")
     assert bench.errors == []
 
 
@@ -155,6 +169,18 @@ def test_it_is_embedded_in_another_page(served: Served, visit: Any) -> None:
     assert link.startswith("./#scene=")
     visit.page.screenshot(path=served.folder / "screenshots" / "embedded.png")
     assert visit.errors == []
+
+
+def test_the_home_page_begins_with_a_small_bench_that_loads_when_it_is_touched(served: Served, visit: Any) -> None:
+    home = readme_page((ROOT / "README.md").read_text(encoding="utf-8"), has_bench=True).text
+    assert home.index('<div class="bench">') < home.index("```yaml")
+    assert home.count("bench.png") == 1
+    (served.folder / "home.html").write_text(home, encoding="utf-8")
+    page = visit.page
+    page.goto(f"{served.url}/home.html")
+    assert len(page.frames) == 1 or page.frames[1].url == "about:blank"
+    page.get_by_role("button", name="Try it here").click()
+    page.frame_locator("iframe").locator("#report h2", has_text="Upright disc").wait_for(timeout=SOON)
 
 
 def test_without_numpy_the_place_of_the_picture_says_so(served: Served, bench: Any) -> None:
