@@ -154,7 +154,7 @@ def test_it_works_offline_after_the_first_visit(served: Served, visit: Any) -> N
     page.reload()
     page.locator("#report table").first.wait_for(timeout=4 * SOON)
     write(page, KNIFE)
-    seen(page, "#report th", "edge")
+    page.locator("#report th", has_text="edge").wait_for(timeout=4 * SOON)
     visit.context.set_offline(False)
 
 
