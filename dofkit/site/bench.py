@@ -18,14 +18,14 @@ from pathlib import Path
 from dofkit.pictures.player import player_script
 from dofkit.scene.schema import scene_schema
 from dofkit.site.browser.reports import report
-from dofkit.site.gallery import ShownScene
+from dofkit.site.gallery import ShownScene, folders
 from dofkit.site.runtime import SOURCES, build_runtime, run
 
 #: Files that are kept for a visit without a network only once they were used.
-SELDOM = ("runtime/symbols.zip", "runtime/sheets.zip")
+SELDOM = ("runtime/symbols.zst", "runtime/sheets.zst")
 #: All that reads answers in one script, for the pages of sheets; the files in it beside its worker.
 ONE_SCRIPT, WORKER = "runtime.js", "runtime-worker.js"
-IN_ONE_SCRIPT = ("pyodide-lock.json", "core.bin", "extras.zip", "sheets.zip")
+IN_ONE_SCRIPT = ("pyodide-lock.json", "core.bin", "extras.zst", "sheets.zst")
 #: What a scene of the catalog expects of its report: the bench is not for reading that.
 _EXPECTED = re.compile(r"^expect:.*\n(?:[ \t#].*\n|\n)*", re.MULTILINE)
 
@@ -49,10 +49,11 @@ def _write_catalog(out: Path, catalog: Sequence[ShownScene]) -> None:
     (out / "pictures").mkdir()
     for scene in catalog:
         (out / "pictures" / f"{scene.name}.svg").write_text(scene.svg, encoding="utf-8")
+    topics = {name: title.partition(" (")[0] for name, title in folders().items()}
     fields = [
         {
             "name": s.name,
-            "folder": s.folder,
+            "topic": topics[s.folder],
             "title": s.title,
             "text": text,
             "alternative": s.alternative,

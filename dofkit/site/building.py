@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import importlib.util
 import json
-import re
 import shutil
 import subprocess
 import sys
@@ -15,11 +14,10 @@ from typing import Any
 import yaml
 
 from dofkit.base.errors import DofkitError
-from dofkit.scene.catalog import catalog_folder
 from dofkit.scene.constraints import TYPES
 from dofkit.site.bench import build_bench
 from dofkit.site.gallery import FOLDER as GALLERY
-from dofkit.site.gallery import ShownScene, catalog_scenes, gallery_pages
+from dofkit.site.gallery import ShownScene, catalog_scenes, folders, gallery_pages
 from dofkit.site.markdown import SitePage, with_bench_links
 from dofkit.site.reference_pages import FOLDER as TYPE_FOLDER
 from dofkit.site.reference_pages import GLOSSARY, command_pages, constraint_pages, readme_page, report_pages, rooms_page
@@ -92,13 +90,6 @@ def generated(catalog: Sequence[ShownScene], has_bench: bool = False) -> Iterato
     yield from report_pages((WRITTEN / GLOSSARY).read_text(encoding="utf-8"))
     yield from command_pages()
     yield from gallery_pages(catalog, folders(), has_bench)
-
-
-def folders() -> dict[str, str]:
-    """Return the source of each folder of the catalog, from the catalog's own table."""
-    text = (catalog_folder() / "README.md").read_text(encoding="utf-8")
-    rows = re.findall(r"\| `(\w+)` \| ([^|]+)\|", text)
-    return {name: source.strip()[:1].upper() + source.strip()[1:] for name, source in rows}
 
 
 def settings(catalog: Sequence[ShownScene]) -> Any:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import re
 from collections.abc import Iterator, Sequence
 from functools import cache
 from itertools import groupby
@@ -39,6 +40,13 @@ class ShownScene(NamedTuple):
     alternative: str
     answer: str
     report: str
+
+
+def folders() -> dict[str, str]:
+    """Return the source of each folder of the catalog, from the catalog's own table."""
+    text = (catalog_folder() / "README.md").read_text(encoding="utf-8")
+    rows = re.findall(r"\| `(\w+)` \| ([^|]+)\|", text)
+    return {name: source.strip()[:1].upper() + source.strip()[1:] for name, source in rows}
 
 
 def catalog_scenes(kept: Path) -> Iterator[ShownScene]:

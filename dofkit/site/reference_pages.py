@@ -166,23 +166,25 @@ _ROW = re.compile(r"^\| `(\w+)` \|([^|]+)\|([^|]+)\|(.+)\|([^|]+)\|$", re.MULTIL
 
 #: A small bench, which is loaded when it is opened.
 _SMALL_BENCH = """
-<details class="bench" ontoggle="const bench = this.querySelector('iframe'); bench.src ||= bench.dataset.page">
-<summary>Try it: change the disc in the bench, here in your browser</summary>
-<iframe data-page="bench/index.html?embed#example=disc-rolling-on-plane" title="The bench"></iframe>
-</details>
-
-## Install
+<div class="bench">
+<button type="button" onclick="const bench = this.nextElementSibling; bench.src = bench.dataset.page;
+bench.hidden = false; bench.focus(); this.remove()"><span>Try it here, in your browser: change the disc</span>
+<img src="bench.png" alt="The bench: the scene of the disc, its picture and its report"></button>
+<iframe data-page="bench/index.html?embed#example=disc-rolling-on-plane" title="The bench" hidden></iframe>
+</div>
 """
+_PICTURE_OF_BENCH = re.compile(r"!\[[^\]]*\]\(dofkit/site/pages/bench\.png\)\n\n")
 
 
 def readme_page(readme: str, has_bench: bool = False) -> SitePage:
-    """Return the first page: the README, with its links as the site has them, and with a small bench if there is one.
+    """Return the first page: the README, with its links as the site has them; below its lead a small bench, if any.
 
     >>> readme_page("[how](dofkit/site/pages/tutorial.md) and [why](dofkit/THEOREMS.md)").text
     '[how](tutorial.md) and [why](about/theorems.md)'
     """
     if has_bench:
-        readme = readme.replace("\n## Install\n", _SMALL_BENCH, 1)
+        title, lead, others = readme.split("\n\n", 2)
+        readme = "\n\n".join((title, lead, _SMALL_BENCH.strip(), _PICTURE_OF_BENCH.sub("", others)))
     return SitePage(
         "index.md", readme.replace("](dofkit/site/pages/", "](").replace("](dofkit/THEOREMS.md)", f"]({THEOREMS})")
     )

@@ -9,13 +9,14 @@ The calls are the functions of `dofkit.site.browser`: `check`, `report`, `as_jso
 `read`, `judge`. Beside `worker.js` the folder has the scripts of Pyodide (from npm, pinned by the lock file);
 `core.bin`, its compiled runtime, the standard library and the packages of a report in bytecode, and the compiled
 libraries (from PyPI, in the versions that are installed), without what of FLINT nothing calls; and archives that are
-loaded when a call needs them: `extras.zip` for linkages and pictures, with what of the standard library reports
-do without, `sheets.zip` for homework, `symbols.zip` for equations of motion.
+loaded when a call needs them: `extras.zst` for linkages and pictures, with what of the standard library reports
+do without, `sheets.zst` for homework, `symbols.zst` for equations of motion.
 """
 
 from __future__ import annotations
 
 import importlib.util
+import json
 import re
 import shutil
 import subprocess
@@ -52,16 +53,21 @@ EXTRAS = ("networkx",)
 SHEETS = ("markdown_it", "mdit_py_plugins", "mdurl")
 SYMBOLS = ("mpmath", "sympy")
 #: Folders of dofkit that no report needs; of its site only what the worker calls.
-LEFT_OUT = ("benchmark", "homework", "pictures", "site", "_catalog")
+LEFT_OUT = ("benchmark", "checker", "homework", "methods/certificates", "motion", "pictures", "site", "_catalog")
 #: Files that tests, typists and users of older versions of a package need.
 UNUSED = ("tests", "test", "__pycache__", "testing", "v1", "mypy.py")
 #: What Pyodide needs at run time, beside its compiled runtime and the standard library.
-PYODIDE = ("pyodide.mjs", "pyodide.asm.mjs", "pyodide-lock.json")
+PYODIDE = ("pyodide.mjs", "pyodide.asm.mjs")
+#: Where the packages of Pyodide's distribution are, and the only one that is ever asked for.
+LOCK, DISTRIBUTED = "pyodide-lock.json", "numpy"
 #: Modules of the standard library that no report of the catalog imports, the larger ones.
 SELDOM = (
-    "_pydatetime", "_pyio", "_pyrepl", "argparse", "bdb", "configparser", "ctypes", "doctest", "ftplib", "imaplib",
-    "mailbox", "multiprocessing", "optparse", "pdb", "pickle", "pickletools", "platform", "plistlib", "pstats", "pydoc",
-    "smtplib", "statistics", "symtable", "tarfile", "tomllib", "trace", "unittest", "wsgiref", "xmlrpc",
+    "_ast_unparse", "_pydatetime", "_pyio", "_pyrepl", "_strptime", "argparse", "bdb", "calendar", "cmd",
+    "compileall", "configparser", "cProfile", "csv", "ctypes", "doctest", "filecmp", "fileinput", "ftplib", "gettext",
+    "imaplib", "mailbox", "mimetypes", "modulefinder", "multiprocessing", "optparse", "pdb", "pickle",
+    "pickletools", "platform", "plistlib", "poplib", "pprint", "profile", "pstats", "pyclbr", "pydoc", "runpy",
+    "shelve", "shlex", "smtplib", "socketserver", "sqlite3", "statistics", "stringprep", "symtable", "tabnanny",
+    "tarfile", "timeit", "tomllib", "trace", "tracemalloc", "unittest", "wave", "wsgiref", "xmlrpc", "zipapp",
 )  # fmt: skip
 
 
@@ -78,6 +84,7 @@ def build_runtime(out: Path) -> None:
         run(["npm", "ci", "--no-audit", "--no-fund"], "npm ci")
     for name in PYODIDE:
         _copy(modules / "pyodide" / name, out / name)
+    _write_lock(modules / "pyodide" / LOCK, out / LOCK)
     with TemporaryDirectory() as folder:
         packages = Path(folder)
         _copy(modules / "pyodide" / "pyodide.asm.wasm", packages / "library" / "pyodide.asm.wasm")
@@ -86,7 +93,8 @@ def build_runtime(out: Path) -> None:
         _stage_packages(CORE, packages / "core")
         _stage_dofkit(packages / "core")
         _stage_packages(EXTRAS, packages / "extras")
-        _stage_folder(PACKAGE / "pictures", packages / "extras" / "dofkit" / "pictures")
+        for name in ("motion", "pictures"):
+            _stage_folder(PACKAGE / name, packages / "extras" / "dofkit" / name)
         _stage_packages(SHEETS, packages / "sheets")
         _stage_folder(PACKAGE / "homework", packages / "sheets" / "dofkit" / "homework")
         _stage_packages(SYMBOLS, packages / "symbols")
@@ -98,6 +106,13 @@ def run(command: list[str], what: str) -> None:
     ran = subprocess.run(command, cwd=SOURCES, capture_output=True, text=True, check=False)
     if ran.returncode:
         raise BenchError(f"{what} failed: {(ran.stderr or ran.stdout).strip()[-2000:]}")
+
+
+def _write_lock(source: Path, target: Path) -> None:
+    """Write what Pyodide has to know of its distribution: where numpy is, which needs no other package."""
+    lock = json.loads(source.read_text(encoding="utf-8"))
+    lock["packages"] = {DISTRIBUTED: lock["packages"][DISTRIBUTED]}
+    target.write_text(json.dumps(lock), encoding="utf-8")
 
 
 def _stage_library(file: Path, packages: Path) -> None:
@@ -159,7 +174,8 @@ def _stage_dofkit(target: Path) -> None:
 def _stage_folder(source: Path, target: Path, left_out: Sequence[str] = ()) -> None:
     for path in source.rglob("*"):
         inner = path.relative_to(source)
-        if path.is_file() and _is_used(inner) and inner.parts[0] not in left_out and ".so" not in inner.suffixes:
+        is_left_out = ".so" in inner.suffixes or any(inner.is_relative_to(name) for name in left_out)
+        if path.is_file() and _is_used(inner) and not is_left_out:
             _copy(path, target / inner)
 
 

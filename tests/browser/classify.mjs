@@ -23,8 +23,8 @@ json.dumps({
 try {
   const core = Readable.toWeb(createReadStream(`${runtime}/core.bin`));
   // under node Pyodide takes its compiled runtime and the standard library from its own folder
-  const { python, site } = await startPython(loadPyodide, Promise.resolve(core), {});
-  python.unpackArchive(new Uint8Array(readFileSync(`${runtime}/extras.zip`)), "zip", { extractDir: site });
+  const { python, unpack } = await startPython(loadPyodide, Promise.resolve(core), {});
+  unpack(new Uint8Array(readFileSync(`${runtime}/extras.zst`)));
   python.globals.set("scenes", readFileSync(scenes, "utf8"));
   process.stdout.write(python.runPython(program));
 } catch (error) {

@@ -6,12 +6,14 @@ import os
 import shutil
 import threading
 from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import partial
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
 import pytest
+from shared.browsed import seen
 from shared.documented import ROOT
 from shared.served import PageHandler, PageServer, Served
 
@@ -103,9 +105,38 @@ class Visit:
         return self.page
 
 
-@pytest.fixture
-def visit(chromium: Any) -> Iterator[Visit]:
+@contextmanager
+def visiting(chromium: Any) -> Iterator[Visit]:
+    """A visit in a profile of its own, which cannot reach Pyodide's distribution."""
     context = chromium.new_context(viewport={"width": 1280, "height": 860})
     context.route("https://cdn.jsdelivr.net/**", lambda route: route.abort())
     yield Visit(context)
     context.close()
+
+
+@pytest.fixture
+def visit(chromium: Any) -> Iterator[Visit]:
+    with visiting(chromium) as fresh:
+        yield fresh
+
+
+@pytest.fixture(scope="session")
+def started(served: Served, chromium: Any) -> Iterator[Visit]:
+    with visiting(chromium) as first:
+        first.opened(f"{served.url}/bench/")
+        yield first
+
+
+@pytest.fixture
+def bench(served: Served, started: Visit) -> Visit:
+    """The bench at its first example, in a page that tests share: Python takes seconds to start."""
+    page = started.page
+    page.set_viewport_size({"width": 1280, "height": 860})
+    page.emulate_media(color_scheme="null", reduced_motion="null")
+    page.evaluate("document.getElementById('menu').close()")
+    for name, title in (("knife-edge", "Knife edge"), ("disc-rolling-on-plane", "Upright disc")):
+        page.goto(f"{served.url}/bench/#example={name}")
+        seen(page, "#report h2", title)
+        page.locator("#picture:not([hidden])").wait_for()
+    started.errors.clear()
+    return started

@@ -14,7 +14,7 @@ from typing import Any, ClassVar, NamedTuple
 #: Media types that the server of Python does not know.
 _KINDS = {".mjs": "text/javascript", ".wasm": "application/wasm"}
 #: Files that are compressed already.
-_PACKED = (".zip", ".bin")
+_PACKED = (".zst", ".bin")
 _CHUNK = 1 << 16
 
 

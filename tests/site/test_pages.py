@@ -16,8 +16,8 @@ from dofkit.interface.explanations import all_explanations
 from dofkit.report import ConstraintEntry, Report
 from dofkit.scene.constraints import TYPES
 from dofkit.site import gallery as room
-from dofkit.site.building import SETTINGS, folders, settings
-from dofkit.site.gallery import ShownScene, catalog_scenes, gallery_pages, in_a_line, shown_scene
+from dofkit.site.building import SETTINGS, settings
+from dofkit.site.gallery import ShownScene, catalog_scenes, folders, gallery_pages, in_a_line, shown_scene
 from dofkit.site.markdown import prose
 from dofkit.site.reference_pages import (
     FOLDER,

@@ -4,9 +4,9 @@ import { Engine, Stopped } from "./engine.js";
 import { packed, unpacked } from "./fragment.js";
 import { element, sheet } from "./show.js";
 
-/** Milliseconds of rest before a report begins, and of a run that a keystroke lets end by itself. */
+/** Milliseconds of rest before a report begins, and of a run that a keystroke lets end: Python takes longer to start anew. */
 const REST = 300;
-const PATIENCE = 700;
+const PATIENCE = 3000;
 const FIRST = "disc-rolling-on-plane";
 /** @param {string} id @returns {any} */
 const at = (id) => document.getElementById(id);
@@ -14,7 +14,7 @@ const embedded = new URLSearchParams(location.search).has("embed");
 document.documentElement.classList.toggle("embedded", embedded);
 
 const state = { text: "", names: [], schema: null, leftOut: new Set(), report: null, svg: "", round: 0, drawn: "" };
-/** @type {{name: string, folder: string, title: string, text: string, alternative: string, answer: any}[]} */
+/** @type {{name: string, topic: string, title: string, text: string, alternative: string, answer: any}[]} */
 let catalog = [];
 /** @type {import("@codemirror/view").EditorView} */
 let view;
@@ -45,18 +45,18 @@ async function ask(call, ...args) {
   return new Promise(() => {});
 }
 
+/** Faults at once, the report after a rest. */
 function changed() {
   state.text = view.state.doc.toString();
   state.round += 1;
   state.leftOut.clear();
   if (engine.busy > PATIENCE) engine.replace();
-  run();
-}
-
-/** Faults at once, the report after a rest. */
-async function run() {
   clearTimeout(timer);
   timer = window.setTimeout(report, REST);
+  check();
+}
+
+async function check() {
   try {
     const { faults, names } = await ask("check", state.text);
     showFaults(faults);
@@ -91,7 +91,7 @@ async function report() {
   const known = catalog.find((scene) => scene.text === text);
   history.replaceState(null, "", known ? `#example=${known.name}` : `#scene=${await packed(text)}`);
   at("open").href = `./${location.hash}`;
-  const slow = window.setTimeout(() => engine.ready && say("Classifying", true), REST);
+  const slow = window.setTimeout(() => engine.busy && say("Classifying", true), REST);
   try {
     // the report on an example is at hand before Python is: it was built with the site
     const answer = known && !state.leftOut.size ? known.answer : await ask("report", text, [...state.leftOut]);
@@ -210,9 +210,9 @@ const EXPORTS = {
 function menu() {
   const words = at("search").value.toLowerCase().split(/\s+/);
   const matching = catalog.filter(({ name, title, text }) => words.every((w) => `${name} ${title} ${text}`.toLowerCase().includes(w)));
-  const folders = Map.groupBy ? Map.groupBy(matching, ({ folder }) => folder) : new Map([["", matching]]);
-  const groups = [...folders].map(([folder, scenes]) =>
-    element("section", {}, element("h3", { textContent: folder }), element("ul", {}, ...scenes.map(example))));
+  const topics = Map.groupBy ? Map.groupBy(matching, ({ topic }) => topic) : new Map([["", matching]]);
+  const groups = [...topics].map(([topic, scenes]) =>
+    element("section", {}, element("h3", { textContent: topic }), element("ul", {}, ...scenes.map(example))));
   at("matching").replaceChildren(...(groups.length ? groups : [element("p", { textContent: "No example has these words." })]));
 }
 
@@ -247,7 +247,7 @@ async function start() {
   [catalog, state.schema] = [scenes, schema];
   view = editor(at("editor"), await addressed(), changed, () => state);
   state.text = view.state.doc.toString();
-  run();
+  check();
   report();
 }
 
@@ -259,8 +259,12 @@ at("search").addEventListener("keydown", (event) => {
   at("matching").querySelector("button")?.click();
 });
 at("copy").addEventListener("click", async () => {
-  await navigator.clipboard.writeText(location.href.replace("?embed", ""));
-  say("The link was copied.");
+  try {
+    await navigator.clipboard.writeText(location.href.replace("?embed", ""));
+    say("The link was copied.");
+  } catch {
+    say("The browser does not let this page copy: the link is the address of the page.");
+  }
 });
 at("export").addEventListener("change", ({ target }) => { EXPORTS[target.value]?.(); target.value = ""; });
 at("stop").addEventListener("click", () => { state.round += 1; engine.replace(); say("Stopped."); });

@@ -1,6 +1,6 @@
 // Compiles the Python files below a folder with the runtime's own Python, and packs each sub-folder into an archive.
-// node compile.mjs STAGE OUT: STAGE/NAME/... becomes OUT/NAME.zip, in which bytecode with empty docstrings stands in place
-// of sources; STAGE/library and STAGE/core, with compiled libraries, become OUT/core.bin, which start.js reads.
+// node compile.mjs STAGE OUT: STAGE/NAME/... becomes OUT/NAME.zst, in which bytecode with empty docstrings stands in place
+// of sources; STAGE/library and STAGE/core, with compiled libraries, become OUT/core.bin. start.js reads both.
 import { readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import binaryen from "binaryen";
@@ -35,45 +35,48 @@ def bytecode(file, name):
     return files._code_to_hash_pyc(compile(tree, f"/lib/{name}", "exec"), util.source_hash(source), checked=False)
 
 
-def pack(folder, file, method):
-    """Write all of a folder but its libraries into an archive."""
-    with zipfile.ZipFile(file, "w", method, compresslevel=9) as archive:
-        for path in sorted(path for path in folder.rglob("*") if path.is_file() and path.suffix not in (".so", ".wasm")):
-            name = path.relative_to(folder)
-            if path.suffix == ".py":
-                entry, content = zipfile.ZipInfo(str(name.with_suffix(".pyc")), ALWAYS), bytecode(path, name)
-            else:
-                entry, content = zipfile.ZipInfo(str(name), ALWAYS), path.read_bytes()
-            entry.compress_type = method
-            archive.writestr(entry, content)
-
-
 def stored(folder):
     """Return all of a folder but its libraries as an archive that is not compressed."""
     archive = io.BytesIO()
-    pack(folder, archive, zipfile.ZIP_STORED)
+    with zipfile.ZipFile(archive, "w") as entries:
+        for path in sorted(path for path in folder.rglob("*") if path.is_file() and path.suffix not in (".so", ".wasm")):
+            name = path.relative_to(folder)
+            if path.suffix == ".py":
+                entries.writestr(zipfile.ZipInfo(str(name.with_suffix(".pyc")), ALWAYS), bytecode(path, name))
+            else:
+                entries.writestr(zipfile.ZipInfo(str(name), ALWAYS), path.read_bytes())
     return archive.getvalue()
 
 
+def compressed(content, level):
+    """Return a content compressed so far; the highest levels take a second for a megabyte."""
+    options = {zstd.CompressionParameter.compression_level: level, zstd.CompressionParameter.window_log: 25}
+    return zstd.compress(content, options=options)
+
+
 def write_core(library, folder, file):
-    """Write the parts in the order in which they are used, each compressed by itself, after their names and sizes."""
-    contents = {path.name: path.read_bytes() for path in library.glob("*.wasm")}
-    contents["python_stdlib.zip"] = stored(library)
+    """Write the parts in the order in which they are used, after a table of their sizes and of the files in each.
+
+    The small libraries, which have much in common, are one part.
+    """
     libraries = sorted(folder.rglob("*.so"), key=lambda path: -path.stat().st_size)
-    contents |= {str(path.relative_to(folder)): path.read_bytes() for path in libraries}
-    contents["packages"] = stored(folder)
-    options = {zstd.CompressionParameter.compression_level: 19, zstd.CompressionParameter.window_log: 25}
-    packed = {name: zstd.compress(content, options=options) for name, content in contents.items()}
-    table = [{"name": name, "packed": len(packed[name]), "size": len(contents[name])} for name in contents]
-    head = json.dumps(table).encode()
-    file.write_bytes(b"".join((len(head).to_bytes(4, "little"), head, *packed.values())))
+    contents = {str(path.relative_to(folder)): path.read_bytes() for path in libraries}
+    large = [name for name, content in contents.items() if len(content) > 1_000_000]
+    small = [name for name in contents if name not in large]
+    contents |= {path.name: path.read_bytes() for path in library.glob("*.wasm")}
+    contents |= {"python_stdlib.zip": stored(library), "packages": stored(folder)}
+    parts = [["pyodide.asm.wasm"], ["python_stdlib.zip"], *([name] for name in large), small, ["packages"]]
+    packed = [compressed(b"".join(contents[name] for name in names), 19) for names in parts]
+    files = ([{"name": name, "size": len(contents[name])} for name in names] for names in parts)
+    head = json.dumps([{"packed": len(part), "files": listed} for part, listed in zip(packed, files)]).encode()
+    file.write_bytes(b"".join((len(head).to_bytes(4, "little"), head, *packed)))
 
 
 stage, out = Path("/stage"), Path("/out")
 write_core(stage / "library", stage / "core", out / "core.bin")
 for folder in stage.iterdir():
     if folder.name not in ("library", "core"):
-        pack(folder, out / f"{folder.name}.zip", zipfile.ZIP_DEFLATED)
+        (out / f"{folder.name}.zst").write_bytes(compressed(stored(folder), 12))
 `);
 
 /**

@@ -80,9 +80,9 @@ export function located(doc, faults) {
     const word = /^[\p{L}\p{N}_'-]+/u.exec(line.text.slice(from - line.from))?.[0] ?? "";
     const to = Math.min(line.to, from + Math.max(word.length, 1));
     const meant = /did you mean [`'"]([^`'"]+)[`'"]/.exec(fault.hint)?.[1];
-    const wrong = /[`']([^`']+)[`']/.exec(fault.message)?.[1];
-    const mend = meant && wrong && line.text.startsWith(wrong, from - line.from)
-      ? { from, to: from + wrong.length, insert: meant } : null;
+    const wrong = [...fault.message.matchAll(/[`']([^`']+)[`']/g)].map(([, name]) => name)
+      .find((name) => line.text.startsWith(name, from - line.from));
+    const mend = meant && wrong ? { from, to: from + wrong.length, insert: meant } : null;
     return { ...fault, from: from === to ? Math.max(line.from, from - 1) : from, to, mend };
   });
 }

@@ -1,6 +1,6 @@
 // The worker from a page's point of view: questions are asked, answers come, and what takes too long is replaced.
 
-/** @typedef {{resolve: (value: any) => void, reject: (error: Error) => void, since: number}} Asked */
+/** @typedef {{resolve: (value: any) => void, reject: (error: Error) => void}} Asked */
 
 /** The answer of a worker that was replaced before it came. */
 export class Stopped extends Error {}
@@ -12,6 +12,8 @@ export class Engine {
     /** @type {Map<number, Asked>} */
     this.asked = new Map();
     this.next = 0;
+    /** @type {number | undefined} since when Python runs for a question */
+    this.since = undefined;
     this.start();
   }
 
@@ -22,17 +24,15 @@ export class Engine {
     this.worker.addEventListener("error", (event) => this.fail(event.message || "the worker could not be started"));
   }
 
-  hear({ id, value, error, ready }) {
-    if (ready) {
-      for (const asked of this.asked.values()) asked.since = performance.now();
-      this.ready = true;
-      this.changed("ready");
+  hear({ id, value, error, state }) {
+    if (state) {
+      this.since = state === "running" ? performance.now() : undefined;
+      if (state === "ready") this.changed("ready");
       return;
     }
     const asked = this.asked.get(id);
     if (!asked) return;
     this.asked.delete(id);
-    for (const other of this.asked.values()) other.since = performance.now();
     if (error) asked.reject(new Error(error));
     else asked.resolve(value);
   }
@@ -41,21 +41,20 @@ export class Engine {
   ask(call, ...args) {
     return new Promise((resolve, reject) => {
       const id = this.next++;
-      this.asked.set(id, { resolve, reject, since: performance.now() });
+      this.asked.set(id, { resolve, reject });
       this.worker.postMessage({ id, call, args });
     });
   }
 
-  /** Milliseconds for which the worker has been busy with one question; 0 while it loads. */
+  /** Milliseconds for which Python has run for one question; what is loaded for it does not count. */
   get busy() {
-    const first = this.asked.values().next().value;
-    return first && this.ready ? performance.now() - first.since : 0;
+    return this.since === undefined ? 0 : performance.now() - this.since;
   }
 
   /** End what is running, and start another worker. */
   replace() {
     this.worker.terminate();
-    this.ready = false;
+    this.since = undefined;
     this.fail("stopped", Stopped);
     this.start();
   }

@@ -2,7 +2,7 @@
 import { loadPyodide } from "pyodide";
 import createPyodideModule from "./node_modules/pyodide/pyodide.asm.mjs";
 import { unpacked } from "./runtime.js";
-import { startPython } from "./start.js";
+import { imported, startPython } from "./start.js";
 
 /** The address that Pyodide is told its files have. */
 const NOWHERE = "https://runtime.invalid/";
@@ -12,14 +12,14 @@ async function start(packed) {
   const names = Object.keys(packed);
   const files = Object.fromEntries(await Promise.all(names.map(async (name) => [name, await unpacked(packed[name])])));
   const core = Promise.resolve(new Response(files["core.bin"]).body);
-  const { python, site } = await startPython(loadPyodide, core, {
+  const { python, unpack } = await startPython(loadPyodide, core, {
     indexURL: NOWHERE,
     lockFileContents: new TextDecoder().decode(files["pyodide-lock.json"]),
     createPyodideModule,
     env: { PYTHONDONTWRITEBYTECODE: "1", HOME: "/home/pyodide" },
   });
-  for (const name of ["extras.zip", "sheets.zip"]) python.unpackArchive(files[name], "zip", { extractDir: site });
-  python.pyimport("dofkit.site.browser.answers"); // now, so that the first answer is read at once
+  for (const name of ["extras.zst", "sheets.zst"]) unpack(new Uint8Array(files[name]));
+  imported(python, "dofkit.site.browser.answers"); // now, so that the first answer is read at once
   answer = python.pyimport("dofkit.site.browser").answer;
 }
 

@@ -1,7 +1,8 @@
 // Runs dofkit in the background. A page asks by messages {id, call, args}, and is answered by {id, value} or {id, error};
-// {ready: true} comes once Python has started. runtime.py says what is beside this file.
+// {state} comes once Python is "ready", and when it is "running" for a question, for which files may have to be loaded
+// first, and then "idle". runtime.py says what is beside this file.
 import { loadPyodide } from "./pyodide.mjs";
-import { startPython } from "./start.js";
+import { imported, startPython } from "./start.js";
 
 /** Where numpy is had from; everything else comes from this folder. */
 const DISTRIBUTION = "https://cdn.jsdelivr.net/pyodide/v314.0.7/full/";
@@ -20,8 +21,8 @@ const loaded = new Set();
 const ready = start();
 
 async function file(/** @type {string} */ name) {
-  const answer = await fetch(new URL(name, import.meta.url));
-  if (!answer.ok || !answer.body) throw new Error(`${name}: ${answer.status}`);
+  const answer = await fetch(new URL(name, import.meta.url)).catch(() => null);
+  if (!answer?.ok || !answer.body) throw new Error(`${name} could not be loaded`);
   return answer;
 }
 
@@ -33,15 +34,15 @@ async function start() {
     env: { PYTHONDONTWRITEBYTECODE: "1", HOME: "/home/pyodide" },
   });
   const { answer } = runtime.python.pyimport("dofkit.site.browser");
-  runtime.python.pyimport("dofkit.site.browser.reports").destroy();
-  postMessage({ ready: true });
+  imported(runtime.python, "dofkit.site.browser.reports").destroy();
+  postMessage({ state: "ready" });
   return { ...runtime, answer };
 }
 
 /** @param {{packages?: string[], archives?: string[]}} needs @param {Awaited<ReturnType<typeof start>>} runtime */
-async function provide({ packages = [], archives = [] }, { python, site }) {
+async function provide({ packages = [], archives = [] }, { python, unpack }) {
   for (const name of archives.filter((name) => !loaded.has(name))) {
-    python.unpackArchive(await (await file(`${name}.zip`)).arrayBuffer(), "zip", { extractDir: site });
+    unpack(new Uint8Array(await (await file(`${name}.zst`)).arrayBuffer()));
     loaded.add(name);
   }
   for (const name of packages.filter((name) => !loaded.has(name))) {
@@ -61,7 +62,14 @@ function reason(error) {
 async function answered({ module, ...needs }, call, args) {
   const runtime = await ready;
   await provide(needs, runtime);
-  const ask = () => JSON.parse(runtime.answer(module, call, JSON.stringify(args)));
+  const ask = () => {
+    postMessage({ state: "running" });
+    try {
+      return JSON.parse(runtime.answer(module, call, JSON.stringify(args)));
+    } finally {
+      postMessage({ state: "idle" });
+    }
+  };
   try {
     return ask();
   } catch (error) {
