@@ -10,7 +10,7 @@ from itertools import product as cartesian
 
 from dofkit.base.deadline import OUT_OF_TIME, OutOfTimeError, check, unless_late
 from dofkit.classification.freedom.block import answer
-from dofkit.classification.freedom.common_point import CommonPoint, at_one_point, restricted_to_domain
+from dofkit.classification.freedom.common_point import CommonPoint, at_one_point, restricted_to_domain, with_quotients
 from dofkit.classification.freedom.isomorphic_blocks import AnsweredBlock, Likenesses
 from dofkit.classification.freedom.preparation import (
     branches_at_reference,
@@ -142,6 +142,7 @@ def solve(reduced: Sequence[Reduced], setting: Setting, answered: AnsweredBlocks
     outcomes, why = list[Outcome](), None
     answered = answered or AnsweredBlocks(setting)
     domain = [(i, c) for i, r in enumerate(reduced) for c in r.domain if c.expr.op != "num"]
+    divisors = [(i, e) for i, r in enumerate(reduced) for e in r.moving_denominators]
     names = [c.name for c in setting.roles]
     for number, choice in enumerate(cartesian(*options)):
         if number == MAX_CHOICES:
@@ -157,7 +158,7 @@ def solve(reduced: Sequence[Reduced], setting: Setting, answered: AnsweredBlocks
         ways = [Way(rows)] if plain else ways_of(with_boundaries(rows), positive)
         why = _LEFT_OUT if len(ways) >= MAX_WAYS else why
         for way in reductions_at_reference(ways, setting):
-            outcome = _answered(names, way.rows, impossible, domain, answered)
+            outcome = _answered(names, way.rows, impossible, domain, divisors, answered)
             outcome.reduced, outcome.divided = way.reduced, way.divided
             outcomes.append(outcome)
     best = _largest(outcomes, why, setting) if outcomes else Outcome([], [], [], names)
@@ -224,6 +225,7 @@ def _answered(
     rows: list[Row],
     impossible: list[int],
     domain: Sequence[tuple[int, DomainCondition]],
+    divisors: Sequence[tuple[int, Expr]],
     answered: AnsweredBlocks,
 ) -> Outcome:
     setting = answered.setting
@@ -231,6 +233,8 @@ def _answered(
     result = CommonPoint(list(blocks), answered.answers(blocks))
     if domain or len(blocks) > 1:
         result = at_one_point(*result[:2], domain, setting, partial(in_time, setting=setting))
+    if divisors and all(a.consistent for a in result.answers):
+        result = with_quotients(result, divisors, setting, partial(in_time, setting=setting))
     never = [*impossible, *result.nowhere]
     return Outcome(
         rows, result.blocks, result.answers, untouched, never, unsettled=[*result.unsettled], witness=result.witness

@@ -28,10 +28,11 @@ from dofkit.expressions.renaming import coordinates_in
 from dofkit.expressions.text import Names, parse_expression, to_text
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Answer
-from dofkit.relations.blocks import Block, Chart, Row, expressions, make_chart, uses_time
+from dofkit.relations.blocks import Block, Chart, Row, coordinates_of, expressions, make_chart, uses_time
 from dofkit.relations.linear_relations import explicit_relations, number_coefficients
 from dofkit.relations.normal.domain import DomainCondition, holds_at
 from dofkit.relations.normal.no_solution import hold_nowhere
+from dofkit.relations.normal.normal_form import normalise
 from dofkit.relations.normal.pieces import Finite, JointEquation
 from dofkit.relations.setting import Setting
 
@@ -144,6 +145,7 @@ def _undecided(block: Block, result: Answer) -> Answer:
     return Answer(None, verdict="undecided", hidden=result.hidden, reasons=[*result.reasons, why], most=most)
 
 
+STANDING = "no velocity was found for which {} is not 0, by which an equation divides as it was written"
 APART = "each part of the system can be satisfied at some time, but no common time was found"
 OUTSIDE = "no configuration was found at which all equations have a value as they were written"
 #: The digits to which a decimal of a witness is right.
@@ -208,6 +210,36 @@ def at_one_point(
             kept[i], result[i] = written[i], _not_consistent(result[i], values_of, OUTSIDE)
     together = simultaneous(written, result)
     return CommonPoint(kept, together, free_values, tuple(failed[False]), tuple(failed[None]))
+
+
+def with_quotients(
+    point: CommonPoint, divisors: Sequence[tuple[int, Expr]], setting: Setting, answered: Callable[[Block], Answer]
+) -> CommonPoint:
+    """Return the answers, undecided where an equation divides by what may vanish for all velocities.
+
+    ``divisors``: expressions in velocities, each with the number of its constraint. One is not 0 at generic velocities
+    where to set it to 0 takes away freedom.
+    """
+    result = list(point.answers)
+    for owner, divisor in divisors:
+        for branch in normalise(divisor, setting.positive, True).branches:
+            rows = [Row(owner, p) for p in branch if not isinstance(p, DomainCondition)]
+            names = frozenset[str]().union(*(coordinates_of(row.piece) for row in rows))
+            members = [i for i, block in enumerate(point.blocks) if not names.isdisjoint(block.coordinates)]
+            merged = _merged([point.blocks[i] for i in members], (), setting, rows)
+            before = sum(_state_freedom(result[i], 0) for i in members)
+            free = len(merged.coordinates) - sum(len(point.blocks[i].coordinates) for i in members)
+            stopped = answered(merged)
+            if stopped.consistent is not False and _state_freedom(stopped, before + 2 * free) >= before + 2 * free:
+                why = STANDING.format(to_text(divisor))
+                for i in members:
+                    result[i] = Answer(None, verdict="undecided", reasons=[why], method=result[i].method)
+    return point._replace(answers=result)
+
+
+def _state_freedom(a: Answer, undecided: int) -> int:
+    """Return how many dimensions the states of motion have; ``undecided`` where that is not known."""
+    return undecided if a.dof is None or a.velocity_dof is None else a.dof + a.velocity_dof
 
 
 def _names(block: Block) -> frozenset[Hashable]:
@@ -305,12 +337,16 @@ def _not_consistent(a: Answer, together: Answer, why: str) -> Answer:
     return replace(answers, argument=together.argument if impossible else None, reasons=reasons, method=a.method)
 
 
-def _merged(blocks: Sequence[Block], conditions: Sequence[DomainCondition], setting: Setting) -> Block:
-    """Return several blocks as one, with more conditions."""
+def _merged(
+    blocks: Sequence[Block], conditions: Sequence[DomainCondition], setting: Setting, more: Sequence[Row] = ()
+) -> Block:
+    """Return several blocks as one, with more conditions and rows."""
     order = {c.name: k for k, c in enumerate(setting.roles)}
     every = tuple(dict.fromkeys((*(c for block in blocks for c in block.conditions), *conditions)))
-    mentioned = {n for b in blocks for n in b.coordinates}.union(*(coordinates_in(c.expr) for c in every))
-    rows: list[Row] = [row for block in blocks for row in block.rows]
+    mentioned = {n for b in blocks for n in b.coordinates}.union(
+        *(coordinates_in(c.expr) for c in every), *(coordinates_of(row.piece) for row in more)
+    )
+    rows: list[Row] = [*(row for block in blocks for row in block.rows), *more]
     rows.sort(key=lambda row: not isinstance(row.piece, Finite))
     names = sorted(mentioned, key=lambda name: (order.get(name, len(order)), name))
     return Block(tuple(names), tuple(rows), every)

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import in_velocities
 from dofkit.expressions.renaming import Renaming, Unwritten, shape_of
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.domain import DomainCondition
@@ -135,6 +136,20 @@ class Reduced(NamedTuple):
             return ()
         written = (DomainCondition(*required) for r in relations if r.sense == "=" for required in r.domain)
         return tuple(dict.fromkeys(c for c in written if {s.args[0] for s in c.expr.symbols} <= FINITE))
+
+    @property
+    def moving_denominators(self) -> tuple[Expr, ...]:
+        """Return the expressions in velocities that its forms, as they were written, divide by: xdot of dy/dx.
+
+        A relation that is nonlinear in the velocities still has them, and is only satisfied where it has a value.
+        """
+        if isinstance(self.constraint.relations, Unwritten):
+            return ()
+        if any(isinstance(p, Nonlinear) for n in self.normals for p in n.pieces):
+            return ()
+        below = (e for r in self.constraint.relations if r.sense == "=" for e, sense in r.domain if sense == "!=")
+        every = (in_velocities(e)[0] for e in below)
+        return tuple(dict.fromkeys(e for e in every if any(s.args[0] == "velocity" for s in e.symbols)))
 
 
 #: Under which a piece keeps its shape.
