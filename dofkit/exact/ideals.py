@@ -17,6 +17,7 @@ from dofkit.base.deadline import check
 from dofkit.base.errors import NoValueError
 from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.ring import Ring
+from dofkit.expressions.tree import Expr
 
 #: Unknowns, degree and terms of what is looked at.
 MAX_UNKNOWNS, MAX_DEGREE, MAX_LENGTH = 12, 6, 40
@@ -52,6 +53,20 @@ def dimension_of(canon: Canon, generators: Sequence[Poly], moving: Sequence[int]
         if any(all(not used <= set(free) for used in leading) for free in combinations(every, size)):
             return size + unseen
     return -1
+
+
+def have_complex_points(relations: Sequence[Expr], positive: frozenset[Expr]) -> bool:
+    """Return whether relations are known to be satisfied at some complex point; parameters are generic."""
+    ring = Ring(relations, positive)
+    nodes = [ring.node(e) for e in relations]
+    symbols = {s for e in relations for s in e.symbols if s.args[0] != "parameter"}
+    try:
+        canon = Canon(ring)
+        moving = [k for s in symbols if (k := ring.var_index(s)) is not None]
+        dimension = dimension_of(canon, [canon.quotient(node)[0] for node in nodes], moving)
+    except NoValueError:
+        return False
+    return dimension is not None and dimension >= 0
 
 
 def _integer_polynomials(

@@ -152,19 +152,26 @@ def in_velocities(e: Expr) -> tuple[Expr, bool]:
 
 
 def cleared(e: Expr) -> Expr:
-    """Return ``e`` times the denominators of its terms, so that dy/dx = f becomes dy - f dx = 0."""
-    denominators: dict[Expr, Expr] = {}
-    for term in e.args if e.op == "add" else (e,):
-        for factor in term.args if term.op == "mul" else (term,):
-            is_below = factor.op == "pow" and factor.args[1].op == "num" and factor.args[1].args[0] < 0
-            if is_below and any(s.args[0] == "velocity" for s in factor.symbols):
-                base = factor.args[0]
-                old = denominators.get(base, ex.ONE)
-                denominators[base] = max(old, ex.power(factor, ex.MINUS_ONE), key=repr)
-    if not denominators:
+    """Return ``e`` times the denominators in velocities of its terms, so that dy/dx = f becomes dy - f dx = 0."""
+    if e.op == "mul":
+        return ex.mul(*map(cleared, e.args))
+    if _is_below(e):
+        return ex.ONE
+    if e.op != "add":
         return e
-    whole = ex.mul(*denominators.values())
-    return ex.add(*(ex.mul(whole, term) for term in (e.args if e.op == "add" else (e,))))
+    powers: dict[Expr, Fraction] = {}
+    for term in e.args:
+        for factor in filter(_is_below, term.args if term.op == "mul" else (term,)):
+            base, exponent = factor.args[0], factor.args[1].args[0]
+            powers[base] = min(exponent, powers.get(base, exponent))
+    whole = ex.mul(*(ex.power(base, ex.num(-exponent)) for base, exponent in powers.items()))
+    return ex.add(*(ex.mul(whole, term) for term in e.args)) if powers else e
+
+
+def _is_below(factor: Expr) -> bool:
+    """Return whether a factor is a negative power of an expression in velocities."""
+    negative = factor.op == "pow" and factor.args[1].op == "num" and factor.args[1].args[0] < 0
+    return negative and any(s.args[0] == "velocity" for s in factor.symbols)
 
 
 def refuse_accelerations(e: Expr) -> None:

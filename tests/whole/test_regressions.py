@@ -42,6 +42,13 @@ TABLE: list[tuple[str, dict[str, Any], dict[str, Any]]] = [
         scene("a e = b d", "a f = c d", "b f = c e", coordinates=list("abcdef")),
         {"dof": 4, "redundant": []},
     ),
+    (
+        "without c2 there is the line x = y = 0",
+        scene("x z = y^2", "x y = z", "x^2 = y"),
+        {"dof": 1, "redundant": ["c1"]},
+    ),
+    ("dy/dx has no value where dx = 0", scene("dy/dx = 2", "x = 3"), {"consistent": False}),
+    ("nor has dy/(dx + dy)", scene("dy/(dx + dy) = 2", "x + y = 3"), {"consistent": False}),
     ("each is x = 0", scene("exp(x) = 1 + x", "sin(x) = x"), {"dof": 2, "redundant": ["c2"]}),
     (
         "x = y = 0 by the first alone",

@@ -3,11 +3,6 @@
 Asked on every choice of the others' branches, at generic states over GF(p); where one of those does not satisfy the
 relation and complex solutions may be meant, at real states with balls. What is finite follows from finite relations
 only, the hidden ones included: a rate does not fix the constant.
-
-Rows of a block that are dependent at a point need not imply each other. Three points on a line: the first two distances
-give the third to first order, but not beside it. A form with a coefficient that is 0 on the set is another form at its
-points: where y = 0, dx - y dz is dx. So a row's support is asked whether it implies the row, and else takes up more of
-the independent rows, those first that share a coordinate with it.
 """
 
 from __future__ import annotations
@@ -20,11 +15,11 @@ from typing import NamedTuple
 
 from dofkit.base.deadline import OutOfTimeError, check
 from dofkit.base.verdicts import Claim
-from dofkit.classification.dependence.minimal_sets import minimal_set
 from dofkit.classification.freedom.branches import in_time
 from dofkit.classification.freedom.preparation import all_of, branches_at_reference, conditional
 from dofkit.configuration.implied_relations import ImpliedRelations
 from dofkit.configuration.states import States, value_at
+from dofkit.exact.ideals import have_complex_points
 from dofkit.exact.matrices.sparse import echelon
 from dofkit.exact.points.balls import BallPoint
 from dofkit.exact.points.field import FieldPoint
@@ -33,7 +28,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import BITS, Answer
 from dofkit.relations.blocks import Block, Row, coordinates_of, make_chart, split
-from dofkit.relations.linear_relations import linear, solve_linear
+from dofkit.relations.linear_relations import explicit_relations, linear, solve_linear
 from dofkit.relations.normal.domain import DomainCondition, conditions_of
 from dofkit.relations.normal.no_solution import hold_nowhere, no_solution
 from dofkit.relations.normal.pieces import Finite, Nonlinear, Normal, Pfaffian, Piece
@@ -114,7 +109,30 @@ def _on(alternative: Alternative, relation: Normal, setting: Setting) -> bool | 
         held = _vanishes_on_states(states, branches, written, domain, smaller)
     except (OutOfTimeError, ArithmeticError):
         return None
+    if held and still and all(isinstance(r.piece, Finite) for r in alternative.rows):
+        return _on_all_components(alternative.rows, branches, setting)
     return held if held or all_consistent else None
+
+
+def _on_all_components(rows: Sequence[Row], branches: Sequence[AskedBranch], setting: Setting) -> bool | None:
+    """Return whether no component of a set of finite relations is known on which all branches fail.
+
+    Drawn states may miss one: two minors of a matrix imply the third, but not where the column that they share is 0.
+    The branches fail at a complex point where s g = 1 has a solution [Rabinowitsch1929]; that is certified at a real
+    one, and undecided where none is found. True also where the ideal is too large to tell.
+    """
+    relations = [r.piece.expr for r in rows if isinstance(r.piece, Finite)]
+    if not explicit_relations(relations).implicit:
+        return True
+    answer: list[bool | None] = [True]
+    for choice in cartesian(*(b.relations for b in branches)):
+        beyond = ex.mul(ex.coordinate(SLACK), *choice) - ex.ONE
+        if not have_complex_points([*relations, beyond], setting.positive):
+            continue
+        names = {str(s.args[1]) for g in (*relations, beyond) for s in g.symbols if s.args[0] == "coordinate"}
+        states = States(sorted(names), [*rows, Row(0, Finite(beyond))], (), setting, (), True)
+        answer.append(None if next(states.certain(STATES), None) is None else False)
+    return all_of(answer)
 
 
 def _beyond(branch: Sequence[Piece], rows: Sequence[Row], hidden: Sequence[Expr], setting: Setting) -> bool:
@@ -208,10 +226,6 @@ def _satisfied(states: States, point: BallPoint, condition: DomainCondition) -> 
     if value is None or value.contains(0):
         return None
     return condition.sense == "!=" or bool(value > 0)
-
-
-#: Rows that are taken into all questions about one block; what is undecided then stays so.
-WORK = 1500
 
 
 @dataclass(frozen=True)
@@ -329,72 +343,3 @@ def implication_of(block: Block, a: Answer, setting: Setting) -> NearDrawing | E
 def is_drawn(block: Block, a: Answer, setting: Setting) -> bool:
     """Return whether all rows are finite, and were answered at the reference."""
     return setting.reference is not None and a.instantaneous is not None and len(block.finite) == len(block.rows)
-
-
-@dataclass
-class SufficientSets:
-    """The ``pivots``, independent rows that others depend on, each of the constraint ``owners`` tells."""
-
-    implication: NearDrawing | Everywhere
-    owners: Sequence[int]
-    pivots: Sequence[int]
-    _asked: int = 0
-
-    def enough(self, row: int, support: Sequence[int]) -> list[int] | None:
-        """Pivots of which the row follows: its support where that is enough; else the rows of a minimal set of
-        constraints, written before it where such are enough. None where no such set was found.
-        """
-        if self._ask(support) and self.implication.follows(row, support):
-            return list(support)
-        before = [i for i in self.pivots if self.owners[i] <= self.owners[row]]
-        for among in (before, self.pivots):
-            grown = self._grown(row, support, among)
-            if grown is None:
-                continue
-            fewer = self.implication.needed(row, grown)
-            if len(fewer) < len(grown) and self._ask(fewer) and self.implication.follows(row, fewer):
-                return sorted(fewer)
-            fewer = self._fewest(row, grown, fewer)
-            return fewer if self._ask(fewer) and self.implication.follows(row, fewer) else None
-        return None
-
-    def _ask(self, rows: Sequence[int]) -> bool:
-        """Return whether one more question about so many rows may be asked."""
-        check()
-        self._asked += len(rows) + 1
-        return self._asked <= WORK
-
-    def _grown(self, row: int, support: Sequence[int], among: Sequence[int]) -> list[int] | None:
-        """The support with the rows around it, as far as it takes to imply the row; None where that is never enough.
-
-        First those of its own bodies, then those that share coordinates with them, and so on.
-        """
-        grown = set(support)
-        near = self.implication.within([row, *grown])
-        if near.intersection(among) <= grown:
-            near = self.implication.adjacent_rows([row, *grown])
-        while True:
-            more = {i for i in among if i in near} | grown
-            if more == grown or not self._ask(sorted(more)):
-                return None
-            grown = more
-            if self.implication.seems(row, sorted(grown)):
-                return sorted(grown)
-            near = self.implication.adjacent_rows([row, *grown])
-
-    def _fewest(self, row: int, rows: Sequence[int], needed: Sequence[int]) -> list[int]:
-        """Rows of which the row follows, less those of constraints without which it does too, the last written first.
-
-        Those ``needed`` stay.
-        """
-        staying = {self.owners[i] for i in (row, *needed)}
-        spare = sorted({self.owners[i] for i in rows} - staying)
-
-        def rows_of(owners: Sequence[int]) -> list[int]:
-            return [i for i in rows if self.owners[i] in staying or self.owners[i] in owners]
-
-        def suffice(owners: Sequence[int]) -> bool:
-            fewer = rows_of(owners)
-            return self._ask(fewer) and self.implication.seems(row, fewer)
-
-        return rows_of(minimal_set(spare, suffice, len(spare) // 2 or 1))

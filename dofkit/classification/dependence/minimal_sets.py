@@ -2,13 +2,22 @@
 
 The oracle is a rank, an implication or a proof of a contradiction; the search is the same for all of them. What a set
 suffices for, every larger set suffices for, and what can be left out together can be left out one by one.
+
+Rows of a block that are dependent at a point need not imply each other. Three points on a line: the first two distances
+give the third to first order, but not beside it. A form with a coefficient that is 0 on the set is another form at its
+points: where y = 0, dx - y dz is dx. So a row's support is asked whether it implies the row, and else takes up more of
+the independent rows, those first that share a coordinate with it.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
 from itertools import combinations
 from typing import NamedTuple, TypeVar
+
+from dofkit.base.deadline import check
+from dofkit.classification.dependence.implication import Everywhere, NearDrawing
 
 T = TypeVar("T")
 
@@ -57,3 +66,76 @@ def largest_redundant_set(
             break
         gone = list(larger)
     return RedundantSet(sorted(gone), sorted(set(undecided) - set(gone)))
+
+
+#: Rows that are taken into all questions about one block; what is undecided then stays so.
+WORK = 1500
+
+
+@dataclass
+class SufficientSets:
+    """The ``pivots``, independent rows that others depend on, each of the constraint ``owners`` tells."""
+
+    implication: NearDrawing | Everywhere
+    owners: Sequence[int]
+    pivots: Sequence[int]
+    _asked: int = 0
+
+    def enough(self, row: int, support: Sequence[int]) -> list[int] | None:
+        """Pivots of which the row follows: its support where that is enough; else the rows of a minimal set of
+        constraints, written before it where such are enough. None where no such set was found.
+        """
+        if self._ask(support) and self.implication.follows(row, support):
+            return list(support)
+        before = [i for i in self.pivots if self.owners[i] <= self.owners[row]]
+        for among in (before, self.pivots):
+            grown = self._grown(row, support, among)
+            if grown is None:
+                continue
+            fewer = self.implication.needed(row, grown)
+            if len(fewer) < len(grown) and self._ask(fewer) and self.implication.follows(row, fewer):
+                return sorted(fewer)
+            fewer = self._fewest(row, grown, fewer)
+            return fewer if self._ask(fewer) and self.implication.follows(row, fewer) else None
+        return None
+
+    def _ask(self, rows: Sequence[int]) -> bool:
+        """Return whether one more question about so many rows may be asked."""
+        check()
+        self._asked += len(rows) + 1
+        return self._asked <= WORK
+
+    def _grown(self, row: int, support: Sequence[int], among: Sequence[int]) -> list[int] | None:
+        """The support with the rows around it, as far as it takes to imply the row; None where that is never enough.
+
+        First those of its own bodies, then those that share coordinates with them, and so on.
+        """
+        grown = set(support)
+        near = self.implication.within([row, *grown])
+        if near.intersection(among) <= grown:
+            near = self.implication.adjacent_rows([row, *grown])
+        while True:
+            more = {i for i in among if i in near} | grown
+            if more == grown or not self._ask(sorted(more)):
+                return None
+            grown = more
+            if self.implication.seems(row, sorted(grown)):
+                return sorted(grown)
+            near = self.implication.adjacent_rows([row, *grown])
+
+    def _fewest(self, row: int, rows: Sequence[int], needed: Sequence[int]) -> list[int]:
+        """Rows of which the row follows, less those of constraints without which it does too, the last written first.
+
+        Those ``needed`` stay.
+        """
+        staying = {self.owners[i] for i in (row, *needed)}
+        spare = sorted({self.owners[i] for i in rows} - staying)
+
+        def rows_of(owners: Sequence[int]) -> list[int]:
+            return [i for i in rows if self.owners[i] in staying or self.owners[i] in owners]
+
+        def suffice(owners: Sequence[int]) -> bool:
+            fewer = rows_of(owners)
+            return self._ask(fewer) and self.implication.seems(row, fewer)
+
+        return rows_of(minimal_set(spare, suffice, len(spare) // 2 or 1))

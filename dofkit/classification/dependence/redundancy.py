@@ -9,19 +9,14 @@ from functools import partial
 from typing import Literal
 
 from dofkit.base.deadline import unless_late
-from dofkit.base.errors import NoValueError
 from dofkit.base.verdicts import About, least, together
 from dofkit.classification.dependence import removal
 from dofkit.classification.dependence.circuits import ROWS, OwnedRows, analyse
-from dofkit.classification.dependence.implication import IMPLIED, SLACK, implication_of
+from dofkit.classification.dependence.implication import IMPLIED, implication_of
 from dofkit.classification.dependence.implied_constraints import MAX_CHOICES, constraint_follows, implied
 from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.freedom.preparation import algebraic, all_of, branches_at_reference
-from dofkit.exact.ideals import dimension_of
 from dofkit.exact.matrices.sparse import SparseRow, components
-from dofkit.exact.ring.canonical import Canon
-from dofkit.exact.ring.ring import Ring
-from dofkit.expressions import tree as ex
 from dofkit.relations.answer import IDENTITY, Answer, Redundancies, undecided_dependence
 from dofkit.relations.blocks import Block, coordinates_of
 from dofkit.relations.normal.domain import DomainCondition
@@ -173,34 +168,7 @@ def _scope(
     follow = all_of(constraint_follows(reduced, i, kept, setting) for i in dropped if i in finite)
     if len(finite) < len(numbers):
         return False if follow is False else "component"
-    if not follow:
-        return follow
-    return None if any(_fails_on_a_component(reduced, i, kept, setting) for i in dropped) else "component"
-
-
-def _fails_on_a_component(reduced: Sequence[Reduced], i: int, kept: Sequence[int], setting: Setting) -> bool | None:
-    """Return whether an equation is not satisfied at some complex point of the others, which drawn points may miss.
-
-    There is one where s g = 1 has a solution [Rabinowitsch1929]. Two minors of a matrix imply the third, but not where
-    the column that they share is 0. None where the ideal is too large to tell.
-    """
-    others = [p.expr for j in kept for n in reduced[j].normals for p in n.pieces if isinstance(p, Finite)]
-    dimensions: list[int | None] = []
-    for g in (p.expr for n in reduced[i].normals for p in n.pieces if isinstance(p, Finite)):
-        relations = [*others, ex.coordinate(SLACK) * g - ex.ONE]
-        ring = Ring(relations, setting.positive)
-        nodes = [ring.node(e) for e in relations]
-        symbols = {s for e in relations for s in e.symbols if s.args[0] != "parameter"}
-        moving = [k for s in symbols if (k := ring.var_index(s)) is not None]
-        try:
-            canon = Canon(ring)
-            numerators = [canon.quotient(node)[0] for node in nodes]
-            dimensions.append(dimension_of(canon, numerators, moving))
-        except NoValueError:
-            dimensions.append(None)
-    if any(d is not None and d >= 0 for d in dimensions):
-        return True
-    return None if None in dimensions else False
+    return "component" if follow else follow
 
 
 def _is_restricted(r: Reduced) -> bool:

@@ -25,9 +25,9 @@ from typing import NamedTuple
 
 from dofkit.base.deadline import OutOfTimeError, check, limited, unless_late
 from dofkit.base.verdicts import Claim, Verdict, weakest
-from dofkit.classification.dependence.implication import Everywhere, NearDrawing, SufficientSets, is_drawn
+from dofkit.classification.dependence.implication import Everywhere, NearDrawing, is_drawn
 from dofkit.classification.dependence.implied_constraints import LEAVING_SECONDS
-from dofkit.classification.dependence.minimal_sets import largest_redundant_set, minimal_set
+from dofkit.classification.dependence.minimal_sets import SufficientSets, largest_redundant_set, minimal_set
 from dofkit.classification.freedom.block import answer
 from dofkit.classification.freedom.preparation import all_of
 from dofkit.exact.matrices.sparse import components, echelon
