@@ -7,6 +7,7 @@ from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import cached_property
 from typing import NamedTuple, TypeVar
 
 from dofkit.base.errors import SceneError, TextError
@@ -16,15 +17,16 @@ from dofkit.expressions.text import Comparison, parse_relations, to_text
 from dofkit.expressions.tree import Expr
 from dofkit.homework.answers.relations import AnswerReading, is_constant_name
 from dofkit.homework.judgement import HALF, NOTHING, JudgedReading, Judgement, needs_review, partly, right, wrong
+from dofkit.homework.key.counterexamples import counterexample
 from dofkit.homework.key.key import Key
 from dofkit.homework.key.own_names import renamed, without_own
-from dofkit.homework.key.regions import Condition, compared_regions, conditions, counterexample
+from dofkit.homework.key.regions import Condition, compared_regions, conditions
 from dofkit.homework.sentences import Said, meanings, say
 from dofkit.methods.classify import classify
 from dofkit.scene.added_equations import Read, with_equations
 from dofkit.scene.lowering import lower
 from dofkit.scene.scene import Scene
-from dofkit.system import System
+from dofkit.system import Relation, System
 
 _UNDECIDED = "it could not be decided in the time available whether this is the same constraint."
 #: What an answer that is not quite the constraint is worth.
@@ -32,6 +34,8 @@ _HALVES = frozenset({Sameness.IRREGULAR, Sameness.BRANCH, Sameness.DIFFERENTIATE
 _RIGHT = frozenset({Sameness.SAME, Sameness.INTEGRATED})
 #: What the equations of an answer are called in the scene that holds them.
 ANSWER = "the answer"
+_ALLOWS = "Your equation allows {point}, which the constraint forbids."
+_FORBIDS = "Your equation forbids {point}, which the constraint allows."
 _TURNING = frozenset({"sin", "cos", "tan"})
 #: A length that nobody named, as a scene's own equations call its square.
 _UNNAMED = re.compile(r"\b_[A-Z]\d+\b")
@@ -127,30 +131,29 @@ class EquationComparison:
         return self._with_counterexample(verdict, way)
 
     def _with_counterexample(self, verdict: Judgement, way: AnswerReading) -> Judgement:
-        """Return a judgement with a configuration, if one is known, that the answer allows wrongly."""
-        system = lower(self.key.scene)
-        asked = [r.expr for i in system.numbers_of(*self.names) for r in system.constraints[i].relations]
-        symbols = {s for c in way.relations for e in (c.left, c.right, *asked) for s in e.symbols}
-        finite = all(s.args[0] in ("coordinate", "parameter") for s in symbols)
-        equations = all(c.relation == "=" for c in way.relations)
-        if len(asked) != 1 or not finite or not equations or verdict.codes == (Sameness.EMPTY.value,):
+        """Return a judgement with a state, if one is found, that tells the answer from the constraints."""
+        if verdict.codes == (Sameness.EMPTY.value,) or any(c.relation != "=" for c in way.relations):
             return verdict
-        point = counterexample(self._others(), way.relations, asked[0])
-        return (
-            verdict.saying(say("Your equation allows {point}, which the constraint forbids.", point=point))
-            if point
-            else verdict
-        )
+        answer, asked = [c.left - c.right for c in way.relations], [r.expr for r in self._asked]
+        if verdict.codes == (Sameness.STRONGER.value,):
+            sentence, point = _FORBIDS, counterexample(self._others, asked, answer)
+        else:
+            sentence, point = _ALLOWS, counterexample(self._others, answer, asked)
+        return verdict.saying(say(sentence, point=point)) if point else verdict
+
+    @property
+    def _asked(self) -> list[Relation]:
+        """The relations of the constraints that are asked for."""
+        system = self.key.system
+        return [r for i in system.numbers_of(*self.names) for r in system.constraints[i].relations]
 
     def _region(self, way: AnswerReading) -> Judgement | None:
         """Return what inequalities are worth, compared as regions, or None if there are equations."""
-        system = lower(self.key.scene)
-        asked = [r for i in system.numbers_of(*self.names) for r in system.constraints[i].relations]
         answer = conditions(way.relations)
-        if answer is None or any(r.sense == "=" for r in asked):
+        if answer is None or any(r.sense == "=" for r in self._asked):
             return None
-        wanted = [Condition(r.expr, r.sense == ">") for r in asked]
-        comparison = compared_regions(self._others(), wanted, answer)
+        wanted = [Condition(r.expr, r.sense == ">") for r in self._asked]
+        comparison = compared_regions(self._others, wanted, answer)
         if not comparison.beyond and not comparison.lacking:
             same = None not in (comparison.beyond, comparison.lacking)
             return right(way.text) if same else needs_review(way.text, _UNDECIDED)
@@ -172,6 +175,7 @@ class EquationComparison:
             return partly(HALF, text, code)
         return self._in_part(comparison, read, text, code)
 
+    @cached_property
     def _others(self) -> Scene:
         """Return the scene without the constraints that are asked for."""
         pairs = zip(self.key.scene.constraints, self.key.constraints, strict=True)
@@ -186,7 +190,7 @@ class EquationComparison:
 
     def _by_rank(self, read: Read, text: str, code: str) -> Judgement:
         """Return what implied equations are worth, by the number of velocities that they leave free."""
-        scene = self._others()
+        scene = self._others
         free = classify(scene).velocity_dof
         yours, system = classify(with_equations(scene, read, ANSWER)).velocity_dof, self.key.report.velocity_dof
         if free is None or yours is None or system is None:
@@ -242,7 +246,7 @@ def equations_of(key: Key, names: tuple[str, ...]) -> str:
 
 def _equations(key: Key, name: str) -> str:
     entry = key.constraints[name]
-    (constraint,) = (c for c in lower(key.scene).constraints if c.name == name)
+    (constraint,) = (c for c in key.system.constraints if c.name == name)
     if constraint.facts.written or not all(_sayable(key, relation.expr) for relation in constraint.relations):
         return entry.text
     texts = [f"{to_text(relation.expr)} {relation.sense} 0" for relation in constraint.relations]

@@ -11,7 +11,6 @@ import networkx as nx
 from dofkit.expressions.tree import Expr
 from dofkit.homework.key.key import Key
 from dofkit.report import ConstraintEntry
-from dofkit.scene.lowering import lower
 from dofkit.system import Constraint, System
 
 _STRINGS = ("string", "rope", "cable", "cord")
@@ -78,7 +77,7 @@ def scene_counts(key: Key) -> SceneCounts:
 
 
 def _counted(key: Key) -> SceneCounts:
-    scene, report, system = key.scene, key.report, lower(key.scene)
+    scene, report, system = key.scene, key.report, key.system
     pairs = list(zip(report.constraints, system.constraints, strict=True))
     dof, n, d = report.dof or 0, len(key.coordinates), scene.dimension
     particles, bodies = [p.name for p in scene.particles], len(scene.bodies)

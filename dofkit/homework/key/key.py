@@ -14,8 +14,10 @@ from dofkit.homework.key.right_motion import RightMotion, right_motion_or_why
 from dofkit.methods.classify import classify
 from dofkit.report import ConstraintEntry, Report
 from dofkit.scene.constraints.base import Equation
+from dofkit.scene.lowering import lower
 from dofkit.scene.names import coordinate_table
 from dofkit.scene.scene import Scene
+from dofkit.system import System
 
 #: A question about a set of names of a scene, whose report is known.
 Chosen = Callable[[Scene, Sequence[str], Report], bool | None]
@@ -43,6 +45,11 @@ class Key:
     def report(self) -> Report:
         """Return the report of the scene, which an answer's own coordinates, each with its equation, do not change."""
         return classify(self.scene) if self.base is None else self.base.report
+
+    @cached_property
+    def system(self) -> System:
+        """Return the mathematics of the scene."""
+        return lower(self.scene)
 
     @cached_property
     def _answers(self) -> dict[Hashable, Any]:

@@ -15,6 +15,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, replace_nodes, substitute
 from dofkit.expressions.text import Comparison, to_text
 from dofkit.expressions.tree import ZERO, Expr
+from dofkit.homework.key.counterexamples import parameter_numbers
 from dofkit.methods.classify import classify
 from dofkit.scene.constraints.base import Equation
 from dofkit.scene.scene import Scene
@@ -88,17 +89,9 @@ def _difference(scene: Scene, region: Sequence[Condition], other: Sequence[Condi
     return None if open_cases else False, ""
 
 
-def counterexample(scene: Scene, answer: Sequence[Comparison], asked: Expr) -> str:
-    """Return a point that satisfies the equations of an answer and not ``asked`` = 0, in words, or nothing."""
-    texts = [f"{to_text(c.left - c.right)} = 0" for c in answer] + [f"({to_text(asked)})^2 > 0"]
-    more = tuple(Equation(name=f"region {n}", text=text) for n, text in enumerate(texts))
-    return _point(scene.model_copy(update={"constraints": (*scene.constraints, *more), "expect": {}}))
-
-
 def _point(scene: Scene) -> str:
     """Return a certified point of a scene with whole numbers for its parameters, in words, or nothing."""
-    free = [name for name, value in scene.parameters.items() if value in ("real", "positive", "nonzero")]
-    values = {name: Fraction(n) for n, name in enumerate(free, 2)}
+    values = {name: Fraction(n) for name, n in parameter_numbers(scene).items()}
     report = classify(scene.model_copy(update={"parameters": {**scene.parameters, **values}}))
     if not report.feasible or not report.witness:
         return ""
