@@ -137,9 +137,6 @@ class SheetComposer:
     def _further(self, problem: Problem, key: Key) -> Iterator[str]:
         for name, text in problem.also.items():
             yield self._text("You may also use {names}.", names=f"${name} = {text}$")
-        for name, others in problem.names.items():
-            listed = ", ".join(f"`{other}`" for other in others)
-            yield self._text("{name} may also be written as {names}.", name=f"`{name}`", names=listed)
 
     def _ways(self) -> Iterator[str]:
         """Yield how answers are written, for every kind of question on the sheet."""

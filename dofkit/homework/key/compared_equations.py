@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
-from typing import NamedTuple, TypeVar
 
 from dofkit.base.errors import SceneError, TextError
 from dofkit.classification.dependence.equivalence import Compared, Sameness, compare
@@ -39,24 +37,19 @@ _FORBIDS = "Your equation forbids {point}, which the constraint allows."
 _TURNING = frozenset({"sin", "cos", "tan"})
 #: A length that nobody named, as a scene's own equations call its square.
 _UNNAMED = re.compile(r"\b_[A-Z]\d+\b")
-Found = TypeVar("Found")
 
 
-class PosedAnswer(NamedTuple):
-    """A scene's mathematics with an answer in it, and the numbers of the answer's constraints."""
+def with_answer(key: Key, read: Read) -> tuple[System, range]:
+    """Return the mathematics of the scene with an answer, and the numbers of the answer's constraints in it.
 
-    system: System
-    numbers: range
-
-
-def with_answer(key: Key, read: Read, question: Callable[[PosedAnswer], Found]) -> Found:
-    """Return what a question finds in the scene with the answer. Raises TextError if the scene cannot contain it."""
+    Raises TextError if the scene cannot contain it.
+    """
     try:
         system = lower(with_equations(key.scene, read, ANSWER)).in_coordinates
-        return question(PosedAnswer(system, range(len(key.scene.constraints), len(system.constraints))))
     except SceneError as error:
         fault = error.faults[0]
         raise TextError(fault.message, fault.column or 1, fault.hint) from None
+    return system, range(len(key.scene.constraints), len(system.constraints))
 
 
 @dataclass(frozen=True)
@@ -160,6 +153,11 @@ class EquationComparison:
         allows = "Your inequality allows {point}, which the constraint forbids."
         forbids = "Your inequality forbids {point}, which the constraint allows."
         hint = say(allows if comparison.beyond else forbids, point=comparison.point) if comparison.point else ""
+        closed = [[Condition(c.e, False) for c in part] for part in (wanted, answer)]
+        if {c.strict for c in wanted} != {c.strict for c in answer}:
+            without = compared_regions(self._others, *closed)
+            if without.beyond is False and without.lacking is False:
+                return needs_review(way.text, "it differs from the constraint on the boundary only.")
         both = comparison.beyond and comparison.lacking
         sameness = Sameness.DIFFERENT if both else Sameness.WEAKER if comparison.beyond else Sameness.STRONGER
         return wrong(way.text, sameness.value, why=hint)
@@ -202,11 +200,8 @@ class EquationComparison:
         return partly(Fraction(free - yours, free - system), text, code, why=count)
 
     def _compared(self, read: Read) -> Compared:
-        return with_answer(
-            self.key,
-            read,
-            lambda posed: compare(posed.system, posed.system.numbers_of(*self.names), posed.numbers, read.constants),
-        )
+        system, answer = with_answer(self.key, read)
+        return compare(system, system.numbers_of(*self.names), answer, read.constants)
 
     def _in_part(self, comparison: Compared, read: Read, text: str, code: str) -> Judgement:
         """Return points in proportion to the constraints that are implied, or to the rank of what is."""

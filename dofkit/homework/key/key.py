@@ -31,14 +31,13 @@ Convention = Literal["configuration", "velocity"]
 class Key:
     """What is right for one problem. ``convention``: what "degrees of freedom" means.
 
-    ``also``: further coordinates that an answer may use, and what they are. ``others``: other name -> declared name.
+    ``also``: further coordinates that an answer may use, and what they are.
     ``base``: the key without the coordinates of an answer's own.
     """
 
     scene: Scene
     convention: Convention = "configuration"
     also: Mapping[str, str] = field(default_factory=dict)
-    others: Mapping[str, str] = field(default_factory=dict)
     base: Key | None = field(default=None, repr=False)
 
     @cached_property
@@ -72,7 +71,7 @@ class Key:
     @cached_property
     def declared(self) -> DeclaredNames:
         """Return what an answer's texts may mention."""
-        return DeclaredNames.of(self.scene, self.also, self.others)
+        return DeclaredNames.of(self.scene, self.also)
 
     @property
     def names(self) -> Names:
@@ -95,7 +94,7 @@ class Key:
             "constraints": (*self.scene.constraints, *more),
             "expect": {},
         }
-        return Key(self.scene.model_copy(update=update), self.convention, others=self.others, base=self)
+        return Key(self.scene.model_copy(update=update), self.convention, base=self)
 
     @cached_property
     def motion(self) -> RightMotion | DofkitError:

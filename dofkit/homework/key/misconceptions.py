@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator
 from fractions import Fraction
 from typing import NamedTuple
 
-from dofkit.homework.key.facts import SceneCounts, scene_counts
+from dofkit.homework.key.facts import SceneCounts
 from dofkit.homework.key.key import Key
 from dofkit.homework.sentences import Said, say
 from dofkit.report import ConstraintEntry
@@ -144,7 +144,7 @@ def explain(number: Fraction, ask: str, key: Key) -> tuple[str, ...]:
     report = key.report
     if report.dof is None:
         return ()
-    facts = scene_counts(key)
+    facts = key.once(SceneCounts, lambda: SceneCounts(key))
     right = report.dof
     wanted = len(key.coordinates) - number if ask == "k" else number
     by_velocities = ask == "velocity_dof" or (ask == "dof" and key.convention == "velocity")
