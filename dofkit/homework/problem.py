@@ -18,7 +18,6 @@ from dofkit.homework.questions.base import Points
 from dofkit.homework.sentences import Language, described
 from dofkit.scene.constraints import ConstraintBase
 from dofkit.scene.fields import Listed, TaggedUnion, Text, WrittenModel, as_written, fault_error, suggestion
-from dofkit.scene.scene import Scene
 
 #: Which value of each varying name a variant has, by its index.
 Pick = dict[str, int]
@@ -162,11 +161,6 @@ def weighted(problem: Problem) -> Problem:
         return problem
     shares = tuple(q.model_copy(update={"points": q.points * problem.points / whole}) for q in problem.questions)
     return problem.model_copy(update={"questions": shares})
-
-
-def named(scene: Scene) -> dict[str, ConstraintBase]:
-    """The constraints of a scene by their names, given or by position."""
-    return {c.name or f"c{n}": c for n, c in enumerate(scene.constraints, 1)}
 
 
 def constraint_text(constraint: ConstraintBase, language: Language = "en") -> str:

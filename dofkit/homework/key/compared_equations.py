@@ -111,9 +111,9 @@ class EquationComparison:
         return needs_review(way.text, undeclared(strange[0]) if strange else _UNDECIDED)
 
     def _declared(self, way: AnswerReading, text: str = "") -> Judgement:
-        if not way.on_coordinates and any(e.symbols for c in way.relations for e in (c.left, c.right)):
+        if not way.on_coordinates and way.symbols:
             raise TextError("the answer contains no coordinates", 1, "write an equation between the coordinates")
-        if any(s.args[0] == "acceleration" for c in way.relations for e in (c.left, c.right) for s in e.symbols):
+        if any(s.args[0] == "acceleration" for s in way.symbols):
             return needs_review(way.text, "it contains accelerations.")
         verdict = self._verdict(way.read(), text or way.text)
         if verdict.status == "right":
@@ -125,7 +125,8 @@ class EquationComparison:
 
     def _with_counterexample(self, verdict: Judgement, way: AnswerReading) -> Judgement:
         """Return a judgement with a state, if one is found, that tells the answer from the constraints."""
-        if verdict.codes == (Sameness.EMPTY.value,) or any(c.relation != "=" for c in way.relations):
+        relations = [c.relation for c in way.relations] + [r.sense for r in self._asked]
+        if verdict.codes == (Sameness.EMPTY.value,) or any(relation != "=" for relation in relations):
             return verdict
         answer, asked = [c.left - c.right for c in way.relations], [r.expr for r in self._asked]
         if verdict.codes == (Sameness.STRONGER.value,):
@@ -154,7 +155,7 @@ class EquationComparison:
         forbids = "Your inequality forbids {point}, which the constraint allows."
         hint = say(allows if comparison.beyond else forbids, point=comparison.point) if comparison.point else ""
         closed = [[Condition(c.e, False) for c in part] for part in (wanted, answer)]
-        if {c.strict for c in wanted} != {c.strict for c in answer}:
+        if not comparison.point and {c.strict for c in wanted} != {c.strict for c in answer}:
             without = compared_regions(self._others, *closed)
             if without.beyond is False and without.lacking is False:
                 return needs_review(way.text, "it differs from the constraint on the boundary only.")
