@@ -22,7 +22,6 @@ from dofkit.homework.problem import (
     Problem,
     Variants,
     combinations_of,
-    faults_of_names,
     faults_of_places,
     pick_text,
     weighted,
@@ -188,7 +187,7 @@ def _prepared(value: Mapping[str, Any], base: Path, document: Document | None) -
         for pick, variant in _variants(problem, base, faults, i):
             try:
                 scene = _scene(variant, base)
-                key = Key(scene, assignment.convention, variant.also, variant.other_names)
+                key = Key(scene, assignment.convention, variant.also)
             except SceneError as error:
                 faults += [_within(fault, i, problem, pick) for fault in error.faults]
                 break
@@ -276,8 +275,6 @@ def _scene_faults(i: int, problem: Problem, key: Key) -> Iterator[Fault]:
         yield replace(fault, where=("problems", i, "also", *fault.where))
     for fault in faults_of_places(problem.text or "", problem.vary):
         yield replace(fault, where=("problems", i, "text"))
-    for fault in faults_of_names(problem, key):
-        yield replace(fault, where=("problems", i, *fault.where))
     for j, question in enumerate(problem.questions):
         for fault in question.faults(key):
             yield replace(fault, where=("problems", i, "questions", j, *fault.where))

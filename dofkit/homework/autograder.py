@@ -1,6 +1,6 @@
 """One submission, graded where Gradescope has put it: ``python -m dofkit.homework.autograder ASSIGNMENT``.
 
-A result is always written, first of all one in which every answer is open: it stands where the grading is cut short.
+A result in which every answer is open is written first: it stands where the grading is cut short.
 What a student wrote says nothing of who the student is: that is the platform's to say, where it does. Where a
 submission names another ``student`` than its user a person has to look at it, and the result says so.
 
@@ -38,7 +38,6 @@ from dofkit.homework.variants import NobodysVariantError, sheet_of
 ROOT, RESULTS, SECONDS = Path("/autograder"), "results/results.json", 240.0
 #: A longer file of the platform is not read.
 MOST_BYTES = 8_000_000
-BROKEN = "the assignment of this autograder cannot be read. This is not your fault: please tell your instructors"
 
 
 def undecided(prepared: Prepared, student: str, reason: str) -> Result:
@@ -52,12 +51,13 @@ def grade_at(root: Path, assignment: Path, memory: int) -> Result:
     """Grade what was handed in and write the result. Raises AssignmentError, and OSError where nothing can be written.
 
     ``memory``: the bytes that the process may take in which answers are judged. Raises ReviewError where the
-    ``review.csv`` beside the assignment cannot be used.
+    ``review.csv`` beside the assignment cannot be used; then the result stands that was there before.
     """
     metadata = _object(_json(root / "submission_metadata.json"))
     users = _users(metadata)
     student = ", ".join(user.student for user in users) or "student"
-    prepared = _prepared(root, assignment, student)
+    prepared, reviewed = load_assignment(assignment), assignment.with_name(TABLE)
+    prepared = RunReview.read(prepared, reviewed if reviewed.is_file() else None, None).applied(prepared)
     visibility = _visibility(prepared, metadata)
     _write(root, document(undecided(prepared, student, "grading was interrupted."), prepared, visibility))
     try:
@@ -90,16 +90,6 @@ def _visibility(prepared: Prepared, metadata: Mapping[str, Any]) -> Visibility:
     visibility, dates = prepared.assignment.visibility, _object(metadata.get("assignment"))
     endless = "due_date" in dates and not (dates["due_date"] or dates.get("late_due_date"))
     return "after_published" if visibility == "after_due_date" and endless else visibility
-
-
-def _prepared(root: Path, assignment: Path, student: str) -> Prepared:
-    review_table = assignment.with_name(TABLE)
-    try:
-        prepared = load_assignment(assignment)
-        return RunReview.read(prepared, review_table if review_table.is_file() else None, None).applied(prepared)
-    except (DofkitError, OSError):
-        _write(root, document(Result.refused(student, 0.0, BROKEN), None))
-        raise
 
 
 def _only_hand_in(folder: Path, prepared: Prepared) -> Handed | Result:

@@ -11,16 +11,13 @@ from typing import Annotated, Any
 from pydantic import BeforeValidator, Field, WrapValidator
 
 from dofkit.base.errors import Fault
-from dofkit.expressions.text import valid_name
 from dofkit.expressions.text.typesetting import typeset
 from dofkit.homework.answers.roster import plain_name
-from dofkit.homework.key.key import Key
 from dofkit.homework.questions import KINDS, AnyQuestion, Identifier, QuestionBase
 from dofkit.homework.questions.base import Points
 from dofkit.homework.sentences import Language, described
 from dofkit.scene.constraints import ConstraintBase
 from dofkit.scene.fields import Listed, TaggedUnion, Text, WrittenModel, as_written, fault_error, suggestion
-from dofkit.scene.scene import Scene
 
 #: Which value of each varying name a variant has, by its index.
 Pick = dict[str, int]
@@ -105,13 +102,6 @@ def _as_text(value: Any) -> str:
     return value if isinstance(value, str) else as_written(value)
 
 
-def _aliases(value: object) -> object:
-    """One other name needs no list."""
-    if not isinstance(value, Mapping):
-        return {} if value is None else value
-    return {name: (aliases,) if isinstance(aliases, str) else aliases for name, aliases in value.items()}
-
-
 class Problem(WrittenModel):
     """A scene and what is asked of it."""
 
@@ -129,21 +119,12 @@ class Problem(WrittenModel):
     also: dict[str, str] = Field(
         default_factory=dict, description="further coordinates that answers may use, by name: `theta: atan2(x, -y)`"
     )
-    names: Annotated[
-        dict[str, tuple[str, ...]],
-        BeforeValidator(_aliases, json_schema_input_type=dict[str, str | list[str]]),
-    ] = Field(default_factory=dict, description="other names that answers may use: `theta_A: [theta, phi]`")
     vary: Annotated[dict[str, tuple[Any, ...]] | None, BeforeValidator(_varying)] = Field(
         None, description="what differs between students: lists of values, `n: [2, 3, 5]`, put in where `[[n]]` stands"
     )
     questions: Annotated[
         tuple[Annotated[AnyQuestion, WrapValidator(_QUESTION.validated)], ...], Field(min_length=1)
     ] = Field(description="its questions")
-
-    @property
-    def other_names(self) -> dict[str, str]:
-        """The declared name of every other one."""
-        return {other: name for name, others in self.names.items() for other in others}
 
 
 class StudentVariant(WrittenModel):
@@ -180,26 +161,6 @@ def weighted(problem: Problem) -> Problem:
         return problem
     shares = tuple(q.model_copy(update={"points": q.points * problem.points / whole}) for q in problem.questions)
     return problem.model_copy(update={"questions": shares})
-
-
-def faults_of_names(problem: Problem, key: Key) -> Iterator[Fault]:
-    """Other names that cannot be: of what the scene does not declare, or that mean something already."""
-    declared = [*key.coordinates, *key.scene.parameters, *key.constraints]
-    taken = {*declared, *key.scene.functions, *key.also}
-    for name, others in problem.names.items():
-        if name not in declared:
-            yield Fault(f"the scene declares no '{name}'", ("names", name), hint=suggestion(name, declared, "names"))
-        for n, other in enumerate(others):
-            wrong = valid_name(other)
-            if other in taken or wrong is not None:
-                why = f"'{other}' already has a meaning" if other in taken else str(wrong)
-                yield Fault(why, ("names", name, n), hint="choose a name that the scene does not use")
-            taken.add(other)
-
-
-def named(scene: Scene) -> dict[str, ConstraintBase]:
-    """The constraints of a scene by their names, given or by position."""
-    return {c.name or f"c{n}": c for n, c in enumerate(scene.constraints, 1)}
 
 
 def constraint_text(constraint: ConstraintBase, language: Language = "en") -> str:

@@ -50,11 +50,6 @@ class ReviewRow:
     decision: Decision | None = None
 
     @property
-    def id(self) -> str:
-        """The answer's identity."""
-        return self.cells["id"]
-
-    @property
     def filled(self) -> bool:
         """Return whether a person has written anything into it."""
         return self.decision is not None or bool(self.cells.get("remark") or self.cells.get("points"))

@@ -13,14 +13,9 @@ from pydantic import TypeAdapter
 
 from dofkit.homework.assignment import Prepared
 from dofkit.homework.key.key import Key
-from dofkit.homework.questions import AnyQuestion
+from dofkit.homework.questions import KINDS, MOTION, AnyQuestion
 from dofkit.scene.reading import load
 
-#: Questions about the whole scene, and about each constraint, and those about equations of motion.
-_OF_SCENE = ("dof", "velocity_dof", "k", "coordinates", "redundant")
-_OF_CONSTRAINT = ("label", "equation", "integral")
-_OF_MOTION = ("lagrangian", "motion")
-_OF_COORDINATE = ("momentum", "force")
 #: A constraint of fewer equations is one to write down.
 FEW = 3
 _NOT_PLAIN = re.compile(r"[^\w-]+")
@@ -95,18 +90,13 @@ def questions(key: Key) -> Iterator[dict[str, Any]]:
 
 
 def _candidates(key: Key) -> Iterator[Mapping[str, str]]:
-    for ask in _OF_SCENE:
-        yield {"ask": ask}
-    for name in key.constraints:
-        for ask in _OF_CONSTRAINT:
-            yield {"ask": ask, "constraint": name}
-    if key.scene.energies is None:
-        return
-    for ask in _OF_MOTION:
-        yield {"ask": ask}
-    for name in key.report.generalized_coordinates or ():
-        for ask in _OF_COORDINATE:
-            yield {"ask": ask, "coordinate": name}
+    """Yield every kind of question, about each constraint or coordinate where it needs one."""
+    about = {"constraint": [*key.constraints], "coordinate": key.report.generalized_coordinates or []}
+    for ask, kind in KINDS.items():
+        needed = [name for name in about if name in kind.model_fields and kind.model_fields[name].is_required()]
+        if key.scene.energies is not None or not issubclass(kind, MOTION):
+            yield from ({"ask": ask, field: name} for field in needed for name in about[field])
+            yield from () if needed else [{"ask": ask}]
 
 
 def _unused(name: str, taken: Sequence[str]) -> str:

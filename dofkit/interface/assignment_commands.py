@@ -64,7 +64,7 @@ def handout(
     """
     from dofkit.homework.answers.roster import load_roster
     from dofkit.homework.assignment import load_assignment
-    from dofkit.homework.handout.class_sheets import sheets_of, write_handout, write_sheets
+    from dofkit.homework.handout.class_sheets import write_handout, write_sheets
     from dofkit.homework.handout.sheets import remarks
     from dofkit.homework.variants import first_variant, sheet_of
 
@@ -72,7 +72,7 @@ def handout(
         prepared = load_assignment(assignment)
         if roster is not None:
             form, target = form or "html", out or Path(assignment).with_suffix("")
-            write_sheets(sheets_of(prepared, load_roster(roster)), form, drawing(), target)
+            write_sheets(prepared, load_roster(roster), form, drawing(), target)
         else:
             form, target = handout_file(Path(assignment), form, out)
             sheet = first_variant(prepared) if student is None else sheet_of(prepared, student)

@@ -208,7 +208,8 @@ def svg(scene: SceneLike, report: Report | None = None, width: float = WIDTH) ->
 def unanswered(scene: Scene, report: Report, title: str) -> Picture | None:
     """Return the picture for an assignment, or None for coordinates without a `picture`. Raises as `draw`.
 
-    It shows nothing that the report says: neither equations nor what moves, is redundant or contradicts others.
+    It shows nothing that the report says, neither equations nor what moves, is redundant or contradicts others, and no
+    ruler.
     """
     if not (scene.particles or scene.bodies or scene.picture):
         return None
@@ -217,9 +218,8 @@ def unanswered(scene: Scene, report: Report, title: str) -> Picture | None:
     shapes = tuple(s._replace(state="moving" if s.role in ("body", "point") else "plain") for s in sketch.shapes)
     contents = f"{title}: {', '.join(_contents(scene))}."
     notes = (FREE_PLACES,) if stage.schematic else ()
-    return Picture(
-        replace(sketch, title="", answer="", alternative=contents, shapes=shapes, meanings=None, notes=notes)
-    )
+    plain = replace(sketch, title="", answer="", alternative=contents, shapes=shapes, measurable=False)
+    return Picture(replace(plain, meanings=None, notes=notes))
 
 
 def _contents(scene: Scene) -> Iterator[str]:

@@ -13,7 +13,7 @@ from shared.served import Served
 import dofkit
 from dofkit.homework.answers.roster import Participant, Roster
 from dofkit.homework.assignment import load_assignment
-from dofkit.homework.handout.class_sheets import sheets_of, write_sheets
+from dofkit.homework.handout.class_sheets import write_sheets
 from dofkit.homework.handout.page_sheets import put_runtime
 from dofkit.interface.assignment_commands import drawing
 
@@ -67,7 +67,7 @@ SHEET: dict[str, Any] = {
 def test_a_sheet_is_filled_in_from_a_folder_without_a_network(served: Served, visit: Any, tmp_path: Path) -> None:
     prepared = load_assignment(SHEET)
     members = Roster((Participant("ada@x", "Ada", "ada@x"), Participant("grace@x", "Grace", "grace@x")))
-    write_sheets(sheets_of(prepared, members), "page", drawing(), tmp_path)
+    write_sheets(prepared, members, "page", drawing(), tmp_path)
     page = visit.page
     visit.context.set_offline(True)
     page.goto((tmp_path / "ada@x.html").as_uri())

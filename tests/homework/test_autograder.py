@@ -200,14 +200,6 @@ def test_what_is_no_submission_is_said(files: dict[str, str], why: str, sheet: P
     assert why in json.dumps(written(root))
 
 
-def test_a_faulty_assignment_is_nobodys_fault(tmp_path: Path) -> None:
-    faulty = tmp_path / "assignment.yaml"
-    faulty.write_text("title: x\nproblems: []\n")
-    root = hand_in(tmp_path / "autograder" / "submission", answers__json=submission())
-    assert main([str(faulty), "--root", str(root)]) == 2
-    assert "not your fault" in written(root)["output"]
-
-
 @pytest.mark.sweep
 @pytest.mark.parametrize("metadata", ["", "[]", '{"users": 3}', '{"users": [7]}', '{"users": []}', "[" * 100_000])
 def test_metadata_may_be_anything(metadata: str, sheet: Path, tmp_path: Path) -> None:
@@ -329,4 +321,4 @@ def test_what_a_person_decided_comes_back(sheet: Path, tmp_path: Path) -> None:
     assert written(root)["score"] == 10.0
     (sheet.parent / "review.csv").write_text("no table")
     assert main([str(sheet), "--root", str(root)]) == 2
-    assert "not your fault" in written(root)["output"]
+    assert written(root)["score"] == 10.0

@@ -16,7 +16,7 @@ from dofkit.homework.answers.roster import Participant, Roster
 from dofkit.homework.answers.submission import of_value
 from dofkit.homework.assignment import AssignmentError, Prepared, load_assignment
 from dofkit.homework.grading import Grader
-from dofkit.homework.handout.class_sheets import ASSIGNMENT, TABLE, sheets_of, write_sheets
+from dofkit.homework.handout.class_sheets import ASSIGNMENT, TABLE, write_sheets
 from dofkit.homework.variants import NobodysVariantError, VaryError, differing_share, drawn, picked, sheet_of
 from dofkit.interface.assignment_commands import drawing
 from dofkit.interface.cli import app
@@ -161,7 +161,7 @@ def test_a_page_with_fields_has_only_names_of_its_own_sheet(tmp_path: Path) -> N
     members = roster(*(f"student{i}" for i in range(10, 19)))
     variants = drawn(load_assignment(written), members, "seed-of-mine")
     prepared = load_assignment({**written, "variants": variants.model_dump()})
-    write_sheets(sheets_of(prepared, members), "page", drawing(), tmp_path)
+    write_sheets(prepared, members, "page", drawing(), tmp_path)
     for student in variants.students:
         page = (tmp_path / f"{student.student}.html").read_text(encoding="utf-8")
         picked_l, picked_support = student.picks["chain"]["l"], student.picks["chain"]["support"]
@@ -177,10 +177,10 @@ def test_a_page_with_fields_has_only_names_of_its_own_sheet(tmp_path: Path) -> N
         data = json.loads(text)
         assert data["assignment"] is None
         assert {key: value for key, value in data["declared"]["chain"].items() if key != "questions"} == {
-            "scene": {"dimension": 3, "coordinates": ["x", "y"]}, "constraints": ["rod"], "also": {}, "others": {}
+            "scene": {"dimension": 3, "coordinates": ["x", "y"]}, "constraints": ["rod"], "also": {}
         }  # fmt: skip
     with pytest.raises(NobodysVariantError, match="no student has a variant"):
-        write_sheets(sheets_of(load_assignment(written), members), "page", drawing(), tmp_path)
+        write_sheets(load_assignment(written), members, "page", drawing(), tmp_path)
 
 
 def test_a_roster_of_nobody() -> None:

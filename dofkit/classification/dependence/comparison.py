@@ -195,9 +195,10 @@ def same_side(a: Inequality, b: Inequality, others: Sequence[Normal], setting: S
     """Return whether a >= 0 and b >= 0 agree at all configurations that the others allow; None if undecided.
 
     The signs differ at some point (a ball proves it), or agree at all that are drawn and the boundaries are the same.
-    Where the others leave the boundary only, all of space is looked at.
+    Where the others leave the boundary only, all of space is looked at. Of one that includes its boundary and one that
+    does not, nothing is proved here unless the signs differ.
     """
-    if a.expr == b.expr:
+    if a == b:
         return True
     finite = [p.expr for n in others for p in n.pieces if isinstance(p, Finite)]
     seen = list(_signs(a.expr, b.expr, finite, setting))
@@ -208,7 +209,7 @@ def same_side(a: Inequality, b: Inequality, others: Sequence[Normal], setting: S
     sides = [follows(_boundary(x), [*others, _boundary(y)], setting) for x, y in ((a, b), (b, a))]
     if False in sides:
         return False
-    return True if seen and all(sides) else None
+    return True if seen and all(sides) and a.strict == b.strict else None
 
 
 def _boundary(q: Inequality) -> Normal:

@@ -189,13 +189,12 @@ def _vanishes_on_states(
         return False
     if seen and all(seen) and not asked and not states.chosen:
         return True
-    answer = [
-        _some_hold(states, p, branches)
-        for p in states.certain(MANY_STATES if asked or False in seen else STATES)
-        if _all_vanish(states, p, written) and all(_satisfied(states, p, c) is not False for c in domain)
-    ]
-    if False in answer:
-        return False
+    answer = list[bool | None]()
+    for real in states.certain(MANY_STATES if asked or False in seen else STATES):
+        if _all_vanish(states, real, written) and all(_satisfied(states, real, c) is not False for c in domain):
+            answer.append(_some_hold(states, real, branches))
+        if False in answer:
+            return False
     sure = bool(seen) and all(seen) and not states.chosen
     return True if answer and all(answer) and (sure or len(answer) > 1 or not seen) else None
 

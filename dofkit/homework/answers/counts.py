@@ -27,6 +27,8 @@ from dofkit.homework.judgement import DoubtError
 _HINT = "write a number such as 3"
 _COMMA = re.compile(r"(?<=\d),(?=\d)")
 _GROUP = re.compile(r"\s*\(([^()]*)\)")
+#: A factor of a sum: `3(4 - 1) - 2 4`; at the end it may be what the number before it stands for.
+_FACTOR = re.compile(r"\d\([^()]*\d[^()]*\)\s*[-+*/=−·⋅×]")
 _SEGMENT = re.compile(
     r"[;\n]|,(?!\d)|:(?!=)|(?<=[^\d\s])\.(?=\s)|\s[-–—]\s(?=[^\W\d_]{3})|"
     r"⇒(?=\s*[^\W\d_]+\s*=)|(?<=\s)(?:so|therefore|hence|thus|also|donc|luego|quindi|portanto|daher|folglich)(?=\s)",
@@ -145,7 +147,7 @@ def _segments(script: Script) -> Iterator[Script]:
     """What stands between separators, and a number in parentheses that repeats one; other parentheses are remarks."""
     for group in _GROUP.finditer(script.text):
         before = script.text[: group.start()].rstrip()
-        if before and before[-1] not in "+-*/=(^":
+        if before and before[-1] not in "+-*/=(^−·⋅×" and not _FACTOR.match(script.text, len(before) - 1):
             inside = script.cut(*group.span(1))
             if takes_back(inside.text):
                 raise DoubtError("a remark makes the answer ambiguous.", inside.columns[0], _HINT)
@@ -228,17 +230,8 @@ def _value(script: Script) -> Fraction | None:
     if not remainder.text.strip():
         return None
     if re.search(r"[^\W\d_]", remainder.text) and not _FIGURE.search(remainder.text):
-        return None if _is_remark(remainder.text) else _refused(remainder)
+        return None
     return _arithmetic(remainder)
-
-
-def _is_remark(text: str) -> bool:
-    """Words without a number: a name before a sign of equality, or a remark after the number."""
-    return re.search(r"[^\W\d_]", text) is not None and not re.search(r"[<>≤≥]", text)
-
-
-def _refused(script: Script) -> Fraction | None:
-    raise TextError("this is not a number", script.columns[0], _HINT)
 
 
 def _counted(match: re.Match[str], leads: bool) -> str:

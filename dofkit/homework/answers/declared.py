@@ -6,7 +6,7 @@ The key is not here: an answer reads alike whether it is right or wrong.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -29,30 +29,26 @@ _DIFFERENCE = re.compile(r"(?:Δ|Delta)_?(?P<name>\w+)")
 class DeclaredNames:
     """What the texts of answers may mention.
 
-    ``names``: for formulas, with the other names of a problem; ``also``: further coordinates that the sheet offers;
-    ``others``: other name -> declared name; ``constants``: parameters without a value.
+    ``names``: for formulas; ``also``: further coordinates that the sheet offers; ``constants``: parameters without a
+    value.
     """
 
     names: Names
     coordinates: tuple[str, ...]
     constraints: tuple[str, ...]
     also: tuple[str, ...]
-    others: Mapping[str, str]
     constants: tuple[str, ...]
 
     @classmethod
-    def of(cls, scene: Scene, also: Mapping[str, str], others: Mapping[str, str]) -> DeclaredNames:
+    def of(cls, scene: Scene, also: Iterable[str]) -> DeclaredNames:
         """Return the names of a scene: nothing that its constraints say is kept."""
         names = vocabulary_of(scene).names
-        more = {o: coordinate(name) for o, name in others.items() if name in names.coordinates}
-        more |= {o: names.parameters[name] for o, name in others.items() if name in names.parameters}
         constraints = tuple(c.name or f"c{n}" for n, c in enumerate(scene.constraints, 1))
         return cls(
-            replace(names, parameters={**names.parameters, **more}) if more else names,
+            names,
             tuple(c.name for c in coordinate_table(scene).coordinates),
             constraints,
             tuple(also),
-            others,
             tuple(n for n, e in names.parameters.items() if e.op == "sym"),
         )
 

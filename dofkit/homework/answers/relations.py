@@ -50,16 +50,14 @@ class AnswerReading(NamedTuple):
     """One way to read an answer.
 
     ``bare``: which relations were written without a sign, as `x y`; ``undeclared``: names that nobody declared;
-    ``moving``: those of them whose derivatives occur; ``meant``: spelling -> the declared name it was read as;
-    ``derived``: arrows stand between the equations; ``places``: the columns of the names of its own; ``rank``: how much
-    the reading supposes, 0 for nothing.
+    ``moving``: those of them whose derivatives occur; ``derived``: arrows stand between the equations; ``places``: the
+    columns of the names of its own; ``rank``: how much the reading supposes, 0 for nothing.
     """
 
     relations: tuple[Comparison, ...]
     bare: tuple[bool, ...]
     undeclared: tuple[str, ...] = ()
     moving: frozenset[str] = frozenset()
-    meant: Mapping[str, str] = {}
     derived: bool = False
     places: Mapping[str, int] = {}
     rank: int = 0
@@ -75,15 +73,18 @@ class AnswerReading(NamedTuple):
         return self._replace(relations=self.relations[-1:], bare=self.bare[-1:], derived=False)
 
     @property
+    def symbols(self) -> set[Expr]:
+        """Return every symbol of its relations."""
+        return {s for c in self.relations for e in (c.left, c.right) for s in e.symbols}
+
+    @property
     def on_coordinates(self) -> bool:
         """Return whether it contains coordinates of the scene."""
-        symbols = {s for c in self.relations for e in (c.left, c.right) for s in e.symbols}
-        return any(s.args[0] != "parameter" and s.args[-1] not in self.undeclared for s in symbols)
+        return any(s.args[0] != "parameter" and s.args[-1] not in self.undeclared for s in self.symbols)
 
     def with_own(self, names: Iterable[str]) -> AnswerReading:
         """Return the reading with these coordinates as names of the answer's own."""
-        symbols = {s for c in self.relations for e in (c.left, c.right) for s in e.symbols if len(s.args) > 1}
-        used = {n: {s.args[0] for s in symbols if s.args[1] == n} for n in names}
+        used = {n: {s.args[0] for s in self.symbols if s.args[-1] == n} for n in names}
         moving = frozenset(n for n, kinds in used.items() if kinds - {"coordinate"})
         still = {coordinate(n): parameter(n) for n, kinds in used.items() if kinds and n not in moving}
         relations = tuple(
@@ -95,8 +96,7 @@ class AnswerReading(NamedTuple):
 
     def read(self, constants: frozenset[str] = frozenset()) -> Read:
         """As equations for a scene."""
-        symbols = {s for c in self.relations for side in (c.left, c.right) for s in side.symbols}
-        moving = any(s.args[0] not in ("coordinate", "parameter", "time") for s in symbols)
+        moving = any(s.args[0] not in ("coordinate", "parameter", "time") for s in self.symbols)
         return Read(tuple(as_text(c) for c in self.relations), constants, self.text, moving)
 
 
@@ -104,7 +104,7 @@ class AnswerReading(NamedTuple):
 class AnswerNames:
     """The declared names, the answer's own, and spellings of declared ones.
 
-    ``free``: may an answer bring names of its own? ``choice``: which reading was taken of each kind of doubt, the same
+    ``choice``: which reading was taken of each kind of doubt, the same
     in the whole answer; ``signs_apart``: `±` makes two readings, not one product. ``usual``: words that are read as the
     usual names of quantities, such as `v_x`; ``frequencies``: omega may also be a frequency.
     """
@@ -115,7 +115,6 @@ class AnswerNames:
     meant: Mapping[str, str] = field(default_factory=dict)
     places: Mapping[str, int] = field(default_factory=dict)
     choice: Mapping[str, int] = field(default_factory=dict)
-    free: bool = True
     accelerations: bool = False
     signs_apart: bool = False
     euler: bool = False
@@ -164,7 +163,7 @@ class AnswerNames:
         quantity = None if word in self.usual else usual_name(word, self._names_with_accelerations)
         if quantity is not None:
             return replace(self, usual={**self.usual, word: quantity})
-        if not self.free or len(self.undeclared) == MOST_OWN:
+        if len(self.undeclared) == MOST_OWN:
             return None
         letter = self._letter(word)
         if letter is not None:
@@ -281,7 +280,6 @@ def _readings(pieces: Pieces, vocabulary: AnswerNames) -> Iterator[AnswerReading
             bare,
             extended.undeclared,
             extended.moving,
-            extended.meant,
             pieces.derived,
             extended.places,
             extended.rank,

@@ -1,8 +1,7 @@
 """Tables of answers, as spreadsheets and forms write them: a header ``student,PROBLEM.QUESTION,...``, then rows.
 
 The column that identifies the student may have any name that rosters know, such as ``Email Address``; the header of an
-answer's column may go on after the question's name, as ``disc.f How many degrees of freedom?``. In a table with times
-(``Timestamp``) a later row of the same student replaces an earlier one.
+answer's column may go on after the question's name, as ``disc.f How many degrees of freedom?``.
 
 A broken row is reported with its line, and the rows after it are read. A table without a column for students, whose
 every column is a question, is one person's: that of its only row. A table whose header names no question is an error,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -126,14 +126,8 @@ def alternatives(answer: Given, names: Sequence[str], what: str) -> list[Given]:
     return [*choices] if all(part.strip() for part in choices) else [answer]
 
 
-def names_of(answer: object, names: Sequence[str], what: str, others: Mapping[str, str] | None = None) -> list[str]:
-    """The known names that an answer lists; remarks in parentheses and words around them are read over.
-
-    ``others``: other names of what is known.
-    """
-    if others:
-        every = [*names, *(other for other, name in others.items() if name in names)]
-        return list(dict.fromkeys(others.get(name, name) for name in names_of(answer, every, what)))
+def names_of(answer: object, names: Sequence[str], what: str) -> list[str]:
+    """The known names that an answer lists; remarks in parentheses and words around them are read over."""
     if isinstance(answer, str):
         reason = REASONS.search(answer)
         answer = answer if reason is None else answer[: reason.start()]

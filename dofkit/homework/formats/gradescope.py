@@ -24,13 +24,13 @@ from dofkit.homework.result import Item, Result
 from dofkit.homework.sentences import Language, in_language
 
 
-def document(result: Result, prepared: Prepared | None, visible: Visibility | None = None) -> dict[str, Any]:
-    """Return the ``results.json`` of a submission to an assignment, which is None if it cannot be read.
+def document(result: Result, prepared: Prepared, visible: Visibility | None = None) -> dict[str, Any]:
+    """Return the ``results.json`` of a submission.
 
     ``visible``: when points are shown, where that is not as the assignment says.
     """
-    language: Language = "en" if prepared is None else prepared.assignment.language
-    visibility = visible or ("visible" if prepared is None else prepared.assignment.visibility)
+    language = prepared.assignment.language
+    visibility = visible or prepared.assignment.visibility
     later = visibility != "visible" and result.error is None
     fields: dict[str, Any] = {
         "score": result.score or 0.0,

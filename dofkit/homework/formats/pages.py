@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any
 from dofkit.expressions.text.typesetting import mathml, typeset
 from dofkit.homework.assignment import Prepared
 from dofkit.homework.formats.wording import STATUSES, line, number, open_points, plain, stop_of
-from dofkit.homework.problem import Problem
 from dofkit.homework.questions import QuestionBase
 from dofkit.homework.result import Item, Result, Status
 from dofkit.homework.sentences import Language, in_language
@@ -44,7 +43,7 @@ def student_page(result: Result, prepared: Prepared) -> dict[str, Any]:
             if (problem.id, q.id) in by_question
         ]
         if rows:
-            sections.append({"title": problem_title(problem), "rows": rows})
+            sections.append({"title": ": ".join(filter(None, (problem.id, problem.title))), "rows": rows})
     if by_question:
         rows = [_answer_row(item, "") for item in by_question.values()]
         sections.append({"title": in_language(language, "Answers to questions that were not asked"), "rows": rows})
@@ -63,11 +62,6 @@ def student_page(result: Result, prepared: Prepared) -> dict[str, Any]:
 def _answer_row(item: Item, asked: str) -> dict[str, Any]:
     score = "–" if item.score is None else number(item.score)
     return {"item": item, "asked": asked, "points": f"{score} / {number(item.max_score)}"}
-
-
-def problem_title(problem: Problem) -> str:
-    """Return the heading of a problem."""
-    return problem.id if problem.title is None else f"{problem.id}: {problem.title}"
 
 
 def asked_text(question: QuestionBase, language: Language = "en") -> str:

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import csv
-from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 import yaml
@@ -36,32 +35,25 @@ ENDINGS = {"page": "html"}
 def write_variants(prepared: Prepared, variants: Variants, out: Path) -> None:
     """Write the assignment that grades the class, and the table of variants with their right answers."""
     out.mkdir(parents=True, exist_ok=True)
-    value = {
-        **standing_alone(prepared, out),
-        "variants": variants.model_dump(mode="json", exclude_defaults=True),
-    }
+    value = standing_alone(prepared, out) | {"variants": variants.model_dump(mode="json", exclude_defaults=True)}
     written = yaml.safe_dump(value, sort_keys=False, allow_unicode=True, width=110)
     (out / ASSIGNMENT).write_text(written, encoding="utf-8")
-    rows = list(rows_of(prepared, variants))
-    counts = Counter((problem, variant) for _, problem, variant, _ in rows)
     with (out / TABLE).open("w", encoding="utf-8-sig", newline="") as file:
         table = csv.writer(file)
-        table.writerow(["student", "problem", "variant", "students with it", "right answers"])
-        for student, problem, variant, right in rows:
-            table.writerow(map(cell, (student, problem, variant, str(counts[problem, variant]), right)))
+        table.writerow(["student", "problem", "variant", "right answers"])
+        table.writerows(map(cell, row) for row in rows_of(prepared, variants))
 
 
-def sheets_of(prepared: Prepared, roster: Roster) -> Iterator[tuple[str, Prepared]]:
-    """Yield everyone in a roster with their sheet. Raises NobodysVariantError for one without a variant."""
-    for member in roster.members:
-        yield member.student, sheet_of(prepared, (member.student, *member.called()))
+def write_sheets(prepared: Prepared, roster: Roster, form: str, draw: Draw, folder: Path) -> None:
+    """Write the sheet of everyone in a roster into a folder, called after the student.
 
-
-def write_sheets(sheets: Iterable[tuple[str, Prepared]], form: str, draw: Draw, folder: Path) -> None:
-    """Write the sheet of every student into a folder, called after the student. Raises as `write_handout`."""
+    Raises NobodysVariantError for one without a variant, and as `write_handout`.
+    """
     names = FileNames()
-    for student, sheet in sheets:
-        write_handout(sheet, form, draw, folder / f"{names.of(student)}.{ENDINGS.get(form, form)}", student)
+    for member in roster.members:
+        sheet = sheet_of(prepared, (member.student, *member.called()))
+        path = folder / f"{names.of(member.student)}.{ENDINGS.get(form, form)}"
+        write_handout(sheet, form, draw, path, member.student)
 
 
 def write_handout(prepared: Prepared, form: str, draw: Draw, out: Path, student: str | None = None) -> None:

@@ -112,7 +112,8 @@ class SheetComposer:
             yield self._text("{names}: unknown smooth function.", names=f"${name}({', '.join(arguments)})$")
         yield from self._constraints(key, asked_equations(problem))
         yield from map(self._force, key.scene.forces)
-        yield from self._further(problem, key)
+        for name, text in problem.also.items():
+            yield self._text("You may also use {names}.", names=f"${name} = {text}$")
 
     def _constraints(self, key: Key, hidden: set[str]) -> Iterator[str]:
         for constraint, name in zip(key.scene.constraints, key.constraints, strict=True):
@@ -133,13 +134,6 @@ class SheetComposer:
         sizes = {"stiffness": force.stiffness, "rest length": force.rest_length, "damping": force.damping}
         measures = "".join(f", {word} {as_written(value)}" for word, value in sizes.items() if value is not None)
         return marked(described(f"{force.type} {where}{measures}".strip(), self.language))
-
-    def _further(self, problem: Problem, key: Key) -> Iterator[str]:
-        for name, text in problem.also.items():
-            yield self._text("You may also use {names}.", names=f"${name} = {text}$")
-        for name, others in problem.names.items():
-            listed = ", ".join(f"`{other}`" for other in others)
-            yield self._text("{name} may also be written as {names}.", name=f"`{name}`", names=listed)
 
     def _ways(self) -> Iterator[str]:
         """Yield how answers are written, for every kind of question on the sheet."""

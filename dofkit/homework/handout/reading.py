@@ -38,7 +38,6 @@ def declared_of(problem: Problem, scene: Scene) -> Json:
         "scene": {key: part for key, part in value.items() if part},
         "constraints": names,
         "also": dict.fromkeys(problem.also, ""),
-        "others": {other: name for name, others in problem.names.items() for other in others},
         "questions": questions,
     }
 
@@ -51,7 +50,7 @@ class _Declared(NamedTuple):
 @lru_cache(maxsize=64)
 def _declared(text: str) -> _Declared:
     value = json.loads(text)
-    names = DeclaredNames.of(Scene.model_validate({"name": "sheet", **value["scene"]}), value["also"], value["others"])
+    names = DeclaredNames.of(Scene.model_validate({"name": "sheet", **value["scene"]}), value["also"])
     questions = [KINDS[question["ask"]].model_validate(question) for question in value["questions"]]
     return _Declared(replace(names, constraints=tuple(value["constraints"])), {q.id: q for q in questions})
 

@@ -19,7 +19,7 @@ from dofkit.homework.handout.markup import (
     unset_formulas,
     with_latex,
 )
-from dofkit.homework.problem import Problem, named
+from dofkit.homework.problem import Problem
 from dofkit.homework.questions import MOTION
 from dofkit.homework.questions.equations import EquationQuestion
 
@@ -91,7 +91,8 @@ def remarks(prepared: Prepared, is_preview: bool = False) -> Iterator[str]:
         if problem.text is None:
             if any(isinstance(question, MOTION) for question in problem.questions):
                 yield f"problem '{problem.id}': the handout does not state the forces and masses: state them in `text`"
-            scene = named(prepared.keys[problem.id].scene)
+            key = prepared.keys[problem.id]
+            scene = dict(zip(key.constraints, key.scene.constraints, strict=True))
             asked = [n for q in problem.questions if isinstance(q, EquationQuestion) for n in q.constraint]
             for name in dict.fromkeys(n for n in asked if scene[n].facts.written):
                 yield (

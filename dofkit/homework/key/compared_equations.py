@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import NamedTuple, TypeVar
+from functools import cached_property
 
 from dofkit.base.errors import SceneError, TextError
 from dofkit.classification.dependence.equivalence import Compared, Sameness, compare
@@ -16,15 +15,16 @@ from dofkit.expressions.text import Comparison, parse_relations, to_text
 from dofkit.expressions.tree import Expr
 from dofkit.homework.answers.relations import AnswerReading, is_constant_name
 from dofkit.homework.judgement import HALF, NOTHING, JudgedReading, Judgement, needs_review, partly, right, wrong
+from dofkit.homework.key.counterexamples import counterexample
 from dofkit.homework.key.key import Key
 from dofkit.homework.key.own_names import renamed, without_own
-from dofkit.homework.key.regions import Condition, compared_regions, conditions, counterexample
+from dofkit.homework.key.regions import Condition, compared_regions, conditions
 from dofkit.homework.sentences import Said, meanings, say
 from dofkit.methods.classify import classify
 from dofkit.scene.added_equations import Read, with_equations
 from dofkit.scene.lowering import lower
 from dofkit.scene.scene import Scene
-from dofkit.system import System
+from dofkit.system import Relation, System
 
 _UNDECIDED = "it could not be decided in the time available whether this is the same constraint."
 #: What an answer that is not quite the constraint is worth.
@@ -32,27 +32,24 @@ _HALVES = frozenset({Sameness.IRREGULAR, Sameness.BRANCH, Sameness.DIFFERENTIATE
 _RIGHT = frozenset({Sameness.SAME, Sameness.INTEGRATED})
 #: What the equations of an answer are called in the scene that holds them.
 ANSWER = "the answer"
+_ALLOWS = "Your equation allows {point}, which the constraint forbids."
+_FORBIDS = "Your equation forbids {point}, which the constraint allows."
 _TURNING = frozenset({"sin", "cos", "tan"})
 #: A length that nobody named, as a scene's own equations call its square.
 _UNNAMED = re.compile(r"\b_[A-Z]\d+\b")
-Found = TypeVar("Found")
 
 
-class PosedAnswer(NamedTuple):
-    """A scene's mathematics with an answer in it, and the numbers of the answer's constraints."""
+def with_answer(key: Key, read: Read) -> tuple[System, range]:
+    """Return the mathematics of the scene with an answer, and the numbers of the answer's constraints in it.
 
-    system: System
-    numbers: range
-
-
-def with_answer(key: Key, read: Read, question: Callable[[PosedAnswer], Found]) -> Found:
-    """Return what a question finds in the scene with the answer. Raises TextError if the scene cannot contain it."""
+    Raises TextError if the scene cannot contain it.
+    """
     try:
         system = lower(with_equations(key.scene, read, ANSWER)).in_coordinates
-        return question(PosedAnswer(system, range(len(key.scene.constraints), len(system.constraints))))
     except SceneError as error:
         fault = error.faults[0]
         raise TextError(fault.message, fault.column or 1, fault.hint) from None
+    return system, range(len(key.scene.constraints), len(system.constraints))
 
 
 @dataclass(frozen=True)
@@ -114,9 +111,9 @@ class EquationComparison:
         return needs_review(way.text, undeclared(strange[0]) if strange else _UNDECIDED)
 
     def _declared(self, way: AnswerReading, text: str = "") -> Judgement:
-        if not way.on_coordinates and any(e.symbols for c in way.relations for e in (c.left, c.right)):
+        if not way.on_coordinates and way.symbols:
             raise TextError("the answer contains no coordinates", 1, "write an equation between the coordinates")
-        if any(s.args[0] == "acceleration" for c in way.relations for e in (c.left, c.right) for s in e.symbols):
+        if any(s.args[0] == "acceleration" for s in way.symbols):
             return needs_review(way.text, "it contains accelerations.")
         verdict = self._verdict(way.read(), text or way.text)
         if verdict.status == "right":
@@ -127,36 +124,41 @@ class EquationComparison:
         return self._with_counterexample(verdict, way)
 
     def _with_counterexample(self, verdict: Judgement, way: AnswerReading) -> Judgement:
-        """Return a judgement with a configuration, if one is known, that the answer allows wrongly."""
-        system = lower(self.key.scene)
-        asked = [r.expr for i in system.numbers_of(*self.names) for r in system.constraints[i].relations]
-        symbols = {s for c in way.relations for e in (c.left, c.right, *asked) for s in e.symbols}
-        finite = all(s.args[0] in ("coordinate", "parameter") for s in symbols)
-        equations = all(c.relation == "=" for c in way.relations)
-        if len(asked) != 1 or not finite or not equations or verdict.codes == (Sameness.EMPTY.value,):
+        """Return a judgement with a state, if one is found, that tells the answer from the constraints."""
+        relations = [c.relation for c in way.relations] + [r.sense for r in self._asked]
+        if verdict.codes == (Sameness.EMPTY.value,) or any(relation != "=" for relation in relations):
             return verdict
-        point = counterexample(self._others(), way.relations, asked[0])
-        return (
-            verdict.saying(say("Your equation allows {point}, which the constraint forbids.", point=point))
-            if point
-            else verdict
-        )
+        answer, asked = [c.left - c.right for c in way.relations], [r.expr for r in self._asked]
+        if verdict.codes == (Sameness.STRONGER.value,):
+            sentence, point = _FORBIDS, counterexample(self._others, asked, answer)
+        else:
+            sentence, point = _ALLOWS, counterexample(self._others, answer, asked)
+        return verdict.saying(say(sentence, point=point)) if point else verdict
+
+    @property
+    def _asked(self) -> list[Relation]:
+        """The relations of the constraints that are asked for."""
+        system = self.key.system
+        return [r for i in system.numbers_of(*self.names) for r in system.constraints[i].relations]
 
     def _region(self, way: AnswerReading) -> Judgement | None:
         """Return what inequalities are worth, compared as regions, or None if there are equations."""
-        system = lower(self.key.scene)
-        asked = [r for i in system.numbers_of(*self.names) for r in system.constraints[i].relations]
         answer = conditions(way.relations)
-        if answer is None or any(r.sense == "=" for r in asked):
+        if answer is None or any(r.sense == "=" for r in self._asked):
             return None
-        wanted = [Condition(r.expr, r.sense == ">") for r in asked]
-        comparison = compared_regions(self._others(), wanted, answer)
+        wanted = [Condition(r.expr, r.sense == ">") for r in self._asked]
+        comparison = compared_regions(self._others, wanted, answer)
         if not comparison.beyond and not comparison.lacking:
             same = None not in (comparison.beyond, comparison.lacking)
             return right(way.text) if same else needs_review(way.text, _UNDECIDED)
         allows = "Your inequality allows {point}, which the constraint forbids."
         forbids = "Your inequality forbids {point}, which the constraint allows."
         hint = say(allows if comparison.beyond else forbids, point=comparison.point) if comparison.point else ""
+        closed = [[Condition(c.e, False) for c in part] for part in (wanted, answer)]
+        if not comparison.point and {c.strict for c in wanted} != {c.strict for c in answer}:
+            without = compared_regions(self._others, *closed)
+            if without.beyond is False and without.lacking is False:
+                return needs_review(way.text, "it differs from the constraint on the boundary only.")
         both = comparison.beyond and comparison.lacking
         sameness = Sameness.DIFFERENT if both else Sameness.WEAKER if comparison.beyond else Sameness.STRONGER
         return wrong(way.text, sameness.value, why=hint)
@@ -172,6 +174,7 @@ class EquationComparison:
             return partly(HALF, text, code)
         return self._in_part(comparison, read, text, code)
 
+    @cached_property
     def _others(self) -> Scene:
         """Return the scene without the constraints that are asked for."""
         pairs = zip(self.key.scene.constraints, self.key.constraints, strict=True)
@@ -186,7 +189,7 @@ class EquationComparison:
 
     def _by_rank(self, read: Read, text: str, code: str) -> Judgement:
         """Return what implied equations are worth, by the number of velocities that they leave free."""
-        scene = self._others()
+        scene = self._others
         free = classify(scene).velocity_dof
         yours, system = classify(with_equations(scene, read, ANSWER)).velocity_dof, self.key.report.velocity_dof
         if free is None or yours is None or system is None:
@@ -198,11 +201,8 @@ class EquationComparison:
         return partly(Fraction(free - yours, free - system), text, code, why=count)
 
     def _compared(self, read: Read) -> Compared:
-        return with_answer(
-            self.key,
-            read,
-            lambda posed: compare(posed.system, posed.system.numbers_of(*self.names), posed.numbers, read.constants),
-        )
+        system, answer = with_answer(self.key, read)
+        return compare(system, system.numbers_of(*self.names), answer, read.constants)
 
     def _in_part(self, comparison: Compared, read: Read, text: str, code: str) -> Judgement:
         """Return points in proportion to the constraints that are implied, or to the rank of what is."""
@@ -242,7 +242,7 @@ def equations_of(key: Key, names: tuple[str, ...]) -> str:
 
 def _equations(key: Key, name: str) -> str:
     entry = key.constraints[name]
-    (constraint,) = (c for c in lower(key.scene).constraints if c.name == name)
+    (constraint,) = (c for c in key.system.constraints if c.name == name)
     if constraint.facts.written or not all(_sayable(key, relation.expr) for relation in constraint.relations):
         return entry.text
     texts = [f"{to_text(relation.expr)} {relation.sense} 0" for relation in constraint.relations]

@@ -53,10 +53,8 @@ def _judgement(way: AnswerReading, key: Key, name: str) -> Judgement:
     if read.moving:
         return wrong(read.text, "NOT_INTEGRATED")
     remark = "" if read.constants else _LEFT_OUT
-    integral = with_answer(
-        key, read, lambda posed: is_integral(posed.system, posed.system.numbers_of(name), posed.numbers)
-    )
-    if integral:
+    system, answer = with_answer(key, read)
+    if is_integral(system, system.numbers_of(name), answer):
         return right(read.text, remark)
     family = _leaves(key, read, name)
     if family is Leaves.ALL or (family is Leaves.ONE and not read.constants):
@@ -81,10 +79,8 @@ def _with_constants(way: AnswerReading, key: Key) -> Read:
 
 def _leaves(key: Key, read: Read, name: str) -> Leaves:
     """Return whether the answer is a family of curves or surfaces on which the constraint is satisfied."""
-    scene = key.scene
-    system = lower(_with_still(scene, read))
-    answer_numbers = range(len(scene.constraints), len(scene.constraints) + len(read.texts))
-    return leaves(system, system.numbers_of(name), answer_numbers, read.constants)
+    system, before = lower(_with_still(key.scene, read)), len(key.scene.constraints)
+    return leaves(system, system.numbers_of(name), range(before, before + len(read.texts)), read.constants)
 
 
 def _with_still(scene: Scene, read: Read) -> Scene:

@@ -134,12 +134,6 @@ class AnsweredMotion:
         expressions = [*self.motion.equations.values(), *self.motion.rows]
         return [row for e in expressions if (row := linear(self.motion.on_constraints(e), unknown)) is not None]
 
-    @property
-    def decidable(self) -> bool:
-        """Return whether it can be decided at points, because everything is linear."""
-        whole = len(self.motion.names) + len(self.motion.multipliers)
-        return self.rows is not None and len(self.right) == whole
-
     def follow(self) -> Followed | None:
         """Return how each equation compares with those that are right, or None if undecided.
 
@@ -147,7 +141,7 @@ class AnsweredMotion:
         scene's accelerations satisfy all that hold it.
         """
         rows = self.rows
-        if rows is None or not self.decidable:
+        if rows is None or len(self.right) != len(self.motion.names) + len(self.motion.multipliers):
             return None
         ring = Ring([*(e for row in (*rows, *self.right) for e in row), *self.motion.relations], self.motion.positive)
         nodes = [[ring.node(e) for e in row] for row in rows]

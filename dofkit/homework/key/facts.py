@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
-from typing import NamedTuple
 
 import networkx as nx
 
 from dofkit.expressions.tree import Expr
 from dofkit.homework.key.key import Key
 from dofkit.report import ConstraintEntry
-from dofkit.scene.lowering import lower
 from dofkit.system import Constraint, System
 
 _STRINGS = ("string", "rope", "cable", "cord")
@@ -20,10 +18,10 @@ _BODY_FREEDOM = {1: 1, 2: 3, 3: 6}
 SPACE = 3
 
 
-class SceneCounts(NamedTuple):
-    """Counts of a scene.
+class SceneCounts:
+    """Counts of a scene whose number of degrees of freedom is known.
 
-    Parameters
+    Attributes
     ----------
     dof, n, d, naive
         The dimension of the configuration space, the number of coordinates, the dimension of the world, and the
@@ -46,74 +44,32 @@ class SceneCounts(NamedTuple):
         Strings by type or by name; particles and bodies on a straight guide of their own; hinges and sliders.
     """
 
-    dof: int
-    n: int
-    d: int
-    naive: int
-    particles: int
-    bodies: int
-    body_freedom: int
-    links: int
-    rods: int
-    clusters: int
-    surplus: int
-    on_curves: int
-    planes: int
-    fixed: int
-    forces: list[str]
-    energies: bool
-    entries: int
-    walls: int
-    nonholonomic: int
-    integrable: int
-    drives: int
-    strings: int
-    guides: int
-    joints: int
-
-
-def scene_counts(key: Key) -> SceneCounts:
-    """Return the counts of a scene whose number of degrees of freedom is known."""
-    return key.once(scene_counts, lambda: _counted(key))
-
-
-def _counted(key: Key) -> SceneCounts:
-    scene, report, system = key.scene, key.report, lower(key.scene)
-    pairs = list(zip(report.constraints, system.constraints, strict=True))
-    dof, n, d = report.dof or 0, len(key.coordinates), scene.dimension
-    particles, bodies = [p.name for p in scene.particles], len(scene.bodies)
-    bars: nx.Graph = nx.Graph()
-    bars.add_nodes_from(particles)
-    bars.add_edges_from((a, b) for _, a, b in system.links)
-    groups = [bars.subgraph(c) for c in nx.connected_components(bars)]
-    held = [name for entry, constraint in pairs for name in _held(entry, constraint)]
-    surplus, on_curves, guides = _surfaces(pairs, system, particles, d)
-    return SceneCounts(
-        dof=dof,
-        n=n,
-        d=d,
-        naive=report.count.naive_dof,
-        particles=len(particles),
-        bodies=bodies,
-        body_freedom=_BODY_FREEDOM[d],
-        links=bars.number_of_edges(),
-        rods=sum(len(g) == 2 for g in groups),
-        clusters=sum(len(g) > 2 and g.number_of_edges() == len(g) * (len(g) - 1) // 2 for g in groups),
-        surplus=surplus,
-        on_curves=on_curves,
-        planes=sum(name[0] in "xyzXYZ" for name in held) if n >= SPACE else 0,
-        fixed=len(held),
-        forces=[force.type for force in scene.forces],
-        energies=scene.energies is not None,
-        entries=len(pairs),
-        walls=sum(r.sense != "=" for _, c in pairs for r in c.relations),
-        nonholonomic=0 if report.velocity_dof is None else dof - report.velocity_dof,
-        integrable=sum(e.equations for e, _ in pairs if e.form == "pfaffian" and e.holonomic),
-        drives=sum(e.form == "finite" and e.scleronomic is False for e, _ in pairs),
-        strings=sum(c.facts.string or any(word in e.name.lower() for word in _STRINGS) for e, c in pairs),
-        guides=0 if len(particles) + bodies < 2 and n < SPACE else guides,
-        joints=sum(c.facts.planar_pair for _, c in pairs),
-    )
+    def __init__(self, key: Key) -> None:
+        scene, report, system = key.scene, key.report, key.system
+        pairs = list(zip(report.constraints, system.constraints, strict=True))
+        particles = [p.name for p in scene.particles]
+        self.dof, self.n, self.d = report.dof or 0, len(key.coordinates), scene.dimension
+        self.naive, self.body_freedom = report.count.naive_dof, _BODY_FREEDOM[self.d]
+        self.particles, self.bodies = len(particles), len(scene.bodies)
+        bars: nx.Graph = nx.Graph()
+        bars.add_nodes_from(particles)
+        bars.add_edges_from((a, b) for _, a, b in system.links)
+        groups = [bars.subgraph(c) for c in nx.connected_components(bars)]
+        self.links = bars.number_of_edges()
+        self.rods = sum(len(g) == 2 for g in groups)
+        self.clusters = sum(len(g) > 2 and g.number_of_edges() == len(g) * (len(g) - 1) // 2 for g in groups)
+        self.surplus, self.on_curves, guides = _surfaces(pairs, system, particles, self.d)
+        self.guides = 0 if self.particles + self.bodies < 2 and self.n < SPACE else guides
+        held = [name for entry, constraint in pairs for name in _held(entry, constraint)]
+        self.planes = sum(name[0] in "xyzXYZ" for name in held) if self.n >= SPACE else 0
+        self.fixed, self.entries = len(held), len(pairs)
+        self.forces, self.energies = [force.type for force in scene.forces], scene.energies is not None
+        self.walls = sum(r.sense != "=" for _, c in pairs for r in c.relations)
+        self.nonholonomic = 0 if report.velocity_dof is None else self.dof - report.velocity_dof
+        self.integrable = sum(e.equations for e, _ in pairs if e.form == "pfaffian" and e.holonomic)
+        self.drives = sum(e.form == "finite" and e.scleronomic is False for e, _ in pairs)
+        self.strings = sum(c.facts.string or any(word in e.name.lower() for word in _STRINGS) for e, c in pairs)
+        self.joints = sum(c.facts.planar_pair for _, c in pairs)
 
 
 def _surfaces(

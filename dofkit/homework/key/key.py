@@ -14,8 +14,10 @@ from dofkit.homework.key.right_motion import RightMotion, right_motion_or_why
 from dofkit.methods.classify import classify
 from dofkit.report import ConstraintEntry, Report
 from dofkit.scene.constraints.base import Equation
+from dofkit.scene.lowering import lower
 from dofkit.scene.names import coordinate_table
 from dofkit.scene.scene import Scene
+from dofkit.system import System
 
 #: A question about a set of names of a scene, whose report is known.
 Chosen = Callable[[Scene, Sequence[str], Report], bool | None]
@@ -29,20 +31,24 @@ Convention = Literal["configuration", "velocity"]
 class Key:
     """What is right for one problem. ``convention``: what "degrees of freedom" means.
 
-    ``also``: further coordinates that an answer may use, and what they are. ``others``: other name -> declared name.
+    ``also``: further coordinates that an answer may use, and what they are.
     ``base``: the key without the coordinates of an answer's own.
     """
 
     scene: Scene
     convention: Convention = "configuration"
     also: Mapping[str, str] = field(default_factory=dict)
-    others: Mapping[str, str] = field(default_factory=dict)
     base: Key | None = field(default=None, repr=False)
 
     @cached_property
     def report(self) -> Report:
         """Return the report of the scene, which an answer's own coordinates, each with its equation, do not change."""
         return classify(self.scene) if self.base is None else self.base.report
+
+    @cached_property
+    def system(self) -> System:
+        """Return the mathematics of the scene."""
+        return lower(self.scene)
 
     @cached_property
     def _answers(self) -> dict[Hashable, Any]:
@@ -65,7 +71,7 @@ class Key:
     @cached_property
     def declared(self) -> DeclaredNames:
         """Return what an answer's texts may mention."""
-        return DeclaredNames.of(self.scene, self.also, self.others)
+        return DeclaredNames.of(self.scene, self.also)
 
     @property
     def names(self) -> Names:
@@ -88,7 +94,7 @@ class Key:
             "constraints": (*self.scene.constraints, *more),
             "expect": {},
         }
-        return Key(self.scene.model_copy(update=update), self.convention, others=self.others, base=self)
+        return Key(self.scene.model_copy(update=update), self.convention, base=self)
 
     @cached_property
     def motion(self) -> RightMotion | DofkitError:

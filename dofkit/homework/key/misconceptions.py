@@ -1,141 +1,93 @@
 """What number would a known error give for this scene? An answer that is one of them is explained by it.
 
-A new error is a row of `ERRORS`: its code and the degrees of freedom that it predicts; the catalogue of sentences has
-what is said of it.
+A new error is a row of `ERRORS`: its code, the degrees of freedom that it predicts, and where; the catalogue of
+sentences has what is said of it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from fractions import Fraction
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
-from dofkit.homework.key.facts import SceneCounts, scene_counts
+from dofkit.homework.key.facts import SceneCounts
 from dofkit.homework.key.key import Key
 from dofkit.homework.sentences import Said, say
 from dofkit.report import ConstraintEntry
 
-Numbers = Iterator[int | Fraction]
+Count: TypeAlias = Callable[[SceneCounts], int | Fraction]
 
 
 class Misconception(NamedTuple):
-    """An error: its stable ``code``, and the numbers f that it ``predicts``.
+    """An error: its stable ``code``, and the number f that it predicts ``where`` something is so of the scene.
 
     ``anyway``: it gives this number whichever freedom is asked for; ``alone``: told where no other error gives it.
     """
 
     code: str
-    predicts: Callable[[SceneCounts], Numbers]
+    predicted: Count
+    where: Callable[[SceneCounts], object]
     anyway: bool = False
     alone: bool = False
 
 
-def _more(count: Callable[[SceneCounts], int]) -> Callable[[SceneCounts], Numbers]:
+def _more(code: str, count: Count, alone: bool = False) -> Misconception:
     """As many degrees of freedom too many, where that is not 0."""
-    return lambda f: iter([f.dof + count(f)] if count(f) else [])
+    return Misconception(code, lambda f: f.dof + count(f), count, alone=alone)
 
 
-def _less(count: Callable[[SceneCounts], int | Fraction]) -> Callable[[SceneCounts], Numbers]:
+def _less(code: str, count: Count, anyway: bool = False, alone: bool = False) -> Misconception:
     """As many too few."""
-    return lambda f: iter([f.dof - count(f)] if count(f) else [])
+    return Misconception(code, lambda f: f.dof - count(f), count, anyway, alone)
 
 
-def _all_links(f: SceneCounts) -> Numbers:
-    if f.links > f.n - f.dof and f.naive < f.dof:
-        yield f.naive
+def _naive(code: str, where: Callable[[SceneCounts], object], alone: bool = False) -> Misconception:
+    """The number of coordinates less all equations between coordinates that are written."""
+    return Misconception(code, lambda f: f.naive, where, alone=alone)
 
 
-def _rod_three(f: SceneCounts) -> Numbers:
-    if f.links and f.naive > f.dof:
-        yield f.naive
+def _squares_may_be_summed(f: SceneCounts) -> bool:
+    return not f.links and f.naive > f.dof and not f.integrable and not f.nonholonomic
 
 
-def _plane_forgotten(f: SceneCounts) -> Numbers:
-    if f.planes and f.d == 3:
-        yield f.dof + f.planes
-
-
-def _in_space(f: SceneCounts) -> Numbers:
-    if f.d == 2 and f.particles:
-        yield f.dof + f.particles
-
-
-def _all_equations(f: SceneCounts) -> Numbers:
-    if f.naive < f.dof:
-        yield f.naive
-
-
-def _no_constraint(f: SceneCounts) -> Numbers:
-    if f.dof < f.n:
-        yield f.n
-
-
-def _sum_of_squares(f: SceneCounts) -> Numbers:
-    if not f.links and f.naive > f.dof and not f.integrable and not f.nonholonomic:
-        yield f.naive
-    elif f.surplus:
-        yield f.dof + f.surplus
-
-
-def _trajectory(f: SceneCounts) -> Numbers:
-    if f.dof == f.n > 1 and not f.entries:
-        yield 1
-
-
-def _conservation(f: SceneCounts) -> Numbers:
-    if f.dof > 1 and (f.energies or f.forces or not f.entries):
-        yield f.dof - 1
-
-
-def _pulley(f: SceneCounts) -> Numbers:
-    if f.strings > 1:
-        yield f.dof - 1
-    if f.strings:
-        yield f.n - f.strings
-
-
-def _ground(f: SceneCounts) -> Numbers:
-    if f.joints:
-        yield f.dof - f.body_freedom
-        yield f.dof + f.body_freedom
-
-
-def _spatial_grubler(f: SceneCounts) -> Numbers:
-    if f.d == 2 and f.joints:
-        yield 6 * f.bodies - 5 * f.joints
+def _may_conserve(f: SceneCounts) -> bool:
+    return f.dof > 1 and bool(f.energies or f.forces or not f.entries)
 
 
 #: In the order in which they are likely where several give the same number.
 ERRORS: tuple[Misconception, ...] = (
-    Misconception("ALL_LINKS", _all_links),
-    Misconception("ROD_3", _rod_three),
-    Misconception("NH_SUBTRACT", _less(lambda f: f.nonholonomic)),
-    Misconception("NH_HALF", _less(lambda f: Fraction(f.nonholonomic, 2)), anyway=True),
-    Misconception("ROLL_NH", _more(lambda f: f.integrable)),
-    Misconception("INEQ_SUBTRACT", _less(lambda f: f.walls)),
-    Misconception("INEQ_AS_EQ", _less(lambda f: f.walls)),
-    Misconception("SPRING", _less(lambda f: f.forces.count("spring"))),
-    Misconception("DRIVEN", _more(lambda f: f.drives)),
-    Misconception("PULLEY", _pulley),
-    Misconception("CART_FIXED", _less(lambda f: f.guides if f.dof > 1 else 0)),
-    Misconception("ROD_SPIN", _more(lambda f: f.rods if f.d == 3 else 0)),
-    Misconception("NO_SPIN", _less(lambda f: f.bodies + f.clusters if f.d == 3 else 0)),
-    Misconception("PLANE_FORGOT", _plane_forgotten),
-    Misconception("CURVE_ONE", _more(lambda f: f.surplus)),
-    Misconception("SUM_SQ", _sum_of_squares),
-    Misconception("GROUND", _ground),
-    Misconception("SPATIAL_GRUBLER", _spatial_grubler),
-    Misconception("PLANE_TWICE", _less(lambda f: f.particles if f.d == 2 else 0)),
-    Misconception("BAR_TWO", _less(lambda f: f.links)),
-    Misconception("BAR_POINT", _less(lambda f: (f.d - 1) * f.links)),
-    Misconception("MOTION", _trajectory),
-    Misconception("CONSERVATION", _conservation, alone=True),
-    Misconception("PARAM_COUNT", _less(lambda f: f.on_curves), alone=True),
-    Misconception("ALL_COUNTED", _all_equations, alone=True),
-    Misconception("FIXED_FORGOT", _more(lambda f: f.fixed), alone=True),
-    Misconception("NOT_SUBTRACTED", _no_constraint, anyway=True, alone=True),
-    Misconception("POINT_6", _more(lambda f: f.particles * (f.body_freedom - f.d)), alone=True),
-    Misconception("PLANE_FORGOT", _in_space, alone=True),
+    _naive("ALL_LINKS", lambda f: f.links > f.n - f.dof and f.naive < f.dof),
+    _naive("ROD_3", lambda f: f.links and f.naive > f.dof),
+    _less("NH_SUBTRACT", lambda f: f.nonholonomic),
+    _less("NH_HALF", lambda f: Fraction(f.nonholonomic, 2), anyway=True),
+    _more("ROLL_NH", lambda f: f.integrable),
+    _less("INEQ_SUBTRACT", lambda f: f.walls),
+    _less("INEQ_AS_EQ", lambda f: f.walls),
+    _less("SPRING", lambda f: f.forces.count("spring")),
+    _more("DRIVEN", lambda f: f.drives),
+    Misconception("PULLEY", lambda f: f.dof - 1, lambda f: f.strings > 1),
+    Misconception("PULLEY", lambda f: f.n - f.strings, lambda f: f.strings),
+    _less("CART_FIXED", lambda f: f.guides if f.dof > 1 else 0),
+    _more("ROD_SPIN", lambda f: f.rods if f.d == 3 else 0),
+    _less("NO_SPIN", lambda f: f.bodies + f.clusters if f.d == 3 else 0),
+    _more("PLANE_FORGOT", lambda f: f.planes if f.d == 3 else 0),
+    _more("CURVE_ONE", lambda f: f.surplus),
+    _naive("SUM_SQ", _squares_may_be_summed),
+    _more("SUM_SQ", lambda f: 0 if _squares_may_be_summed(f) else f.surplus),
+    _less("GROUND", lambda f: f.body_freedom if f.joints else 0),
+    _more("GROUND", lambda f: f.body_freedom if f.joints else 0),
+    Misconception("SPATIAL_GRUBLER", lambda f: 6 * f.bodies - 5 * f.joints, lambda f: f.d == 2 and f.joints),
+    _less("PLANE_TWICE", lambda f: f.particles if f.d == 2 else 0),
+    _less("BAR_TWO", lambda f: f.links),
+    _less("BAR_POINT", lambda f: (f.d - 1) * f.links),
+    Misconception("MOTION", lambda f: 1, lambda f: f.dof == f.n > 1 and not f.entries),
+    Misconception("CONSERVATION", lambda f: f.dof - 1, _may_conserve, alone=True),
+    _less("PARAM_COUNT", lambda f: f.on_curves, alone=True),
+    _naive("ALL_COUNTED", lambda f: f.naive < f.dof, alone=True),
+    _more("FIXED_FORGOT", lambda f: f.fixed, alone=True),
+    Misconception("NOT_SUBTRACTED", lambda f: f.n, lambda f: f.dof < f.n, anyway=True, alone=True),
+    _more("POINT_6", lambda f: f.particles * (f.body_freedom - f.d), alone=True),
+    _more("PLANE_FORGOT", lambda f: f.particles if f.d == 2 else 0, alone=True),
 )
 
 
@@ -144,7 +96,7 @@ def explain(number: Fraction, ask: str, key: Key) -> tuple[str, ...]:
     report = key.report
     if report.dof is None:
         return ()
-    facts = scene_counts(key)
+    facts = key.once(SceneCounts, lambda: SceneCounts(key))
     right = report.dof
     wanted = len(key.coordinates) - number if ask == "k" else number
     by_velocities = ask == "velocity_dof" or (ask == "dof" and key.convention == "velocity")
@@ -152,9 +104,10 @@ def explain(number: Fraction, ask: str, key: Key) -> tuple[str, ...]:
         wanted += facts.nonholonomic
     if wanted == right or (ask == "k" and number < 0):
         return ()
-    every = [m for m in ERRORS if (number if m.anyway and ask != "k" else wanted) in set(m.predicts(facts))]
+    applying = [m for m in ERRORS if m.where(facts)]
+    every = [m for m in applying if m.predicted(facts) == (number if m.anyway and ask != "k" else wanted)]
     likely = [m for m in every if not m.alone] or every
-    return tuple(m.code for m in likely)
+    return tuple(dict.fromkeys(m.code for m in likely))
 
 
 def explain_label(part: str, entry: ConstraintEntry) -> tuple[str, str | Said]:

@@ -38,7 +38,7 @@ def chosen_coordinates(answer: Given, names: DeclaredNames) -> ChosenCoordinates
     if is_none(answer, lambda part: lists_only(part, every), every):
         return ChosenCoordinates(())
     try:
-        return ChosenCoordinates(tuple(names_of(answer, every, "coordinate", names.others)))
+        return ChosenCoordinates(tuple(names_of(answer, every, "coordinate")))
     except TextError:
         if not isinstance(answer, str) or (defined := _defined(answer, names)) is None:
             raise
@@ -55,7 +55,7 @@ def _defined(answer: str, names: DeclaredNames) -> ChosenCoordinates | None:
     way = readings_of(definitions, AnswerNames(names.names))[0]
     if way.moving or not way.undeclared or any(way.bare):
         return None
-    chosen = names_of(answer[: cut.start()], [*names.coordinates, *way.undeclared], "coordinate", names.others)
+    chosen = names_of(answer[: cut.start()], [*names.coordinates, *way.undeclared], "coordinate")
     return ChosenCoordinates(tuple(chosen), way.undeclared, way.relations)
 
 

@@ -24,10 +24,14 @@ _SINE, _COSINE = ex.parameter("own sine"), ex.parameter("own cosine")
 
 def restrictions(relations: Sequence[Comparison], names: Sequence[str], scene: Scene) -> list[Expr] | None:
     """Return what relations that define names of an answer's own imply for the coordinates, or None if undecided."""
-    sums: list[Expr] = [c.left - c.right for c in relations]
-    for name in names:
-        remaining = _eliminated([substitute(e, {ex.coordinate(name): ex.parameter(name)}) for e in sums],
-                            ex.parameter(name), scene)  # fmt: skip
+    still = {ex.coordinate(name): ex.parameter(name) for name in names}
+    return _without([substitute(c.left - c.right, still) for c in relations], [*still.values()], scene)
+
+
+def _without(sums: list[Expr], symbols: Sequence[Expr], scene: Scene) -> list[Expr] | None:
+    """Return relations with all symbols eliminated, or None if one cannot be."""
+    for symbol in symbols:
+        remaining = _eliminated(sums, symbol, scene)
         if remaining is None:
             return None
         sums = remaining
@@ -41,17 +45,12 @@ def without_own(reading: AnswerReading, scene: Scene) -> AnswerReading | None:
     sums = [c.left - c.right for c in reading.relations]
     if any(sum(_mentions(e, name) for e in sums) < 2 for name in reading.undeclared):
         return None
-    for name in reading.undeclared:
-        symbol = ex.coordinate(name) if name in reading.moving else ex.parameter(name)
-        remaining = _eliminated(sums, symbol, scene)
-        if remaining is None:
-            return None
-        sums = remaining
-    names = set(reading.undeclared)
-    if not sums or any(s.args[1] in names for e in sums for s in e.symbols if len(s.args) > 1):
+    own = [ex.coordinate(n) if n in reading.moving else ex.parameter(n) for n in reading.undeclared]
+    remaining = _without(sums, own, scene)
+    if not remaining or any(_mentions(e, name) for e in remaining for name in reading.undeclared):
         return None
-    relations = tuple(Comparison(e, "=", ZERO, 1) for e in sums)
-    return AnswerReading(relations, (False,) * len(relations), meant=reading.meant)
+    relations = tuple(Comparison(e, "=", ZERO, 1) for e in remaining)
+    return AnswerReading(relations, (False,) * len(relations))
 
 
 def with_constants(relations: Sequence[Comparison], names: Sequence[str], scene: Scene) -> list[Comparison]:
@@ -211,7 +210,7 @@ def renamed(
         return
     if not reading.undeclared or reading.moving or len(reading.undeclared) > MOST_RENAMED:
         return
-    used = {str(s.args[1]) for c in reading.relations for e in (c.left, c.right) for s in e.symbols if len(s.args) > 1}
+    used = {str(s.args[-1]) for s in reading.symbols}
     free = [name for name in constants if name not in used]
     for chosen in permutations(free, len(reading.undeclared)):
         names = dict(zip(reading.undeclared, chosen, strict=True))

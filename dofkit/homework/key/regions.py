@@ -7,7 +7,6 @@ the engine shows to be empty or finds a certified point of; what it leaves open 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from fractions import Fraction
 from itertools import product
 from typing import NamedTuple
 
@@ -15,6 +14,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, replace_nodes, substitute
 from dofkit.expressions.text import Comparison, to_text
 from dofkit.expressions.tree import ZERO, Expr
+from dofkit.homework.key.counterexamples import counterexample
 from dofkit.methods.classify import classify
 from dofkit.scene.constraints.base import Equation
 from dofkit.scene.scene import Scene
@@ -59,7 +59,7 @@ def compared_regions(scene: Scene, asked: Sequence[Condition], answer: Sequence[
     lacking, other = _difference(scene, asked, answer)
     if lacking is False and not all(_has_values(c.e) for c in answer):
         lacking = None
-    return RegionComparison(beyond, lacking, point or other)
+    return RegionComparison(beyond, lacking, point if beyond else other)
 
 
 def _has_values(e: Expr) -> bool:
@@ -83,35 +83,9 @@ def _difference(scene: Scene, region: Sequence[Condition], other: Sequence[Condi
         if report.consistent is False:
             continue
         if report.feasible:
-            return True, _point(whole)
+            return True, counterexample(scene, (), (), [c.e for c in system])
         open_cases = open_cases or report.feasible is None
     return None if open_cases else False, ""
-
-
-def counterexample(scene: Scene, answer: Sequence[Comparison], asked: Expr) -> str:
-    """Return a point that satisfies the equations of an answer and not ``asked`` = 0, in words, or nothing."""
-    texts = [f"{to_text(c.left - c.right)} = 0" for c in answer] + [f"({to_text(asked)})^2 > 0"]
-    more = tuple(Equation(name=f"region {n}", text=text) for n, text in enumerate(texts))
-    return _point(scene.model_copy(update={"constraints": (*scene.constraints, *more), "expect": {}}))
-
-
-def _point(scene: Scene) -> str:
-    """Return a certified point of a scene with whole numbers for its parameters, in words, or nothing."""
-    free = [name for name, value in scene.parameters.items() if value in ("real", "positive", "nonzero")]
-    values = {name: Fraction(n) for n, name in enumerate(free, 2)}
-    report = classify(scene.model_copy(update={"parameters": {**scene.parameters, **values}}))
-    if not report.feasible or not report.witness:
-        return ""
-    coordinates = [f"{name} = {_figure(text)}" for name, text in report.witness.items()]
-    return ", ".join([*coordinates, *(f"{name} = {value}" for name, value in values.items())])
-
-
-def _figure(text: str) -> str:
-    """Return a number of a witness with three digits."""
-    try:
-        return f"{float(Fraction(text)):.3g}"
-    except ValueError:
-        return text
 
 
 def _cases_of_all(region: Sequence[Condition]) -> Iterator[list[Condition]]:

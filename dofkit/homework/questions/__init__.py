@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, get_args
 
 from pydantic import Field
 
@@ -34,10 +34,4 @@ AnyQuestion = Annotated[
 #: What is asked of the equations of motion.
 MOTION = (Lagrangian, Momentum, GeneralizedForce, MotionQuestion)
 #: What can be asked for -> its class.
-KINDS: dict[str, type[QuestionBase]] = {
-    q.kind(): q
-    for q in (
-        Dof, VelocityDof, CountQuestion, LabelQuestion, EquationQuestion, IntegralQuestion, Coordinates, Redundant,
-        Lagrangian, Momentum, GeneralizedForce, MotionQuestion,
-    )
-}  # fmt: skip
+KINDS: dict[str, type[QuestionBase]] = {q.kind(): q for q in get_args(get_args(AnyQuestion)[0])}

@@ -14,7 +14,7 @@ from dofkit.homework.answers.declared import DeclaredNames
 from dofkit.homework.judgement import Given, Judgement, Reading, Sentence, shown_text_of
 from dofkit.homework.key.key import Key
 from dofkit.homework.sentences import Said, say
-from dofkit.scene.fields import Number, WrittenModel, exact, fault_error
+from dofkit.scene.fields import Number, WrittenModel, exact, fault_error, suggestion
 
 #: The numbers that a student gave to earlier questions of the same problem, by what was asked.
 Earlier = Mapping[str, Fraction]
@@ -83,8 +83,12 @@ class QuestionBase(WrittenModel):
 
     def faults(self, key: Key) -> Iterator[Fault]:
         """Yield the faults of the question for this scene, each at a path within the question."""
-        del key
-        yield from ()
+        of_coordinate = getattr(self, "constraint", None) is None
+        what, known = ("coordinate", key.coordinates) if of_coordinate else ("constraint", [*key.constraints])
+        for name in self.about:
+            if name not in known:
+                hint = suggestion(name, known, f"{what}s")
+                yield Fault(f"the scene has no {what} '{name}'", (what,), hint=hint)
 
     def readings(self, answer: Given, names: DeclaredNames) -> list[Reading]:
         """Return every way to understand an answer. Raises TextError, and DoubtError for what commits to nothing."""

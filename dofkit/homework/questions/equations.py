@@ -19,7 +19,7 @@ from dofkit.homework.key.compared_integrals import integral_judgement
 from dofkit.homework.key.key import Key
 from dofkit.homework.questions.base import Earlier, QuestionBase
 from dofkit.homework.sentences import say
-from dofkit.scene.fields import Listed, suggestion
+from dofkit.scene.fields import Listed
 
 
 def _names(value: object) -> object:
@@ -39,9 +39,6 @@ class EquationQuestion(QuestionBase):
     constraint: Annotated[
         tuple[str, ...], Listed, Field(min_length=1), BeforeValidator(_names, json_schema_input_type=str | list[str])
     ] = Field(description="the name of the constraint, or several names")
-
-    def faults(self, key: Key) -> Iterator[Fault]:
-        yield from _unknown(self.constraint, key)
 
     def readings(self, answer: Given, names: DeclaredNames) -> list[Reading]:
         ways = with_explained_names(readings_of(answer, AnswerNames(names.with_also, accelerations=True)), names)
@@ -68,7 +65,7 @@ class IntegralQuestion(QuestionBase):
     constraint: str = Field(description="the name of the constraint")
 
     def faults(self, key: Key) -> Iterator[Fault]:
-        yield from _unknown((self.constraint,), key)
+        yield from super().faults(key)
         entry = key.constraints.get(self.constraint)
         if entry is not None and entry.form not in ("pfaffian", "nonlinear"):
             hint = "`integral` asks about a differential constraint"
@@ -114,10 +111,3 @@ _DIFFERENTIAL = re.compile(r"(?<![^\W\d_])[d∂](?=[^\W\d_]|\s?\\)|dot|∧|\\(?:
 def _says_relation(part: str) -> bool:
     """Return whether a part of an answer is a relation between coordinates."""
     return "=" in part and _DIFFERENTIAL.search(part) is None
-
-
-def _unknown(names: tuple[str, ...], key: Key) -> Iterator[Fault]:
-    for name in names:
-        if name not in key.constraints:
-            hint = suggestion(name, list(key.constraints), "constraints")
-            yield Fault(f"the scene has no constraint '{name}'", ("constraint",), hint=hint)

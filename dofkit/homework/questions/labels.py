@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from fractions import Fraction
 from itertools import product
 from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
-from dofkit.base.errors import Fault
 from dofkit.homework.answers.declared import DeclaredNames
 from dofkit.homework.answers.label_words import TERMS, label_text, mentions, read_labels, word_of
 from dofkit.homework.judgement import (
@@ -26,7 +24,7 @@ from dofkit.homework.key.misconceptions import explain_label
 from dofkit.homework.questions.base import Earlier, QuestionBase
 from dofkit.homework.sentences import Said, meanings, say
 from dofkit.report import ConstraintEntry
-from dofkit.scene.fields import Listed, suggestion
+from dofkit.scene.fields import Listed
 
 Part = Literal["holonomic", "scleronomic", "bilateral"]
 
@@ -44,11 +42,6 @@ class LabelQuestion(QuestionBase):
     parts: Annotated[tuple[Part, ...], Listed, Field(min_length=1)] = Field(
         ("holonomic", "scleronomic"), description="which parts of the classification are asked for"
     )
-
-    def faults(self, key: Key) -> Iterator[Fault]:
-        if self.constraint not in key.constraints:
-            hint = suggestion(self.constraint, list(key.constraints), "constraints")
-            yield Fault(f"the scene has no constraint '{self.constraint}'", ("constraint",), hint=hint)
 
     def _asked(self, about: str) -> Said:
         return say(

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
 from typing import ClassVar, Literal
 
 from pydantic import Field
 
-from dofkit.base.errors import DofkitError, Fault
+from dofkit.base.errors import DofkitError
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
 from dofkit.homework.answers.declared import DeclaredNames
@@ -22,17 +22,10 @@ from dofkit.homework.key.posed_motion import PosedMotion, motion_readings, posed
 from dofkit.homework.key.right_motion import RightMotion, is_zero
 from dofkit.homework.questions.base import Earlier, QuestionBase
 from dofkit.homework.sentences import Said, say
-from dofkit.scene.fields import suggestion
 
 
 class _MotionQuestion(QuestionBase):
     """What all of them share: an answer may define coordinates of its own, and is judged in those."""
-
-    def faults(self, key: Key) -> Iterator[Fault]:
-        coordinate = getattr(self, "coordinate", None)
-        if coordinate is not None and coordinate not in key.coordinates:
-            hint = suggestion(coordinate, key.coordinates, "coordinates")
-            yield Fault(f"the scene has no coordinate '{coordinate}'", ("coordinate",), hint=hint)
 
     def readings(self, answer: Given, names: DeclaredNames) -> list[Reading]:
         return motion_readings(answer, names, value=isinstance(self, _Value))

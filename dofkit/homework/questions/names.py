@@ -68,7 +68,7 @@ class Redundant(QuestionBase):
 
     def _reading(self, answer: Given, constraint_names: list[str], names: DeclaredNames) -> Reading:
         none = is_none(answer, lambda part: lists_only(part, constraint_names), constraint_names, every=True)
-        chosen = [] if none else names_of(answer, constraint_names, "constraint", names.others)
+        chosen = [] if none else names_of(answer, constraint_names, "constraint")
         return Reading(chosen, ", ".join(chosen) or "none")
 
     def solution(self, key: Key) -> Sentence:
