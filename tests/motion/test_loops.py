@@ -12,7 +12,7 @@ import pytest
 import dofkit
 from dofkit.expressions.tree import TIME, Expr, coordinate, parameter
 from dofkit.motion.configurations import NoMotionError
-from dofkit.motion.loops import Loop, LoopSampler
+from dofkit.motion.loops import Loop, LoopSampler, fields_of_pivots
 from dofkit.pictures.arrangement import finite_relations, velocity_rows
 from dofkit.pictures.evaluation import derivatives, values_at
 from dofkit.scene.lowering import lower
@@ -79,6 +79,35 @@ def test_one_free_velocity_has_no_loop() -> None:
 def test_no_loop_where_time_occurs() -> None:
     with pytest.raises(NoMotionError, match="without time"):
         _sampler({"coordinates": ["x", "y", "z"], "constraints": ["dz = x dy + t dt"]})
+
+
+def test_a_loop_that_leaves_the_set_stops_with_a_reason() -> None:
+    """On x^2 + y^2 = 1/4 the free coordinate reaches 1/2 at most, less than the radius of the larger loop."""
+    scene = {
+        "coordinates": ["x", "y", "z", "w"],
+        "constraints": ["x^2 + y^2 = 1/4", "dw = z dy"],
+        "configuration": {"x": 0.5, "y": 0, "z": 0, "w": 0},
+    }
+    sampler = _sampler(scene)
+    assert len(sampler.loops(0.25)) == 1
+    assert sampler.stopped == []
+    assert sampler.loops(0.8) == []
+    (reason,) = sampler.stopped
+    assert reason.startswith("The loop of y and z with radius 0.8 was not followed: ")
+
+
+def test_no_other_fields_take_the_place_of_those_of_the_pivots() -> None:
+    """Where both coefficients of the form vanish every direction is allowed, and fields of two pivots do not exist."""
+    sampler = _sampler({"coordinates": ["x", "y", "z"], "constraints": ["x dz = y dx"], "configuration": {"x": 1}})
+    assert sampler.fields(sampler.start).shape == (2, 3)
+    with pytest.raises(np.linalg.LinAlgError):
+        sampler.fields(sampler.relations.pose({}))
+
+
+@pytest.mark.parametrize(("basis", "pivots"), [(np.eye(3), [0, 1]), (np.eye(3)[:2], [0, 2]), (np.eye(3)[:1], [0, 1])])
+def test_fields_of_pivots_are_refused_where_a_pivot_cannot_move_alone(basis: Any, pivots: list[int]) -> None:
+    with pytest.raises(np.linalg.LinAlgError):
+        fields_of_pivots(basis, pivots)
 
 
 def _residual(system: System, path: list[dict[str, float]], chords: bool) -> float:
