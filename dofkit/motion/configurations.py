@@ -98,9 +98,9 @@ def configurations(
 
 
 @contextmanager
-def sampling(system: System, seconds: float = DEFAULT_SECONDS) -> Iterator[None]:
+def sampling(system: System) -> Iterator[None]:
     """Sample motions of a system within a time limit, as precisely as its numbers ask for. Raises OutOfTimeError."""
-    with limited(seconds), precise_for(system.longest):
+    with limited(DEFAULT_SECONDS), precise_for(system.longest):
         yield
 
 

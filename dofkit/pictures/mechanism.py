@@ -211,8 +211,8 @@ def notes_of(stage: StagedScene) -> Iterator[str]:
     drawn_with = [p for p in map(parameter, stage.system.parameters) if p in used][:6] + [TIME] * bool(numbers[TIME])
     if drawn_with:
         yield f"Drawn with {', '.join(f'{s.args[1]} = {numbers.get(s, 1.0):.4g}' for s in drawn_with)}."
-    if stage.system.functions:
-        yield f"Unknown functions ({', '.join(stage.system.functions)}) are drawn as an example."
+    if stage.scene.functions:
+        yield f"Unknown functions ({', '.join(stage.scene.functions)}) are drawn as an example."
     written = [c for c in stage.system.constraints if c.facts.written]
     for constraint in written[:MOST_TEXTS]:
         yield f"{constraint.name}: {constraint.text}"
