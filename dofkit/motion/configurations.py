@@ -140,7 +140,7 @@ class MotionSampler:
             if search.descend(symbols, seed) is None or any(symbols.get(p, 1.0) <= 0 for p in self.setting.positive):
                 continue
             self.relations.constants |= {s: v for s, v in symbols.items() if s.args[0] == "parameter"}
-            first_pose = self.follower.onto(self.relations.pose(symbols))
+            first_pose = self.follower.onto(self.relations.pose(near | symbols))
             if first_pose is not None and len(self.follower.null_space(first_pose)) == self.follower.freedom:
                 return first_pose
         raise NoMotionError("no regular configuration was found that satisfies the constraints")
