@@ -60,7 +60,7 @@ def configurations(
         With several freedoms: the coordinate whose direction the motion starts in; by default the first that can move.
     values
         Numbers for parameters without a value (otherwise chosen at random), and for coordinates, near which the first
-        configuration is sought.
+        configuration is sought, and for ``t`` (otherwise 0).
     both
         Whether to go backward too.
 
@@ -98,9 +98,9 @@ def configurations(
 
 
 @contextmanager
-def sampling(system: System, seconds: float = DEFAULT_SECONDS) -> Iterator[None]:
+def sampling(system: System) -> Iterator[None]:
     """Sample motions of a system within a time limit, as precisely as its numbers ask for. Raises OutOfTimeError."""
-    with limited(seconds), precise_for(system.longest):
+    with limited(DEFAULT_SECONDS), precise_for(system.longest):
         yield
 
 
@@ -136,11 +136,11 @@ class MotionSampler:
             return first_pose
         near = {s: number(e) for s, e in self.setting.pose.items() if not e.symbols} | self.numbers
         for seed in range(STARTS):
-            symbols = search.start(seed, {**near, ex.TIME: 0.0})
+            symbols = search.start(seed, {ex.TIME: 0.0, **near})
             if search.descend(symbols, seed) is None or any(symbols.get(p, 1.0) <= 0 for p in self.setting.positive):
                 continue
             self.relations.constants |= {s: v for s, v in symbols.items() if s.args[0] == "parameter"}
-            first_pose = self.follower.onto(self.relations.pose(symbols))
+            first_pose = self.follower.onto(self.relations.pose(near | symbols))
             if first_pose is not None and len(self.follower.null_space(first_pose)) == self.follower.freedom:
                 return first_pose
         raise NoMotionError("no regular configuration was found that satisfies the constraints")
@@ -203,12 +203,13 @@ class MotionSampler:
 def _known_symbols(system: System, numbers: Mapping[str, float]) -> dict[Expr, float]:
     """Numbers for parameters and coordinates, by their symbols."""
     places = {c.name for c in system.coordinates}
-    names = {*places, *system.parameters, *system.generic}
-    wrong = sorted(set(numbers) - names)
+    symbols = {n: ex.parameter(n) for n in (*system.parameters, *system.generic)} | {"t": ex.TIME}
+    symbols |= {n: ex.coordinate(n) for n in places}
+    wrong = sorted(set(numbers) - set(symbols))
     if wrong:
         message = f"'{wrong[0]}' is neither a coordinate nor a parameter without a value"
-        raise NoMotionError(message + guess(wrong[0], names))
-    return {(ex.coordinate if n in places else ex.parameter)(n): float(v) for n, v in numbers.items()}
+        raise NoMotionError(message + guess(wrong[0], set(symbols)))
+    return {symbols[n]: float(v) for n, v in numbers.items()}
 
 
 def _limits(reduced: Sequence[Reduced], outcome: Outcome) -> list[Expr]:

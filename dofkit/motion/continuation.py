@@ -57,7 +57,9 @@ class Follower:
 
     def holds(self, pose: Pose) -> bool:
         """Return whether the finite relations are satisfied."""
-        f, _ = self.relations.at(pose)
+        return self._is_met(pose, self.relations.at(pose)[0])
+
+    def _is_met(self, pose: Pose, f: Array) -> bool:
         reach = 1 + float(np.max(np.abs(pose.plain / self.relations.scales), initial=0.0))
         return f.size == 0 or float(np.max(np.abs(f))) < HELD * reach
 
@@ -143,22 +145,19 @@ class Follower:
     def stepped(self, start: Pose, wanted: Array, along: Array) -> Pose | None:
         """The pose after a step that satisfies everything and is as wanted in the directions ``along``, as rows."""
         relations = self.relations
-        pose = relations.moved(start, wanted)
-        for k in range(ROUNDS):
+        pose, rounds, rests = relations.moved(start, wanted), 0, False
+        while True:
             displacement = relations.between(start, pose)
             f, j = relations.at(pose)
             forms = relations.forms_at(relations.moved(start, displacement / 2))
             wrong = np.concatenate([f, forms @ displacement, along @ (displacement - wanted)])
-            if float(np.max(np.abs(wrong))) < HELD / 100:
+            if rests or rounds == ROUNDS or float(np.max(np.abs(wrong))) < HELD / 100:
                 break
-            shift = float(np.linalg.norm(wrong)) ** (1 + (k > EASY))
+            shift = float(np.linalg.norm(wrong)) ** (1 + (rounds > EASY))
             step = array_step(np.vstack([j, forms, along]), wrong, 1, shift)
-            pose = relations.moved(pose, step)
-            if float(np.linalg.norm(step)) < 1e-16:
-                break
-        forms = relations.forms_at(relations.moved(start, relations.between(start, pose) / 2))
-        slip = float(np.max(np.abs(forms @ relations.between(start, pose)), initial=0.0))
-        return pose if self.holds(pose) and slip < HELD else None
+            pose, rounds, rests = relations.moved(pose, step), rounds + 1, float(np.linalg.norm(step)) < 1e-16
+        slip = float(np.max(np.abs(forms @ displacement), initial=0.0))
+        return pose if self._is_met(pose, f) and slip < HELD else None
 
     def begin(self, pose: Pose, target: Array | None, step: float) -> BothDirections:
         """Where and in which direction motions begin, forward and backward."""

@@ -26,6 +26,8 @@ CORNERS, MOST_LOOPS, OUTER, INNER = 72, 2, 1e-3, 1e-4
 LEAST = 1e-4
 Field = Callable[[Array], Array]
 ONE_FIELD = "a loop needs two free velocities: with one, every motion runs back along itself"
+STOPS = "The loop of {} and {} with radius {} was not followed: {}."
+NOT_APART = "at a configuration the free coordinates cannot be moved one by one"
 
 
 @dataclass(frozen=True)
@@ -59,33 +61,37 @@ class LoopSampler:
         plain, columns = len(self.relations.plain), range(self.relations.columns)
         order = [*by_size(basis, columns[:plain]), *by_size(basis, columns[plain:])]
         self.chosen = sorted(by_pivots(basis, order)[1])
+        bodies = [f"{r.body} about {letter}" for r in self.relations.rotations for letter in "xyz"]
+        self.columns, self.stopped = [*self.relations.names, *bodies], list[str]()
         pairs = combinations([c for c in self.chosen if c < len(self.relations.plain)], 2)
-        size = {pair: float(np.linalg.norm(self.bracket(pair, self.start))) for pair in pairs}
+        try:
+            size = {pair: float(np.linalg.norm(self.bracket(pair, self.start))) for pair in pairs}
+        except FAULTS:
+            raise NoMotionError(f"a loop needs regular configurations: {NOT_APART}") from None
         self.pairs = sorted(size, key=lambda pair: -round(size[pair], 6))[:MOST_LOOPS]
         if not self.pairs:
             raise NoMotionError(ONE_FIELD)
-        bodies = [f"{r.body} about {letter}" for r in self.relations.rotations for letter in "xyz"]
-        self.columns = [*self.relations.names, *bodies]
 
     def fields(self, pose: Pose) -> Array:
-        """Return the fields X_k at a pose, as rows."""
-        return by_pivots(self.follower.null_space(pose)[: len(self.chosen)], self.chosen)[0]
+        """Return the fields X_k at a pose, as rows. Raises LinAlgError as `fields_of_pivots`."""
+        return fields_of_pivots(self.follower.null_space(pose), self.chosen)
 
     def loops(self, size: float) -> list[Loop]:
-        """Return a loop for each pair of chosen coordinates, as far as they can be followed, largest bracket first."""
-        try:
-            with sampling(self.sampler.system):
-                loops = [self._loop(pair, size) for pair in self.pairs]
-        except OutOfTimeError:
-            return []
-        return [loop for loop in loops if loop is not None]
+        """Return a loop for each pair of chosen coordinates, largest bracket first; ``stopped`` says why others end."""
+        loops = []
+        with sampling(self.sampler.system):
+            for pair in self.pairs:
+                try:
+                    loops.append(self._loop(pair, size))
+                except (*FAULTS, OutOfTimeError) as error:
+                    reason = error if isinstance(error, OutOfTimeError) else NOT_APART
+                    self.stopped.append(STOPS.format(*(self.columns[column] for column in pair), size, reason))
+        return loops
 
-    def _loop(self, pair: tuple[int, int], size: float) -> Loop | None:
+    def _loop(self, pair: tuple[int, int], size: float) -> Loop:
         angles = 2 * np.pi * np.arange(CORNERS + 1) / CORNERS
         poses = self._along(pair, size * np.column_stack([np.sin(angles), 1 - np.cos(angles)]))
         centre = self._along(pair, size * np.column_stack([np.zeros(CORNERS), np.linspace(0, 1, CORNERS)]))
-        if len(poses) <= CORNERS or len(centre) < CORNERS:
-            return None
         area = CORNERS / 2 * np.sin(2 * np.pi / CORNERS) * size**2
         configurations = [self.sampler.values(poses[0], {})]
         for pose in poses[1:]:
@@ -97,19 +103,16 @@ class LoopSampler:
         )
 
     def _along(self, pair: tuple[int, int], corners: Array) -> list[Pose]:
-        """Return the poses along a polygon of two coordinates, as far as it can be followed."""
+        """Return the poses along a polygon of two coordinates. Raises one of `FAULTS` where it cannot be followed."""
         along = np.eye(self.relations.columns)[self.chosen]
         first, second = (self.chosen.index(column) for column in pair)
         poses = [self.start]
         for step in np.diff(corners, axis=0):
             rates = np.zeros(len(self.chosen))
             rates[first], rates[second] = step
-            try:
-                pose = self.follower.stepped(poses[-1], rates @ self.fields(poses[-1]), along)
-            except FAULTS:
-                break
+            pose = self.follower.stepped(poses[-1], rates @ self.fields(poses[-1]), along)
             if pose is None:
-                break
+                raise np.linalg.LinAlgError(NOT_APART)
             poses.append(pose)
         return poses
 
@@ -151,6 +154,17 @@ def by_pivots(basis: Array, order: Sequence[int]) -> tuple[Array, list[int]]:
         rows -= np.outer(factors, rows[k])
         pivots.append(column)
     return rows, pivots
+
+
+def fields_of_pivots(basis: Array, pivots: Sequence[int]) -> Array:
+    """Return the basis reduced so that each row moves one of the pivots, at unit speed, and no other pivot.
+
+    Raises LinAlgError where there is no such basis: where directions are more or fewer, or a pivot cannot move alone.
+    """
+    fields, moved = by_pivots(basis, pivots)
+    if len(basis) != len(pivots) or moved != list(pivots):
+        raise np.linalg.LinAlgError(NOT_APART)
+    return fields
 
 
 def by_size(basis: Array, columns: Sequence[int]) -> list[int]:

@@ -243,8 +243,8 @@ def _by_turn(line: Sequence[Any], g: Sequence[Any]) -> list[Any]:
 
 
 def _turn(omega: Array) -> Array:
-    angle = float(np.linalg.norm(omega))
-    return np.concatenate([[math.cos(angle / 2)], np.sinc(angle / (2 * math.pi)) / 2 * omega])
+    half = math.hypot(*omega) / 2
+    return np.array([math.cos(half), *((math.sin(half) / half if half else 1.0) / 2 * omega)])
 
 
 def _vector(q: Array) -> Array:
@@ -255,9 +255,14 @@ def _vector(q: Array) -> Array:
 
 
 def _times(p: Array, q: Array) -> Array:
-    w = p[0] * q[0] - p[1:] @ q[1:]
-    product = np.concatenate([[w], p[0] * q[1:] + q[0] * p[1:] + np.cross(p[1:], q[1:])])
-    return np.asarray(product / np.linalg.norm(product))
+    (a, b, c, d), (w, x, y, z) = map(float, p), map(float, q)
+    product = (
+        a * w - b * x - c * y - d * z,
+        a * x + b * w + c * z - d * y,
+        a * y - b * z + c * w + d * x,
+        a * z + b * y - c * x + d * w,
+    )
+    return np.array(product) / math.hypot(*product)
 
 
 def matrix_of(q: Array) -> Array:

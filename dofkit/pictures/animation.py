@@ -125,10 +125,9 @@ def animate(scene: SceneLike, report: Report | None = None, *, loop: bool = Fals
     sketch = whole_sketch(stage)[0]
     program = planar_program(stage, sketch.dimension)
     if loop:
-        notes = (*loop_notes(report), *sketch.notes)
-        return Animation(
-            replace(sketch, notes=notes), tuple(loop_clips(stage)), planar_program(stage, sketch.dimension)
-        )
+        loops, stopped = loop_clips(stage)
+        notes = (*loop_notes(report), *stopped, *sketch.notes)
+        return Animation(replace(sketch, notes=notes), tuple(loops), program)
     maker = ClipMaker(stage, sketch)
     switches = list(maker.switches())
     clips = (*maker.clips(), *(clip for _, new in switches for clip in new))

@@ -28,6 +28,8 @@ from dofkit.system import GROUND, PARTICLE_ROLES, Rotation, System
 ROUNDS, MET, STARTS = 60, 1e-9, 8
 #: The angle between points that are spread over a sphere from below.
 GOLDEN = math.pi * (3 - math.sqrt(5))
+#: The time at which a scene is drawn whose equations contain it, if no reference says where it begins.
+MOMENT = 0.5
 #: More coordinates than this are not moved onto the equations.
 MOST_COORDINATES = 400
 #: The least velocity, of a unit velocity, that counts as motion.
@@ -75,6 +77,7 @@ class Arrangement:
         """The values of parameters, and of coordinates without a reference, at which a motion begins."""
         values = {p: self.numbers[parameter(p)] for p in (*self.system.parameters, *self.system.generic)}
         if self.system.reference is None:
+            values["t"] = self.numbers[TIME]
             turning = {n for r in self.system.rotations for n in r.names}
             names = [c.name for c in self.system.coordinates if c.name not in turning]
             values |= {n: self.numbers[coordinate(n)] for n in names if coordinate(n) in self.numbers}
@@ -98,17 +101,20 @@ def finite_relations(system: System, senses: Sequence[str] = ("=",)) -> list[Exp
 
 def arrangement_of(system: System) -> Arrangement:
     """Return the reference configuration, else positions that satisfy the equations, else a schematic."""
-    numbers: dict[Expr, float] = {parameter(p): 1.0 for p in (*system.parameters, *system.generic)} | {TIME: 0.0}
+    numbers: dict[Expr, float] = {parameter(p): 1.0 for p in (*system.parameters, *system.generic)}
+    equations = (r.expr for c in system.constraints for r in c.relations if r.sense == "=")
+    driven = system.reference is None and any(TIME in e.symbols for e in equations)
+    numbers[TIME] = MOMENT if driven else 0.0
     placements = carrier_placements(system)
     if system.reference is not None:
         return Arrangement(system, numbers | _finite_values(system.reference, numbers), None, True, placements)
     posed = _finite_values(system.pose, numbers)
     for seed in range(STARTS):
-        solved = onto(system, numbers | _start(system, seed) | posed)
+        solved = onto(system, numbers | _start(system, numbers, seed) | posed)
         if solved is not None:
             note = CHOSEN if any(c.relations for c in system.constraints) else EXAMPLES
             return Arrangement(system, solved, note, True, placements)
-    return Arrangement(system, numbers | _start(system, 0) | posed, SCHEMATIC, False, placements)
+    return Arrangement(system, numbers | _start(system, numbers, 0) | posed, SCHEMATIC, False, placements)
 
 
 def _finite_values(exprs: Mapping[Expr, Expr], numbers: Mapping[Expr, float]) -> dict[Expr, float]:
@@ -138,14 +144,14 @@ def onto(system: System, numbers: Mapping[Expr, float]) -> dict[Expr, float] | N
     return None
 
 
-def _start(system: System, seed: int) -> dict[Expr, float]:
+def _start(system: System, numbers: Mapping[Expr, float], seed: int) -> dict[Expr, float]:
     """Return starting values: particles hang in a chain or stand as their links say; all others are a little off 0."""
     rng = np.random.default_rng(seed)
     values = {coordinate(c.name): 0.6 - 0.2 * (k % 3) for k, c in enumerate(system.coordinates) if c.owner is None}
     for r in system.rotations:
         if r.chart == "euler":
             values |= {coordinate(n): a for n, a in zip(r.names, (0.4, 0.7, 0.2), strict=True)}
-    for name, spot in _spots(system).items():
+    for name, spot in _spots(system, numbers).items():
         names = [c.name for c in system.coordinates if c.owner == name]
         values |= {coordinate(n): float(v) for n, v in zip(names, spot, strict=False)}
     if seed:
@@ -153,15 +159,14 @@ def _start(system: System, seed: int) -> dict[Expr, float]:
     return values
 
 
-def _spots(system: System) -> dict[str, Array]:
+def _spots(system: System, numbers: Mapping[Expr, float]) -> dict[str, Array]:
     """Return positions for particles that have none."""
     d = len(PARTICLE_ROLES[system.dimension])
     graph, fixed = _links(system)
     if not system.particles:
         return {}
     if len(system.particles) == 1 and not fixed:
-        down = np.where(np.arange(3) == d - 1, -1.0, 1.0) if finite_relations(system) else np.ones(3)
-        return {system.particles[0]: down * np.array([0.9, 0.7, 0.8])}
+        return {system.particles[0]: _lone(system, numbers, d)}
     if d == 1:
         return {name: np.array([1.0 + 1.5 * k]) for k, name in enumerate(system.particles)}
     if fixed and nx.is_forest(graph):
@@ -177,6 +182,19 @@ def _spots(system: System) -> dict[str, Array]:
         return {str(n): np.append(p, 0.0) for n, p in nx.circular_layout(graph).items()}
     laid = nx.spring_layout(graph, dim=d, seed=7, pos=fixed or None, fixed=list(fixed) or None, scale=1.6)
     return {str(n): np.asarray(p) for n, p in laid.items() if n not in fixed}
+
+
+def _lone(system: System, numbers: Mapping[Expr, float], d: int) -> Array:
+    """Return a position for a single particle: low, unless its equations are nearer to the same place above."""
+    up = np.array([0.9, 0.7, 0.8])[:d]
+    down = up * np.where(np.arange(d) == d - 1, -1.0, 1.0)
+    symbols = [coordinate(c.name) for c in system.coordinates if c.owner == system.particles[0]]
+
+    def gap(place: Array) -> float:
+        solved = onto(system, {**numbers, **dict(zip(symbols, map(float, place), strict=False))})
+        return math.inf if solved is None else math.dist([solved[s] for s in symbols], place)
+
+    return down if finite_relations(system) and gap(down) <= gap(up) + MET else up
 
 
 def _links(system: System) -> tuple[nx.Graph, dict[str, list[float]]]:

@@ -10,7 +10,7 @@ import numpy as np
 
 from dofkit.base.errors import DofkitError
 from dofkit.expressions.tree import TIME, Expr, coordinate
-from dofkit.motion.loops import Field, bracket, by_pivots, by_size
+from dofkit.motion.loops import Field, bracket, by_pivots, by_size, fields_of_pivots
 from dofkit.pictures.arrangement import Arrangement, is_linear, velocity_rows
 from dofkit.pictures.evaluation import kernel
 from dofkit.pictures.mechanism import notes_of
@@ -26,6 +26,7 @@ PLANE, CORNERS = 11, 24
 HALF, LONG, STEP = 1.2, 0.75, 1e-3
 #: The least sine of the angle of a new direction, and the depth of brackets.
 NEW, DEEPEST = 2e-2, 4
+NOT_REGULAR = "the directions allowed at this configuration are no smooth fields near it: give a regular configuration"
 
 
 class NoFormsError(DofkitError):
@@ -68,8 +69,11 @@ class Distribution:
         return kernel(rows[:, moving], len(self.names))
 
     def at(self, q: Array) -> Array:
-        """Return the vector fields at q: each moves one of the pivots at unit speed and no other pivot."""
-        return by_pivots(self.basis(q)[: self.fields], self.pivots)[0]
+        """Return the vector fields at q: each moves one of the pivots at unit speed and no other pivot.
+
+        Raises LinAlgError where there are none such.
+        """
+        return fields_of_pivots(self.basis(q), self.pivots)
 
 
 def element(q: Iterable[float], directions: Array, size: float, role: Role = "field") -> Iterator[Shape]:
@@ -114,7 +118,10 @@ def phase_sketch(stage: StagedScene) -> Sketch:
     distribution = Distribution(stage.arrangement)
     if not distribution.fields:
         raise NoFormsError("no admissible direction was found at this configuration")
-    directions = directions_of(distribution)
+    try:
+        directions = directions_of(distribution)
+    except np.linalg.LinAlgError:
+        raise NoFormsError(NOT_REGULAR) from None
     chosen = _chosen(distribution, directions)
     shapes = [*elements(distribution, HALF)] if len(distribution.names) == 2 else []
     shapes += [*_at_start(distribution, directions, chosen)]
@@ -194,11 +201,18 @@ def _chosen(distribution: Distribution, directions: Sequence[Direction3]) -> lis
     if count <= 3:
         return list(range(count))
     here = distribution.at(distribution.start)
+
+    def changes(q: Array) -> bool:
+        try:
+            return bool(np.max(np.abs(distribution.at(q) - here)) > 1e-6)
+        except np.linalg.LinAlgError:
+            return True
+
     weights = 10.0 * sum((np.abs(d.vector) > 1e-6).astype(float) for d in directions if d.order > 1) + np.zeros(count)
     for k in range(count):
         moved = distribution.start.copy()
         moved[k] += 0.37
-        weights[k] += 20.0 * bool(np.max(np.abs(distribution.at(moved) - here)) > 1e-6)
+        weights[k] += 20.0 * changes(moved)
     return sorted(sorted(range(count), key=lambda k: (-weights[k], k))[:3])
 
 

@@ -7,12 +7,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
 
 from dofkit.expressions.tree import PI, ZERO, Expr, children, fn, nodes, num, rebuild
 from dofkit.pictures.shapes import Array
+from dofkit.system import System
 
 Values = Mapping[Expr, Array | float]
 
@@ -80,6 +82,17 @@ def with_examples(e: Expr) -> Expr:
         new = rebuild(node, tuple(memo[child] for child in children(node)))
         memo[node] = example_of(new) if new.op == "call" else new
     return memo[e]
+
+
+def exemplified(system: System) -> System:
+    """Return a system in whose relations what is drawn stands in the place of unknown functions."""
+    if not system.functions:
+        return system
+    constraints = tuple(
+        c._replace(relations=[r._replace(expr=with_examples(r.expr), domain=()) for r in c.relations])
+        for c in system.constraints
+    )
+    return replace(system, constraints=constraints, functions={})
 
 
 def values_at(exprs: Sequence[Expr], values: Values) -> Array:

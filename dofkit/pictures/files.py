@@ -192,7 +192,7 @@ def _draw_text(axes: Any, mark: Mark, order: int) -> None:
     align = {"start": "left", "middle": "center", "end": "right"}[mark.align]
     axes.text(
         x, y, mark.text.replace("$", r"\$"), fontsize=mark.size, ha=align, va="baseline", color=mark.ink.line,
-        fontweight="bold" if mark.bold else "normal", zorder=order,
+        fontweight="bold" if mark.bold else "normal", zorder=order, snap=False,
         path_effects=[withStroke(linewidth=2.4, foreground="white")],
     )  # fmt: skip
 

@@ -13,7 +13,7 @@ from dofkit.expressions.tree import Expr, coordinate
 from dofkit.motion.continuation import Follower, trail
 from dofkit.motion.poses import PoseRelations
 from dofkit.pictures.arrangement import Arrangement
-from dofkit.pictures.evaluation import evaluated, with_examples
+from dofkit.pictures.evaluation import evaluated
 from dofkit.pictures.files import require_matplotlib
 from dofkit.pictures.shapes import Array, Role, Shape, fixed
 from dofkit.pictures.stage import StagedScene
@@ -163,7 +163,7 @@ def _slice(
 
 def curve(arrangement: Arrangement, exprs: Sequence[Expr], symbols: Sequence[Expr], limit: float) -> list[Array]:
     """Return the curve in which surfaces meet, from where the point is until it closes or leaves the picture."""
-    relations = PoseRelations(arrangement.system, list(map(with_examples, exprs)), (), frozenset())
+    relations = PoseRelations(arrangement.system, exprs, (), frozenset())
     relations.constants |= arrangement.numbers
     columns = [relations.plain.index(s) for s in symbols]
     others = np.delete(np.eye(relations.columns), columns, axis=0)

@@ -19,14 +19,17 @@ from dofkit.report import Report
 SIZES, EVERY, CLOSED = (0.25, 0.5, 0.8), 3, 1e-9
 
 
-def loop_clips(stage: StagedScene) -> list[Clip]:
-    """Return the loops of each pair of free coordinates, in several sizes. Raises NoMotionError if there are none."""
+def loop_clips(stage: StagedScene) -> tuple[list[Clip], list[str]]:
+    """Return the loops of each pair of free coordinates, in several sizes, and why others could not be followed.
+
+    Raises NoMotionError if there are none.
+    """
     sampler = LoopSampler(stage.system, stage.arrangement.first_values)
     clips = [_clip(stage, loop) for size in SIZES for loop in sampler.loops(size)]
     if not clips:
-        raise NoMotionError("no loop could be followed from this configuration")
+        raise NoMotionError(" ".join(sampler.stopped))
     names = list(dict.fromkeys(clip.name for clip in clips))
-    return sorted(clips, key=lambda clip: names.index(clip.name))
+    return sorted(clips, key=lambda clip: names.index(clip.name)), sampler.stopped
 
 
 def _clip(stage: StagedScene, loop: Loop) -> Clip:

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from dofkit.expressions.tree import parameter
+from dofkit.expressions.tree import TIME, parameter
 from dofkit.motion.poses import about
 from dofkit.pictures.joints import joint_shapes, name_of, run_shapes
 from dofkit.pictures.loci import meeting_shapes
@@ -207,12 +207,12 @@ def notes_of(stage: StagedScene) -> Iterator[str]:
     elif stage.arrangement.note is not None:
         yield stage.arrangement.note
     used = {s for c in stage.system.constraints for r in c.relations for s in r.expr.symbols}
-    parameters = [p for p in stage.system.parameters if parameter(p) in used]
-    if parameters:
-        numbers = stage.arrangement.numbers
-        yield f"Drawn with {', '.join(f'{p} = {numbers.get(parameter(p), 1.0):.4g}' for p in parameters[:6])}."
-    if stage.system.functions:
-        yield f"Unknown functions ({', '.join(stage.system.functions)}) are drawn as an example."
+    numbers = stage.arrangement.numbers
+    drawn_with = [p for p in map(parameter, stage.system.parameters) if p in used][:6] + [TIME] * bool(numbers[TIME])
+    if drawn_with:
+        yield f"Drawn with {', '.join(f'{s.args[1]} = {numbers.get(s, 1.0):.4g}' for s in drawn_with)}."
+    if stage.scene.functions:
+        yield f"Unknown functions ({', '.join(stage.scene.functions)}) are drawn as an example."
     written = [c for c in stage.system.constraints if c.facts.written]
     for constraint in written[:MOST_TEXTS]:
         yield f"{constraint.name}: {constraint.text}"

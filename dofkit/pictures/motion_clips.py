@@ -8,12 +8,13 @@ from dataclasses import replace
 
 import numpy as np
 
+from dofkit.base.deadline import by_processor
 from dofkit.base.errors import DofkitError
 from dofkit.expressions.tree import TIME, Expr
 from dofkit.motion.configurations import MotionSampler, sampling
 from dofkit.motion.loops import by_pivots
 from dofkit.pictures.arrangement import MOVES, FreeMotion, displaced, free_motions, moved_numbers
-from dofkit.pictures.evaluation import kernel
+from dofkit.pictures.evaluation import exemplified, kernel
 from dofkit.pictures.shapes import Array, Clip, Poses, Sketch, Switch, place
 from dofkit.pictures.stage import StagedScene
 from dofkit.pictures.words import can_hold, sure
@@ -31,12 +32,13 @@ FAR, BACK = 0.5, 0.05
 MOST_SEEN = 60
 #: With many coordinates fewer steps are made: this many coordinates times steps, but not fewer steps than this.
 MANY, LEAST = 3000, 10
-#: The time limit of the finite motions.
+#: The processor time of the finite motions.
 SECONDS = 12.0
 #: Frames of an infinitesimal motion to both sides, its extent by the picture's size, and its largest rotation.
 SWING, REACH, TURN = 9, 0.22, 0.6
 #: The number of motions, and of constraints with a switch, that are shown.
 MOST_MOTIONS, MOST_SWITCHES = 12, 8
+FINITE, IN_TIME = "a finite motion", "motion in time"
 GOES_ON = "This infinitesimal motion goes on: it was followed as a finite motion."
 ENDS = "This infinitesimal motion does not go on: "
 NONE_FOUND, NO_MOTION = "no finite motion in its direction was found.", "no finite motion is possible{}."
@@ -75,7 +77,7 @@ class ClipMaker:
 
     def _motions(self) -> list[Clip]:
         """Return finite motions, or infinitesimal ones in their place."""
-        with sampling(self.stage.system, SECONDS):
+        with by_processor(SECONDS), sampling(self.stage.system):
             try:
                 sampler = MotionSampler(self.stage.system, self.stage.arrangement.first_values)
                 if self.stage.report.singular:
@@ -83,7 +85,7 @@ class ClipMaker:
                 if len(self.motions) > 1 or (self.motions and sampler.relations.forms):
                     return list(self._in_turn(sampler))
                 path = sampler.configurations(self._steps(STEPS), STEP)
-                return [*self._sampled("a finite motion", path)] or self._swings(self.motions)
+                return [*self._sampled(FINITE, path)] or self._swings(self.motions)
             except DofkitError as error:
                 return self._swings(self.motions, NOT_SAMPLED.format(error))
 
@@ -92,14 +94,12 @@ class ClipMaker:
 
     def _in_turn(self, sampler: MotionSampler) -> Iterator[Clip]:
         """Yield a motion of each free velocity, while the others rest."""
-        count = len(self.stage.motions)
-        for k, motion in enumerate(self.motions):
+        names = _names_in_turn(self.stage.motions)
+        for name, motion in zip(names, self.motions, strict=False):
             held = [other.symbol for other in self.stage.motions if other is not motion]
             clips, reason = list[Clip](), ""
             try:
-                path = self._free_motion(sampler, motion, held)
-                name = f"free velocity {k + 1} of {count}: {motion.name}" if count > 1 else "a finite motion"
-                clips += self._sampled(name, path, self.few)
+                clips += self._sampled(name, self._free_motion(sampler, motion, held), self.few)
             except DofkitError as error:
                 reason = NOT_SAMPLED.format(error)
             yield from clips or self._swings([motion], reason)
@@ -229,18 +229,27 @@ class ClipMaker:
         """Return the first motion that is possible only without a constraint; None if there is none."""
         stage = self.stage
         scene = without(stage.scene, [name])
-        arrangement = replace(stage.arrangement, system=lower(scene))
+        arrangement = replace(stage.arrangement, system=exemplified(lower(scene)))
         first = [str(m.symbol.args[1]) for m in stage.motions]
         motions = free_motions(arrangement, first)
         extra = [m for m in motions if m.symbol not in {m.symbol for m in stage.motions}]
         if not extra:
             return None
         held = [m.symbol for m in motions if m is not extra[0]]
-        with sampling(arrangement.system, SECONDS):
+        with by_processor(SECONDS), sampling(arrangement.system):
             sampler = MotionSampler(arrangement.system, arrangement.first_values)
             path = self._free_motion(sampler, extra[0], held)
         clips = self._sampled(f"without {name}: {extra[0].name}", path, self.few // 2)
         return [clip._replace(text=NEEDED.format(name), dropped=name) for clip in clips]
+
+
+def _names_in_turn(motions: Sequence[FreeMotion]) -> list[str]:
+    """Return what the finite motion of each free velocity is called; that in which time goes on is none of them."""
+    free = [motion for motion in motions if motion.symbol != TIME]
+    if len(motions) == 1:
+        return [FINITE]
+    numbered = [f"free velocity {k} of {len(free)}: {motion.name}" for k, motion in enumerate(free, 1)]
+    return [IN_TIME] * (len(motions) - len(free)) + numbered
 
 
 def _combined(motions: Sequence[FreeMotion], weights: Sequence[float] | Array) -> FreeMotion:

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from dofkit.expressions.calculus import substitute
+from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.tree import ZERO, Expr, coordinate, fn, num
 from dofkit.expressions.vectors import Vec
 from dofkit.motion.poses import about
@@ -35,7 +35,7 @@ from dofkit.system import GROUND, System
 
 #: Points of a curve that rests and of one that moves, lines of a surface in each direction and their points, corners
 #: of a disc, strokes of the ground.
-CURVE, MOVING_CURVE, MESH, MESH_POINTS, RIM, STROKES = 61, 15, 9, 25, 40, 12
+CURVE, MOVING_CURVE, MESH, MESH_POINTS, RIM, STROKES = 61, 11, 9, 25, 40, 12
 #: Shapes that are one line or dot: its kind and role, and its size in symbols where no radius is given.
 _LINES: Mapping[str, tuple[Kind, Role, float]] = {
     "rod": ("line", "bar", 0.0), "string": ("line", "rope", 0.0), "spring": ("coil", "force", 0.8),
@@ -143,7 +143,8 @@ def _sampled(shape: PlacedShape) -> Iterator[Vec]:
         return
     ends = [e for _, low, high in shape.range for e in (low, high)]
     moves = ShapePlacement((*shape.places[0], *ends)).moves
-    for fractions in _grid(len(shape.range), MOVING_CURVE if moves else CURVE):
+    straight = all(diff(diff(e, s), s) == ZERO for e in shape.places[0] for s, _, _ in shape.range)
+    for fractions in _grid(len(shape.range), 2 if straight else MOVING_CURVE if moves else CURVE):
         values = {
             s: low + num(part) * (high - low) for (s, low, high), part in zip(shape.range, fractions, strict=True)
         }
@@ -172,7 +173,9 @@ def picture_shapes(picture: PlacedPicture, values: Values, unit: float) -> Itera
         drawn = list(_Drawing(k, shape, picture.dimension, placements, values, unit).shapes())
         yield from drawn
         if shape.name and shape.kind not in ("text", "axes") and drawn:
-            yield Shape("words", drawn[0].vertices, "name", owner=shape.name, text=shape.name)
+            ends = drawn[0].vertices
+            spots = ends[len(ends) // 2 :][:1] if shape.kind == "curve" and len(ends) > 2 else ends
+            yield Shape("words", spots, "name", owner=shape.name, text=shape.name)
 
 
 class _Drawing(NamedTuple):

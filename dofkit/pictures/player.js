@@ -55,7 +55,9 @@
   const still = planar ? planar.placed(program.start) : data.still.map(posed);
 
   function posesOf(clip) {
-    clip.poses = clip.poses || clip.frames.map(planar ? planar.placed : function (frame) { return frame.map(posed); });
+    clip.poses = clip.poses || clip.frames.map(planar ? planar.placed : function (frame) {
+      return frame.map(function (row, k) { return posed(row || data.still[k]); });
+    });
     return clip.poses;
   }
 

@@ -208,6 +208,7 @@ def _clip_data(
 ) -> dict[str, Any]:
     """Return a clip, whose frames are values of the program's columns if there is one, else poses of all carriers.
 
+    The pose of a carrier that is where the sketch has it is written as 0.
     ``digits`` after the point are as many as can be seen; ``start`` is the frame that is nearest to the sketch.
     """
     gaps = [sum(far(frame.get(c, AT_REST), sketch.poses.get(c, AT_REST)) for c in carriers) for frame in clip.frames]
@@ -215,8 +216,9 @@ def _clip_data(
     if program is not None:
         frames: list[Any] = [[round(v, max(4, digits)) for v in program.values(numbers)] for numbers in clip.path]
     else:
-        rows = ([_pose_row(frame.get(c, AT_REST)) for c in carriers] for frame in clip.frames)
-        frames = [[[*(round(v, digits) for v in p[:3]), *(round(v, 4) for v in p[3:])] for p in row] for row in rows]
+        still = [_frame_row(sketch.poses.get(c, AT_REST), digits) for c in carriers]
+        rows = ([_frame_row(frame.get(c, AT_REST), digits) for c in carriers] for frame in clip.frames)
+        frames = [[0 if p == q else p for p, q in zip(row, still, strict=True)] for row in rows]
     arrows = [[_rounded(a), _rounded(b)] for a, b in clip.arrows]
     start = 0 if clip.loop else gaps.index(min(gaps))
     return entry | {"dropped": clip.dropped, "size": clip.size, "arrows": arrows, "start": start, "frames": frames}
@@ -232,6 +234,11 @@ def _pose_row(pose: Displacement) -> list[float]:
     if np.allclose(pose.turn, np.eye(3), atol=1e-9):
         return _rounded(pose.shift)
     return [*_rounded(pose.shift), *_rounded(quaternion(pose.turn)[1:])]
+
+
+def _frame_row(pose: Displacement, digits: int) -> list[float]:
+    row = _pose_row(pose)
+    return [*(round(v, digits) for v in row[:3]), *(round(v, 4) for v in row[3:])]
 
 
 def _number(value: float) -> float:

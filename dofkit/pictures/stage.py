@@ -18,6 +18,7 @@ from dofkit.pictures.arrangement import (
     is_linear,
     movers,
 )
+from dofkit.pictures.evaluation import exemplified
 from dofkit.pictures.placed_shapes import picture_shapes, placements_of
 from dofkit.pictures.recognition import recognised
 from dofkit.pictures.shapes import AT_REST, Array, Place, State, Vertex, place
@@ -152,12 +153,12 @@ def force_ends(arrangement: Arrangement, force: Force) -> Iterator[Vertex]:
 
 def stage_of(scene: Scene, report: Report) -> StagedScene:
     """Return a scene with its positions. Raises SceneError as `lower` does."""
-    system = lower(scene)
+    system = exemplified(lower(scene))
     picture = picture_of(scene, vocabulary_of(scene), [])
     if not (system.bodies or system.particles or picture.shapes):
         picture = recognised(system) or picture
         if not picture.shapes and has_set(system):
-            system = lower(as_particle(scene))
+            system = exemplified(lower(as_particle(scene)))
     arrangement = arrangement_of(system)
     arrangement = replace(arrangement, placements={**arrangement.placements, **placements_of(picture)})
     written = [_written_place(arrangement, c) for c in system.connections]

@@ -62,6 +62,7 @@ SHAPES: Mapping[str, ShapeKeys] = {
 }  # fmt: skip
 _KEYS = ("at", "from", "to", "through", "heading", "axis", "turn", "radius", "size", "range", "show")
 _LETTERS = {"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1)}
+QUOTED = 'at: ["atan2(y, x)", 0]'
 UP_IN_PLANE, UP = (ZERO, ONE), (ZERO, ZERO, ONE)
 
 
@@ -239,6 +240,10 @@ class _ShapeReader(Texts):
 
     def _place(self, values: Vector, *where: str | int) -> Vec:
         """Return a place or direction with as many components as those before it: two or three."""
+        texts = [value for value in values if isinstance(value, str)]
+        if any(text.count("(") > text.count(")") for text in texts):
+            self.fault("a comma ends an entry of a place", *where, hint=f"quote a text that has one: {QUOTED}")
+            return tuple(ZERO for _ in values)
         if len(values) not in ((self.dimension,) if self.dimension else (2, 3)):
             needed = f"{self.dimension} components in this picture" if self.dimension else "2 or 3 components"
             hint = "a picture is in the plane or in space: give all its places two components, or all three"

@@ -3,20 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
 import pytest
+from shared.residuals import residual
 
 import dofkit
 from dofkit.expressions.tree import TIME, Expr, coordinate, parameter
 from dofkit.motion.configurations import NoMotionError
-from dofkit.motion.loops import Loop, LoopSampler
-from dofkit.pictures.arrangement import finite_relations, velocity_rows
-from dofkit.pictures.evaluation import derivatives, values_at
+from dofkit.motion.loops import Loop, LoopSampler, fields_of_pivots
 from dofkit.scene.lowering import lower
-from dofkit.system import System
 
 SKATE = {"coordinates": ["x", "y", "theta"], "constraints": ["sin(theta) dx - cos(theta) dy = 0"]}
 TRAILER = {
@@ -81,34 +79,49 @@ def test_no_loop_where_time_occurs() -> None:
         _sampler({"coordinates": ["x", "y", "z"], "constraints": ["dz = x dy + t dt"]})
 
 
-def _residual(system: System, path: list[dict[str, float]], chords: bool) -> float:
-    """Return the largest residual of finite relations, by their gradients, and of forms along chords."""
-    symbols = [coordinate(c.name) for c in system.coordinates]
-    worst = 0.0
-    for k, q in enumerate(path):
-        numbers: dict[Expr, float] = {parameter(p): q[p] for p in system.parameters if p in q}
-        numbers |= {s: q[str(s.args[1])] for s in symbols} | {TIME: q.get("t", 0.0)}
-        finite = finite_relations(system)
-        slopes = np.linalg.norm(derivatives(finite, symbols, numbers), axis=1)
-        gaps = np.abs(values_at(finite, numbers).reshape(len(finite)))
-        worst = max([worst, *(gaps / np.maximum(slopes, 1.0) / max(1.0, *map(abs, q.values())))])
-        if chords and k:
-            step = np.array([q[str(s.args[1])] - path[k - 1][str(s.args[1])] for s in symbols])
-            middle = numbers | {s: numbers[s] - d / 2 for s, d in zip(symbols, step, strict=True)}
-            rows = velocity_rows(system, middle)[0]
-            worst = max([worst, *np.abs(rows[len(finite) :] @ step)])
-    return float(worst)
+def test_a_loop_that_leaves_the_set_stops_with_a_reason() -> None:
+    """On x^2 + y^2 = 1/4 the free coordinate reaches 1/2 at most, less than the radius of the larger loop."""
+    scene = {
+        "coordinates": ["x", "y", "z", "w"],
+        "constraints": ["x^2 + y^2 = 1/4", "dw = z dy"],
+        "configuration": {"x": 0.5, "y": 0, "z": 0, "w": 0},
+    }
+    sampler = _sampler(scene)
+    assert len(sampler.loops(0.25)) == 1
+    assert sampler.stopped == []
+    assert sampler.loops(0.8) == []
+    (reason,) = sampler.stopped
+    assert reason.startswith("The loop of y and z with radius 0.8 was not followed: ")
+
+
+def test_no_other_fields_take_the_place_of_those_of_the_pivots() -> None:
+    """Where both coefficients of the form vanish every direction is allowed, and fields of two pivots do not exist."""
+    sampler = _sampler({"coordinates": ["x", "y", "z"], "constraints": ["x dz = y dx"], "configuration": {"x": 1}})
+    assert sampler.fields(sampler.start).shape == (2, 3)
+    with pytest.raises(np.linalg.LinAlgError):
+        sampler.fields(sampler.relations.pose({}))
+
+
+@pytest.mark.parametrize(("basis", "pivots"), [(np.eye(3), [0, 1]), (np.eye(3)[:2], [0, 2]), (np.eye(3)[:1], [0, 1])])
+def test_fields_of_pivots_are_refused_where_a_pivot_cannot_move_alone(basis: Any, pivots: list[int]) -> None:
+    with pytest.raises(np.linalg.LinAlgError):
+        fields_of_pivots(basis, pivots)
 
 
 def _held(name: str) -> None:
     system = lower(dofkit.load(name))
-    if system.functions or system.generic or any(r.chart == "gibbs" for r in system.rotations):
-        return
+    ones = dict.fromkeys(system.parameters, 1.0)
+
+    def numbers(path: Iterable[Mapping[str, float]]) -> Iterator[dict[Expr, float]]:
+        symbols = {p: parameter(p) for p in system.parameters} | {"t": TIME}
+        symbols |= {c.name: coordinate(c.name) for c in system.coordinates}
+        return ({TIME: 0.0} | {symbols[n]: v for n, v in q.items()} for q in path)
+
     try:
-        path = dofkit.configurations(system, steps=12, step=0.1, values=dict.fromkeys(system.parameters, 1.0))
-        assert _residual(system, path, chords=False) < 1e-9
+        path = dofkit.configurations(system, steps=12, step=0.1, values=ones)
+        assert system.generic or residual(system, numbers(path)) < 1e-9
         for loop in _sampler(name).loops(0.2):
-            assert _residual(system, [*loop.configurations], chords=True) < 1e-9
+            assert system.generic or residual(system, numbers(loop.configurations), chords=True) < 1e-9
     except NoMotionError:
         return
 

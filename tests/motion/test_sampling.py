@@ -197,6 +197,15 @@ def test_generic_lengths_and_parameters_are_chosen_and_told() -> None:
     assert all(q["r"] == 3 for q in along(scene, 5, 0.1, values={"r": 3}))
 
 
+def test_a_motion_begins_near_the_values_that_are_given() -> None:
+    """Also those of coordinates that no equation restricts, or that forms have with constant coefficients only."""
+    scene = {"coordinates": ["x", "s", "phi"], "constraints": ["ds = 2 dphi"]}
+    first = along(scene, 0, values={"x": 3, "s": 1, "phi": 0.5})[0]
+    assert first == pytest.approx({"x": 3, "s": 1, "phi": 0.5})
+    moving = {"coordinates": ["x"], "constraints": ["dx = t dt"]}
+    assert along(moving, 0, values={"x": 3, "t": 2})[0] == pytest.approx({"x": 3, "t": 2})
+
+
 def test_a_ring_of_seven_hinges_in_general_position() -> None:
     bodies = [f"b{i}" for i in range(1, 7)]
     ring = [{"type": "revolute", "between": list(pair)} for pair in pairwise(["ground", *bodies, "ground"])]

@@ -8,8 +8,8 @@ from typing import Any
 import pytest
 
 import dofkit
-from dofkit.expressions.tree import coordinate
-from dofkit.pictures.arrangement import SCHEMATIC, Arrangement, arrangement_of, free_motions, movers
+from dofkit.expressions.tree import TIME, coordinate
+from dofkit.pictures.arrangement import MOMENT, SCHEMATIC, Arrangement, arrangement_of, free_motions, movers
 from dofkit.scene.lowering import lower
 
 
@@ -30,6 +30,24 @@ def test_places_that_are_left_open_meet_the_constraints() -> None:
     assert math.hypot(found["x_A"], found["y_A"]) == pytest.approx(1, abs=1e-8)
     assert math.hypot(found["x_B"] - found["x_A"], found["y_B"] - found["y_A"]) == pytest.approx(1, abs=1e-8)
     assert found["y_B"] < found["y_A"] < 0  # it hangs
+
+
+def test_a_bead_on_a_curve_is_where_that_is_nearest_and_a_pendulum_hangs() -> None:
+    """Nearest to (0.9, 0.7) is (0.87, 0.75) on the parabola; to the circle (0.9, 0.7) and (0.9, -0.7) are as near."""
+    bead = {"dimension": 2, "particles": ["P"], "constraints": ["y_P = x_P^2"]}
+    assert numbers(bead)["x_P"] == pytest.approx(0.87, abs=0.02)
+    assert numbers({**bead, "constraints": ["x_P^2 + y_P^2 = 1"]})["y_P"] < -0.5
+
+
+def test_what_is_driven_is_drawn_at_a_moment_where_it_is_not_special() -> None:
+    """At t = 0 the rod y = x tan(t) would be the x axis; a reference is drawn when it is given, at t = 0."""
+    rod = {"dimension": 2, "particles": ["P"], "constraints": ["y_P = x_P tan(t)"]}
+    assert numbers(rod)["t"] == MOMENT
+    assert numbers(rod)["y_P"] == pytest.approx(numbers(rod)["x_P"] * math.tan(MOMENT))
+    assert numbers({**rod, "configuration": {"x_P": 1, "y_P": 0}})["t"] == 0
+    clip = dofkit.animate(rod).clips[0]
+    assert any(abs(q[TIME] - MOMENT) < 1e-9 for q in clip.path)
+    assert "Drawn with t = 0.5." in dofkit.draw(rod).sketch.notes
 
 
 def test_inequalities_are_met_too() -> None:

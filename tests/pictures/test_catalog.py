@@ -9,8 +9,7 @@ import dofkit
 from dofkit.pictures.stage import POINT
 
 NAMES = dofkit.catalog_names()
-#: What is abstract: a relation between coordinates that mean nothing further.
-GRAPHS = {"non-holonomic-definition"}
+#: Relations between coordinates that mean nothing further: their sets.
 SETS = {"holonomic-definition", "velocities-that-integrate", "x-dy-plus-y-dx"}
 
 
@@ -18,7 +17,7 @@ def _check(name: str) -> None:
     scene = dofkit.load(name)
     picture = dofkit.draw(scene)
     kinds = {s.role for s in picture.sketch.shapes}
-    assert ("node" in kinds) == (name in GRAPHS)
+    assert "node" not in kinds
     assert (POINT in {v.carrier for s in picture.sketch.shapes for v in s.vertices}) == (name in SETS)
     assert all(np.all(np.isfinite(mark.spots)) for mark in picture.page.marks)
     if scene.picture:

@@ -64,6 +64,18 @@ def test_a_picture_takes_the_place_of_what_it_names() -> None:
     assert [s.kind for s in sketch.shapes if s.owner == "A"] == ["area", "words"]
 
 
+def test_a_straight_curve_is_a_line_and_a_curve_is_named_at_its_middle() -> None:
+    curves = [
+        {"curve": "line", "at": ["x + u", "u theta"], "range": {"u": [0, 1]}},
+        {"curve": "arc", "at": ["cos(u)", "sin(u)"], "range": {"u": [0, "pi/2"]}},
+    ]
+    sketch = dofkit.draw({**COIN, "picture": curves}).sketch
+    lengths = {s.owner: len(s.vertices) for s in sketch.shapes if s.kind == "curve"}
+    assert lengths["line"] == 2 < lengths["arc"]
+    (name,) = (s for s in sketch.shapes if s.text == "arc")
+    assert [sketch.at(v) for v in name.vertices] == [pytest.approx([0.5**0.5, 0.5**0.5, 0])]
+
+
 def test_what_does_not_move_is_fixed_in_the_world() -> None:
     sketch = dofkit.draw({**COIN, "picture": [*COIN["picture"], {"plane": "", "at": [0, 0, 0]}]}).sketch
 

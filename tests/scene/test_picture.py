@@ -40,6 +40,7 @@ def test_the_example_of_each_shape_is_read(kind: str) -> None:
         ("{ball: m, at: [x, 0], radius: xdot}", (4, 33), "the velocity of x cannot stand here"),
         ("{curve: c, at: [u, v], range: {u: [0, theta]}}", (4, 22), "`v` is not declared"),
         ("{rod: l, from: [0, 0], to: [x, y, R]}", (4, 30), "a place has 2 components in this picture, not 3"),
+        ("{point: P, at: [atan2(y, x), 0]}", (4, 18), "a comma ends an entry of a place"),
         ("{point: P, at: [x]}", (4, 18), "a place has 2 or 3 components, not 1"),
         ("{at: [x, 0]}", (4, 3), "a shape begins with its kind"),
         ("{point: q, disc: q}", (4, 20), "one entry is a point and a disc"),
