@@ -14,7 +14,7 @@ from dofkit.base.errors import Fault
 from dofkit.expressions.enclosures import approximate, differs_from_zero
 from dofkit.expressions.tree import ONE, ZERO, Expr, coordinate, num
 from dofkit.expressions.vectors import Vec
-from dofkit.scene.frames import Chart, Frame, Placed
+from dofkit.scene.frames import Chart, Frame, Placed, ground_frame
 from dofkit.scene.ledger import Texts
 from dofkit.scene.names import Vocabulary
 from dofkit.scene.parts import Declarations, Particle
@@ -65,14 +65,13 @@ def drawing_of(scene: Declarations, vocabulary: Vocabulary, mentioned: frozenset
             place = _place(texts, particle, names, configuration)
             points += [] if place is None else [place]
         particles[particle.name] = Placed(tuple([coordinate(n) for n in names]), ONE, place, None, particle.name)
-    origin = (ZERO,) * scene.dimension
     return Drawing(
         vocabulary=vocabulary,
         dimension=scene.dimension,
         tolerance=scene.tolerance,
         configuration=configuration,
         particles=particles,
-        ground=Frame(GROUND, origin, origin, "fixed"),
+        ground=ground_frame(scene.dimension),
         frames=_frames(scene.dimension, vocabulary, configuration, mentioned),
         points=tuple(points),
         drawn=frozenset(b for b, names in vocabulary.table.bodies.items() if any(n in configuration for n in names)),
