@@ -1,18 +1,23 @@
 """Property tests draw the same examples on every run, so that a failure is a change of the code and not luck.
 
-All tests of one scene run in one process, which works its report out once. Garbage is looked for seldom, and never
-among what was there before the first test: that took a sixth of the time.
+All tests of one scene run in one process, which works its report out once, and so do all others of a file: what they
+have in common is made once, and groups without end cost pytest-xdist a twentieth of the time. Garbage is looked for
+seldom, and never among what was there before the first test: that took a sixth of the time.
 
-`--share 1/3` runs a third of the tests that are selected, the same on every run.
+`--share 1/3` runs a third of the tests that are selected, the same on every run; which third is said by `--turn TEXT`,
+such as a commit's hash.
 
 The time allowed for a scene is processor time of this process here: what else the machine does is of no account.
 
 The tests start hundreds of Python processes, each of which would compile the package again where bytecode may not be
-written: theirs is, whatever the environment says.
+written: theirs is, whatever the environment says. Workers are copies of this process, as they are of a command's own,
+also beside the threads that read what idle workers say: a fresh Python imports for a second.
 """
 
 import gc
 import os
+import sys
+import threading
 import time
 from fractions import Fraction
 from pathlib import Path
@@ -22,15 +27,21 @@ from zlib import crc32
 import pytest
 from hypothesis import settings
 
-from dofkit.base import deadline
+from dofkit.base import deadline, runs, workers
 
 settings.register_profile("steady", derandomize=True, deadline=None, print_blob=True)
 settings.load_profile("steady")
 
 
-pytest.MonkeyPatch().setattr(
-    deadline, "time", SimpleNamespace(monotonic=time.process_time, thread_time=time.thread_time)
-)
+def can_fork() -> bool:
+    """Return whether this process may be forked: all that other threads do is to wait for workers."""
+    return sys.platform == "linux" and sum(not thread.daemon for thread in threading.enumerate()) == 1
+
+
+_PATCH = pytest.MonkeyPatch()
+_PATCH.setattr(deadline, "time", SimpleNamespace(monotonic=time.process_time, thread_time=time.thread_time))
+_PATCH.setattr(workers, "can_fork", can_fork)
+_PATCH.setattr(runs, "can_fork", can_fork)
 
 
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
@@ -38,16 +49,17 @@ os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption("--share", type=Fraction, default=Fraction(1), help="this part of the tests, by their names")
+    parser.addoption("--turn", default="", help="a text that says which part it is")
 
 
 @pytest.hookimpl(trylast=True)
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    share = config.getoption("share")
-    items[:] = [item for item in items if crc32(item.nodeid.encode()) < share * 2**32]
+    share, first = config.getoption("share"), crc32(config.getoption("turn").encode())
+    items[:] = [item for item in items if (crc32(item.nodeid.encode()) - first) % 2**32 < share * 2**32]
     for item in items:
         path = getattr(getattr(item, "callspec", None), "params", {}).get("path")
-        if isinstance(path, Path):
-            item.add_marker(pytest.mark.xdist_group(path.stem))
+        if item.get_closest_marker("xdist_group") is None:
+            item.add_marker(pytest.mark.xdist_group(path.stem if isinstance(path, Path) else item.path.stem))
 
 
 def pytest_collection_finish() -> None:

@@ -145,7 +145,7 @@ _OTHER_WORDS = {
         "scene/fields.py", "homework/key/facts.py", "scene/picture.py",
         "pictures/placed_shapes.py",
     },
-    "fixed": {"scene/drawing.py"},
+    "fixed": {"scene/frames.py"},
     "on": {"scene/world.py"},
 }  # fmt: skip
 

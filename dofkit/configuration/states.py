@@ -27,7 +27,7 @@ from dofkit.relations.blocks import Block, Row, aliases
 from dofkit.relations.normal.normal_form import linear_form, velocities_of
 from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian
 from dofkit.relations.setting import Setting
-from dofkit.relations.velocity_reductions import form_rate, rate
+from dofkit.relations.velocity_reductions import rate
 
 #: Draws of one state from which the one that is taken has to come.
 TRIES = 3
@@ -210,7 +210,7 @@ class States:
 def state_relations(rows: Sequence[Row], hidden: Sequence[Expr]) -> tuple[list[Expr], list[Expr], list[Expr]]:
     """Return the finite relations, those linear in the velocities (their rates, then forms), and the nonlinear ones."""
     finite = [*(r.piece.expr for r in rows if isinstance(r.piece, Finite)), *hidden]
-    forms = [form_rate(r.piece) for r in rows if isinstance(r.piece, Pfaffian)]
+    forms = [r.piece.rate for r in rows if isinstance(r.piece, Pfaffian)]
     return finite, [*map(rate, finite), *forms], [r.piece.expr for r in rows if isinstance(r.piece, Nonlinear)]
 
 

@@ -14,6 +14,7 @@ Two engines, each of which can prove one thing (`zero` says which of them may be
 Mechanisms
     `ring` writes roots, logarithms, angles and inverse functions over generators without relations between them,
     gives quotients in canonical form, and bounds their degrees; what reduces to zero there is zero, which is a proof.
+    Its `quotients` brings small quotients to lowest terms and solves linear systems over polynomials.
     `zero` says whether the generators can be trusted to be independent [Ax1971], so that field and canonical form prove
     what is not zero, and asks field, canonical form and balls in turn. `analyticity` says whether a function that is
     not identically zero vanishes on no open set [IsolatedZeros].

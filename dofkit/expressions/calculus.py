@@ -15,7 +15,7 @@ from typing import Literal
 
 from dofkit.base.errors import TextError
 from dofkit.expressions import tree as ex
-from dofkit.expressions.tree import MINUS_ONE, ONE, ZERO, Expr, add, call, children, fn, mul, nodes, num, power, rebuild
+from dofkit.expressions.tree import MINUS_ONE, ONE, ZERO, Expr, add, call, children, fn, mul, num, power, rebuild
 
 
 def substitute(e: Expr, mapping: Mapping[Expr, Expr]) -> Expr:
@@ -283,93 +283,3 @@ class Comparison:
     right: Expr
     column: int
     domain: tuple[Requirement, ...] = ()
-
-
-# Arithmetic of numbers within bounds
-
-#: Constant exponents, powers of ten included, and the product of nested ones.
-MAX_EXPONENT = 64
-#: Bits of one number after folding.
-MAX_BITS = 2048
-
-
-def raised(base: Expr, exponent: Expr) -> Expr:
-    """Return ``base^exponent``. Raises TextError."""
-    if exponent.op == "num":
-        _check_power(base, exponent.args[0])
-    elif base.op == "num" and base.args[0] <= 0:
-        message = f"`{base.args[0]}` to a power that is no number has no real value for most exponents"
-        raise TextError(message, hint="write a positive base, or `exp(...)`")
-    result = power(base, exponent)
-    for part in result.args if result.op == "mul" else (result,):
-        unfolded = part.op == "pow" and part.args[0].op == part.args[1].op == "num"
-        if (unfolded and part.args[1].args[0].denominator == 1) or _bits(part) > MAX_BITS:
-            raise TextError("this power is too large a number", hint="write it in other units")
-    return result
-
-
-def _bits(e: Expr) -> int:
-    """Return the bits of a number, and 0 for other expressions."""
-    return max(e.args[0].numerator.bit_length(), e.args[0].denominator.bit_length()) if e.op == "num" else 0
-
-
-def _check_power(base: Expr, value: Fraction) -> None:
-    if abs(value.numerator) > MAX_EXPONENT or value.denominator > MAX_EXPONENT:
-        message = f"this exponent is too large; at most {MAX_EXPONENT} is read"
-        raise TextError(message, hint="choose a smaller exponent")
-    if base.op == "num":
-        if base.is_zero and value == 0:
-            raise TextError("`0^0` has no value", hint="write the number")
-        if base.is_zero and value < 0:
-            raise TextError("this divides by zero", hint="check the denominator")
-        if base.args[0] < 0 and value.denominator != 1:
-            raise TextError("a negative number has no real root", hint="write a real number")
-    elif abs(value) > 1 and _degree(base, {}) * abs(value) > MAX_EXPONENT:
-        message = f"these nested powers multiply to more than {MAX_EXPONENT}"
-        raise TextError(message, hint="choose smaller exponents")
-
-
-def _degree(e: Expr, memo: dict[Expr, Fraction]) -> Fraction:
-    """Return the largest product of nested constant exponents in ``e``."""
-    if e not in memo:
-        memo[e] = max((_degree(child, memo) for child in children(e)), default=Fraction(1))
-        if e.op == "pow" and e.args[1].op == "num":
-            memo[e] *= max(Fraction(1), abs(e.args[1].args[0]))
-    return memo[e]
-
-
-def inverse(divisor: Expr) -> Expr:
-    """Return ``1/divisor``. Raises TextError for zero."""
-    if divisor.is_zero:
-        raise TextError("this divides by zero", hint="check the denominator")
-    return power(divisor, MINUS_ONE)
-
-
-def applied(name: str, *arguments: Expr) -> Expr:
-    """Return the value of an elementary function. Raises TextError where it does not exist."""
-    first = arguments[0]
-    if name == "sqrt":
-        return raised(first, num(Fraction(1, 2)))
-    if first.op == "num":
-        value: Fraction = first.args[0]
-        undefined = (
-            (name == "log" and value <= 0)
-            or (name in ("asin", "acos") and abs(value) > 1)
-            or (name in ("cot", "csc") and value == 0)
-            or (name == "atan2" and value == 0 and arguments[1].is_zero)
-        )
-        if undefined:
-            where = ", ".join(str(e.args[0]) if e.op == "num" else "..." for e in arguments)
-            raise TextError(f"`{name}` has no real value at {where}", hint="check its argument")
-    return fn(name, *arguments)
-
-
-def bounded(e: Expr) -> Expr:
-    """Return ``e``. Raises TextError where a number or a power in it has grown too large."""
-    for node in nodes(e):
-        if _bits(node) > MAX_BITS:
-            raise TextError("the numbers in this text multiply to one too large", hint="choose other units")
-        if node.op == "pow" and node.args[1].op == "num" and abs(node.args[1].args[0].numerator) > MAX_EXPONENT:
-            message = f"the powers in this text multiply to more than {MAX_EXPONENT}"
-            raise TextError(message, hint="choose smaller exponents")
-    return e

@@ -26,7 +26,6 @@ from dofkit.relations.normal.normal_form import velocities_of
 from dofkit.relations.normal.pieces import Clause, Inequality, Nonlinear, Pfaffian
 from dofkit.relations.normal.zero_set import never_vanishes
 from dofkit.relations.setting import Setting
-from dofkit.relations.velocity_reductions import form_rate
 
 TraitAnswer = tuple[bool | None, Verdict]
 
@@ -63,7 +62,7 @@ def timeless(piece: Clause, positive: frozenset[Expr], engines: Engines = BOTH) 
     A piece is the zero set of a function of coordinates, velocities and time, or the side of it where the function is
     positive. What is left of t in the function does not matter where the set is the same at all times.
     """
-    e = form_rate(piece) if isinstance(piece, Pfaffian) else piece.expr
+    e = piece.rate if isinstance(piece, Pfaffian) else piece.expr
     if ex.TIME not in e.symbols:
         return True, "proved"
     sided = isinstance(piece, Inequality)

@@ -14,6 +14,6 @@ Formats (`formats` recognises a file by how it begins)
         Sketches of SolveSpace in one workplane; `sketch_constraints` has the equations of each kind of constraint.
         Sketches in space and derived groups are not read, and the scene says so.
 
-Common parts: `markup` reads XML with lines and bounds, `model_document` writes relations between joints as a person
+Common parts: `markup` reads XML with lines and bounds, `joint_relations` writes relations between joints as a person
 would. A constraint that is not read is a warning of the report, because the true freedom may be smaller.
 """

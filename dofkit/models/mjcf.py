@@ -16,18 +16,16 @@ from typing import Any, NamedTuple
 from dofkit.base.errors import Fault, SceneError
 from dofkit.base.runs import shared
 from dofkit.base.workers import Job
+from dofkit.models.joint_relations import JointSum, bounds, relation
 from dofkit.models.markup import Element, read_markup
 from dofkit.models.model_document import (
     JointRange,
-    JointSum,
     ModelDocument,
     ModelFile,
     SceneDraft,
-    bounds,
     inertia_of,
     listed,
     number,
-    relation,
     tolerance_of,
     vector,
 )

@@ -10,7 +10,8 @@ import math
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any, NamedTuple
 
-from dofkit.models.model_document import figures, number
+from dofkit.models.joint_relations import figures
+from dofkit.models.model_document import number
 
 #: A constraint of a scene without its name; a text is an equation.
 Written = str | dict[str, Any]

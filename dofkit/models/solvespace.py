@@ -18,7 +18,8 @@ import numpy as np
 from dofkit.base.errors import Fault, SceneError
 from dofkit.base.wording import many
 from dofkit.expressions.text.characters import MAX_CHARACTERS
-from dofkit.models.model_document import COARSEST, FINEST, ModelDocument, ModelFile, SceneDraft, figures, listed, number
+from dofkit.models.joint_relations import figures
+from dofkit.models.model_document import COARSEST, FINEST, ModelDocument, ModelFile, SceneDraft, listed, number
 from dofkit.models.sketch_constraints import KINDS, NOT_READ, Arrow, Round, SketchMentions, SketchPoint, Written
 
 #: A file of more records is refused.

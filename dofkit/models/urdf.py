@@ -13,17 +13,16 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from dofkit.base.errors import Fault, SceneError
+from dofkit.models.joint_relations import JointSum, relation
 from dofkit.models.model_document import (
     FINEST,
     JointRange,
-    JointSum,
     ModelDocument,
     ModelFile,
     SceneDraft,
     inertia_of,
     listed,
     number,
-    relation,
     tolerance_of,
     vector,
 )

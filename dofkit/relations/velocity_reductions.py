@@ -35,11 +35,6 @@ def rate(g: Expr) -> Expr:
     return ex.add(*terms, diff(g, ex.TIME))
 
 
-def form_rate(form: Pfaffian) -> Expr:
-    """The form with velocities in place of differentials."""
-    return ex.add(*(e * ex.velocity(name) for name, e in form.coefficients.items()), form.dt)
-
-
 def with_boundaries(rows: Sequence[Row]) -> list[Row]:
     """The rows with u = 0 in place of the conditions u >= 0 and -u >= 0, as the later one's."""
     kept: dict[int, Row] = {}
@@ -205,7 +200,7 @@ def _rates_of(rows: Sequence[Row]) -> list[Expr]:
         if isinstance(r.piece, Finite):
             rates.append(rate(r.piece.expr))
         elif isinstance(r.piece, Pfaffian):
-            rates.append(form_rate(r.piece))
+            rates.append(r.piece.rate)
     return rates
 
 

@@ -12,8 +12,8 @@ Mechanisms, in the order of reading
        that a fault of shape hides.
     2. `parts` are points, particles, bodies, forces and energies; `constraints` has one class for each constraint
        type, with its equations, symbol and example in one file.
-    3. `lowering` goes from what is written to a `System`: first `names`, then the `drawing` with its frames, then
-       each constraint in the `world` of points and directions. `ledger` reads texts and records their faults.
+    3. `lowering` goes from what is written to a `System`: first `names`, then the `drawing` with its `frames`,
+       then each constraint in the `world` of points and directions. `ledger` reads texts and records their faults.
 
 Further uses: `expectation` compares a report with the `expect` of a scene, `plain` writes a scene in plain notation,
 `added_equations` reads a student's equations with the scene's names, `schema` is the JSON Schema for

@@ -21,8 +21,9 @@ from dofkit.expressions.enclosures import approximate, differs_from_zero
 from dofkit.expressions.text import UnknownNameError
 from dofkit.expressions.tree import ONE, TIME, ZERO, Expr, parameter
 from dofkit.expressions.vectors import Vec, across
-from dofkit.scene.drawing import Drawing, Frame, Placed
+from dofkit.scene.drawing import Drawing
 from dofkit.scene.fields import Vector
+from dofkit.scene.frames import Frame, Placed
 from dofkit.scene.ledger import MOST_HINTS, Texts
 from dofkit.scene.parts import BodyPoint, show_point
 from dofkit.system import GROUND, Distance, DrawnPoint, JointRate, Place

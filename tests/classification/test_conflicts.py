@@ -8,6 +8,7 @@ from itertools import combinations
 from typing import Any
 
 import pytest
+from shared.known_scenes import spread
 from shared.work import counted
 
 import dofkit
@@ -258,7 +259,10 @@ def test_two_cranks_that_are_driven_apart() -> None:
     assert four_bar("t", "t").consistent is not False
 
 
-@pytest.mark.parametrize(("first", "second"), [("t", "2 t"), ("t", "t^2 / 2"), ("t + t^3", "-t"), ("0", "t")])
+DRIVES = [("t", "2 t"), ("t", "t^2 / 2"), ("t + t^3", "-t"), ("0", "t")]
+
+
+@pytest.mark.parametrize(("first", "second"), spread(DRIVES, several=True))
 def test_two_drives_of_one_door(first: str, second: str) -> None:
     hinges = [
         {

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from shared.known_scenes import swept
+from shared.known_scenes import spread, swept
 from shared.steffen import flexes, polyhedron
 
 import dofkit
@@ -42,7 +42,7 @@ def shaken(places: Places, rng: random.Random, noise: float) -> Places:
 # What moves
 
 
-@pytest.mark.parametrize("degrees", [112, 150, 200, 245])
+@pytest.mark.parametrize("degrees", spread([112, 150, 200, 245]))
 def test_steffens_polyhedron_moves(degrees: int) -> None:
     """Nine joints and 21 edges, 6 and one flex (Steffen 1978)."""
     edges, ways = flexes(math.radians(degrees))

@@ -9,7 +9,10 @@ from contextlib import contextmanager
 
 import pytest
 
-from dofkit.interface import cli
+from dofkit.interface import answers, cli
+
+#: Imported here already for workers that are forks of this process.
+assert answers
 
 
 def called(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, str]:

@@ -172,13 +172,15 @@ def labels(values: Sequence[bool] | None) -> dict[str, bool] | None:
 # Tables
 
 Row = Mapping[str, Any]
+#: libyaml's, where it is installed.
+LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 
 @cache
 def tables(file: str) -> Mapping[str, Sequence[Row]]:
     """Return the tables of a YAML file of this folder, by name."""
     text = (resources.files(__package__) / file).read_text(encoding="utf-8")
-    rows_by_table: Mapping[str, Sequence[Row]] = yaml.safe_load(text)
+    rows_by_table: Mapping[str, Sequence[Row]] = yaml.load(text, LOADER)
     return rows_by_table
 
 

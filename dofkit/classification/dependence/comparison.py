@@ -36,7 +36,7 @@ from dofkit.relations.normal.normal_form import velocities_of
 from dofkit.relations.normal.pieces import Finite, Inequality, Normal, Pfaffian, Piece, Reduced
 from dofkit.relations.normal.polynomial_zeros import EXPONENT_NOTE, POWER_NOTE, SQUARES_NOTE
 from dofkit.relations.setting import Setting
-from dofkit.relations.velocity_reductions import eliminated, form_rate
+from dofkit.relations.velocity_reductions import eliminated
 
 #: Generators of a ring that have a value everywhere.
 _ENTIRE = frozenset({"symbol", "cos", "sin", "exp", "pi"})
@@ -181,7 +181,7 @@ def _is_flat(r: Reduced, choice: Sequence[Sequence[Piece]], positive: frozenset[
     if not slopes:
         return False
     try:
-        forms = [form_rate(p) for branch in choice for p in branch if isinstance(p, Pfaffian)]
+        forms = [p.rate for branch in choice for p in branch if isinstance(p, Pfaffian)]
         return all(is_proved_zero(eliminated(e, forms)[0], positive) for e in slopes)
     except NoValueError:
         return True

@@ -33,7 +33,7 @@ from dofkit.relations.normal.domain import DomainCondition, conditions_of
 from dofkit.relations.normal.no_solution import hold_nowhere, no_solution
 from dofkit.relations.normal.pieces import Finite, Nonlinear, Normal, Pfaffian, Piece
 from dofkit.relations.setting import Setting
-from dofkit.relations.velocity_reductions import MAX_ALTERNATIVES, Alternative, alternatives_of, form_rate
+from dofkit.relations.velocity_reductions import MAX_ALTERNATIVES, Alternative, alternatives_of
 
 #: What the others imply at drawn states.
 IMPLIED = Claim("probable", "implication", bits=BITS)
@@ -92,7 +92,7 @@ def _on(alternative: Alternative, relation: Normal, setting: Setting) -> bool | 
     domain = [r.piece for r in alternative.rows if isinstance(r.piece, DomainCondition)]
     branches = [
         AskedBranch(
-            tuple(form_rate(p) if isinstance(p, Pfaffian) else p.expr for p in b if isinstance(p, RELATIONS)),
+            tuple(p.rate if isinstance(p, Pfaffian) else p.expr for p in b if isinstance(p, RELATIONS)),
             tuple(p for p in b if isinstance(p, DomainCondition) and p not in domain),
         )
         for b in relation.branches

@@ -34,7 +34,7 @@ from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.no_solution import no_solution
 from dofkit.relations.normal.normal_form import velocities_of
 from dofkit.relations.normal.pieces import Finite, Inequality, Nonlinear, Pfaffian, Reduced
-from dofkit.relations.velocity_reductions import form_rate, rate
+from dofkit.relations.velocity_reductions import rate
 
 #: Inequalities of which products are taken; equations times symbols; symbols whose differences are squared.
 MAX_FACTORS, MAX_MULTIPLES, MAX_SQUARED = 8, 24, 4
@@ -217,7 +217,7 @@ def problems_of(
 ) -> Iterator[StateProblem]:
     """At rest, where that is a motion, and then in motion, where the rows or the conditions hold velocities."""
     finite = [r.piece.expr for r in rows if isinstance(r.piece, Finite)]
-    others = [form_rate(r.piece) for r in rows if isinstance(r.piece, Pfaffian)]
+    others = [r.piece.rate for r in rows if isinstance(r.piece, Pfaffian)]
     others += [r.piece.expr for r in rows if isinstance(r.piece, Nonlinear)]
     boundaries, conditions = _boundaries(conditions)
     finite += [e for e in boundaries if not velocities_of(e)]
@@ -283,7 +283,7 @@ class Choice:
     def claims(self) -> list[SignClaim]:
         """What holds at every state of motion; what is only != 0 is left out."""
         finite = [r.piece.expr for r in self.rows if isinstance(r.piece, Finite)]
-        forms = [form_rate(r.piece) for r in self.rows if isinstance(r.piece, Pfaffian)]
+        forms = [r.piece.rate for r in self.rows if isinstance(r.piece, Pfaffian)]
         curved = [r.piece.expr for r in self.rows if isinstance(r.piece, Nonlinear)]
         held = [SignClaim(c.expr, ">" if c.sense == ">" else ">=") for c in self.conditions if c.sense != "!="]
         if forms or curved or any(velocities_of(c.expr) for c in held):

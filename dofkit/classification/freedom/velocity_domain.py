@@ -21,7 +21,7 @@ from dofkit.relations.normal.no_solution import hold_nowhere
 from dofkit.relations.normal.normal_form import linear_form
 from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian
 from dofkit.relations.setting import Setting
-from dofkit.relations.velocity_reductions import form_rate, rate
+from dofkit.relations.velocity_reductions import rate
 
 
 def with_values_in_motion(
@@ -63,7 +63,7 @@ def with_values_in_motion(
 def _equations_of_motion(block: Block) -> list[Expr]:
     """What is 0 at every state of a motion."""
     finite = [row.piece.expr for row in block.finite if isinstance(row.piece, Finite)]
-    forms = [form_rate(row.piece) for row in block.forms if isinstance(row.piece, Pfaffian)]
+    forms = [row.piece.rate for row in block.forms if isinstance(row.piece, Pfaffian)]
     others = [row.piece.expr for row in block.nonlinear if isinstance(row.piece, Nonlinear)]
     return [*finite, *map(rate, finite), *forms, *others]
 

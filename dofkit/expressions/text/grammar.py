@@ -17,17 +17,8 @@ from dataclasses import replace
 from typing import Any, NoReturn, cast
 
 from dofkit.base.errors import TextError
-from dofkit.expressions.calculus import (
-    Comparison,
-    RelationSign,
-    Requirement,
-    bounded,
-    inverse,
-    is_differential,
-    of_power,
-    over_dt,
-    raised,
-)
+from dofkit.expressions.bounded_arithmetic import bounded, inverse, raised
+from dofkit.expressions.calculus import Comparison, RelationSign, Requirement, is_differential, of_power, over_dt
 from dofkit.expressions.text.characters import MAX_DEPTH
 from dofkit.expressions.text.names import AmbiguousError, Names, derivative
 from dofkit.expressions.text.tokens import Token, Tokens

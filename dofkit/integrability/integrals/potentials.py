@@ -2,20 +2,20 @@
 
 Whoever uses a result differentiates it. A table gives the antiderivatives of powers, exponentials and trigonometric
 functions of linear arguments, so that ordinary forms need no SymPy; everything else is SymPy's. `Algebra` has quotients
-in lowest terms, identities with a proof, and linear systems.
+in lowest terms and identities with a proof.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from fractions import Fraction
-from functools import reduce
-from typing import Any, TypeVar
+from typing import TypeVar
 
 from dofkit.base.deadline import OutOfTimeError, by_processor, check, checked_calls, remaining_seconds, thread_time
 from dofkit.base.errors import NoValueError
-from dofkit.exact.ring.canonical import Canon, soon_factored
+from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.program import TooLargeError, raising_no_value
+from dofkit.exact.ring.quotients import MAX_TERMS, Quotient, factored, rationalised
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
@@ -23,20 +23,14 @@ from dofkit.expressions.sympy_bridge import UntranslatableError, antiderivative_
 from dofkit.expressions.terms import expand
 from dofkit.expressions.tree import Expr
 
-Poly = Any
-Quotient = tuple[Poly, Poly]
 T = TypeVar("T")
 
 #: Canonical forms asked for in one integration; past it the search ends without a result.
 STEPS = 400
 #: Seconds that SymPy is given in one integration.
 SECONDS = 3.0
-#: The largest expression taken up, in nodes, and the largest polynomial factored or divided, in terms.
+#: The largest expression taken up, in nodes.
 MAX_NODES = 500
-MAX_TERMS = 120
-MAX_DEGREE = 24
-#: The largest polynomial in a linear system, in terms.
-MAX_ENTRY = 24
 
 
 class GivenUpError(Exception):
@@ -123,78 +117,6 @@ class Algebra:
         """Return whether d(omega) = 0 is proved."""
         items = list(form.items())
         return all(self.vanishes(diff(b, s) - diff(a, u)) for i, (s, a) in enumerate(items) for u, b in items[i + 1 :])
-
-
-def bounded(poly: Poly) -> bool:
-    """Return whether a polynomial is small enough to be factored or divided quickly."""
-    return len(poly) <= MAX_TERMS and sum(int(k) for k in poly.degrees()) <= MAX_DEGREE * 4 and soon_factored(poly)
-
-
-def in_lowest_terms(top: Poly, bottom: Poly) -> Quotient:
-    """Return a quotient divided by the common divisor of numerator and denominator."""
-    if top == 0:
-        return top, top**0
-    if bounded(top) and bounded(bottom):
-        common = top.gcd(bottom)
-        top, bottom = top / common, bottom / common
-    leading = bottom.leading_coefficient()
-    return top / leading, bottom / leading
-
-
-def _length(quotient: Quotient) -> int:
-    return sum(len(p) + sum(int(k) for k in p.degrees()) for p in quotient)
-
-
-def rationalised(canon: Canon, quotient: Quotient) -> Quotient:
-    """Return a quotient in lowest terms, also across cos^2 + sin^2 = 1 and root^d = radicand."""
-    best = in_lowest_terms(*quotient)
-    for var in canon.ring.vars:
-        if var.kind not in ("cos", "sin", "root") or not any(p.degrees()[-1 - var.index] for p in best):
-            continue
-        gen = canon.gens[var.index] ** (var.degree - 1 if var.kind == "root" else 1)
-        other = in_lowest_terms(canon.reduce(best[0] * gen), canon.reduce(best[1] * gen))
-        if _length(other) < _length(best):
-            best = other
-    return best
-
-
-def factored(canon: Canon, poly: Poly) -> Expr:
-    """Return a polynomial in the generators as a product."""
-    if poly == 0 or not bounded(poly):
-        return canon.to_expr(poly)
-    constant, factors = poly.factor()
-    return ex.mul(canon.to_expr(canon.unit * constant), *(canon.to_expr(f) ** int(k) for f, k in factors))
-
-
-# -- linear systems over polynomials --------------------------------------------------
-
-
-def solve(rows: list[list[Poly]], unit: Poly) -> list[Quotient] | None:
-    """Return x with sum(row[k] x[k]) = row[-1] for every row, free unknowns 0, or None where there is none."""
-    pivots: dict[int, list[Poly]] = {}
-    for row in rows:
-        for lead, pivot in pivots.items():
-            row = _cleared(row, pivot, lead)
-        lead = next((k for k, entry in enumerate(row) if entry != 0), -1)
-        if lead == len(row) - 1:
-            return None
-        if lead >= 0:
-            pivots = {k: _cleared(other, row, lead) for k, other in pivots.items()} | {lead: row}
-    unknowns = range(len(rows[0]) - 1) if rows else ()
-    solution = [in_lowest_terms(pivots[k][-1], pivots[k][k]) if k in pivots else (unit * 0, unit) for k in unknowns]
-    return solution or None
-
-
-def _cleared(row: list[Poly], pivot: list[Poly], lead: int) -> list[Poly]:
-    """Return a row without its entry in a column, divided by what its entries have in common."""
-    factor = row[lead]
-    if factor == 0:
-        return row
-    entries = [a * pivot[lead] - factor * b for a, b in zip(row, pivot, strict=True)]
-    if any(len(entry) > MAX_ENTRY for entry in entries):
-        raise TooLargeError
-    common = reduce(lambda a, b: a.gcd(b), entries)
-    return entries if common == 0 else [entry / common for entry in entries]
 
 
 #: Symbol -> coefficient, zeros too for the symbols that only coefficients mention.

@@ -15,6 +15,7 @@ from math import gcd, lcm
 
 from dofkit.exact.ring.canonical import Canon, Monomial
 from dofkit.exact.ring.program import raising_no_value
+from dofkit.exact.ring.quotients import Poly, solve
 from dofkit.exact.zero import certainly_nonzero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
@@ -25,11 +26,9 @@ from dofkit.integrability.integrals.potentials import (
     Algebra,
     Form,
     GivenUpError,
-    Poly,
     as_power,
     potential,
     size,
-    solve,
 )
 from dofkit.relations.normal.pieces import Pfaffian
 

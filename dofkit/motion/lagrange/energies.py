@@ -15,7 +15,8 @@ from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import HALF, ZERO, Expr
 from dofkit.expressions.vectors import Vec, dot, length, minus, plus, scaled, square
 from dofkit.motion.lagrange.elimination import by_time
-from dofkit.scene.drawing import Drawing, Frame, Placed
+from dofkit.scene.drawing import Drawing
+from dofkit.scene.frames import Frame, Placed
 from dofkit.scene.ledger import MOVING
 from dofkit.scene.parts import Force
 from dofkit.scene.scene import Scene

@@ -34,7 +34,8 @@ from dofkit.expressions.vectors import (
 from dofkit.mobility.joint_tree import tree_coordinates
 from dofkit.motion.lagrange.energies import Energy, EntryWorlds, gravity_of, masses, spin_energy
 from dofkit.scene.constraints.coupling import Coupling
-from dofkit.scene.drawing import Drawing, Frame, euler
+from dofkit.scene.drawing import Drawing
+from dofkit.scene.frames import Frame, euler
 from dofkit.scene.scene import Scene
 from dofkit.system import GROUND, Connection, System
 

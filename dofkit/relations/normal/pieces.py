@@ -46,6 +46,11 @@ class Pfaffian:
             yield ex.TIME, self.dt
 
     @property
+    def rate(self) -> Expr:
+        """The form with velocities in place of differentials."""
+        return ex.add(*(e * ex.velocity(name) for name, e in self.coefficients.items()), self.dt)
+
+    @property
     def components(self) -> dict[Expr, Expr]:
         """The coefficient of every symbol that occurs, 0 for those that only coefficients mention."""
         written = dict(self.items())

@@ -13,8 +13,8 @@ from dofkit.expressions.calculus import substitute
 from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.tree import MINUS_ONE, ONE, Expr, coordinate, mul, power
 from dofkit.expressions.vectors import Vec, minus, square
-from dofkit.scene.drawing import Placed
 from dofkit.scene.fields import Text, WrittenModel
+from dofkit.scene.frames import Placed
 from dofkit.scene.ledger import FINITE
 from dofkit.scene.names import within_member
 from dofkit.scene.parts import Point, show_point

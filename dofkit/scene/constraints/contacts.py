@@ -17,8 +17,8 @@ from dofkit.expressions.vectors import Vec, apply, difference, minus, square, tr
 from dofkit.scene.constraints.base import ConstraintBase, figures, root
 from dofkit.scene.constraints.joints import Joint
 from dofkit.scene.constraints.places import across_a_line
-from dofkit.scene.drawing import Frame, Placed, turn
 from dofkit.scene.fields import Text, Value, as_written
+from dofkit.scene.frames import Frame, Placed, turn
 from dofkit.scene.ledger import FINITE, symbols_of
 from dofkit.scene.names import within_member
 from dofkit.scene.parts import Point, show_point

@@ -21,8 +21,8 @@ from dofkit.expressions.vectors import difference, dot, is_zero, length
 from dofkit.scene.constraints.base import ConstraintBase, root
 from dofkit.scene.constraints.joint_parts import JointGeometry, Measure
 from dofkit.scene.constraints.joints import Driven
-from dofkit.scene.drawing import Frame, relative
 from dofkit.scene.fields import Text, untagged
+from dofkit.scene.frames import Frame, relative
 from dofkit.scene.ledger import FINITE
 from dofkit.scene.names import within_member
 from dofkit.scene.symbols import Symbol

@@ -15,8 +15,8 @@ from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.tree import ONE, TIME, TWO, ZERO, Expr, add, fn, mul, power, sqrt
 from dofkit.expressions.vectors import Vec, difference, square, square_between
 from dofkit.scene.constraints.base import ConstraintBase
-from dofkit.scene.drawing import Placed, between
 from dofkit.scene.fields import Value, as_written
+from dofkit.scene.frames import Placed, between
 from dofkit.scene.parts import Ends, Point, show_point
 from dofkit.scene.symbols import Symbol
 from dofkit.scene.world import World

@@ -22,7 +22,7 @@ from dofkit.expressions.tree import HALF, MINUS_ONE, PI, ZERO, Expr, add, fn, mu
 from dofkit.expressions.vectors import Vec, cross, difference, dot, is_zero, length, minus, scaled, unit
 from dofkit.scene.constraints.base import component_relations
 from dofkit.scene.constraints.places import along
-from dofkit.scene.drawing import Frame, between, relative
+from dofkit.scene.frames import Frame, between, relative
 from dofkit.scene.world import Direction
 from dofkit.system import Kinematics, Relation, VelocityRow
 

@@ -21,8 +21,8 @@ from dofkit.scene.constraints.joint_parts import (
     Measure,
     longest_of,
 )
-from dofkit.scene.drawing import Frame
 from dofkit.scene.fields import Text, Value, Vector, as_written
+from dofkit.scene.frames import Frame
 from dofkit.scene.ledger import LAW
 from dofkit.scene.parts import show_vector
 from dofkit.scene.symbols import RING, Stroke, Symbol, arc, axle, box, cylinder, helix, plate, prism, rail

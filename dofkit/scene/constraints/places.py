@@ -11,8 +11,8 @@ from dofkit.exact.matrices.sparse import across, less
 from dofkit.expressions.tree import TWO, ZERO, Expr, coordinate, mul, power
 from dofkit.expressions.vectors import Vec, difference, dot, minus, scaled, square
 from dofkit.scene.constraints.base import ConstraintBase, component_relations, figures, meet, root
-from dofkit.scene.drawing import Frame, Placed, between
 from dofkit.scene.fields import Vector
+from dofkit.scene.frames import Frame, Placed, between
 from dofkit.scene.parts import BodyPoint, Ends, Point, show_point, show_vector
 from dofkit.scene.symbols import POINT, RING, Symbol, axle, prism, rail
 from dofkit.scene.world import Direction, World
