@@ -6,9 +6,11 @@ of the system leaves; beside the other constraints it may read otherwise. Each s
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import pytest
+import yaml
 
 import dofkit
 from dofkit.classification.dependence import implied_constraints, redundancy
@@ -25,242 +27,21 @@ def report_of(made: dict[str, Any]) -> dict[str, Any]:
     return dofkit.classify(dofkit.load(made)).model_dump(mode="json")
 
 
-#: (why, scene, (dof, velocity_dof), holonomic by constraint, {redundant: circuit written before it, if there is one})
-TABLE: list[tuple[str, dict[str, Any], tuple[int, int], list[bool], dict[str, list[str] | None]]] = [
-    (
-        "c4 is 0 = 0 for what rolls, but z = b phi + C alone does not give it",
-        scene("x y z theta phi", *ROLLING, "dz = b dphi", "b^2 (xdot^2 + ydot^2) = a^2 zdot^2", parameters=SIZES),
-        (4, 2),
-        [False, False, True, False],
-        {"c4": ["c1", "c2", "c3"]},
-    ),
-    (
-        "psidot = +-phidot for what rolls: integrable modulo the others only; psi -+ phi is the one integral",
-        scene("x y psi theta phi", *ROLLING, "xdot^2 + ydot^2 = a^2 psidot^2", parameters=SIZES),
-        (4, 2),
-        [False, False, False],
-        {},
-    ),
-    (
-        "phidot = +-w for what rolls: phi -+ w t is the one integral, theta and the brackets give the rest",
-        scene("x y theta phi", *ROLLING, "xdot^2 + ydot^2 = a^2 w^2", parameters=SIZES),
-        (3, 1),
-        [False, False, False],
-        {},
-    ),
-    (
-        "a blade at speed w: dx = w cos dt, dy = w sin dt; brackets with d/dtheta give every direction",
-        scene("x y theta", "sin(theta) dx = cos(theta) dy", "xdot^2 + ydot^2 = w^2", parameters=SIZES),
-        (3, 1),
-        [False, False],
-        {},
-    ),
-    (
-        "on the circle the speed is |phidot|: z -+ phi is an integral",
-        scene("x y z", "x^2 + y^2 = 1", "xdot^2 + ydot^2 = zdot^2"),
-        (1, 1),
-        [True, True],
-        {},
-    ),
-    (
-        "ydot = 0 is left: y is constant, x = t + C",
-        scene("x y z", "xdot^2 + ydot^2 = 1", "xdot = 1"),
-        (1, 1),
-        [True, True],
-        {},
-    ),
-    (
-        "dx = 0 makes the contact form dz, and c3 is then 0 = 0 for all that dx = dz = 0 leaves",
-        scene("x y z", "zdot = y xdot", "xdot = 0", "zdot^2 + xdot ydot = 0"),
-        (1, 1),
-        [True, True, True],
-        {"c3": ["c1", "c2"]},
-    ),
-    (
-        "two contact forms of different coordinates make c3 0 = 0; nothing integrates",
-        scene("x y z u v w", "xdot = y zdot", "udot = v wdot", "2 xdot udot = y zdot udot + v wdot xdot"),
-        (6, 4),
-        [False, False, False],
-        {"c3": ["c1", "c2"]},
-    ),
-    (
-        "two closed forms make c3 0 = 0: x - y and u - w are constant, which gives it",
-        scene("x y u w", "dx = dy", "du = dw", "xdot udot = ydot wdot"),
-        (2, 2),
-        [True, True, True],
-        {"c3": ["c1", "c2"]},
-    ),
-    (
-        "wdot^2 = zdot^2 with w - z constant, zdot = y xdot not: w - z = C alone does not give c3",
-        scene("x y z w", "dz = y dx", "dw = dz", "wdot^2 = y^2 xdot^2"),
-        (3, 2),
-        [False, True, False],
-        {"c3": ["c1", "c2"]},
-    ),
-    (
-        "the branch wdot = zdot of c3 is c2",
-        scene("x y z w", "dz = y dx", "dw = dz", "wdot^2 = zdot^2"),
-        (3, 2),
-        [False, True, True],
-        {"c3": ["c2"]},
-    ),
-    (
-        "with udot = xdot c2 is the square of the contact form",
-        scene("x y z u", "udot = xdot", "xdot udot = (zdot - y xdot)^2 + xdot^2"),
-        (3, 2),
-        [True, False],
-        {},
-    ),
-    (
-        "with u = y the second is the square of the first; du = dy alone does not give it",
-        scene("x y z u", "u = y", "zdot = y xdot", "zdot^2 = u^2 xdot^2"),
-        (3, 2),
-        [True, False, False],
-        {"c3": ["c1", "c2"]},
-    ),
-    (
-        "c1 - c2 is zdot = 0: z is constant, the speed in the plane is 1",
-        scene("x y z", "xdot^2 + ydot^2 + zdot = 1", "xdot^2 + ydot^2 = 1"),
-        (2, 1),
-        [False, False],
-        {},
-    ),
-    (
-        "c1 and c2 give zdot = 1: z = t + C; c2 alone with it is still a speed",
-        scene("x y z", "xdot^2 + ydot^2 = 1", "zdot = xdot^2 + ydot^2"),
-        (2, 1),
-        [False, False],
-        {},
-    ),
-    (
-        "z = 1 is hidden",
-        scene("x y z", "xdot^2 + ydot^2 = 1", "xdot^2 + ydot^2 = z"),
-        (2, 1),
-        [False, False],
-        {},
-    ),
-    (
-        "xdot = 0 is hidden in c1 and c2, which makes dz = y dx the form dz",
-        scene("x y z u", "xdot + ydot^2 + udot^2 = 1", "ydot^2 + udot^2 = 1", "dz = y dx"),
-        (2, 1),
-        [False, False, True],
-        {},
-    ),
-    (
-        "-3 zdot^2 = 0, so zdot = 0, so nothing moves",
-        scene("x y z", "xdot^2 + ydot^2 = zdot^2", "xdot^2 + ydot^2 = 4 zdot^2"),
-        (0, 0),
-        [True, True],
-        {},
-    ),
-    (
-        "zdot = +-y^(1/2) xdot and zdot = 0: x and z are constant",
-        scene("x y z", "zdot^4 = y^2 xdot^4", "zdot = 0"),
-        (1, 1),
-        [True, True],
-        {},
-    ),
-    (
-        "two quadrics meet in a curve that lies in no plane: nothing integrates",
-        scene("x y z", "xdot^2 + ydot^2 = 1", "ydot^2 + zdot^2 = 2"),
-        (3, 1),
-        [False, False],
-        {},
-    ),
-    (
-        "the light cone is curved (Appell and Hamel): every direction is a sum of its velocities",
-        scene("x y z", "zdot^2 = a^2 (xdot^2 + ydot^2)", parameters=SIZES),
-        (3, 2),
-        [False],
-        {},
-    ),
-    (
-        "where c1 holds c3 is y^2 (xdot^2 + udot^2 - 1)",
-        scene("x y z u", "zdot = y xdot", "xdot^2 + udot^2 = 1", "zdot^2 + y^2 udot^2 = y^2"),
-        (4, 2),
-        [False, False, False],
-        {"c3": ["c1", "c2"]},
-    ),
-    (
-        "on the circle driven by time the speed is 1",
-        scene("x y z", "x = cos(t)", "y = sin(t)", "xdot^2 + ydot^2 = 1"),
-        (1, 1),
-        [True, True, True],
-        {"c3": ["c1", "c2"]},
-    ),
-    (
-        "xdot^2 = 2 - cos(t)^2, which is never 0: x is an integral of t",
-        scene("x y z", "y = sin(t)", "xdot^2 + ydot^2 = 2"),
-        (1, 1),
-        [True, True],
-        {},
-    ),
-    (
-        "xdot = +-t: x -+ t^2/2 integrates, the contact form does not",
-        scene("x y z", "dz = y dx", "xdot^2 = t^2"),
-        (2, 1),
-        [False, True],
-        {},
-    ),
-    (
-        "(s - 1)(s + 1) with s = xdot^2 + ydot^2 is 0 only where s is 1",
-        scene("x y z", "xdot^2 + ydot^2 = 1", "(xdot^2 + ydot^2)^2 = 1"),
-        (3, 2),
-        [False, False],
-        {"c2": ["c1"]},
-    ),
-    ("x = +-y has xdot = +-ydot", scene("x y", "x^2 = y^2", "xdot^2 = ydot^2"), (1, 1), [True, True], {"c2": ["c1"]}),
-    (
-        "xdot = 1 is one of the branches of the other, so that is the one to go",
-        scene("x y", "xdot^2 = 1", "xdot = 1"),
-        (1, 1),
-        [True, True],
-        {"c1": None},
-    ),
-    (
-        "c1 is a branch of c2",
-        scene("x y z", "zdot = y xdot", "zdot^2 = y^2 xdot^2"),
-        (3, 2),
-        [False] * 2,
-        {"c2": ["c1"]},
-    ),
-    (
-        "y = z = 0 is hidden",
-        scene("x y z", "x = 0", "xdot = y^2 + z^2", "y = 0"),
-        (0, 0),
-        [True] * 3,
-        {"c3": ["c1", "c2"]},
-    ),
-    (
-        "3 equations in one",
-        scene("x y z", "x = 0", "y = 0", "x^2 + y^2 = 0"),
-        (1, 1),
-        [True] * 3,
-        {"c1": None, "c2": None},
-    ),
-    (
-        "cos x = cos y where x = y",
-        scene("x y", "cos(x) = 1", "cos(y) = 1", "x = y"),
-        (0, 0),
-        [True] * 3,
-        {"c2": None},
-    ),
-]
+#: Scenes with (dof, velocity_dof), which constraints are holonomic, and the circuits of those that are redundant.
+TABLE = yaml.safe_load((Path(__file__).parent / "nonlinear.yaml").read_text(encoding="utf-8"))
 
 
-@pytest.mark.parametrize(
-    ("made", "freedom", "holonomic", "circuits"), [r[1:] for r in TABLE], ids=[r[0] for r in TABLE]
-)
-def test_nonlinear_beside_linear(
-    made: dict[str, Any], freedom: tuple[int, int], holonomic: list[bool], circuits: dict[str, list[str] | None]
-) -> None:
-    report = report_of(made)
+@pytest.mark.parametrize("row", [pytest.param(row, id=row["because"]) for row in TABLE])
+def test_nonlinear_beside_linear(row: dict[str, Any]) -> None:
+    parameters = dict.fromkeys(row.get("parameters", ()), "positive")
+    report = report_of(scene(row["coordinates"], *row["constraints"], parameters=parameters))
     if sum("^2" in e["text"] and "dot" in e["text"] for e in report["constraints"]) > 1 and report["dof"] is None:
         assert report["consistent"] is not False  # several relations of second degree may be undecided together
         return
+    circuits = row.get("circuits", {})
     assert report["consistent"] is True
-    assert (report["dof"], report["velocity_dof"]) == freedom
-    assert [e["holonomic"] for e in report["constraints"]] == holonomic
+    assert [report["dof"], report["velocity_dof"]] == row["dof"]
+    assert [e["holonomic"] for e in report["constraints"]] == row["holonomic"]
     assert report["redundant"] == sorted(circuits)
     assert {e["name"]: e["circuit"] for e in report["constraints"] if e["name"] in report["redundant"]} == circuits
     for name, circuit in circuits.items():

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import pytest
+import yaml
 from shared.known_scenes import spread
 
 import dofkit
 from dofkit.exact.points.field import prime_for
 
 H = {"h": ["s"]}
-QUINTIC = "x^5 + 5*x^4*y + 10*x^3*y^2 + 10*x^2*y^3 + 5*x*y^4 + y^5"
 
 
 def scene(coordinates: str, *constraints: str, **more: Any) -> dict[str, Any]:
@@ -33,120 +34,14 @@ def test_inequalities_that_exclude_each_other_are_consistent_and_infeasible() ->
         assert (report.consistent, report.feasible, report.infeasible) == (True, False, ["c1", "c2"])
 
 
-#: What makes it hard, the scene, and the truth.
-RIGHT: list[tuple[str, dict[str, Any], dict[str, Any]]] = [
-    (
-        "a power beside its terms in exponents: dx = 0",
-        scene("x y z", f"xdot + y*(exp((x+y)^5) - exp({QUINTIC}))*zdot = 0"),
-        {"holonomic": True, "dof": 2},
-    ),
-    (
-        "cos(2 a) = 1 - 2 sin(a)^2 within an unknown function",
-        scene("a x y z", "xdot + y*(h(cos(2 a)) - h(1 - 2*sin(a)^2))*zdot = 0", functions=H),
-        {"holonomic": True, "dof": 3},
-    ),
-    (
-        "h(x) = h(y) follows from x = y",
-        scene("x y", "x = y", "h(x) = h(y)", functions=H),
-        {"dof": 1, "redundant": ["c2"]},
-    ),
-    (
-        "a driven cam: y = h(v t) follows",
-        scene("x y", "y = h(x)", "x = v t", "y = h(v t)", functions=H, parameters=["v"]),
-        {"consistent": True, "dof": 0, "redundant": ["c3"]},
-    ),
-    (
-        "two beads that meet on a wire",
-        scene("x1 y1 x2 y2", "y1 = h(x1)", "y2 = h(x2)", "x1 = x2", "y1 = y2", functions=H),
-        {"dof": 1, "redundant_equations": 1},
-    ),
-    (
-        "f(x) - f(y) vanishes where x = y",
-        scene("x y z w", "x = y", "dz = (h(x) - h(y)) w dx", functions=H),
-        {"holonomic": True, "dof": 2, "velocity_dof": 2},
-    ),
-    (
-        "roots of the same number",
-        scene("x y z w u", "x = y", "dw = z du", "dw - z du + (sqrt(1+x^2) - sqrt(1+y^2)) dz = 0"),
-        {"holonomic": False, "dof": 4, "velocity_dof": 3, "redundant": ["c3"]},
-    ),
-    ("sin(x) = sin(t) follows from x = t", scene("x y", "x = t", "sin(x) = sin(t)"), {"redundant": ["c2"]}),
-    (
-        "a curve behind seven points",
-        scene(
-            "x y z",
-            "x = 0",
-            "xdot = (y^5+z^3+5)*" + "*".join(f"((y-{i})^2+(z-{i * i})^2)" for i in range(1, 8)),
-        ),
-        {"dof": 1},
-    ),
-    (
-        "y = exp(x) beside log(y) - x",
-        scene("x y", "y = exp(x)", "(log(y)-x) dx + dy = y dx"),
-        {"dof": 1, "velocity_dof": 1, "redundant": ["c2"]},
-    ),
-    (
-        "a part on which x = 10 and y = 0, with u, v, w free",
-        scene("x y u v w", "y=(x-10)*u^7", "(x-10)*v=y*w", "(x-10)*w=y*u"),
-        {"dof": 3, "consistent": True},
-    ),
-    (
-        "a plane x = y = 0 beside the line z = w = 0, x = y: two minors",
-        scene("x y z w q", "x*z = 0", "x*w = 0", "y*z = 0", "y*w = 0", "q = x + z"),
-        {"dof": 2},
-    ),
-    (
-        "a part of dimension 4 where exp(s) = 1",
-        scene("s a b c d", "s*a = s*b^3", "s*c = s*d*a", "s*d = s*b*c^2"),
-        {"dof": 4},
-    ),
-    (
-        "at the reference x = 10, y = 0: dz = 0",
-        scene(
-            "x y u v w z q",
-            "y=(x-10)*u",
-            "(x-10)*v=y*w",
-            "zdot=(x-10)*qdot",
-            configuration={"x": 10, "y": 0, "u": 1, "v": 2, "w": 3, "z": 0, "q": 0},
-        ),
-        {"dof": 4, "holonomic": True},
-    ),
-    (
-        "a reference on the other part: v = u w, where dz = (x - 10) dq",
-        scene(
-            "x y u v w z q",
-            "y=(x-10)*u",
-            "(x-10)*v=y*w",
-            "zdot=(x-10)*qdot",
-            configuration={"x": 11, "y": 1, "u": 1, "v": 3, "w": 3, "z": 0, "q": 0},
-        ),
-        {"dof": 5, "velocity_dof": 4, "holonomic": False},
-    ),
-    (
-        "a four-bar drawn as a parallelogram: dz = 0",
-        scene(
-            "a b z u",
-            "(2+cos(b)-cos(a))^2+(sin(b)-sin(a))^2=4",
-            "zdot=sin(a-b)*udot",
-            configuration={"a": 1, "b": 1, "z": 0, "u": 0},
-        ),
-        {"dof": 2, "holonomic": True},
-    ),
-    (
-        "cos x = cos y near x = y",
-        scene("x y z w", "cos(x) = cos(y)", "dz = (x-y) w dx", configuration={"x": 1, "y": 1, "z": 0, "w": 0}),
-        {"dof": 2, "velocity_dof": 2, "holonomic": True},
-    ),
-    (
-        "cos x = cos y near x = -y",
-        scene("x y z w", "cos(x) = cos(y)", "dz = (x-y) w dx", configuration={"x": 1, "y": -1, "z": 0, "w": 0}),
-        {"dof": 3, "velocity_dof": 2, "holonomic": False},
-    ),
-]
+#: Each with its scene and the truth.
+RIGHT = yaml.safe_load((Path(__file__).parent / "soundness.yaml").read_text(encoding="utf-8"))
 
 
 @pytest.mark.parametrize(
-    ("made", "truth"), spread((row[1:] for row in RIGHT), 2, several=True), ids=[row[0] for row in RIGHT]
+    ("made", "truth"),
+    spread(((row["scene"], row["truth"]) for row in RIGHT), 2, several=True),
+    ids=[row["case"] for row in RIGHT],
 )
 def test_right(made: dict[str, Any], truth: dict[str, Any]) -> None:
     report = dofkit.classify(made)
