@@ -54,10 +54,8 @@ class RelationPart(NamedTuple):
     unknowns: tuple[Expr, ...]
 
 
-def of_largest_part(
-    chart: Chart, variety: Variety, find_variety: Callable[[Chart], Variety], of_case: bool = False
-) -> Variety:
-    """What is known of the set, for its largest part; ``find_variety`` gives that of another chart.
+def of_largest_part(chart: Chart, variety: Variety, find: Callable[[Chart], Variety], of_case: bool = False) -> Variety:
+    """What is known of the set, for its largest part; ``find`` gives that of another chart.
 
     ``of_case``: what was found is the set of a case, which is a part of this one.
     """
@@ -83,9 +81,7 @@ def of_largest_part(
             break
         if number == MAX_TOGETHER:
             return near(best) if best is variety else _near_its_point(best)
-        larger = _variety_of(
-            chart, [*solved.explicit.values(), *(g for case in choice for g in case.relations)], find_variety
-        )
+        larger = _variety_of(chart, [*solved.explicit.values(), *(g for case in choice for g in case.relations)], find)
         if larger.consistent is False and larger.verdict == "proved":
             continue
         best, ended = _larger(chart, best, larger, loose + _most(choice))
@@ -119,10 +115,10 @@ def _length(e: Expr) -> tuple[int, str]:
     return sum(1 for _ in ex.nodes(e)), repr(e)
 
 
-def _variety_of(chart: Chart, relations: Sequence[Expr], find_variety: Callable[[Chart], Variety]) -> Variety:
+def _variety_of(chart: Chart, relations: Sequence[Expr], find: Callable[[Chart], Variety]) -> Variety:
     """What is known of the set of other relations; nothing where they have no value at the points that are tried."""
     try:
-        return find_variety(_restricted(chart, relations))
+        return find(_restricted(chart, relations))
     except NoValueError:
         return Variety(None, None, "undecided")
 
@@ -135,7 +131,7 @@ def _is_regular(chart: Chart, variety: Variety) -> bool:
     return rank is not None and variety.dimension == chart.coordinates - rank
 
 
-def by_cases(chart: Chart, variety: Variety, find_variety: Callable[[Chart], Variety]) -> Variety:
+def by_cases(chart: Chart, variety: Variety, find: Callable[[Chart], Variety]) -> Variety:
     """What is known of a set of which no regular point was found: the first case with points, or that none has any."""
     if not 0 < len(chart.relations) <= MAX_RELATIONS:
         return variety
@@ -152,7 +148,7 @@ def by_cases(chart: Chart, variety: Variety, find_variety: Callable[[Chart], Var
         relations = [*solved.explicit.values(), *(g for case in choice for g in case.relations)]
         if set(relations) == set(chart.relations) and not variety.parted:
             continue
-        seen = _variety_of(chart, relations, find_variety)
+        seen = _variety_of(chart, relations, find)
         samples = [p for p in seen.samples if on_variety(chart, p)]
         if seen.consistent and samples:
             return replace(seen, samples=samples)
