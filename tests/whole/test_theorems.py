@@ -78,7 +78,7 @@ def test_rows_name_the_rules_of_certificates_that_rest_on_them() -> None:
     assert named <= known
     assert known - named == {
         *("squeeze", "count", "rank", "conflict", "integrals"),  # by bounds, by counting, by arithmetic, by other rules
-        *("finite", "inequality", "timeless", "turns", "not exact"),  # by definition, at a point
+        *("finite", "inequality", "timeless", "time-dependent", "not exact"),  # by definition, at a point
     }
 
 

@@ -18,7 +18,7 @@ from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, Row
 from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.no_solution import hold_nowhere
-from dofkit.relations.normal.normal_form import linear_form
+from dofkit.relations.normal.normal_form import normalise
 from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian
 from dofkit.relations.setting import Setting
 from dofkit.relations.velocity_reductions import rate
@@ -51,13 +51,25 @@ def with_values_in_motion(
     freedoms = [n if n is None else n + free for n in _freedoms([answers[i] for i in members])]
     # the states of what is nonlinear are searched where it has a value
     owners = {row.constraint for row in block.nonlinear}
-    forms = [(i, linear_form(c.expr) if c.sense == "!=" else None) for i, c in domain if i not in owners]
-    still = [Answer(None) if f is None else answered(replace(block, rows=(*block.rows, Row(i, f)))) for i, f in forms]
+    still = [a for i, c in domain if i not in owners for a in _where_it_vanishes(block, i, c, setting, answered)]
     if None not in freedoms and all(_is_less(a, freedoms) for a in still):
         sure = [a.verdict for a in still]
         return [replace(a, verdict=weakest(a.verdict, *sure)) if i in members else a for i, a in enumerate(answers)]
     unknown = Answer(None, verdict="undecided", reasons=[f"{why} no motion is known to satisfy"])
     return [unknown if i in members else a for i, a in enumerate(answers)]
+
+
+def _where_it_vanishes(
+    block: Block, owner: int, condition: DomainCondition, setting: Setting, answered: Callable[[Block], Answer]
+) -> list[Answer]:
+    """Return the answers of the block with each branch of u = 0, for the condition u != 0 of a constraint."""
+    if condition.sense != "!=":
+        return [Answer(None)]
+    vanishing = [*_equations_of_motion(block), condition.expr]
+    if unless_late(partial(hold_nowhere, vanishing, (), setting.positive), False):
+        return []
+    branches = normalise(condition.expr, setting.positive, True).branches
+    return [answered(replace(block, rows=(*block.rows, *(Row(owner, p) for p in branch)))) for branch in branches]
 
 
 def _equations_of_motion(block: Block) -> list[Expr]:
