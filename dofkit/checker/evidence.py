@@ -239,11 +239,11 @@ def on_row(evidence: CheckedEvidence, row: str, field: VelocityField) -> Tree:
 def tangent(evidence: CheckedEvidence, words: Iterable[Sequence[str]], rows: Iterable[str]) -> None:
     """`CheckError` unless the fields of words are tangent to rows, identically."""
 
-    def look(word: Sequence[str], row: str) -> None:
+    def examine(word: Sequence[str], row: str) -> None:
         evidence.identity(on_row(evidence, row, of_word(evidence, [*word], word)), ZERO, f"a field along `{row}`")
 
     for word, row in product(words, rows):
-        evidence.once(("tangent", *word, "", row), partial(look, word, row))
+        evidence.once(("tangent", *word, "", row), partial(examine, word, row))
 
 
 def independent(evidence: CheckedEvidence, fields: Sequence[VelocityField], columns: Any, point: CheckedPoint) -> None:

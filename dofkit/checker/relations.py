@@ -52,10 +52,10 @@ class CheckedTexts:
         self.chosen = frozenset((*problem.world.signs, *problem.world.generic))
         self.names = self._known_names()
 
-    def once(self, key: Any, look: Callable[[], Looked]) -> Looked:
+    def once(self, key: Any, evaluate: Callable[[], Looked]) -> Looked:
         """What was looked at under a key before, or is now."""
         if key not in self.seen:
-            self.seen[key] = look()
+            self.seen[key] = evaluate()
         return cast(Looked, self.seen[key])
 
     def text(self, text: Any, extra: Iterable[str] = ()) -> Tree:
@@ -257,14 +257,14 @@ class CheckedRelations(CheckedTexts):
             )
         wide = {v: arb(0, 10**30) for v in self.velocities}
 
-        def look() -> bool:
+        def evaluate() -> bool:
             try:
                 values = [point.value_with(tree, wide) for tree in (*consequence.nonzero, *consequence.defined)]
             except CheckError:
                 return False
             return consequence.at in (None, point.name) and all(map(not_zero, values[: len(consequence.nonzero)]))
 
-        return self.once(("met", place, point.name), look)
+        return self.once(("met", place, point.name), evaluate)
 
 
 def fault_text(error: Exception) -> str:

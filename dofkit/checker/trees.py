@@ -184,7 +184,7 @@ Choices = Mapping[str, tuple[tuple[str, ...], Tree]]
 
 
 def folded(
-    tree: Tree, made: Callable[[Tree, tuple[Made, ...]], Made], plain: Callable[[Tree], Made | None] | None = None
+    tree: Tree, compose: Callable[[Tree, tuple[Made, ...]], Made], plain: Callable[[Tree], Made | None] | None = None
 ) -> Made:
     """Return what is made of a tree, of each node once, from what was made of the nodes right below it.
 
@@ -195,7 +195,7 @@ def folded(
     def read(node: Tree) -> Made:
         if id(node) not in done:
             made_already = plain(node) if plain else None
-            done[id(node)] = made(node, tuple(map(read, node.below))) if made_already is None else made_already
+            done[id(node)] = compose(node, tuple(map(read, node.below))) if made_already is None else made_already
         return done[id(node)]
 
     return read(tree)

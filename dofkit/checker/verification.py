@@ -42,7 +42,9 @@ TABLE: tuple[tuple[str, str, Rule], ...] = (
     ("/dof, /velocity_dof", "everywhere", numbers.everywhere),
     ("/motion", "lagrange", motion),
 )  # fmt: skip
-RULES = {(path, rule): look for paths, rules, look in TABLE for path in paths.split(", ") for rule in rules.split(", ")}
+RULES = {
+    (path, rule): rule_of for paths, rules, rule_of in TABLE for path in paths.split(", ") for rule in rules.split(", ")
+}
 #: What may be false of poses near the configuration alone.
 LOCAL = ("/singular", "/holonomic", "/scleronomic")
 

@@ -187,7 +187,7 @@ class Grader:
             return replace(needs_review("", error.message), certain=False)
         except TextError as error:
             return self._unread(error, answer)
-        understood, certain = shown_text_of(readings), all(way.certain for way in readings)
+        understood, certain = shown_text_of(readings), all(reading.certain for reading in readings)
         if self.check_only:
             return Judgement("read", None, understood, certain=certain)
         try:
@@ -196,7 +196,7 @@ class Grader:
             judgement = needs_review(understood, error.message)
         except TextError as error:  # no scene can hold what it says
             return self._unread(error, answer)
-        several = len({way.text for way in readings}) > 1
+        several = len({reading.text for reading in readings}) > 1
         return replace(judgement, read_as=understood, certain=certain and not several)
 
     def _number(self, question: QuestionBase, answer: Given, key: Key) -> Fraction | None:
@@ -234,7 +234,7 @@ def item_of(
         answer=None if answer is None else shown_text(answer),
         variant=prepared.marks.get((problem.id, question.id)),
         certain=judgement.certain,
-        readings=[PossibleReading(read_as=way.read_as, score=_points(way.share, question)) for way in judgement.ways],
+        readings=[PossibleReading(read_as=r.read_as, score=_points(r.share, question)) for r in judgement.readings],
     )
 
 

@@ -57,7 +57,7 @@ class Judgement:
     codes: tuple[str, ...] = ()
     said: tuple[Said, ...] = ()
     column: int | None = None
-    ways: tuple[JudgedReading, ...] = ()
+    readings: tuple[JudgedReading, ...] = ()
     certain: bool = True
 
     def saying(self, *sentences: Sentence) -> Judgement:
@@ -133,8 +133,8 @@ def verdict(readings: Sequence[Reading], judge: Callable[[Reading], Judgement]) 
     full = [candidate for candidate in plausible if candidate.status == "right"]
     if full and all(candidate.share in (FULL, None) for candidate in plausible):
         return replace(full[0], read_as=text)
-    ways = tuple(dict.fromkeys(JudgedReading(judgement.read_as, judgement.share) for _, judgement in judged))
-    return replace(needs_review(text, "it can be read in more than one way."), ways=ways)
+    judged_readings = tuple(dict.fromkeys(JudgedReading(judgement.read_as, judgement.share) for _, judgement in judged))
+    return replace(needs_review(text, "it can be read in more than one way."), readings=judged_readings)
 
 
 def shown_text_of(readings: Sequence[Reading]) -> str:

@@ -144,7 +144,7 @@ class Queue:
 def cells_of(queued: QueuedAnswer) -> dict[str, str]:
     """The cells of an open answer that dofkit fills in."""
     item = queued.item
-    ways = [(way.read_as, way.score) for way in item.readings] or ([(item.read_as, None)] if item.read_as else [])
+    readings = [(r.read_as, r.score) for r in item.readings] or ([(item.read_as, None)] if item.read_as else [])
     place = f"column {item.column}: " if item.column is not None and item.status == "unreadable" else ""
     return {
         "id": queued.id,
@@ -153,8 +153,8 @@ def cells_of(queued: QueuedAnswer) -> dict[str, str]:
         "variant": item.variant or "",
         "text": item.answer or "",
         "why": place + item.feedback,
-        "readings": " | ".join(read_as for read_as, _ in ways),
-        "would_earn": " | ".join("open" if score is None else f"{score:g}" for _, score in ways),
+        "readings": " | ".join(read_as for read_as, _ in readings),
+        "would_earn": " | ".join("open" if score is None else f"{score:g}" for _, score in readings),
         "max_points": f"{item.max_score:g}",
         **_who(queued),
     }

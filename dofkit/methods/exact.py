@@ -170,7 +170,7 @@ def give_values(point: RationalPoint, solved: Mapping[Expr, Expr], rows: Written
     rows.at(point, fmpq(0))
 
 
-def _look(scene: Scene | System, knobs: Knobs) -> tuple[SampledPoints, Decider] | Reply:
+def _points_of(scene: Scene | System, knobs: Knobs) -> tuple[SampledPoints, Decider] | Reply:
     del knobs
     numbers = Rationals()
     written = as_written(scene)
@@ -189,4 +189,4 @@ def _look(scene: Scene | System, knobs: Knobs) -> tuple[SampledPoints, Decider] 
     return sampled, numbers
 
 
-dof, integrability, redundancy = questions_at_points(_look, lambda sampled, numbers: "proved")
+dof, integrability, redundancy = questions_at_points(_points_of, lambda sampled, numbers: "proved")

@@ -102,7 +102,7 @@ def singular_values(matrix: Matrix) -> Any:
     return np.linalg.svd(np.array(matrix, dtype=float), compute_uv=False)
 
 
-def _look(scene: Scene | System, knobs: Knobs) -> tuple[SampledPoints, Decider] | Reply:
+def _points_of(scene: Scene | System, knobs: Knobs) -> tuple[SampledPoints, Decider] | Reply:
     numbers = Floats(knobs.tolerance)
     sampled = sampled_points(as_written(scene), numbers)
     return Reply(CONTRADICTORY, reason=NOWHERE.format(STARTS)) if sampled is None else (sampled, numbers)
@@ -127,5 +127,5 @@ def _is_clear(sampled: SampledPoints, numbers: Decider) -> bool:
 
 
 dof, integrability, redundancy = questions_at_points(
-    _look, lambda sampled, numbers: "numeric" if _is_clear(sampled, numbers) else "undecided"
+    _points_of, lambda sampled, numbers: "numeric" if _is_clear(sampled, numbers) else "undecided"
 )

@@ -151,9 +151,9 @@ def _start(system: System, numbers: Mapping[Expr, float], seed: int) -> dict[Exp
     for r in system.rotations:
         if r.chart == "euler":
             values |= {coordinate(n): a for n, a in zip(r.names, (0.4, 0.7, 0.2), strict=True)}
-    for name, spot in _spots(system, numbers).items():
+    for name, position in _spots(system, numbers).items():
         names = [c.name for c in system.coordinates if c.owner == name]
-        values |= {coordinate(n): float(v) for n, v in zip(names, spot, strict=False)}
+        values |= {coordinate(n): float(v) for n, v in zip(names, position, strict=False)}
     if seed:
         values = {s: v + 0.5 * float(rng.standard_normal()) for s, v in values.items()}
     return values
@@ -222,13 +222,13 @@ def _links(system: System) -> tuple[nx.Graph, dict[str, list[float]]]:
 def _hanging(graph: nx.Graph, fixed: Mapping[str, Sequence[float]], d: int) -> dict[str, Array]:
     """Return chains that hang from fixed points, each particle lower than the one before and to one side."""
     down = np.array([0.45, -0.9]) if d == 2 else np.array([0.45, 0.3, -0.85])
-    spots: dict[str, Array] = {n: np.array(p, dtype=float) for n, p in fixed.items()}
+    positions: dict[str, Array] = {n: np.array(p, dtype=float) for n, p in fixed.items()}
     for root in [*fixed, *graph]:
-        spots.setdefault(root, np.array([1.0 + 0.8 * len(spots)] + [0.0] * (d - 1)))
+        positions.setdefault(root, np.array([1.0 + 0.8 * len(positions)] + [0.0] * (d - 1)))
         for parent, child in nx.bfs_edges(graph, root):
-            tilt = np.array([(-1.0) ** len(spots), *[1.0] * (d - 1)])
-            spots.setdefault(child, spots[parent] + down * tilt)
-    return {n: p for n, p in spots.items() if n not in fixed}
+            tilt = np.array([(-1.0) ** len(positions), *[1.0] * (d - 1)])
+            positions.setdefault(child, positions[parent] + down * tilt)
+    return {n: p for n, p in positions.items() if n not in fixed}
 
 
 # Poses

@@ -28,16 +28,16 @@ Node = tuple[str, str]
 def graph_sketch(scene: Scene, system: System, report: Report, reason: str | None = None) -> Sketch:
     """Return the graph of a scene: carriers as dots, constraints as boxes, a line to all that each mentions."""
     graph = constraint_graph(system)
-    spots = _spots(graph)
+    positions = _spots(graph)
     unit = 0.16 / max(1.0, (len(graph) / 14) ** 0.5)
     shapes: list[Shape] = []
     for first, second in graph.edges:
         name = first[1] if first[0] == "constraint" else second[1]
         state = state_of(report, name)
         role: Literal["axis", "bar"] = "axis" if state == "plain" else "bar"
-        shapes.append(Shape("line", fixed(spots[first], spots[second]), role, state, name))
+        shapes.append(Shape("line", fixed(positions[first], positions[second]), role, state, name))
     for node in graph:
-        shapes += _node(report, node, spots[node], unit, len(graph) <= MOST_NAMES)
+        shapes += _node(report, node, positions[node], unit, len(graph) <= MOST_NAMES)
     return Sketch(
         title=f"{scene.title or scene.name}: constraint graph",
         dimension=2,
@@ -83,16 +83,16 @@ def _spots(graph: nx.Graph) -> dict[Node, Place]:
     return {n: place(np.asarray(p) * np.array([1.25, 1.0])) for n, p in laid.items()}
 
 
-def _node(report: Report, node: Node, spot: Place, unit: float, named: bool) -> Iterator[Shape]:
+def _node(report: Report, node: Node, position: Place, unit: float, named: bool) -> Iterator[Shape]:
     kind, name = node
     state = state_of(report, name) if kind == "constraint" else "plain"
     if kind == "thing":
-        yield Shape("ball", fixed(spot), "ground" if name == GROUND else "node", owner=name, size=0.4 * unit)
+        yield Shape("ball", fixed(position), "ground" if name == GROUND else "node", owner=name, size=0.4 * unit)
     else:
-        rim = ((spot[0] + 0.32 * unit * x, spot[1] + 0.32 * unit * y) for x, y in SQUARE)
+        rim = ((position[0] + 0.32 * unit * x, position[1] + 0.32 * unit * y) for x, y in SQUARE)
         yield Shape("area", fixed(*rim), "joint", state, name)
     if named:
-        yield Shape("words", fixed(spot), "name", state, name, text=name)
+        yield Shape("words", fixed(position), "name", state, name, text=name)
 
 
 def circuits_of(report: Report) -> Mapping[str, list[str]]:

@@ -27,14 +27,14 @@ def coordinate_sketch(stage: StagedScene) -> Sketch:
 def _axes(stage: StagedScene) -> Iterator[Shape]:
     """Yield a line for each coordinate, with its name and marks at the whole numbers."""
     half = half_of(stage)
-    for coordinate, way in zip(stage.system.coordinates, np.eye(3), strict=False):
-        yield Shape("line", fixed(-half * way, half * way), "axis")
-        yield Shape("words", fixed(1.06 * half * way), "name", text=coordinate.name)
-        side = 0.03 * half * np.roll(way, 1 if way[1] == 0 else -1)
+    for coordinate, direction in zip(stage.system.coordinates, np.eye(3), strict=False):
+        yield Shape("line", fixed(-half * direction, half * direction), "axis")
+        yield Shape("words", fixed(1.06 * half * direction), "name", text=coordinate.name)
+        side = 0.03 * half * np.roll(direction, 1 if direction[1] == 0 else -1)
         for tick in range(-int(half), int(half) + 1):
             if tick and half < 12:
-                yield Shape("line", fixed(tick * way - side, tick * way + side), "axis")
-        yield Shape("words", fixed(way - 2.6 * side), "name", text="1")
+                yield Shape("line", fixed(tick * direction - side, tick * direction + side), "axis")
+        yield Shape("words", fixed(direction - 2.6 * side), "name", text="1")
 
 
 def _field(stage: StagedScene) -> Iterator[Shape]:

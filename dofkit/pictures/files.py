@@ -123,20 +123,20 @@ def dark_style(drawing: str) -> str:
 def _element(mark: Mark, height: float) -> str:
     owner = f" data-owner={quoteattr(mark.owner)}" if mark.owner else ""
     if mark.text:
-        x, y = mark.spots[0]
+        x, y = mark.positions[0]
         weight = ' font-weight="bold"' if mark.bold else ""
         return (
             f'<text x="{x:.1f}" y="{height - y:.1f}" font-size="{mark.size:g}" text-anchor="{mark.align}"{weight}'
             f' fill="{mark.ink.line}" stroke="#FFFFFF" stroke-width="2.4" '
             f'paint-order="stroke"{owner}>{escape(mark.text)}</text>'
         )
-    path = f"M{_steps(mark.spots, height)}{'z' if mark.closed else ''}"
+    path = f"M{_steps(mark.positions, height)}{'z' if mark.closed else ''}"
     return "".join(f'<path d="{path}" {attributes}{owner}/>' for attributes in _paints(mark))
 
 
-def _steps(spots: Sequence[Spot], height: float) -> str:
+def _steps(positions: Sequence[Spot], height: float) -> str:
     """Return a first place and the steps from one place to the next, in tenths of a point, as a path has them."""
-    tenths = [(round(10 * x), round(10 * (height - y))) for x, y in spots]
+    tenths = [(round(10 * x), round(10 * (height - y))) for x, y in positions]
     pairs = [tenths[0], *((c - a, d - b) for (a, b), (c, d) in pairwise(tenths))]
     first, *others = (f"{x / 10:g}{'' if y < 0 else ' '}{y / 10:g}" for x, y in pairs)
     return f"{first}l{' '.join(others)}"
@@ -188,7 +188,7 @@ def draw_marks(axes: Any, page: Page) -> None:
 def _draw_text(axes: Any, mark: Mark, order: int) -> None:
     from matplotlib.patheffects import withStroke
 
-    x, y = mark.spots[0]
+    x, y = mark.positions[0]
     align = {"start": "left", "middle": "center", "end": "right"}[mark.align]
     axes.text(
         x, y, mark.text.replace("$", r"\$"), fontsize=mark.size, ha=align, va="baseline", color=mark.ink.line,
@@ -206,13 +206,13 @@ def _draw_path(axes: Any, mark: Mark, order: int) -> None:
     dash: Any = (0, tuple(d / max(ink.width, 0.1) for d in ink.dash)) if ink.dash else "-"
     style = {"linewidth": ink.width, "linestyle": dash, "zorder": order}
     if not mark.closed:
-        axes.add_line(Line2D(*zip(*mark.spots, strict=True), color=ink.line, solid_joinstyle="round", **style))
+        axes.add_line(Line2D(*zip(*mark.positions, strict=True), color=ink.line, solid_joinstyle="round", **style))
         return
     face = to_rgba(ink.fill, ink.dense) if ink.fill else "none"
-    axes.add_patch(Polygon(mark.spots, closed=True, facecolor=face, edgecolor=ink.line, joinstyle="round", **style))
+    axes.add_patch(Polygon(mark.positions, closed=True, facecolor=face, edgecolor=ink.line, joinstyle="round", **style))
     if ink.hatch:
         hatched = {"facecolor": "none", "edgecolor": "#8A8A8A", "linewidth": 0.0, "hatch": "////"}
-        axes.add_patch(Polygon(mark.spots, closed=True, zorder=order, **hatched))
+        axes.add_patch(Polygon(mark.positions, closed=True, zorder=order, **hatched))
 
 
 def png_of(page: Page, dots: float = DOTS) -> bytes:

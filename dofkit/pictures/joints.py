@@ -52,13 +52,13 @@ def joint_shapes(stage: StagedScene, number: int) -> Iterator[Shape]:
     state = stage.state(name)
     frame = _frame(stage, connection)
     members = carriers(connection)
-    spots = {k: stage.spot(number, m) for k, m in members.items()}
+    positions = {k: stage.position(number, m) for k, m in members.items()}
     strokes = symbol.plane if stage.flat else symbol.space
     for stroke in strokes:
         k = min(stroke.member, len(members) - 1)
-        yield _stroke(stage, stroke, members[k], spots[k], frame)._replace(owner=name, state=state)
+        yield _stroke(stage, stroke, members[k], positions[k], frame)._replace(owner=name, state=state)
     if len(members) > 1 and strokes and not connection.points:
-        ends = (Vertex(members[0], place(spots[0])), Vertex(members[1], place(spots[1])))
+        ends = (Vertex(members[0], place(positions[0])), Vertex(members[1], place(positions[1])))
         yield Shape("line", ends, "guide", state, name)
     grounded = GROUND in connection.members or len(members) == 1
     if grounded and strokes and (stage.flat or not symbol.rails):
@@ -79,9 +79,9 @@ def _frame(stage: StagedScene, connection: Connection) -> Array:
     return np.array([first, second, np.cross(first, second)])
 
 
-def _stroke(stage: StagedScene, stroke: Stroke, carrier: str, spot: Array, frame: Array) -> Shape:
+def _stroke(stage: StagedScene, stroke: Stroke, carrier: str, position: Array, frame: Array) -> Shape:
     role: Role = "joint" if stroke.filled or not stage.flat else "guide"
-    points = [spot + stage.unit * (np.array((*at, 0.0, 0.0)[:3]) @ frame) for at in stroke.spots]
+    points = [position + stage.unit * (np.array((*at, 0.0, 0.0)[:3]) @ frame) for at in stroke.positions]
     vertices = carried_by(carrier, points)
     if len(vertices) == 1:
         return Shape("ball", vertices, role, size=stroke.radius * stage.unit)
@@ -96,11 +96,11 @@ def with_long_guides(stage: StagedScene, sketch: Sketch, clips: Sequence[Clip]) 
         strokes = symbol.plane if stage.flat else symbol.space
         if not symbol.rails or not strokes or stage.places[number] is None or len(members) < 2:
             continue
-        longest = max(strokes, key=lambda stroke: max(point[0] for point in stroke.spots))
-        half = stage.unit * max(point[0] for point in longest.spots)
+        longest = max(strokes, key=lambda stroke: max(point[0] for point in stroke.positions))
+        half = stage.unit * max(point[0] for point in longest.positions)
         guide, slider = members[longest.member], members[1 - longest.member]
-        axis, middle = axis_of(stage.arrangement, connection, 0), stage.spot(number, guide)
-        block, reach = Vertex(slider, place(stage.spot(number, slider))), [0.0]
+        axis, middle = axis_of(stage.arrangement, connection, 0), stage.position(number, guide)
+        block, reach = Vertex(slider, place(stage.position(number, slider))), [0.0]
         for poses in (poses for clip in clips if not clip.dropped for poses in clip.frames):
             seen = poses.get(guide, AT_REST).back(sketch.at(block, poses))
             reach.append(float(axis @ (np.array(seen) - middle)))
@@ -120,11 +120,11 @@ def _footing(stage: StagedScene, number: int, at: Place, frame: Array) -> Iterat
     symbol, connection = stage.symbol(number), stage.system.connections[number]
     if symbol.rails and stage.flat:
         side = frame[1] if frame[1][1] < 0 or (frame[1][1] == 0 and frame[1][0] > 0) else -frame[1]
-        middle = stage.spot(number, GROUND) + side * (0.7 if connection.points else RAIL) * stage.unit
+        middle = stage.position(number, GROUND) + side * (0.7 if connection.points else RAIL) * stage.unit
         yield _hatched(stage, middle, frame[0] * symbol.rails * stage.unit, side)
     elif not symbol.rails:
         member = connection.members[0]
-        here = stage.here(Vertex(member, place(stage.spot(number, member))))
+        here = stage.here(Vertex(member, place(stage.position(number, member))))
         yield from stand(stage, at if GROUND in connection.members else place(here))
 
 
@@ -214,8 +214,8 @@ def _teeth(stage: StagedScene, number: int, connection: Connection) -> Iterator[
     count = TEETH / min(1.0, share, 1 / share)
     for k, (member, centre, radius) in enumerate(zip(members, centres, radii, strict=True)):
         teeth = max(6, round(min(count, 60) * radius / max(radii)))
-        way = np.array(centres[1 - k]) - np.array(centre)
-        phase = math.atan2(way[1], way[0]) + (math.pi / teeth if k else 0.0)
+        direction = np.array(centres[1 - k]) - np.array(centre)
+        phase = math.atan2(direction[1], direction[0]) + (math.pi / teeth if k else 0.0)
         rim = carried_by(member, (np.array(centre) + p for p in _toothed(radius, teeth, phase)))
         yield Shape("area", rim, "body", stage.state_of_body(member), member)
         spoke = np.array([math.cos(phase), math.sin(phase), 0.0]) * radius * 0.85

@@ -93,13 +93,13 @@ def margins_of(sketch: Sketch) -> Margins:
         below.append(_text_mark((MARGIN, low), line, NOTE))
         low += NOTE * HIGH
     for row in reversed(_legend(sketch)):
-        below += [mark._replace(spots=tuple((x, y + low) for x, y in mark.spots)) for mark in row]
+        below += [mark._replace(positions=tuple((x, y + low) for x, y in mark.positions)) for mark in row]
         low += NOTE * HIGH * 1.15
     return Margins(tuple(above), tuple(below), y - 2.0, low + 2.0)
 
 
-def _text_mark(spot: Spot, text: str, size: float, ink: Ink = FAINT) -> Mark:
-    return Mark((spot,), ink, text=text, size=size, align="start")
+def _text_mark(position: Spot, text: str, size: float, ink: Ink = FAINT) -> Mark:
+    return Mark((position,), ink, text=text, size=size, align="start")
 
 
 def _legend(sketch: Sketch) -> list[list[Mark]]:
@@ -112,8 +112,8 @@ def _legend(sketch: Sketch) -> list[list[Mark]]:
             rows.append([])
             x = MARGIN
         box = ((x, 0.0), (x + 16, 0.0), (x + 16, 7.0), (x, 7.0))
-        spots = box if ink.fill else ((x, 3.5), (x + 16, 3.5))
-        rows[-1] += [Mark(spots, ink, closed=bool(ink.fill)), _text_mark((x + 21, 0.5), text, NOTE)]
+        positions = box if ink.fill else ((x, 3.5), (x + 16, 3.5))
+        rows[-1] += [Mark(positions, ink, closed=bool(ink.fill)), _text_mark((x + 21, 0.5), text, NOTE)]
         x += wide
     return [row for row in rows if row]
 
@@ -151,10 +151,10 @@ def _at_least(low: Array, high: Array, least: float) -> tuple[Array, Array]:
 
 def mark_of(sketch: Sketch, shape: Shape, poses: Poses, view: View, fit: PaperScale) -> Mark:
     """Return a shape on the sheet."""
-    spots = fit.put(outline(sketch, shape, poses, view))
+    positions = fit.put(outline(sketch, shape, poses, view))
     closed = shape.kind in ("area", "hull", "ball")
     ink = ink_of(shape)
-    return Mark(_spots(spots), ink if closed else ink._replace(fill=None), closed=closed, owner=shape.owner)
+    return Mark(_spots(positions), ink if closed else ink._replace(fill=None), closed=closed, owner=shape.owner)
 
 
 def _spots(points: Iterable[Array]) -> tuple[Spot, ...]:
@@ -166,23 +166,23 @@ def axes_marks(sketch: Sketch, view: View, margins: Margins) -> Iterator[Mark]:
     if not sketch.axes:
         return
     long = 20.0
-    ways = np.eye(3)[: sketch.dimension]
-    seen = [view.seen(way)[:2] for way in ways]
+    directions = np.eye(3)[: sketch.dimension]
+    seen = [view.seen(direction)[:2] for direction in directions]
     longest = max((width_of(name, NOTE) for name in sketch.axes[: sketch.dimension]), default=0.0)
     root = (
         np.array([MARGIN + max(8.0, longest / 2), margins.low + 8])
         - np.minimum(0.0, np.min([*seen, np.zeros(2)], axis=0)) * long
     )
     ink = Ink(GREY, 1.0, layer=8)
-    for name, way in zip(sketch.axes, seen, strict=False):
-        tip = root + long * way
-        size = float(np.linalg.norm(way))
+    for name, direction in zip(sketch.axes, seen, strict=False):
+        tip = root + long * direction
+        size = float(np.linalg.norm(direction))
         yield Mark(((root[0], root[1]), (tip[0], tip[1])), ink)
         if size > 0.15:
-            ahead, side = way / size * 4.0, np.array([-way[1], way[0]]) / size * 2.0
+            ahead, side = direction / size * 4.0, np.array([-direction[1], direction[0]]) / size * 2.0
             barbs = (tip - ahead + side, tip, tip - ahead - side)
             yield Mark(_spots(barbs), ink)
-            at = tip + way / size * 7.0
+            at = tip + direction / size * 7.0
             yield Mark(((at[0], at[1] - 2.8),), Ink(GREY, layer=9), text=name, size=NOTE)
 
 
@@ -205,8 +205,8 @@ def _ruler_marks(sketch: Sketch, fit: PaperScale, margins: Margins) -> Iterator[
     right, y = WIDTH - MARGIN, margins.low + 12.0
     start = right - length * fit.scale
     ink = Ink(GREY, 1.0, layer=8)
-    for spots in (((start, y), (right, y)), ((start, y - 3), (start, y + 3)), ((right, y - 3), (right, y + 3))):
-        yield Mark(spots, ink)
+    for positions in (((start, y), (right, y)), ((start, y - 3), (start, y + 3)), ((right, y - 3), (right, y + 3))):
+        yield Mark(positions, ink)
     yield Mark(((right, y - 11.0),), Ink(GREY, layer=9), text=text, size=NOTE - 1, align="end")
 
 
@@ -237,8 +237,8 @@ def _name_marks(sketch: Sketch, poses: Poses, view: View, fit: PaperScale, offse
     size = name_size(sketch)
     for shape, offset in zip((s for s in sketch.shapes if s.kind == "words"), offsets, strict=True):
         x, y = _anchor(sketch, shape, poses, view, fit) + offset
-        spot = (float(x), float(y) - 0.35 * size)
-        yield Mark((spot,), ink_of(shape), text=shape.text, size=size, owner=shape.owner)
+        position = (float(x), float(y) - 0.35 * size)
+        yield Mark((position,), ink_of(shape), text=shape.text, size=size, owner=shape.owner)
 
 
 def _busy(sketch: Sketch, poses: Poses, view: View, fit: PaperScale) -> Array:
@@ -247,9 +247,9 @@ def _busy(sketch: Sketch, poses: Poses, view: View, fit: PaperScale) -> Array:
     for shape in sketch.shapes:
         if shape.kind == "words":
             continue
-        spots = fit.put(outline(sketch, shape, poses, view))
-        ends = np.vstack([spots[1:], spots[:1]]) if shape.kind in ("area", "hull", "ball") else spots[1:]
-        for a, b in zip(spots, ends, strict=False):
+        positions = fit.put(outline(sketch, shape, poses, view))
+        ends = np.vstack([positions[1:], positions[:1]]) if shape.kind in ("area", "hull", "ball") else positions[1:]
+        for a, b in zip(positions, ends, strict=False):
             count = 1 + int(min(60.0, math.hypot(*(b - a)) / 5.0))
             points.append(a + np.outer(np.arange(count) / count, b - a))
     return np.vstack(points)
@@ -268,8 +268,8 @@ def _best_offset(
     for far in FARS:
         for k in range(WAYS if far else 1):
             angle = 2 * math.pi * (k + 1.5) / WAYS
-            way = np.array([math.cos(angle), math.sin(angle)])
-            at = anchor + way * (far * size) + way * np.array([wide, high]) * (1 if far else 0)
+            direction = np.array([math.cos(angle), math.sin(angle)])
+            at = anchor + direction * (far * size) + direction * np.array([wide, high]) * (1 if far else 0)
             inside = (np.abs(busy[:, 0] - at[0]) < wide) & (np.abs(busy[:, 1] - at[1]) < high)
             cost = float(np.sum(inside)) + 0.7 * far + (12.0 if not far and len(shape.vertices) < 3 else 0.0)
             for x0, x1, y0, y1 in taken:

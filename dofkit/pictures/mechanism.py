@@ -70,16 +70,16 @@ def _traced(stage: StagedScene, shapes: Sequence[Shape]) -> Iterator[Vertex]:
 def _body_shapes(stage: StagedScene) -> Iterator[Shape]:
     """Yield a hull for each body, and its name."""
     for body in stage.system.bodies:
-        spots = _attached(stage, body)
+        positions = _attached(stage, body)
         state = stage.state_of_body(body)
         wheel = any(_shapes_body(stage, k, body) for k in range(len(stage.system.connections)))
-        if not spots and not wheel:
+        if not positions and not wheel:
             yield from _free_body(stage, body)
             continue
-        far = [s for s in spots if np.linalg.norm(np.array(s) - np.array(spots[0])) > 1e-6 * stage.size]
-        if spots and not far and not wheel:
-            spots = [*spots, *_stub(stage, body, spots[0])]
-        corners = carried_by(body, spots)
+        far = [s for s in positions if np.linalg.norm(np.array(s) - np.array(positions[0])) > 1e-6 * stage.size]
+        if positions and not far and not wheel:
+            positions = [*positions, *_stub(stage, body, positions[0])]
+        corners = carried_by(body, positions)
         if corners:
             yield Shape("hull", corners, "body", state, body, (PAD if stage.flat else THIN) * stage.unit)
         yield name_of(stage, body, corners or (stage.origin(body),), state)
@@ -101,7 +101,7 @@ def _attached(stage: StagedScene, body: str) -> list[Place]:
         mentioned = [v.at for v in stage.vertices(connection) if v.carrier == body]
         points += mentioned
         if not mentioned and stage.places[k] is not None and stage.symbol(k).run == "":
-            points.append(place(stage.spot(k, body)))
+            points.append(place(stage.position(k, body)))
     ends = (v for force in stage.scene.forces for v in force_ends(stage.arrangement, force))
     points += [v.at for v in ends if v.carrier == body]
     return list(dict.fromkeys(points))
@@ -119,10 +119,10 @@ def _stub(stage: StagedScene, body: str, at: Place) -> list[Place]:
             axis = axis_of(stage.arrangement, connection, 0)
             across = np.cross(axis, np.eye(3)[int(np.argmin(np.abs(axis)))])
             size = float(np.linalg.norm(across))
-            way = (math.cos(turn) * across + math.sin(turn) * np.cross(axis, across)) / size
-            return [place(np.array(at) + length * way)]
-    way = np.array([0.55, 0.83, 0.0]) if stage.flat else np.array([0.55, 0.2, 0.8])
-    return [place(np.array(at) + length * (about(2, turn) @ way))]
+            direction = (math.cos(turn) * across + math.sin(turn) * np.cross(axis, across)) / size
+            return [place(np.array(at) + length * direction)]
+    direction = np.array([0.55, 0.83, 0.0]) if stage.flat else np.array([0.55, 0.2, 0.8])
+    return [place(np.array(at) + length * (about(2, turn) @ direction))]
 
 
 def _free_body(stage: StagedScene, body: str) -> Iterator[Shape]:
@@ -135,8 +135,8 @@ def _free_body(stage: StagedScene, body: str) -> Iterator[Shape]:
     sides = [[np.array([x, y, 0.0]) * half for x, y in SQUARE]] if stage.flat else faces(half)
     for face in sides:
         yield Shape("area", carried_by(body, (centre + corner for corner in face)), "body", state, body)
-    for way in np.eye(3)[: max(1, stage.system.dimension)]:
-        yield Shape("line", (origin, *carried_by(body, [centre + way * 2.2 * u])), "axis", owner=body)
+    for direction in np.eye(3)[: max(1, stage.system.dimension)]:
+        yield Shape("line", (origin, *carried_by(body, [centre + direction * 2.2 * u])), "axis", owner=body)
     yield name_of(stage, body, carried_by(body, [centre + np.array([0.0, half[1], 0.0])]), state)
 
 
@@ -188,12 +188,12 @@ def _anchor(stage: StagedScene, number: int) -> tuple[Vertex, ...]:
         return tuple(stage.vertices(connection))[:2]
     if run == "teeth":
         pins = [stage.places[k] for k, c in enumerate(stage.system.connections) if c.facts.axial]
-        spots = [Vertex(m, p) for m, p in zip(connection.members, pins, strict=False) if p is not None]
-        return tuple(spots[-2:])
+        positions = [Vertex(m, p) for m, p in zip(connection.members, pins, strict=False) if p is not None]
+        return tuple(positions[-2:])
     if at is None or not connection.members:
         return ()
     member = next((m for m in connection.members if m in stage.system.bodies), connection.members[0])
-    return carried_by(member, [stage.spot(number, member)])
+    return carried_by(member, [stage.position(number, member)])
 
 
 def notes_of(stage: StagedScene) -> Iterator[str]:

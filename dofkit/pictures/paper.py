@@ -26,9 +26,9 @@ Spot = tuple[float, float]
 
 
 class Mark(NamedTuple):
-    """A line or area through spots, or a text at one of them; ``owner`` is what it shows. In points, y upwards."""
+    """A line or area through positions, or a text at one of them; ``owner`` is what it shows. In points, y upwards."""
 
-    spots: tuple[Spot, ...]
+    positions: tuple[Spot, ...]
     ink: Ink
     closed: bool = False
     text: str = ""
@@ -141,9 +141,9 @@ def convex_hull(points: Array) -> list[Spot]:
     if len(ordered) < 3:
         return ordered
 
-    def half(spots: Sequence[Spot]) -> list[Spot]:
+    def half(positions: Sequence[Spot]) -> list[Spot]:
         chain: list[Spot] = []
-        for p in spots:
+        for p in positions:
             while len(chain) > 1:
                 (ax, ay), (bx, by) = chain[-2:]
                 if (bx - ax) * (p[1] - ay) - (by - ay) * (p[0] - ax) > 0:
@@ -185,11 +185,11 @@ def _smooth(points: Array) -> Array:
     slopes = np.gradient(points, axis=0)
     if np.allclose(points[0], points[-1]):
         slopes[0] = slopes[-1] = (points[1] - points[-2]) / 2
-    spots = []
+    positions = []
     for (p, q), (u, v) in zip(pairwise(points), pairwise(slopes), strict=True):
         arm = q - p
-        spots += [p + t * (u + t * (3 * arm - 2 * u - v + t * (u + v - 2 * arm))) for t in (0.0, 0.25, 0.5, 0.75)]
-    return np.array([*spots, points[-1]])
+        positions += [p + t * (u + t * (3 * arm - 2 * u - v + t * (u + v - 2 * arm))) for t in (0.0, 0.25, 0.5, 0.75)]
+    return np.array([*positions, points[-1]])
 
 
 def _bow(first: Array, last: Array, high: float) -> Array:

@@ -174,8 +174,8 @@ def picture_shapes(picture: PlacedPicture, values: Values, unit: float) -> Itera
         yield from drawn
         if shape.name and shape.kind not in ("text", "axes") and drawn:
             ends = drawn[0].vertices
-            spots = ends[len(ends) // 2 :][:1] if shape.kind == "curve" and len(ends) > 2 else ends
-            yield Shape("words", spots, "name", owner=shape.name, text=shape.name)
+            positions = ends[len(ends) // 2 :][:1] if shape.kind == "curve" and len(ends) > 2 else ends
+            yield Shape("words", positions, "name", owner=shape.name, text=shape.name)
 
 
 class _Drawing(NamedTuple):
@@ -193,15 +193,15 @@ class _Drawing(NamedTuple):
         shape = self.shape
         if shape.kind in _LINES:
             kind, role, size = _LINES[shape.kind]
-            yield self._made(kind, self._places(), role, self._value(shape.radius, size * self.unit))
+            yield self._shape_of(kind, self._places(), role, self._value(shape.radius, size * self.unit))
         elif shape.kind == "surface":
             places = self._places()
             for start in range(0, len(places), MESH_POINTS):
-                yield self._made("line", places[start : start + MESH_POINTS], "mesh")
+                yield self._shape_of("line", places[start : start + MESH_POINTS], "mesh")
         elif shape.kind == "text":
             yield Shape("words", self._places(), "name", owner=shape.name, text=shape.name)
         elif shape.kind == "ball":
-            yield self._made("ball", self._in_frame([(0, 0, 0)]), "body", self._value(shape.radius, 1.0))
+            yield self._shape_of("ball", self._in_frame([(0, 0, 0)]), "body", self._value(shape.radius, 1.0))
         elif shape.kind in ("disc", "wheel"):
             yield from self._round(self._value(shape.radius, 1.0))
         elif shape.kind == "axes":
@@ -213,7 +213,7 @@ class _Drawing(NamedTuple):
         else:
             yield from self._blade(self._sizes(1, BLADE)[0] / 2)
 
-    def _made(self, kind: Kind, vertices: tuple[Vertex, ...], role: Role, size: float = 0.0) -> Shape:
+    def _shape_of(self, kind: Kind, vertices: tuple[Vertex, ...], role: Role, size: float = 0.0) -> Shape:
         moves = any(v.carrier != GROUND for v in vertices)
         return Shape(kind, vertices, role, "moving" if moves else "plain", self.shape.name, size)
 
@@ -240,48 +240,48 @@ class _Drawing(NamedTuple):
         return fixed(placement.pose(self.values).moved(place(at)))[0]
 
     def _round(self, radius: float) -> Iterator[Shape]:
-        yield self._made("area", self._in_frame(radius * circle(RIM)), "body")
+        yield self._shape_of("area", self._in_frame(radius * circle(RIM)), "body")
         if self.shape.kind == "disc":
-            yield self._made("line", self._in_frame([(0, 0, 0), (0, radius, 0)]), "guide")
-            yield self._made("ball", self._in_frame([(0, 0.86 * radius, 0)]), "point", 0.09 * radius)
+            yield self._shape_of("line", self._in_frame([(0, 0, 0), (0, radius, 0)]), "guide")
+            yield self._shape_of("ball", self._in_frame([(0, 0.86 * radius, 0)]), "point", 0.09 * radius)
             return
         for spoke in radius * circle(6)[:3]:
-            yield self._made("line", self._in_frame([spoke, -spoke]), "guide")
-        yield self._made("ball", self._in_frame([(0, 0, 0)]), "joint", 0.14 * radius)
+            yield self._shape_of("line", self._in_frame([spoke, -spoke]), "guide")
+        yield self._shape_of("ball", self._in_frame([(0, 0, 0)]), "joint", 0.14 * radius)
 
     def _axes(self) -> Iterator[Shape]:
         origin = self._in_frame([(0, 0, 0)]) if self.shape.places else fixed((0.0, 0.0, 0.0))
-        for way, letter in zip(self._sizes(1, AXIS)[0] * np.eye(3)[: self.dimension], "xyz", strict=False):
-            tip = self._in_frame([way]) if self.shape.places else fixed(way)
-            yield self._made("arrow", (*origin, *tip), "axis", self.unit)
+        for direction, letter in zip(self._sizes(1, AXIS)[0] * np.eye(3)[: self.dimension], "xyz", strict=False):
+            tip = self._in_frame([direction]) if self.shape.places else fixed(direction)
+            yield self._shape_of("arrow", (*origin, *tip), "axis", self.unit)
             yield Shape("words", tip, "name", text=letter)
 
     def _ground(self, half: float) -> Iterator[Shape]:
         """Yield the ground: in the plane a line with strokes on the side that its axis turns away from."""
         if self.dimension == 3:
-            yield self._made("area", self._in_frame([(half * x, half * y, 0) for x, y in SQUARE]), "plane")
+            yield self._shape_of("area", self._in_frame([(half * x, half * y, 0) for x, y in SQUARE]), "plane")
             return
         up = np.array(place(self._value(e, 0.0) for e in self.shape.axis or ())) if self.shape.axis else np.eye(3)[1]
         up = up / max(float(np.linalg.norm(up)), 1e-12)
         along = half * np.array([up[1], -up[0], 0.0])
-        yield self._made("line", self._in_frame([-along, along]), "ground")
-        yield self._made("line", self._in_frame(hatching(self.unit, np.zeros(3), along, -up, STROKES)), "hatch")
+        yield self._shape_of("line", self._in_frame([-along, along]), "ground")
+        yield self._shape_of("line", self._in_frame(hatching(self.unit, np.zeros(3), along, -up, STROKES)), "hatch")
 
     def _box(self) -> Iterator[Shape]:
         half = np.array(self._sizes(3, 1.0)) / 2
         for face in [[(x, y, 0) for x, y in SQUARE]] if self.dimension == 2 else faces(np.ones(3)):
-            yield self._made("area", self._in_frame([half * corner for corner in np.array(face)]), "body")
+            yield self._shape_of("area", self._in_frame([half * corner for corner in np.array(face)]), "body")
 
     def _blade(self, half: float) -> Iterator[Shape]:
-        yield self._made("area", self._in_frame(half * np.array(BLADES[self.dimension])), "body")
+        yield self._shape_of("area", self._in_frame(half * np.array(BLADES[self.dimension])), "body")
 
 
 def hatching(unit: float, middle: Array, half: Array, side: Array, ticks: int) -> list[Array]:
     """Return short strokes along a line, on one side of it, as one zigzag; ``unit``: the size of symbols."""
-    way = half / max(float(np.linalg.norm(half)), 1e-12)
-    slant = (side - way) * max(0.55 * unit, 0.07 * float(np.linalg.norm(half)))
+    direction = half / max(float(np.linalg.norm(half)), 1e-12)
+    slant = (side - direction) * max(0.55 * unit, 0.07 * float(np.linalg.norm(half)))
     roots = [middle + half * (2 * (k + 0.7) / ticks - 1) for k in range(ticks)]
-    return [spot for root in roots for spot in (root, root + slant, root)]
+    return [point for root in roots for point in (root, root + slant, root)]
 
 
 def faces(half: Array) -> list[list[Array]]:

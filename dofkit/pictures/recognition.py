@@ -74,10 +74,10 @@ def _fits(samples: list[tuple[Array, Array]], names: list[str], heading: tuple[s
 
 def _radius(samples: list[tuple[Array, Array]], names: list[str], heading: tuple[str, int, int], name: str) -> float:
     """Return the constant ratio of the way along the heading to the turn of a coordinate; 0 if there is none."""
-    ways, turns = [], []
+    distances, turns = [], []
     for q, basis in samples:
-        ways.append(_along(q, basis, names, heading)[0])
+        distances.append(_along(q, basis, names, heading)[0])
         turns.append(basis[:, names.index(name)])
-    way, turn = np.concatenate(ways), np.concatenate(turns)
-    ratio = float(way @ turn / max(turn @ turn, SAME))
-    return ratio if name not in ("x", "y", heading[0]) and np.max(np.abs(way - ratio * turn)) < SAME else 0.0
+    distance, turn = np.concatenate(distances), np.concatenate(turns)
+    ratio = float(distance @ turn / max(turn @ turn, SAME))
+    return ratio if name not in ("x", "y", heading[0]) and np.max(np.abs(distance - ratio * turn)) < SAME else 0.0

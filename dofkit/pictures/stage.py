@@ -114,7 +114,7 @@ class StagedScene:
         starts = self.system.starts
         return Vertex(carrier, self.arrangement.point(starts[carrier]) if carrier in starts else (0.0, 0.0, 0.0))
 
-    def spot(self, number: int, member: str) -> Array:
+    def position(self, number: int, member: str) -> Array:
         """Return where a symbol stands in the frame of a member; the symbol of a slide moves along with the point."""
         connection, at = self.system.connections[number], np.array(self.places[number] or (0.0, 0.0, 0.0))
         if any(p.carrier == member and p.particle for p in connection.points):
@@ -232,7 +232,7 @@ def _points(scene: Scene, arrangement: Arrangement, written: Sequence[Place | No
         radius = radius_of(scene, arrangement, number)
         if radius and body is not None:
             middle = poses[body].moved(arrangement.point(arrangement.system.starts[body]))
-            points += [middle + radius * np.array(way) for way in ((1, 1, 0), (-1, -1, 0))]
+            points += [middle + radius * np.array(direction) for direction in ((1, 1, 0), (-1, -1, 0))]
     return points
 
 
@@ -315,9 +315,9 @@ def _clear(wanted: Place, taken: Sequence[Place], gap: float, dimension: int) ->
     side = np.array([1.0, 0.0, 0.0])
     for scale in (1.0, 2.0, 3.0, 4.0):
         for w, h in _ASIDE:
-            spot = np.array(wanted) + gap * scale * (w * side + h * up)
-            if all(np.linalg.norm(spot - np.array(other)) > 0.9 * gap for other in taken):
-                return place(spot)
+            position = np.array(wanted) + gap * scale * (w * side + h * up)
+            if all(np.linalg.norm(position - np.array(other)) > 0.9 * gap for other in taken):
+                return place(position)
     return place(np.array(wanted) + gap * len(taken) * side)
 
 

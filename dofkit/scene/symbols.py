@@ -16,9 +16,9 @@ Run = Literal["", "bar", "bars", "rope", "teeth", "wheel", "profile", "locus"]
 
 
 class Stroke(NamedTuple):
-    """A line through spots (a ball of ``radius`` where it has one spot), carried by the member of that number."""
+    """A line through positions (a ball of ``radius`` at a single one), carried by the member of that number."""
 
-    spots: tuple[Spot, ...]
+    positions: tuple[Spot, ...]
     member: int = 0
     closed: bool = False
     filled: bool = False
@@ -75,11 +75,11 @@ def helix(radius: float, half: float, turns: int, member: int = 0) -> Stroke:
     """Return a right-handed thread about the axis of space."""
     count = 10 * turns
     angle = 2 * math.pi * turns / count
-    spots = (
+    positions = (
         (half * (2 * k / count - 1), radius * math.cos(angle * k), radius * math.sin(angle * k))
         for k in range(count + 1)
     )
-    return Stroke(tuple(spots), member)
+    return Stroke(tuple(positions), member)
 
 
 def plate(x: float, side: float, member: int = 0) -> Stroke:

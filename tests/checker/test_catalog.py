@@ -12,7 +12,7 @@ from shared.known_scenes import CATALOG, OURS, few, report_of, scene_of, stem
 
 import dofkit
 from dofkit.checker import verify
-from dofkit.methods.certificates.certificate import made
+from dofkit.methods.certificates.certificate import certificate_of
 from dofkit.methods.certificates.lowering import document_of_scene
 
 #: What is proved and not verified today: why, and of which scenes. A name may only go.
@@ -32,7 +32,7 @@ LEAST = 0.94
 def _shown(path: Path) -> tuple[int, set[str]]:
     """How many proved claims verify, and what is uncovered; none fails, and nothing contradicts the report."""
     document, report = document_of_scene(scene_of(path)), report_of(path)
-    certificate, contradicted = made(document, report)
+    certificate, contradicted = certificate_of(document, report)
     verification = verify(document, json.loads(json.dumps(certificate)))
     assert not contradicted
     assert not verification.failed
@@ -44,7 +44,7 @@ def test_a_number_that_is_probable_is_shown_by_a_family() -> None:
     """Three parallel cranks of one length move as one, and their relations depend on each other."""
     (path,) = (one for one in {*CATALOG, *OURS} if one.stem == "parallelogram-three-cranks")
     document, report = document_of_scene(scene_of(path)), report_of(path)
-    certificate, _ = made(document, report)
+    certificate, _ = certificate_of(document, report)
     (claim,) = (one for one in certificate["claims"] if one["path"] == "/dof")
     assert (report.verdicts["dof"].verdict, claim["value"], claim["least"]["rule"]) == ("probable", 1, "family")
 

@@ -18,7 +18,7 @@ from dofkit.checker import CheckError, verify
 from dofkit.checker.problem import canonical, document_of, sha256_of
 from dofkit.checker.ring import CheckedRing
 from dofkit.checker.trees import Effort
-from dofkit.methods.certificates.certificate import made
+from dofkit.methods.certificates.certificate import certificate_of
 from dofkit.methods.certificates.lowering import document_of_scene
 
 CIRCLE = {"coordinates": ["x", "y"], "constraints": ["x^2 + y^2 = 1"]}
@@ -254,7 +254,7 @@ def _places(value: Any, place: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]
 def test_an_odd_value_in_any_place_is_a_fault_and_no_crash(path: Any) -> None:
     scene, rng = scene_of(path), random.Random(path.stem)
     document = canonical(document_of_scene(scene))
-    given = json.loads(json.dumps(made(document, report_of(path))[0]))
+    given = json.loads(json.dumps(certificate_of(document, report_of(path))[0]))
     inside, outside = list(_places(given)), list(_places(document))
     for _ in range(40):
         fate(document, put(given, rng.choice(inside), rng.choice(ODD)))

@@ -14,7 +14,7 @@ from shared.tampering import accepted, asserted, edited, renewed, tampered, untr
 
 import dofkit
 from dofkit.checker import CheckError, verify
-from dofkit.methods.certificates.certificate import made
+from dofkit.methods.certificates.certificate import certificate_of
 from dofkit.methods.certificates.lowering import document_of_scene
 
 #: How many mutations and edits a scene has.
@@ -25,7 +25,7 @@ MUTATIONS, EDITS = 30, 3
 def certified(path: Path) -> tuple[dict[str, Any], dict[str, Any], dict[str, Any]]:
     """A scene's document, its report and its certificate, all as JSON."""
     document, report = document_of_scene(scene_of(path)), report_of(path)
-    certificate = made(document, report)[0]
+    certificate = certificate_of(document, report)[0]
     return document, report.model_dump(mode="json"), json.loads(json.dumps(certificate))
 
 

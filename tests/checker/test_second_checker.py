@@ -23,7 +23,7 @@ from shared.tampering import edited, renewed, tampered
 
 from dofkit.checker import CheckError, verify
 from dofkit.checker.problem import sha256_of
-from dofkit.methods.certificates.certificate import made
+from dofkit.methods.certificates.certificate import certificate_of
 from dofkit.methods.certificates.lowering import document_of_scene
 
 NODE = shutil.which("node")
@@ -46,7 +46,7 @@ Case = tuple[dict[str, Any], dict[str, Any]]
 def certified(path: Path) -> Case:
     """Return a scene's document and its certificate, as JSON."""
     document = document_of_scene(scene_of(path))
-    return document, json.loads(json.dumps(made(document, report_of(path))[0]))
+    return document, json.loads(json.dumps(certificate_of(document, report_of(path))[0]))
 
 
 def changed(document: dict[str, Any], certificate: dict[str, Any], rng: random.Random) -> Iterator[Case]:

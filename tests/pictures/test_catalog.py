@@ -19,7 +19,7 @@ def _check(name: str) -> None:
     kinds = {s.role for s in picture.sketch.shapes}
     assert "node" not in kinds
     assert (POINT in {v.carrier for s in picture.sketch.shapes for v in s.vertices}) == (name in SETS)
-    assert all(np.all(np.isfinite(mark.spots)) for mark in picture.page.marks)
+    assert all(np.all(np.isfinite(mark.positions)) for mark in picture.page.marks)
     if scene.picture:
         assert dofkit.classify(scene) == dofkit.classify(scene.model_copy(update={"picture": ()}))
 

@@ -29,7 +29,7 @@ def test_each_shape_is_drawn_and_described(kind: str) -> None:
     )
     picture = dofkit.draw(scene)
     assert any(mark.ink for mark in picture.page.marks)
-    assert all(np.all(np.isfinite(mark.spots)) for mark in picture.page.marks)
+    assert all(np.all(np.isfinite(mark.positions)) for mark in picture.page.marks)
     assert dofkit.animate(scene).clips or kind in ("curve", "surface", "plane", "axes", "text")
 
 

@@ -236,7 +236,7 @@ def boxes(page: Page) -> list[tuple[float, float, float, float, str]]:
     found = []
     for mark in page.marks:
         if mark.text:
-            (x, y), wide = mark.spots[0], width_of(mark.text, mark.size)
+            (x, y), wide = mark.positions[0], width_of(mark.text, mark.size)
             left = {"start": x, "middle": x - wide / 2, "end": x - wide}[mark.align]
             found.append((left, left + wide, y, y + mark.size * (HIGH - 0.4), mark.text))
     return found
@@ -248,8 +248,8 @@ def test_names_do_not_overlap_and_stay_on_the_sheet(name: str) -> None:
     for a, b in combinations(boxes(page), 2):
         apart = a[1] <= b[0] or b[1] <= a[0] or a[3] <= b[2] or b[3] <= a[2]
         assert apart, (a[4], b[4])
-    spots = [spot for mark in page.marks for spot in mark.spots]
-    assert all(0 <= x <= page.width and 0 <= y <= page.height for x, y in spots)
+    positions = [p for mark in page.marks for p in mark.positions]
+    assert all(0 <= x <= page.width and 0 <= y <= page.height for x, y in positions)
 
 
 # -- files -----------------------------------------------------------------------------------------
@@ -337,8 +337,8 @@ def test_the_whole_catalog_is_drawn(name: str, tmp_path: Path) -> None:
     root = ElementTree.fromstring(picture.svg())
     assert root.findtext(f"{SVG}desc") == picture.alternative
     assert picture.save(tmp_path / "a.png").stat().st_size > 8000
-    spots = [spot for mark in picture.page.marks for spot in mark.spots]
-    assert all(0 <= x <= picture.page.width and 0 <= y <= picture.page.height for x, y in spots)
+    positions = [p for mark in picture.page.marks for p in mark.positions]
+    assert all(0 <= x <= picture.page.width and 0 <= y <= picture.page.height for x, y in positions)
     texts = [box for box in boxes(picture.page) if box[4]]
     overlapping = [
         (a[4], b[4])

@@ -59,8 +59,8 @@ def cranks(quick: bool) -> Iterator[KnownScene]:
                 }
                 for k, (bar, top) in enumerate(zip(names, platform, strict=True))
             ]
-            made = {"dimension": 2, "bodies": ["platform"], "constraints": bars}
-            yield known_scene(f"{n} bars, {name}", made, because, n, dof=dof, redundancy=redundant)
+            scene = {"dimension": 2, "bodies": ["platform"], "constraints": bars}
+            yield known_scene(f"{n} bars, {name}", scene, because, n, dof=dof, redundancy=redundant)
 
 
 def loops(quick: bool) -> Iterator[KnownScene]:
@@ -74,16 +74,16 @@ def loops(quick: bool) -> Iterator[KnownScene]:
             ("the last tilted by 1e-9", ["1e-9", 0, 1], n - 4),
         ]
         for name, axis, dof in rows:
-            made = _loop([*hinges[:-1], (hinges[-1][0], axis)], n - 1)
-            yield known_scene(f"{n} hinges, {name}", made, because, n, dof=dof)
+            scene = _loop([*hinges[:-1], (hinges[-1][0], axis)], n - 1)
+            yield known_scene(f"{n} hinges, {name}", scene, because, n, dof=dof)
 
 
 def named_loops(quick: bool) -> Iterator[KnownScene]:
     """Loops with a name [Bennett1903]."""
     for row in tables("poses.yaml")["loops"][:: 2 if quick else 1]:
         n = len(row["hinges"])
-        made = _loop(row["hinges"], n - 1)
-        yield known_scene(row["name"], made, row["because"], n, dof=row["dof"])
+        scene = _loop(row["hinges"], n - 1)
+        yield known_scene(row["name"], scene, row["because"], n, dof=row["dof"])
 
 
 def trees(quick: bool) -> Iterator[KnownScene]:
@@ -92,15 +92,15 @@ def trees(quick: bool) -> Iterator[KnownScene]:
     for d, n in ((d, n) for n in ((1, 2) if quick else (1, 2, 4, 8, 16)) for d in (2, 3)):
         for seed in range(1 if quick or n > 4 else 2):
             rng = random.Random(f"tree {d} {n} {seed}")
-            made = tree(rng, d, n)
-            joints = made.scene["constraints"]
+            scene = tree(rng, d, n)
+            joints = scene.scene["constraints"]
             doubled = {**rng.choice(joints), "name": "again"}
             for name, constraints, redundant in (
                 ("", joints, []),
                 (", one joint twice", [*joints, doubled], ["again"]),
             ):
-                about = f"{n} bodies in dimension {d}, {seed}{name}", {**made.scene, "constraints": constraints}
-                yield known_scene(*about, because, n, dof=made.dof, redundancy=redundant)
+                about = f"{n} bodies in dimension {d}, {seed}{name}", {**scene.scene, "constraints": constraints}
+                yield known_scene(*about, because, n, dof=scene.dof, redundancy=redundant)
 
 
 def random_loops(quick: bool) -> Iterator[KnownScene]:
@@ -108,10 +108,10 @@ def random_loops(quick: bool) -> Iterator[KnownScene]:
     because = "rates whose screws cancel, by the exact rank: regular where they span all, none where independent"
     for d, n in ((d, n) for n in ((1, 2) if quick else (1, 2, 3, 4, 5, 6)) for d in (2, 3)):
         for seed in range(2 if quick else 4):
-            made = loop(random.Random(f"loop {d} {n} {seed}"), d, n)
-            if made.dof is not None:
+            scene = loop(random.Random(f"loop {d} {n} {seed}"), d, n)
+            if scene.dof is not None:
                 name = f"{n} bodies in dimension {d}, {seed}"
-                yield known_scene(name, made.scene, because, n, dof=made.dof)
+                yield known_scene(name, scene.scene, because, n, dof=scene.dof)
 
 
 def rolling(quick: bool) -> Iterator[KnownScene]:
@@ -126,8 +126,8 @@ def rolling(quick: bool) -> Iterator[KnownScene]:
             ("discs on a line", 2, rolls, n, every(numbered(n), True)),
             ("balls along lines", 3, [*rolls, *held], 4 * n, None),
         ):
-            made = {"dimension": d, "bodies": bodies, "constraints": constraints}
-            yield known_scene(f"{n} {name}", made, because, n, dof=dof, integrability=labels)
+            scene = {"dimension": d, "bodies": bodies, "constraints": constraints}
+            yield known_scene(f"{n} {name}", scene, because, n, dof=dof, integrability=labels)
 
 
 # Long chains
@@ -149,8 +149,8 @@ def pendulums(quick: bool) -> Iterator[KnownScene]:
             ("closed", particles[:-1], closed, []),
         ):
             dof = d * len(members) - n
-            made = {"dimension": d, "particles": members, "constraints": constraints}
-            about = f"{n} links in dimension {d}, {name}", made, because, n
+            scene = {"dimension": d, "particles": members, "constraints": constraints}
+            about = f"{n} links in dimension {d}, {name}", scene, because, n
             if dof >= 0:
                 yield known_scene(*about, dof=dof, redundancy=over)
 
@@ -173,8 +173,8 @@ def chained_bodies(quick: bool) -> Iterator[KnownScene]:
             ("hinged", hinges, n, []),
             ("every third welded first", [*welds, *hinges], n - len(welds), [f"h{k}" for k in range(0, n, 3)]),
         ):
-            made = {"dimension": d, "bodies": names[1:], "constraints": joints}
-            yield known_scene(f"{n} bodies in dimension {d}, {name}", made, because, n, dof=dof, redundancy=over)
+            scene = {"dimension": d, "bodies": names[1:], "constraints": joints}
+            yield known_scene(f"{n} bodies in dimension {d}, {name}", scene, because, n, dof=dof, redundancy=over)
 
 
 FAMILIES = {

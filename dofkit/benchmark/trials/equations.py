@@ -23,8 +23,8 @@ def hidden_relations(quick: bool) -> Iterator[KnownScene]:
         for how, last, dof, over in members:
             if last is None or (dof < 0 and number % 2):
                 continue
-            made = scene_of(row["coordinates"], *row["rows"], last)
-            about = f"{row['name']}, {how}", made, f"{row['implied']} by the rows before", k + 1
+            scene = scene_of(row["coordinates"], *row["rows"], last)
+            about = f"{row['name']}, {how}", scene, f"{row['implied']} by the rows before", k + 1
             yield known_scene(*about, dof=dof, redundancy=over)
 
 
@@ -43,8 +43,8 @@ def rotations(quick: bool) -> Iterator[KnownScene]:
             ("that leave the first axis", ["r00 = 1"], (n - 1) * (n - 2) // 2, []),
             ("of trace beyond n", [trace], -1, []),
         ):
-            made = scene_of(names, *columns, *more)
-            about = f"{n} by {n} {how}", made, "a left inverse is a right one; entries are at most 1", n
+            scene = scene_of(names, *columns, *more)
+            about = f"{n} by {n} {how}", scene, "a left inverse is a right one; entries are at most 1", n
             yield known_scene(*about, dof=dof, redundancy=redundant)
 
 
@@ -89,8 +89,8 @@ def touching(quick: bool) -> Iterator[KnownScene]:
             for how, e, k in (*signs, ("touching", "0", 1)) if digits in (9, 12) else signs:
                 dof, over = row["dof"][k], row["redundant"][k] if digits in (0, 12) else None
                 name = f"{row['name']}, {how}" + (f" by 1e-{digits}" if k != 1 else "")
-                made = scene_of(row["coordinates"], *(text.replace("{e}", e) for text in row["rows"]))
-                about = name, made, because, len(row["rows"])
+                scene = scene_of(row["coordinates"], *(text.replace("{e}", e) for text in row["rows"]))
+                about = name, scene, because, len(row["rows"])
                 yield known_scene(*about, swept={"gap": float(e)}, dof=dof, redundancy=over)
 
 
@@ -105,9 +105,9 @@ def scales(quick: bool) -> Iterator[KnownScene]:
         for row in TABLES["scales"]:
             if row.get("offset") and "holonomic" not in row and power not in FAR:
                 continue
-            made = scene_of(row["coordinates"], *(text.format(r=radius, a=offset) for text in row["rows"]))
+            scene = scene_of(row["coordinates"], *(text.format(r=radius, a=offset) for text in row["rows"]))
             label = {"c1": row["holonomic"]} if "holonomic" in row else None
-            about = f"{row['name']}, {radius}", made, row["because"]
+            about = f"{row['name']}, {radius}", scene, row["because"]
             over = row.get("redundant")
             yield known_scene(
                 *about, swept={"scale": 10.0**power}, dof=row["dof"], integrability=label, redundancy=over
@@ -117,8 +117,8 @@ def scales(quick: bool) -> Iterator[KnownScene]:
 def branches(quick: bool) -> Iterator[KnownScene]:
     """Products: the set is the union of the branches, the freedom that of the largest."""
     for row in TABLES["branches"][: 4 if quick else None]:
-        made = scene_of(row["coordinates"], *row["rows"])
-        about = row["name"], made, row["because"], len(made["coordinates"])
+        scene = scene_of(row["coordinates"], *row["rows"])
+        about = row["name"], scene, row["because"], len(scene["coordinates"])
         yield known_scene(*about, dof=row["dof"], integrability=labels(row.get("holonomic")))
 
 

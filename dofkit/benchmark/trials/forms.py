@@ -189,12 +189,12 @@ def trailers(quick: bool) -> Iterator[KnownScene]:
     controllable = "controllable: the derived system of n + 2 forms goes down to none (Laumond 1993)"
     straight = "its heading stays, so the axle runs straight and one direction is left: all integrate"
     for n in (0, 1) if quick else (0, 1, 2, 4, 8, 16, 24):
-        made = car(n)
-        about = f"a car with {n} trailers", made, controllable, n + 2
+        scene = car(n)
+        about = f"a car with {n} trailers", scene, controllable, n + 2
         labels = every(numbered(n + 2), False)
         yield known_scene(*about, swept={"member": "steers"}, dof=n + 4, integrability=labels)
         if n <= 3:
-            held = {**made, "constraints": ["phi = 0", *made["constraints"]]}
+            held = {**scene, "constraints": ["phi = 0", *scene["constraints"]]}
             about = f"a car with {n} trailers that does not steer", held, straight, n + 2
             labels = every(numbered(n + 3), True)
             yield known_scene(*about, swept={"member": "does not steer"}, dof=1, integrability=labels)

@@ -191,21 +191,21 @@ def _joint(
 ) -> tuple[dict[str, Any], list[list[Fraction]]]:
     """A joint at a random place, and the screws (turn; velocity of the origin) that it allows."""
     at, u = (_vector(rng, dimension) for _ in range(2))
-    made: dict[str, Any] = {"name": name, "type": kind, "between": [first, second]}
+    scene: dict[str, Any] = {"name": name, "type": kind, "between": [first, second]}
     if kind not in ("weld", "prismatic"):
-        made["at"] = [str(x) for x in at[:dimension]]
+        scene["at"] = [str(x) for x in at[:dimension]]
     if dimension == 2:
         if kind == "prismatic":
-            made["axis"] = [str(x) for x in u[:2]]
+            scene["axis"] = [str(x) for x in u[:2]]
         turn: Vector = (Fraction(0), Fraction(0), Fraction(1))
-        return made, {"revolute": [_turn(turn, at)], "prismatic": [_slide(u)], "weld": []}[kind]
+        return scene, {"revolute": [_turn(turn, at)], "prismatic": [_slide(u)], "weld": []}[kind]
     v = _across(u)
     w = cross(u, v)
     if kind == "universal":
-        made["axes"] = [[str(x) for x in u], [str(x) for x in v]]
+        scene["axes"] = [[str(x) for x in u], [str(x) for x in v]]
     elif kind not in ("spherical", "weld"):
-        made["axis"] = [str(x) for x in u]
-    return made, {
+        scene["axis"] = [str(x) for x in u]
+    return scene, {
         "revolute": [_turn(u, at)],
         "prismatic": [_slide(u)],
         "cylindrical": [_turn(u, at), _slide(u)],

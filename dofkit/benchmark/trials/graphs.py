@@ -192,8 +192,8 @@ def braced_grids(quick: bool) -> Iterator[KnownScene]:
             links = [{"type": "link", "between": list(pair)} for pair in pairs]
             links += [{"name": label, "type": "link", "between": [a, b]} for label, a, b in braces]
             particles = [{"name": f"p{i}_{j}", "at": [i, j]} for i in range(m + 1) for j in range(m + 1)]
-            made = {"dimension": 2, "particles": particles, "constraints": links}
-            about = f"{m} by {m} squares, {name} braces", made, because, m
+            scene = {"dimension": 2, "particles": particles, "constraints": links}
+            about = f"{m} by {m} squares, {name} braces", scene, because, m
             yield known_scene(*about, dof=3 + components - 1, redundancy=over)
 
 

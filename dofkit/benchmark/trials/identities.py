@@ -112,8 +112,8 @@ def _in_text(rows: Sequence[str], zero_truth: Mapping[str, Any], other_truth: Ma
 
 def _scene_of_trap(trap: Trap, t: str, texts: Sequence[str], truth: Mapping[str, Any]) -> KnownScene:
     parameters = dict.fromkeys(trap.parameters, "positive") or None
-    made = scene_of(["x", "y", "z", *trap.coordinates], *texts, parameters=parameters)
-    return KnownScene(made, truth, name=f"{t} in {'; '.join(texts)}", group=trap.name)
+    scene = scene_of(["x", "y", "z", *trap.coordinates], *texts, parameters=parameters)
+    return KnownScene(scene, truth, name=f"{t} in {'; '.join(texts)}", group=trap.name)
 
 
 def with_time(trap: Trap, t: str, zero: bool) -> KnownScene | None:
@@ -129,13 +129,13 @@ def triangle(trap: Trap, t: str, zero: bool) -> KnownScene | None:
     if trap.names:
         return None
     places = {"A": [0, 0], "B": [1, 0], "C": [2, t]}
-    made = {
+    scene = {
         "dimension": 2,
         "particles": [{"name": name, "at": at} for name, at in places.items()],
         "constraints": [{"type": "link", "between": pair} for pair in (["A", "B"], ["B", "C"], ["A", "C"])],
     }
     truth = {"dof": 3, "velocity_dof": 3, "instantaneous_dof": 4 if zero else 3, "singular": zero}
-    return KnownScene(made, truth, name=f"a triangle of height {t}", group=trap.name)
+    return KnownScene(scene, truth, name=f"a triangle of height {t}", group=trap.name)
 
 
 CONTEXTS: tuple[Context, ...] = (*(_in_text(*row) for row in TEXTS), with_time, triangle)
@@ -168,8 +168,8 @@ def tiny_steps() -> Iterator[KnownScene]:
 
 def _stepped(row: Mapping[str, Any], step: str, rows: Sequence[str], truth: dict[str, Any]) -> KnownScene:
     texts = [text.replace("{e}", f"({step})") for text in rows]
-    made = scene_of(row.get("coordinates", "x y z"), *texts)
-    return KnownScene(made, truth, name=f"{row['name']}, by {step}", group=row["name"])
+    scene = scene_of(row.get("coordinates", "x y z"), *texts)
+    return KnownScene(scene, truth, name=f"{row['name']}, by {step}", group=row["name"])
 
 
 # Families
@@ -233,8 +233,8 @@ def bases(quick: bool) -> Iterator[KnownScene]:
             (f"a factor 2^({power} x)", "dy", 2, "dz + dy"),
             (f"a contact form by 2^({power} x)", "y dx", 3, "dz + y dx"),
         ):
-            made = scene_of("x y z", f"({2**power})^x dz + 2^({power} x) {second} = 0")
-            about = name, made, f"over the factor: {because}"
+            contact = scene_of("x y z", f"({2**power})^x dz + 2^({power} x) {second} = 0")
+            about = name, contact, f"over the factor: {because}"
             yield known_scene(*about, dof=dof, integrability={"c1": dof == 2})
 
 

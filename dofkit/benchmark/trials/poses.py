@@ -69,8 +69,8 @@ class HingedPose(FrameworkPose):
         for i, (place, axis) in enumerate(row["hinges"]):
             by = {key: row["by"] if (i, key) == (number, part) else [0, 0, 0] for key in ("place", "axis")}
             hinges.append((move(_stepped(place, by["place"], step)), _stepped(axis, by["axis"], step)))
-        made = {**hinged_loop(hinges, row["bodies"]), **more}
-        return _scene_of_pose(name, made, 6 * row["bodies"], 5 * len(hinges), self.freedom(step), swept)
+        scene = {**hinged_loop(hinges, row["bodies"]), **more}
+        return _scene_of_pose(name, scene, 6 * row["bodies"], 5 * len(hinges), self.freedom(step), swept)
 
 
 NEAR = [FrameworkPose(row) for row in tables("poses.yaml")["frameworks"]]

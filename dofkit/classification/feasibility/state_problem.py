@@ -223,27 +223,27 @@ def problems_of(
     finite += [e for e in boundaries if not velocities_of(e)]
     others += [e for e in boundaries if velocities_of(e)]
     places = tuple(ex.coordinate(name) for name in names)
-    rest = {ex.velocity(name): ex.ZERO for name in names}
+    no_velocity = {ex.velocity(name): ex.ZERO for name in names}
     asked = [*finite, *others, *(c.expr for c in conditions)]
     finite = _independent(finite)
     timed = any(ex.TIME in e.symbols for e in asked)
-    still = None if timed else _at_rest(others, conditions, rest)
+    still = None if timed else _at_rest(others, conditions, no_velocity)
     if still is not None:
         yield StateProblem(tuple(finite), still, places, still=True)
     elif not others and not any(map(velocities_of, asked)):
         yield StateProblem(tuple(finite), conditions, places)
     if any(map(velocities_of, asked)) and (timed or others or any(velocities_of(c.expr) for c in conditions)):
         moving = (*(rate(g) for g in finite), *others)
-        yield StateProblem((*finite, *moving), conditions, places, tuple(rest), moving)
+        yield StateProblem((*finite, *moving), conditions, places, tuple(no_velocity), moving)
 
 
 def _at_rest(
-    others: Sequence[Expr], conditions: Sequence[DomainCondition], rest: Mapping[Expr, Expr]
+    others: Sequence[Expr], conditions: Sequence[DomainCondition], no_velocity: Mapping[Expr, Expr]
 ) -> tuple[DomainCondition, ...] | None:
     """The conditions at velocities 0; None where the relations are not satisfied, or have no value, there."""
     try:
-        if all(zero_and_verdict(substitute(e, rest), frozenset()) == (True, "proved") for e in others):
-            return tuple(DomainCondition(substitute(c.expr, rest), c.sense) for c in conditions)
+        if all(zero_and_verdict(substitute(e, no_velocity), frozenset()) == (True, "proved") for e in others):
+            return tuple(DomainCondition(substitute(c.expr, no_velocity), c.sense) for c in conditions)
     except NoValueError:
         pass
     return None

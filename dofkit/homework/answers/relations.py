@@ -216,26 +216,26 @@ class AnswerNames:
         return candidates[0] if len(candidates) == 1 else None
 
 
-def with_explained_names(ways: Iterable[AnswerReading], names: DeclaredNames) -> list[AnswerReading]:
+def with_explained_names(readings: Iterable[AnswerReading], names: DeclaredNames) -> list[AnswerReading]:
     """Return the readings whose undeclared names may stand for something.
 
     They may be constants of integration, other names of declared constants that the answer does not mention, or names
     that several of its relations define. Raises UnknownNameError if there is no such reading.
     """
     kept, failure = [], None
-    for way in ways:
-        strange = [name for name in way.undeclared if name not in names.also and not is_constant_name(name)]
-        sums = [c.left.symbols | c.right.symbols for c in way.relations]
+    for reading in readings:
+        strange = [name for name in reading.undeclared if name not in names.also and not is_constant_name(name)]
+        sums = [c.left.symbols | c.right.symbols for c in reading.relations]
         used = {str(s.args[1]) for symbols in sums for s in symbols if len(s.args) > 1}
         counts = {name: sum(any(s.args[-1] == name for s in symbols) for symbols in sums) for name in strange}
         single = [name for name in strange if counts[name] < 2]
         free = [name for name in names.constants if name not in used]
-        if not single or (len(strange) <= len(free) and not way.moving):
-            kept.append(way)
+        if not single or (len(strange) <= len(free) and not reading.moving):
+            kept.append(reading)
         elif failure is None:
             every = [*sorted(names.with_also.coordinates), *names.names.parameters]
             hint = f"the declared names are {', '.join(every[:12])}"
-            failure = UnknownNameError(f"`{single[0]}` is not declared", way.places.get(single[0], 1), hint)
+            failure = UnknownNameError(f"`{single[0]}` is not declared", reading.places.get(single[0], 1), hint)
     if not kept and failure is not None:
         raise failure
     return kept
@@ -257,20 +257,20 @@ def readings_of(
 
 
 def _readings(pieces: Pieces, vocabulary: AnswerNames) -> Iterator[AnswerReading]:
-    ways: list[tuple[tuple[Comparison, ...], tuple[bool, ...], AnswerNames]] = [((), (), vocabulary)]
+    readings: list[tuple[tuple[Comparison, ...], tuple[bool, ...], AnswerNames]] = [((), (), vocabulary)]
     for n, script in enumerate(pieces.scripts):
         more = []
         script = plainer(script, vocabulary.names)
         if pieces.derived and n + 1 < len(pieces.scripts) and not _readable(script, vocabulary):
             continue
-        for relations, bare, extended in ways:
-            for more_relations, grown in _ways(script, extended):
+        for relations, bare, extended in readings:
+            for more_relations, grown in _spliced_readings(script, extended):
                 alone = len(more_relations) == 1 and not _RELATION.search(script.text)
                 more.append(((*relations, *more_relations), (*bare, *[alone] * len(more_relations)), grown))
-        ways = more
-        if len(ways) > MOST_READINGS:
+        readings = more
+        if len(readings) > MOST_READINGS:
             raise DoubtError("it can be read in many ways.", script.columns[0], "write parentheses")
-    for relations, bare, extended in ways:
+    for relations, bare, extended in readings:
         informative = [c.left != c.right or not extended.usual for c in relations]
         if any(informative) and not all(informative):
             relations = tuple(c for c, kept in zip(relations, informative, strict=True) if kept)
@@ -288,16 +288,16 @@ def _readings(pieces: Pieces, vocabulary: AnswerNames) -> Iterator[AnswerReading
 
 def _readable(script: Script, vocabulary: AnswerNames) -> bool:
     try:
-        return bool(list(_ways(script, vocabulary)))
+        return bool(list(_spliced_readings(script, vocabulary)))
     except TextError:
         return False
 
 
-def _ways(script: Script, vocabulary: AnswerNames) -> Iterator[tuple[tuple[Comparison, ...], AnswerNames]]:
+def _spliced_readings(script: Script, vocabulary: AnswerNames) -> Iterator[tuple[tuple[Comparison, ...], AnswerNames]]:
     """The relations of one piece, in every way, and the names known then."""
     if vocabulary.signs_apart and _SIGNS.search(script.text):
         for up, down in ("+-", "-+"):
-            yield from _ways(script.replaced(_PLUS, up).replaced(_MINUS, down), vocabulary)
+            yield from _spliced_readings(script.replaced(_PLUS, up).replaced(_MINUS, down), vocabulary)
         return
     script = _with_both_signs(script)
     while True:
@@ -313,14 +313,14 @@ def _ways(script: Script, vocabulary: AnswerNames) -> Iterator[tuple[tuple[Compa
                 raise script.moved(error) from None
             start, end = error.span
             kind = error.message.rsplit("`", 1)[-1]
-            for n, way in enumerate(error.readings):
+            for n, reading in enumerate(error.readings):
                 if vocabulary.choice.get(kind, n) != n:
                     continue
-                way = f" {way} "
-                supposing = (n > 0 and _HALF.match(error.readings[0])) or _is_of_constants(way, vocabulary.names)
+                reading = f" {reading} "
+                supposing = (n > 0 and _HALF.match(error.readings[0])) or _is_of_constants(reading, vocabulary.names)
                 rank = vocabulary.rank + bool(supposing)
                 chosen = replace(vocabulary, choice={**vocabulary.choice, kind: n}, rank=rank)
-                yield from _ways(script.spliced(start - 1, end - 1, way), chosen)
+                yield from _spliced_readings(script.spliced(start - 1, end - 1, reading), chosen)
             return
         except UnknownNameError as error:
             grown = vocabulary.with_word(error.name)
@@ -335,9 +335,9 @@ def _ways(script: Script, vocabulary: AnswerNames) -> Iterator[tuple[tuple[Compa
             raise script.moved(error) from None
 
 
-def _is_of_constants(way: str, names: Names) -> bool:
+def _is_of_constants(reading: str, names: Names) -> bool:
     """Return whether a function of constants alone stands before what moves: `sin(omega) t` for `sin omega t`."""
-    function = _FUNCTION_FIRST.match(way)
+    function = _FUNCTION_FIRST.match(reading)
     moving = {"t", *names.coordinates}
     return function is not None and moving.isdisjoint(in_words(word) for word in _WORDS.findall(function["inside"]))
 
@@ -347,7 +347,7 @@ def _as_frequency(
 ) -> Iterator[tuple[tuple[Comparison, ...], AnswerNames]]:
     """Yield the readings in which omega is a frequency, and not the velocity of the only angle."""
     if vocabulary.frequencies and grown is not None and "omega" in set(grown.usual) - set(vocabulary.usual):
-        yield from _ways(
+        yield from _spliced_readings(
             script, replace(vocabulary, undeclared=(*vocabulary.undeclared, "omega"), rank=vocabulary.rank + 1)
         )
 

@@ -69,11 +69,10 @@ def rows(text: str, columns: Columns) -> Iterator[TableRow]:
 
 def _header_fault(names: list[str], student: int, asked: Sequence[Asked], columns: Columns) -> str | None:
     """Return why no row under a header can be graded, or None."""
-    again = (name for i, name in enumerate(names) if name in names[:i] or (i > student and name.casefold() == STUDENT))
-    twice = next(filter(None, again), "")
+    repeats = [n for i, n in enumerate(names) if n and (n in names[:i] or (i > student and n.casefold() == STUDENT))]
     repeated = next((question for question in asked if question and asked.count(question) > 1), None)
-    if twice:
-        return f"has the column '{twice[:60]}' twice"
+    if repeats:
+        return f"has the column '{repeats[0][:60]}' twice"
     if "" in names:
         return f"has no name for column {names.index('') + 1}"
     if repeated is not None:

@@ -145,8 +145,8 @@ class RunReview:
         waiting = len(queue.open_answers())
         if waiting:
             different = "1 answer awaits" if waiting == 1 else f"{waiting} different answers await"
-            again = f"fill in points, then grade again with --reviewed {self.paths.table}"
-            print(f"{different} review in {self.paths.table}: {again}", file=sys.stderr)
+            next_command = f"fill in points, then grade again with --reviewed {self.paths.table}"
+            print(f"{different} review in {self.paths.table}: {next_command}", file=sys.stderr)
 
 
 def queue_of(results: Sequence[Result], prepared: Prepared, links: Sequence[str] = ()) -> Queue:

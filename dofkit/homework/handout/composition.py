@@ -64,7 +64,7 @@ class SheetComposer:
         for n, problem in enumerate(assignment.problems, 1):
             blocks += self._problem(n, problem)
         heading = self._text("How to write answers")
-        blocks += [f"## {heading}", "\n".join(f"- {way}" for way in self._ways())]
+        blocks += [f"## {heading}", "\n".join(f"- {notation}" for notation in self._notations())]
         return "\n\n".join(blocks) + "\n"
 
     def _problem(self, n: int, problem: Problem) -> Iterator[str]:
@@ -135,7 +135,7 @@ class SheetComposer:
         measures = "".join(f", {word} {as_written(value)}" for word, value in sizes.items() if value is not None)
         return marked(described(f"{force.type} {where}{measures}".strip(), self.language))
 
-    def _ways(self) -> Iterator[str]:
+    def _notations(self) -> Iterator[str]:
         """Yield how answers are written, for every kind of question on the sheet."""
         asked = [question for _, question in self.prepared.questions()]
         kinds = {question.kind(): type(question) for question in asked}

@@ -59,76 +59,76 @@ class EquationComparison:
     key: Key
     names: tuple[str, ...]
 
-    def judgement(self, way: AnswerReading) -> Judgement:
+    def judgement(self, reading: AnswerReading) -> Judgement:
         """Return what one reading of an answer is worth; names that nothing explains leave it open."""
-        verdict = self._compared_reading(way)
-        if verdict.status == "wrong" and any(map(_is_rounded, way.relations)):
-            return needs_review(way.text, "it contains rounded numbers.")
-        if verdict.codes == (Sameness.EMPTY.value,) and len(way.relations) > 1 and not way.derived:
-            return self._contradictory(way) or verdict
-        if way.derived and verdict.status != "right":
-            last = self._compared_reading(way.claim)
+        verdict = self._compared_reading(reading)
+        if verdict.status == "wrong" and any(map(_is_rounded, reading.relations)):
+            return needs_review(reading.text, "it contains rounded numbers.")
+        if verdict.codes == (Sameness.EMPTY.value,) and len(reading.relations) > 1 and not reading.derived:
+            return self._contradictory(reading) or verdict
+        if reading.derived and verdict.status != "right":
+            last = self._compared_reading(reading.claim)
             if last.status == "right":
                 return last
-            return needs_review(way.text, "it is not clear whether only the last equation is meant.")
+            return needs_review(reading.text, "it is not clear whether only the last equation is meant.")
         return verdict
 
-    def _contradictory(self, way: AnswerReading) -> Judgement | None:
+    def _contradictory(self, reading: AnswerReading) -> Judgement | None:
         """Of equations that exclude each other some are right: a person has to look. None where none is."""
-        ways = []
-        for relation, bare in zip(way.relations, way.bare, strict=True):
-            single = way._replace(relations=(relation,), bare=(bare,))
+        readings = []
+        for relation, bare in zip(reading.relations, reading.bare, strict=True):
+            single = reading._replace(relations=(relation,), bare=(bare,))
             with suppress(TextError):
                 verdict = self._compared_reading(single)
-                ways.append(JudgedReading(verdict.read_as, verdict.share))
-        if all(share == NOTHING for _, share in ways):
+                readings.append(JudgedReading(verdict.read_as, verdict.share))
+        if all(share == NOTHING for _, share in readings):
             return None
-        return replace(needs_review(way.text, "the answer contradicts itself."), ways=tuple(ways))
+        return replace(needs_review(reading.text, "the answer contradicts itself."), readings=tuple(readings))
 
-    def _compared_reading(self, way: AnswerReading) -> Judgement:
-        if not way.undeclared:
-            return self._declared(way)
-        if not way.on_coordinates:
-            return self._undecided(way)
+    def _compared_reading(self, reading: AnswerReading) -> Judgement:
+        if not reading.undeclared:
+            return self._declared(reading)
+        if not reading.on_coordinates:
+            return self._undecided(reading)
         forms = any(self.key.constraints[name].form == "pfaffian" for name in self.names)
-        if forms and not way.moving and not way.read().moving:
-            verdict = self._verdict(way.read(frozenset(way.undeclared)), way.text)
-            if verdict.status in ("right", "partly") or all(map(is_constant_name, way.undeclared)):
+        if forms and not reading.moving and not reading.read().moving:
+            verdict = self._verdict(reading.read(frozenset(reading.undeclared)), reading.text)
+            if verdict.status in ("right", "partly") or all(map(is_constant_name, reading.undeclared)):
                 return verdict
-        gone = without_own(way, self.key.scene)
+        gone = without_own(reading, self.key.scene)
         if gone is not None:
-            return self._declared(gone, way.text)
-        for other, names in renamed(way, self.key.scene, self.key.declared.constants):
+            return self._declared(gone, reading.text)
+        for other, names in renamed(reading, self.key.scene, self.key.declared.constants):
             verdict = self._declared(other)
             if verdict.status == "right":
                 listing = ", ".join(f"{undeclared_name} = {name}" for undeclared_name, name in names.items())
                 return right(other.text, say("The names were matched to those of the problem: {names}.", names=listing))
-        return self._undecided(way)
+        return self._undecided(reading)
 
-    def _undecided(self, way: AnswerReading) -> Judgement:
+    def _undecided(self, reading: AnswerReading) -> Judgement:
         """Return that an equation needs a review: in coordinates that the assignment offers, or in unknown names."""
-        strange = [name for name in way.undeclared if name not in self.key.also]
-        return needs_review(way.text, undeclared(strange[0]) if strange else _UNDECIDED)
+        strange = [name for name in reading.undeclared if name not in self.key.also]
+        return needs_review(reading.text, undeclared(strange[0]) if strange else _UNDECIDED)
 
-    def _declared(self, way: AnswerReading, text: str = "") -> Judgement:
-        if not way.on_coordinates and way.symbols:
+    def _declared(self, reading: AnswerReading, text: str = "") -> Judgement:
+        if not reading.on_coordinates and reading.symbols:
             raise TextError("the answer contains no coordinates", 1, "write an equation between the coordinates")
-        if any(s.args[0] == "acceleration" for s in way.symbols):
-            return needs_review(way.text, "it contains accelerations.")
-        verdict = self._verdict(way.read(), text or way.text)
+        if any(s.args[0] == "acceleration" for s in reading.symbols):
+            return needs_review(reading.text, "it contains accelerations.")
+        verdict = self._verdict(reading.read(), text or reading.text)
         if verdict.status == "right":
             return verdict
-        region = self._region(way)
+        region = self._region(reading)
         if region is not None or verdict.share != NOTHING:
             return region or verdict
-        return self._with_counterexample(verdict, way)
+        return self._with_counterexample(verdict, reading)
 
-    def _with_counterexample(self, verdict: Judgement, way: AnswerReading) -> Judgement:
+    def _with_counterexample(self, verdict: Judgement, reading: AnswerReading) -> Judgement:
         """Return a judgement with a state, if one is found, that tells the answer from the constraints."""
-        relations = [c.relation for c in way.relations] + [r.sense for r in self._asked]
+        relations = [c.relation for c in reading.relations] + [r.sense for r in self._asked]
         if verdict.codes == (Sameness.EMPTY.value,) or any(relation != "=" for relation in relations):
             return verdict
-        answer, asked = [c.left - c.right for c in way.relations], [r.expr for r in self._asked]
+        answer, asked = [c.left - c.right for c in reading.relations], [r.expr for r in self._asked]
         if verdict.codes == (Sameness.STRONGER.value,):
             sentence, point = _FORBIDS, counterexample(self._others, asked, answer)
         else:
@@ -141,16 +141,16 @@ class EquationComparison:
         system = self.key.system
         return [r for i in system.numbers_of(*self.names) for r in system.constraints[i].relations]
 
-    def _region(self, way: AnswerReading) -> Judgement | None:
+    def _region(self, reading: AnswerReading) -> Judgement | None:
         """Return what inequalities are worth, compared as regions, or None if there are equations."""
-        answer = conditions(way.relations)
+        answer = conditions(reading.relations)
         if answer is None or any(r.sense == "=" for r in self._asked):
             return None
         wanted = [Condition(r.expr, r.sense == ">") for r in self._asked]
         comparison = compared_regions(self._others, wanted, answer)
         if not comparison.beyond and not comparison.lacking:
             same = None not in (comparison.beyond, comparison.lacking)
-            return right(way.text) if same else needs_review(way.text, _UNDECIDED)
+            return right(reading.text) if same else needs_review(reading.text, _UNDECIDED)
         allows = "Your inequality allows {point}, which the constraint forbids."
         forbids = "Your inequality forbids {point}, which the constraint allows."
         hint = say(allows if comparison.beyond else forbids, point=comparison.point) if comparison.point else ""
@@ -158,10 +158,10 @@ class EquationComparison:
         if not comparison.point and {c.strict for c in wanted} != {c.strict for c in answer}:
             without = compared_regions(self._others, *closed)
             if without.beyond is False and without.lacking is False:
-                return needs_review(way.text, "it differs from the constraint on the boundary only.")
+                return needs_review(reading.text, "it differs from the constraint on the boundary only.")
         both = comparison.beyond and comparison.lacking
         sameness = Sameness.DIFFERENT if both else Sameness.WEAKER if comparison.beyond else Sameness.STRONGER
-        return wrong(way.text, sameness.value, why=hint)
+        return wrong(reading.text, sameness.value, why=hint)
 
     def _verdict(self, read: Read, text: str) -> Judgement:
         comparison = self.key.once((self.names, read.texts, read.constants), lambda: self._compared(read))

@@ -26,30 +26,30 @@ _FRESH = ("C", "c", "K", "C_1", "const")
 _LEFT_OUT = "The constant of integration is missing: `... = C`."
 
 
-def integral_judgement(way: AnswerReading, key: Key, name: str) -> Judgement:
+def integral_judgement(reading: AnswerReading, key: Key, name: str) -> Judgement:
     """Return what one reading of an answer is worth as the integral of the constraint of this name."""
-    way = way.claim if way.derived else way
-    if len(way.relations) > 1 and way.undeclared:
-        return _in_parameters(way, key, name)
-    return _judgement(way, key, name)
+    reading = reading.claim if reading.derived else reading
+    if len(reading.relations) > 1 and reading.undeclared:
+        return _in_parameters(reading, key, name)
+    return _judgement(reading, key, name)
 
 
-def _in_parameters(way: AnswerReading, key: Key, name: str) -> Judgement:
+def _in_parameters(reading: AnswerReading, key: Key, name: str) -> Judgement:
     """`x = r cos(a), y = r sin(a)`: one of its names is the parameter of a curve, the others are constants."""
-    for parameter_name in way.undeclared:
-        gone = without_own(way._replace(undeclared=(parameter_name,)), key.scene)
+    for parameter_name in reading.undeclared:
+        gone = without_own(reading._replace(undeclared=(parameter_name,)), key.scene)
         if gone is None:
             continue
-        constants = tuple(n for n in way.undeclared if n != parameter_name)
+        constants = tuple(n for n in reading.undeclared if n != parameter_name)
         verdict = _judgement(gone._replace(undeclared=constants), key, name)
         if verdict.status == "right":
-            return replace(verdict, read_as=way.text)
-    return needs_review(way.text, "it could not be decided in the time available whether this is an integral.")
+            return replace(verdict, read_as=reading.text)
+    return needs_review(reading.text, "it could not be decided in the time available whether this is an integral.")
 
 
-def _judgement(way: AnswerReading, key: Key, name: str) -> Judgement:
+def _judgement(reading: AnswerReading, key: Key, name: str) -> Judgement:
     """The same of one reading, all names of its own constants."""
-    read = _with_constants(way, key)
+    read = _with_constants(reading, key)
     if read.moving:
         return wrong(read.text, "NOT_INTEGRATED")
     remark = "" if read.constants else _LEFT_OUT
@@ -64,17 +64,17 @@ def _judgement(way: AnswerReading, key: Key, name: str) -> Judgement:
     return wrong(read.text, "WRONG_INTEGRAL")
 
 
-def _with_constants(way: AnswerReading, key: Key) -> Read:
+def _with_constants(reading: AnswerReading, key: Key) -> Read:
     """A bare expression is constant: `x y` is x y = C."""
-    constants = set(way.undeclared)
+    constants = set(reading.undeclared)
     relations = []
-    for c, bare in zip(way.relations, way.bare, strict=True):
+    for c, bare in zip(reading.relations, reading.bare, strict=True):
         if bare and not constants:
             fresh = next(n for n in _FRESH if key.names.lookup.meaning(n) is None)
             constants.add(fresh)
             c = Comparison(c.left, "=", parameter(fresh), c.column)
         relations.append(c)
-    return way._replace(relations=tuple(relations)).read(frozenset(constants))
+    return reading._replace(relations=tuple(relations)).read(frozenset(constants))
 
 
 def _leaves(key: Key, read: Read, name: str) -> Leaves:

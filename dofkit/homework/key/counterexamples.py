@@ -58,9 +58,9 @@ def counterexample(
             continue
         apart = not failing or any(not at[n].contains(0) for n in failing)
         if apart and all(at[n] > 0 for n in inside):
-            shown = {to_text(s): float(state.point.symbols[s]) for s in sorted(symbols & named, key=repr)}
+            values_of_names = {to_text(s): float(state.point.symbols[s]) for s in sorted(symbols & named, key=repr)}
             return ", ".join(
-                [*(f"{n} = {v:.3g}" for n, v in shown.items()), *(f"{n} = {v}" for n, v in numbers.items())]
+                [*(f"{n} = {v:.3g}" for n, v in values_of_names.items()), *(f"{n} = {v}" for n, v in numbers.items())]
             )
     return ""
 

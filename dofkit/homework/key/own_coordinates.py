@@ -52,11 +52,11 @@ def _defined(answer: str, names: DeclaredNames) -> ChosenCoordinates | None:
     if "=" not in answer or cut is None or "=" in answer[: cut.start()]:
         return None
     definitions = answer[cut.end() :].rstrip().removesuffix(")") if cut[0][0] == "(" else answer[cut.end() :]
-    way = readings_of(definitions, AnswerNames(names.names))[0]
-    if way.moving or not way.undeclared or any(way.bare):
+    reading = readings_of(definitions, AnswerNames(names.names))[0]
+    if reading.moving or not reading.undeclared or any(reading.bare):
         return None
-    chosen = names_of(answer[: cut.start()], [*names.coordinates, *way.undeclared], "coordinate")
-    return ChosenCoordinates(tuple(chosen), way.undeclared, way.relations)
+    chosen = names_of(answer[: cut.start()], [*names.coordinates, *reading.undeclared], "coordinate")
+    return ChosenCoordinates(tuple(chosen), reading.undeclared, reading.relations)
 
 
 def with_chosen(key: Key, chosen: ChosenCoordinates) -> Key:

@@ -45,8 +45,8 @@ def without_own(reading: AnswerReading, scene: Scene) -> AnswerReading | None:
     sums = [c.left - c.right for c in reading.relations]
     if any(sum(_mentions(e, name) for e in sums) < 2 for name in reading.undeclared):
         return None
-    own = [ex.coordinate(n) if n in reading.moving else ex.parameter(n) for n in reading.undeclared]
-    remaining = _without(sums, own, scene)
+    unknowns = [ex.coordinate(n) if n in reading.moving else ex.parameter(n) for n in reading.undeclared]
+    remaining = _without(sums, unknowns, scene)
     if not remaining or any(_mentions(e, name) for e in remaining for name in reading.undeclared):
         return None
     relations = tuple(Comparison(e, "=", ZERO, 1) for e in remaining)

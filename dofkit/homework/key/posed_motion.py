@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 from dofkit.base.errors import TextError
 from dofkit.expressions import tree as ex
@@ -62,9 +63,9 @@ def motion_readings(answer: Given, names: DeclaredNames, value: bool) -> list[Re
     """Return every way to read an answer, as a value or as equations. Raises TextError."""
     vocabulary = AnswerNames(names.with_also, accelerations=True, frequencies=not value)
     answer = with_energies(answer, names.with_also) if value else answer
-    ways = readings_of(answer, vocabulary, _without_lead if value else None)
-    claims = [way.claim if way.derived else way for way in ways]
-    sides = [side for way in claims for side in (_sides(way) if value else [way])]
+    readings = readings_of(answer, vocabulary, _without_lead if value else None)
+    claims = [reading.claim if reading.derived else reading for reading in readings]
+    sides = [side for reading in claims for side in (_sides(reading) if value else [reading])]
     for side in sides if value else ():
         if sum(side.bare) != 1:
             raise TextError("one expression is needed here", 1, "write the expression alone, such as L = ...")
@@ -72,25 +73,25 @@ def motion_readings(answer: Given, names: DeclaredNames, value: bool) -> list[Re
     return [Reading(side, _shown_reading(side, value), side.rank, not _strange(side, value)) for side in sides]
 
 
-def _strange(way: AnswerReading, value: bool) -> list[str]:
+def _strange(reading: AnswerReading, value: bool) -> list[str]:
     """Return the names of a reading that are not declared and no multipliers."""
-    return [n for n in way.undeclared if value or n in way.moving or not _MULTIPLIER.fullmatch(spelled(n))]
+    return [n for n in reading.undeclared if value or n in reading.moving or not _MULTIPLIER.fullmatch(spelled(n))]
 
 
-def _shown_reading(way: AnswerReading, value: bool) -> str:
-    if value and len(way.relations) == 1:
-        return to_text(way.relations[0].left)
-    return way.text
+def _shown_reading(reading: AnswerReading, value: bool) -> str:
+    if value and len(reading.relations) == 1:
+        return to_text(reading.relations[0].left)
+    return reading.text
 
 
-def _sides(way: AnswerReading) -> list[AnswerReading]:
+def _sides(reading: AnswerReading) -> list[AnswerReading]:
     """Every side of a value told as `A = B`: they should be the same; else the reading itself."""
-    way = _named_value(way)
-    pairs = zip(way.relations, way.relations[1:], strict=False)
-    if any(way.bare) or any(c.relation != "=" for c in way.relations) or any(c.right != d.left for c, d in pairs):
-        return [way]
-    sides = [way.relations[0].left, *(c.right for c in way.relations)]
-    return [way._replace(relations=(Comparison(side, "=", ZERO, 1),), bare=(True,)) for side in sides]
+    reading = _named_value(reading)
+    are_joined = all(c.right == d.left for c, d in pairwise(reading.relations))
+    if any(reading.bare) or not are_joined or any(c.relation != "=" for c in reading.relations):
+        return [reading]
+    sides = [reading.relations[0].left, *(c.right for c in reading.relations)]
+    return [reading._replace(relations=(Comparison(side, "=", ZERO, 1),), bare=(True,)) for side in sides]
 
 
 def _without_lead(script: Script) -> Script:
@@ -100,15 +101,15 @@ def _without_lead(script: Script) -> Script:
     return script.replaced(_CONSTANT, "").replaced(_ZERO, "0")
 
 
-def posed_motion(way: AnswerReading, key: Key, value: bool) -> PosedMotion:
+def posed_motion(reading: AnswerReading, key: Key, value: bool) -> PosedMotion:
     """Return a reading beside the scene. Raises TextError if it defines coordinates that leave configurations out."""
-    way = _defining_constants(way, key)
-    strange = _strange(way, value)
-    multipliers = tuple(ex.parameter(n) for n in way.undeclared if n not in strange)
-    used = {n for c in way.relations for n in _names(c)} & key.also.keys()
+    reading = _defining_constants(reading, key)
+    strange = _strange(reading, value)
+    multipliers = tuple(ex.parameter(n) for n in reading.undeclared if n not in strange)
+    used = {n for c in reading.relations for n in _names(c)} & key.also.keys()
     other = (*strange, *sorted(used))
-    defining = [c for c in way.relations if c.relation == "=" and _defines(c, other)]
-    claims = [c for c in way.relations if c not in defining]
+    defining = [c for c in reading.relations if c.relation == "=" and _defines(c, other)]
+    claims = [c for c in reading.relations if c not in defining]
     defined = {n for c in defining for n in other if n in _names(c)}
     if value and len(claims) != 1:
         raise TextError("one expression is needed here", 1, "write the expression alone, such as L = ...")
@@ -122,24 +123,24 @@ def posed_motion(way: AnswerReading, key: Key, value: bool) -> PosedMotion:
         return PosedMotion(key, tuple(_substituted(c, table) for c in claims), multipliers)
     guesses = tuple(
         PosedMotion(key, guess.relations, multipliers)
-        for guess, _ in renamed(way._replace(undeclared=other), key.scene, key.declared.constants)
+        for guess, _ in renamed(reading._replace(undeclared=other), key.scene, key.declared.constants)
     )
-    return PosedMotion(key, way.relations, multipliers, guesses, other[0])
+    return PosedMotion(key, reading.relations, multipliers, guesses, other[0])
 
 
-def _defining_constants(way: AnswerReading, key: Key) -> AnswerReading:
+def _defining_constants(reading: AnswerReading, key: Key) -> AnswerReading:
     """Without constants of its own that it defines, `omega^2 = g/l`."""
-    still = [n for n in way.undeclared if n not in way.moving]
-    whole = len(way.relations) > 1 and not any(map(_of_constants, way.relations, way.bare))
-    kept = with_constants(way.relations, still, key.scene) if whole else list(way.relations)
-    if len(kept) == len(way.relations):
-        return way
+    still = [n for n in reading.undeclared if n not in reading.moving]
+    whole = len(reading.relations) > 1 and not any(map(_of_constants, reading.relations, reading.bare))
+    kept = with_constants(reading.relations, still, key.scene) if whole else list(reading.relations)
+    if len(kept) == len(reading.relations):
+        return reading
     named = {n for c in kept for n in _names(c)}
-    bare = [b for c, b in zip(way.relations, way.bare, strict=True) if b]
-    return way._replace(
+    bare = [b for c, b in zip(reading.relations, reading.bare, strict=True) if b]
+    return reading._replace(
         relations=tuple(kept),
         bare=tuple(bare + [False] * (len(kept) - len(bare))),
-        undeclared=tuple(n for n in way.undeclared if n in named),
+        undeclared=tuple(n for n in reading.undeclared if n in named),
     )
 
 
@@ -148,16 +149,16 @@ def _of_constants(c: Comparison, bare: bool) -> bool:
     return bare and all(s.args[0] == "parameter" for s in c.left.symbols)
 
 
-def _named_value(way: AnswerReading) -> AnswerReading:
+def _named_value(reading: AnswerReading) -> AnswerReading:
     """`l = m r^2 phidot`: a value under a name that nobody declared."""
-    first = way.relations[0]
+    first = reading.relations[0]
     name = str(first.left.args[1]) if first.left.op == "sym" and first.relation == "=" else ""
-    if len(way.relations) > 1 or name not in way.undeclared or name in way.moving or first.left in first.right.symbols:
-        return way
-    undeclared = tuple(n for n in way.undeclared if n != name)
-    return way._replace(
-        relations=(Comparison(first.right, "=", ZERO, first.column),), bare=(True,), undeclared=undeclared
-    )
+    is_single = len(reading.relations) == 1 and first.left not in first.right.symbols
+    if not is_single or name not in reading.undeclared or name in reading.moving:
+        return reading
+    undeclared = tuple(n for n in reading.undeclared if n != name)
+    value = Comparison(first.right, "=", ZERO, first.column)
+    return reading._replace(relations=(value,), bare=(True,), undeclared=undeclared)
 
 
 def _names(c: Comparison) -> set[str]:

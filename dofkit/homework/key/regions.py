@@ -105,10 +105,10 @@ def _cases(condition: Condition) -> list[list[Condition]]:
     for node in ex.nodes(e):
         if node.op == "fn" and node.args[0] == "abs":
             inside = node.args[1]
-            ways = ((inside, Condition(inside, False)), (-inside, Condition(-inside, True)))
+            sides = ((inside, Condition(inside, False)), (-inside, Condition(-inside, True)))
             return [
                 [side, *case]
-                for value, side in ways
+                for value, side in sides
                 for case in _cases(Condition(replace_nodes(e, {node: value}), strict))
             ]
     for root in _roots(e):

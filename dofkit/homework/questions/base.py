@@ -84,10 +84,10 @@ class QuestionBase(WrittenModel):
     def faults(self, key: Key) -> Iterator[Fault]:
         """Yield the faults of the question for this scene, each at a path within the question."""
         of_coordinate = getattr(self, "constraint", None) is None
-        what, known = ("coordinate", key.coordinates) if of_coordinate else ("constraint", [*key.constraints])
+        what, available = ("coordinate", key.coordinates) if of_coordinate else ("constraint", [*key.constraints])
         for name in self.about:
-            if name not in known:
-                hint = suggestion(name, known, f"{what}s")
+            if name not in available:
+                hint = suggestion(name, available, f"{what}s")
                 yield Fault(f"the scene has no {what} '{name}'", (what,), hint=hint)
 
     def readings(self, answer: Given, names: DeclaredNames) -> list[Reading]:

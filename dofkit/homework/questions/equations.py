@@ -41,8 +41,8 @@ class EquationQuestion(QuestionBase):
     ] = Field(description="the name of the constraint, or several names")
 
     def readings(self, answer: Given, names: DeclaredNames) -> list[Reading]:
-        ways = with_explained_names(readings_of(answer, AnswerNames(names.with_also, accelerations=True)), names)
-        return [Reading(way.with_own(names.also), way.text, way.rank, not way.undeclared) for way in ways]
+        readings = with_explained_names(readings_of(answer, AnswerNames(names.with_also, accelerations=True)), names)
+        return [Reading(r.with_own(names.also), r.text, r.rank, not r.undeclared) for r in readings]
 
     def solution(self, key: Key) -> Sentence:
         return say("A correct answer is {text}.", text=equations_of(key, self.constraint))
@@ -74,8 +74,8 @@ class IntegralQuestion(QuestionBase):
     def readings(self, answer: Given, names: DeclaredNames) -> list[Reading]:
         if is_none(answer, _says_relation):
             return [Reading(None, "none")]
-        ways = readings_of(answer, AnswerNames(names.names, signs_apart=True), _undifferentiated)
-        return [Reading(way, way.text, way.rank, all(map(is_constant_name, way.undeclared))) for way in ways]
+        readings = readings_of(answer, AnswerNames(names.names, signs_apart=True), _undifferentiated)
+        return [Reading(r, r.text, r.rank, all(map(is_constant_name, r.undeclared))) for r in readings]
 
     def solution(self, key: Key) -> Sentence:
         entry = key.constraints[self.constraint]

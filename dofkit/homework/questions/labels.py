@@ -54,8 +54,8 @@ class LabelQuestion(QuestionBase):
         hinted = [p for p in self.parts if p not in labels and mentions(p, answer)]
         if hinted:
             raise DoubtError("a property is described but not named.", 1, None)
-        ways = product(*([(p, holds) for holds in sorted(labels[p], reverse=True)] for p in TERMS if p in labels))
-        return [Reading(dict(way), label_text(dict(way))) for way in ways]
+        choices = product(*([(p, holds) for holds in sorted(labels[p], reverse=True)] for p in TERMS if p in labels))
+        return [Reading(dict(holding), label_text(dict(holding))) for holding in choices]
 
     def solution(self, key: Key) -> Sentence:
         truth = truths(key.constraints[self.constraint])

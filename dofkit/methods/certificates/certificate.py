@@ -51,7 +51,7 @@ LAST = (
 HINDRANCES = (CheckError, NoEstimateError, RecursionError, KeyError, ValueError, ZeroDivisionError, OverflowError)
 
 
-def made(document: Mapping[str, Any], report: Report) -> tuple[dict[str, Any], list[tuple[str, str]]]:
+def certificate_of(document: Mapping[str, Any], report: Report) -> tuple[dict[str, Any], list[tuple[str, str]]]:
     """The certificate of the claims that the checker accepts, and the claims that evidence contradicts, with why."""
     making = Certifying(document, report)
     return making.written(), list(making.contradictions.items())

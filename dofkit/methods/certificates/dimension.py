@@ -309,23 +309,23 @@ def _motions_from(context: Context, standing: Standing, size: int) -> Iterator[T
 def _isolated(context: Context, standing: Standing) -> Iterator[Told]:
     """Yield directions in which another relation has a derivative that is not 0, of the lowest order."""
     free = [q for q in context.problem.coordinates if q not in standing.columns]
-    ways = [{q: 1} for q in free] + [{a: 1, b: sign} for a, b in combinations(free, 2) for sign in SIGNS]
+    directions = [{q: 1} for q in free] + [{a: 1, b: sign} for a, b in combinations(free, 2) for sign in SIGNS]
     for order in range(2, HIGHEST_ORDER + 1):
         for zero in standing.dependent:
-            for way in ways:
-                if abs(_bends(context, standing, zero, way, order)) > FAR:
-                    speeds = {q: str(value) for q, value in way.items()}
+            for direction in directions:
+                if abs(_bends(context, standing, zero, direction, order)) > FAR:
+                    speeds = {q: str(value) for q, value in direction.items()}
                     rows = {"minor": context.minor(standing), "zero": zero, "speeds": speeds}
                     yield {"rule": "isolated", **rows, "order": order}
                     return
 
 
-def _bends(context: Context, standing: Standing, zero: str, way: dict[str, int], order: int) -> float:
+def _bends(context: Context, standing: Standing, zero: str, direction: dict[str, int], order: int) -> float:
     """Return the derivative of a relation in a direction, or 0 where it has none."""
     evidence = context.scenery.evidence
     try:
         minor = evidence.minor(context.minor(standing))
-        speeds = {q: arb(value) for q, value in way.items()}
+        speeds = {q: arb(value) for q, value in direction.items()}
         return float(along_curve(evidence, minor, speeds, evidence.relation(zero).tree, order).mid())
     except (CheckError, ArithmeticError):
         return 0.0

@@ -128,11 +128,11 @@ class Scenery:
         """A tree with the functions chosen."""
         if not self.functions:
             return tree
-        made = {
+        bodies_of_functions = {
             name: (tuple(f["arguments"]), self.evidence.text(f["text"], f["arguments"]))
             for name, f in self.functions.items()
         }
-        return substituted(tree, {}, made)
+        return substituted(tree, {}, bodies_of_functions)
 
     def differs(self, tree: Tree, estimates: Estimates) -> bool:
         """Return whether a tree is not 0 at a point, by far."""

@@ -116,10 +116,10 @@ def _gives(scenery: Scenery, name: str, q: str) -> bool:
     """Return whether an equation is linear in a coordinate with a factor that is nowhere 0."""
     evidence = scenery.evidence
 
-    def look() -> bool:
+    def is_refuted() -> bool:
         return evidence.is_nowhere_zero(put_in(ZERO, q, evidence.relation(name).tree)[0])
 
-    return evidence.once(("gives", name, q), look)
+    return evidence.once(("gives", name, q), is_refuted)
 
 
 def with_puts(scenery: Scenery, tree: Tree, order: Order) -> Tree:

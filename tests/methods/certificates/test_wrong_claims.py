@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 import dofkit
-from dofkit.methods.certificates.certificate import made
+from dofkit.methods.certificates.certificate import certificate_of
 from dofkit.methods.certificates.lowering import document_of_scene
 
 ROOT = Path(__file__).parents[3]
@@ -44,7 +44,7 @@ def certified(
     report = dofkit.classify(loaded).model_copy(update=changes)
     last = report.constraints[-1].model_copy(update=entry or {})
     report = report.model_copy(update={"constraints": [*report.constraints[:-1], last]})
-    return made(document_of_scene(loaded), report)
+    return certificate_of(document_of_scene(loaded), report)
 
 
 def unconfirmed(scene: Any, entry: dict[str, Any] | None = None, **changes: Any) -> set[str]:
