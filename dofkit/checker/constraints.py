@@ -201,7 +201,7 @@ def coincident(world: Surroundings, entry: Entry) -> Iterator[Tree]:
 
 
 def slot(world: Surroundings, entry: Entry) -> Iterator[Tree]:
-    """The point does not leave the line across its axis."""
+    """The point stays on the line along the axis: it has no offset across it."""
     point, frame = world.point(entry["point"]), world.frames[entry["body"]]
     across = world.direction(entry.get("axis"))[1]
     place = point.start if "at" not in entry and point.start else world.place(entry.get("at"))

@@ -135,7 +135,7 @@ def _rank(evidence: CheckedEvidence, minor: CheckedMinor, names: tuple[str, ...]
 def independence(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     """How many equations a constraint adds to those before it, where finite equations come before those of velocities.
 
-    Of the last finite constraint: by how much the dimension falls, from a manifold to a dof that was verified there.
+    For the last finite constraint the rank after it may be taken as n - dof, where the dof was verified there.
     """
     minor, order = evidence.minor(claim["minor"]), evidence.equations
     evidence.is_about("here", minor.point)
@@ -146,7 +146,7 @@ def independence(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
         place = order.index(rows[0])
         before, upto = order[:place], order[: place + len(rows)]
         last = "last" in claim and "/dof at" in verified and not evidence.moving and upto == order
-        after = same_place(evidence, minor.point, verified) if last else _rank(evidence, minor, upto)
+        after = verified_rank(evidence, minor.point, verified) if last else _rank(evidence, minor, upto)
         added += min(len(rows), after - _rank(evidence, minor, before))
     return added
 
@@ -165,7 +165,7 @@ def redundant(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[st
         for name in order:
             other = evidence.minor(claim["without"][name])
             whole = set(other.rows) == every.difference(evidence.owned(name))
-            larger = whole and same_place(evidence, other.point, verified) > len(other.rows)
+            larger = whole and verified_rank(evidence, other.point, verified) > len(other.rows)
             refuse(not larger, f"without `{name}` the others are no manifold, or as large")
         verified["apart"] = True
         return []
@@ -213,8 +213,8 @@ def _is_general(evidence: CheckedEvidence, name: str) -> bool:
     return all(evidence.ring.rational(slope) is not None for slope in slopes) or bool(evidence.own_symbol(name))
 
 
-def same_place(evidence: CheckedEvidence, point: CheckedPoint, verified: Told, exempt: Any = ()) -> int:
-    """n less the dof that was verified near the point; of angles ``exempt`` it is told beside the point."""
+def verified_rank(evidence: CheckedEvidence, point: CheckedPoint, verified: Told, exempt: Any = ()) -> int:
+    """Return n - dof, if the dof was verified at this point; in the angles ``exempt`` the point may differ from it."""
     place = evidence.is_about("here", point, exempt)
     refuse(verified.get("/dof at") not in (None, place), "dof was verified at another point")
     return len(evidence.problem.coordinates) - int(verified["/dof"])
@@ -237,7 +237,8 @@ def generalized_coordinates(evidence: CheckedEvidence, claim: Told, verified: To
     turned = [angles for angles in evidence.problem.turns if angles[1] not in other.columns or {*angles} <= still]
     if turned:
         evidence.accounts(minor, evidence.finite)
-    refuse(same_place(evidence, minor.point, verified, turned) != len(minor.rows), "their number is not a verified dof")
+    rank = verified_rank(evidence, minor.point, verified, turned)
+    refuse(rank != len(minor.rows), "their number is not a verified dof")
     evidence.on_set(minor.point, evidence.finite)
     return names_told(claim)
 
@@ -254,7 +255,7 @@ def growth(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[int]:
     ]
     refuse(evidence.timed and not any(verified.get(label) is False for label in labels), "time may be divided out")
     minor = evidence.accounts(evidence.minor(claim["minor"]), evidence.equations)
-    whole = len(evidence.problem.coordinates) - same_place(evidence, minor.point, verified) + evidence.timed
+    whole = len(evidence.problem.coordinates) - verified_rank(evidence, minor.point, verified) + evidence.timed
     refuse(not evidence.moving or not all(map(evidence.is_linear, evidence.moving)), "a growth vector is of forms")
     point, fields = admissible(evidence, claim, evidence.equations)
     rank, vector = len(evidence.problem.coordinates) + evidence.timed - len(minor.rows), list[int]()

@@ -4,7 +4,7 @@ from collections.abc import Collection, Sequence
 from itertools import combinations
 from typing import Any
 
-from dofkit.checker.dimension_rules import names_told, same_place
+from dofkit.checker.dimension_rules import names_told, verified_rank
 from dofkit.checker.evidence import CheckedEvidence, Told, admissible, involutive, of_word
 from dofkit.checker.point import CheckedPoint
 from dofkit.checker.trees import (
@@ -235,7 +235,7 @@ def integrable_part(evidence: CheckedEvidence, claim: Told, verified: Told) -> T
         return part
     minor, steps = evidence.minor(claim["minor"]), claim.get("steps", [])
     whole = set(steps) <= set(minor.rows) <= {*steps, *evidence.finite} and len(minor.rows) == part["rank"]
-    refuse(same_place(evidence, minor.point, verified) != part["rank"] or not whole, "the minor is not of the basis")
+    refuse(verified_rank(evidence, minor.point, verified) != part["rank"] or not whole, "the minor is not of the basis")
     for text, name in zip(part["basis"], steps, strict=True):
         function, checked = told_integral(evidence, text), evidence.relation(name)
         refuse(not checked.leaf, "a relation of the basis is an integral")

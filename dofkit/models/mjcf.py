@@ -62,7 +62,7 @@ def read(file: ModelFile) -> ModelDocument:
 
 @dataclass
 class _MjcfScene:
-    """The scene while it is written: ``stands`` has the body of each body of MuJoCo, ``names`` that of each joint.
+    """The scene while it is written: ``carriers`` has the body of each body of MuJoCo, ``names`` that of each joint.
 
     ``loops``: more than joints holds bodies together. Without that no place is special, whatever the digits.
     """
@@ -70,7 +70,7 @@ class _MjcfScene:
     model: CompiledModel
     draft: SceneDraft
     limits: bool
-    stands: list[str] = field(default_factory=list)
+    carriers: list[str] = field(default_factory=list)
     names: dict[int, str] = field(default_factory=dict)
     loops: bool = False
 
@@ -89,10 +89,10 @@ class _MjcfScene:
         still, markers = [], []
         for i, body in enumerate(self.content["bodies"]):
             if body["static"]:
-                self.stands.append(GROUND)
+                self.carriers.append(GROUND)
                 still += [body["name"]] if i and body["name"] else []
             elif not body["joints"] and not body["mass"] and i not in used | parents:
-                self.stands.append(self.stands[body["parent"]])
+                self.carriers.append(self.carriers[body["parent"]])
                 markers.append(body["name"])
             else:
                 self._body(i, body)
@@ -109,7 +109,7 @@ class _MjcfScene:
     def _body(self, index: int, body: Mapping[str, Any]) -> None:
         name = body["name"] or f"body_{index}"
         line = self.line.get(("body", body["name"]))
-        below = self.stands[body["parent"]]
+        below = self.carriers[body["parent"]]
         joints = [(j, self.content["joints"][j]) for j in body["joints"]]
         for j, joint in joints[:-1]:
             called = joint["name"] or f"{name}_{joint['kind']}_{j}"
@@ -119,7 +119,7 @@ class _MjcfScene:
             below = between
         inner = self.draft.body(name, line, mass=number(body["mass"]), inertia=inertia_of(body["inertia"]))
         self.draft.place(inner, body["centre"])
-        self.stands.append(inner)
+        self.carriers.append(inner)
         if joints:
             self._joint(*joints[-1], (below, inner))
         else:
@@ -141,7 +141,7 @@ class _MjcfScene:
         if not entry["active"]:
             self.draft.leave_out(f"the equality {name}: it is switched off")
         elif kind in ("connect", "weld"):
-            ends = [(self.stands[body], vector(at)) for body, at in entry["ends"]]
+            ends = [(self.carriers[body], vector(at)) for body, at in entry["ends"]]
             if ends[0][0] == ends[1][0]:
                 self.draft.leave_out(f"the equality {name}: both of its ends belong to {ends[0][0]}")
                 return
@@ -185,7 +185,7 @@ class _MjcfScene:
         tendon = self.content["tendons"][index]
         if any(step["kind"] != "site" for step in tendon["path"]):
             return False
-        ends = [(self.stands[step["end"][0]], vector(step["end"][1])) for step in tendon["path"]]
+        ends = [(self.carriers[step["end"][0]], vector(step["end"][1])) for step in tendon["path"]]
         along = [at if body == GROUND else {"on": body, "at": at} for body, at in ends]
         self.loops = True
         fields = {} if not more else {"length": number(tendon["zero"] + more)}

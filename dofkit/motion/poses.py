@@ -142,7 +142,7 @@ class PoseRelations:
         return j / np.where(norms > FLAT, norms, 1.0)[:, None]
 
     def margins(self, pose: Pose) -> list[float]:
-        """What the limits are at a pose; nothing where one has no value."""
+        """Return the values of the inequalities at a pose, negative where one is violated; none if one has no value."""
         try:
             at = values(self.limiting, self._point(pose)[0])
         except FAULTS:

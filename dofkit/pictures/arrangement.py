@@ -235,7 +235,7 @@ def _hanging(graph: nx.Graph, fixed: Mapping[str, Sequence[float]], d: int) -> d
 
 
 def _spatial_poses(system: System, numbers: Mapping[Expr, float], gibbs: bool) -> dict[str, Displacement]:
-    """Return where the bodies of space are; ``gibbs``: rotations are in the system's own charts, not Euler's angles."""
+    """Return how each body in space is displaced from its start; ``gibbs``: rotations are in the system's charts."""
     poses = {}
     for r in system.rotations:
         at = np.array([numbers.get(coordinate(c.name), 0.0) for c in system.coordinates if c.owner == r.body])

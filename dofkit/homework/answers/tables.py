@@ -99,12 +99,12 @@ def _split(name: str) -> tuple[str, str]:
     return problem.strip(), question.strip()
 
 
-def _row(row: SpreadsheetRow, student: int, asked: Sequence[Asked], fault: str | None) -> TableRow:
+def _row(row: SpreadsheetRow, student_column: int, asked: Sequence[Asked], fault: str | None) -> TableRow:
     cells, error, width = row.cells, row.error or fault, len(asked)
-    name = clean(cells[student]).strip() if 0 <= student < len(cells) else ""
+    name = clean(cells[student_column]).strip() if 0 <= student_column < len(cells) else ""
     if error is None and (len(cells) < width or any(cell.strip() for cell in cells[width:])):
         error = f"the row has {len(cells)} cells, the header {width}"
-    if error is None and student >= 0 and not name:
+    if error is None and student_column >= 0 and not name:
         error = "the row has no student"
     if error is None and any(clean(cell) != cell for cell in cells):
         error = "the row is not in UTF-8 (save the table as UTF-8)"

@@ -88,6 +88,7 @@ class Key:
         return self.once((names, texts), lambda: self._with_own(names, texts))
 
     def _with_own(self, names: tuple[str, ...], texts: tuple[str, ...]) -> Key:
+        """Return the key of the same scene with coordinates and equations that a student introduced."""
         more = tuple(Equation(name=f"own {i + 1}", text=text) for i, text in enumerate(texts))
         update = {
             "coordinates": (*self.scene.coordinates, *names),

@@ -85,7 +85,7 @@ def _shown_reading(reading: AnswerReading, value: bool) -> str:
 
 
 def _sides(reading: AnswerReading) -> list[AnswerReading]:
-    """Every side of a value told as `A = B`: they should be the same; else the reading itself."""
+    """Return each side of a value `A = B` as a reading of its own, for each should be right; else the reading."""
     reading = _named_value(reading)
     are_joined = all(c.right == d.left for c, d in pairwise(reading.relations))
     if any(reading.bare) or not are_joined or any(c.relation != "=" for c in reading.relations):

@@ -307,21 +307,21 @@ def _motions_from(context: Context, standing: Standing, size: int) -> Iterator[T
 
 
 def _isolated(context: Context, standing: Standing) -> Iterator[Told]:
-    """Yield directions in which another relation has a derivative that is not 0, of the lowest order."""
+    """Yield the rule `isolated`: a dependent relation has a derivative along a free direction, of the lowest order."""
     free = [q for q in context.problem.coordinates if q not in standing.columns]
     directions = [{q: 1} for q in free] + [{a: 1, b: sign} for a, b in combinations(free, 2) for sign in SIGNS]
     for order in range(2, HIGHEST_ORDER + 1):
         for zero in standing.dependent:
             for direction in directions:
-                if abs(_bends(context, standing, zero, direction, order)) > FAR:
+                if abs(_derivative_along(context, standing, zero, direction, order)) > FAR:
                     speeds = {q: str(value) for q, value in direction.items()}
                     rows = {"minor": context.minor(standing), "zero": zero, "speeds": speeds}
                     yield {"rule": "isolated", **rows, "order": order}
                     return
 
 
-def _bends(context: Context, standing: Standing, zero: str, direction: dict[str, int], order: int) -> float:
-    """Return the derivative of a relation in a direction, or 0 where it has none."""
+def _derivative_along(context: Context, standing: Standing, zero: str, direction: dict[str, int], order: int) -> float:
+    """Return the derivative of this order of the relation ``zero`` along a curve in a direction, or 0 without one."""
     evidence = context.scenery.evidence
     try:
         minor = evidence.minor(context.minor(standing))

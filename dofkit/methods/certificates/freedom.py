@@ -123,7 +123,10 @@ def _needed(context: Context) -> Iterator[Told]:
 
 
 def generalized_coordinates(context: Context) -> Iterator[Told]:
-    """The other coordinates are functions of these."""
+    """Yield evidence that the other coordinates are functions of the chosen ones.
+
+    Where the second angle of a body is tied to others, a second minor shows the rank without it as well.
+    """
     chosen = context.report.generalized_coordinates
     finite = context.finite_standing
     if chosen is None or finite is None:

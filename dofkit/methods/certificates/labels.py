@@ -226,7 +226,7 @@ def _reached(context: Context, owner: str, alone: bool) -> Told | None:
 
 
 def _integrated(context: Context, entry: ConstraintEntry) -> Told | None:
-    """Return the rule `integral`, by a step for the integral that is claimed and one by which the form follows."""
+    """Return the rule `integral` for a constraint of one equation whose integral is known, or None."""
     names = context.scenery.evidence.owned(entry.name)
     if len(names) != 1 or context.point is None or (step := integral_alone(context, entry, names[0])) is None:
         return None

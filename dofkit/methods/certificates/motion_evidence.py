@@ -53,8 +53,9 @@ class MotionEvidence:
         self.context, self.motion, self.evidence = context, motion, context.scenery.evidence
         self.problem: Problem = context.problem
         self.constants = self._constants()
-        self.places = {q: self.read(text) for q, text in motion["eliminated"].items()}
-        self.limits = dict(zip(motion["multipliers"], map(self.read, motion["constraints"]), strict=True))
+        self.eliminated = {q: self.read(text) for q, text in motion["eliminated"].items()}
+        constraints = map(self.read, motion["constraints"])
+        self.constraint_of_multiplier = dict(zip(motion["multipliers"], constraints, strict=True))
 
     def _constants(self) -> dict[str, str]:
         """Names in the eliminated coordinates that are none of the scene's: constants of integration."""
@@ -75,7 +76,7 @@ class MotionEvidence:
         """Claims, one point after another."""
         claim: Told = {"path": PATH, "value": self.motion, "rule": "lagrange", "c": self.cofactors()}
         claim |= {"constants": self.constants} if self.constants else {}
-        size = len(self.places) + len(self.limits)
+        size = len(self.eliminated) + len(self.constraint_of_multiplier)
         for point in self.points() if size else ():
             standing = self.context.standing_of(self.context.equations, point=point)
             if standing is not None and len(standing.rows) == size:
@@ -95,12 +96,12 @@ class MotionEvidence:
     def cofactors(self) -> dict[str, dict[str, str]]:
         """For every relation that is not 0 where coordinates are put in, the constraint whose multiple it is."""
         rates = {**{q: symbol(f"{q}dot") for q in self.problem.coordinates}, "t": ONE}
-        put: dict[str, Tree] = {"tdot": ONE, **self.places}
-        put |= {f"{q}dot": along(rates, tree) for q, tree in self.places.items()}
+        put: dict[str, Tree] = {"tdot": ONE, **self.eliminated}
+        put |= {f"{q}dot": along(rates, tree) for q, tree in self.eliminated.items()}
         multiples, ring = {}, self.evidence.ring
         for name in self.evidence.equations:
             residue = substituted(self.evidence.relation(name).tree, put)
-            for multiplier, tree in self.limits.items() if not ring.vanishes(residue) else ():
+            for multiplier, tree in self.constraint_of_multiplier.items() if not ring.vanishes(residue) else ():
                 ratio = ring.rational(times(residue, power(tree, MINUS)))
                 if ratio is not None:
                     multiples[name] = {multiplier: number_text(Fraction(int(ratio.p), int(ratio.q)))}
@@ -113,7 +114,7 @@ class MotionEvidence:
             if (configuration := search.reference()) is not None:
                 yield configuration
             return
-        if not self.limits:
+        if not self.constraint_of_multiplier:
             yield from filter(None, map(self._put_in, range(MOST_POINTS)))
         elif self.context.point is not None:
             yield self.context.point
@@ -127,7 +128,7 @@ class MotionEvidence:
         floats = {name: float(value) for name, value in values.items()}
         numbers = {name: number(value) for name, value in values.items()}
         try:
-            for q, tree in self.places.items():
+            for q, tree in self.eliminated.items():
                 texts[q] = text_of(substituted(tree, numbers))
                 floats[q] = Estimates(floats).value(self.context.scenery.chosen(tree))
         except HINDRANCES:
