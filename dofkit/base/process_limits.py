@@ -47,7 +47,8 @@ class LateError(BaseException):
 def interrupting(seconds: float) -> Iterator[None]:
     """Raise LateError in this block once it has used so many seconds of processor time, where there are such timers.
 
-    A library that handles no signals meanwhile is ended by the system soon after. Only in the main thread.
+    Where a library's C code handles no signal, the system ends the process `SPARE` seconds later. Only in the main
+    thread.
     """
     if sys.platform == "win32":
         yield

@@ -193,6 +193,7 @@ class Worker:
     """
 
     def __init__(self, memory: int = MEMORY, modules: Sequence[str] = (), *, fork: bool = False) -> None:
+        """``memory``: the limit of its address space in bytes; ``modules``: what it imports before its first job."""
         self.memory = memory
         self.modules = tuple(modules)
         self._fork = fork

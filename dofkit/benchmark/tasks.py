@@ -163,7 +163,7 @@ def _gap(trial: Trial) -> str | None:
 
 
 def _groups(trials: Iterable[Trial], key: Callable[[Trial], str | None], most: int) -> Iterator[tuple[Trial, str]]:
-    """Yield small trials of each group, with its name."""
+    """Yield at most ``most`` small trials of each question for each group, a value of ``key``, with its name."""
     for group, members in grouped((t for t in trials if t.size <= SMALL), key).items():
         if group is not None:
             yield from ((trial, group) for trial in _spread(members, most))

@@ -246,15 +246,16 @@ class CheckedRelations(CheckedTexts):
         missing = missing and missing - self.closure(start, point)
         refuse(missing, f"`{min(missing, default='')}` is not shown to follow from {what}")
 
-    def applies(self, place: int, point: CheckedPoint | None) -> bool:
+    def applies(self, number: int, point: CheckedPoint | None) -> bool:
         """Whether the conditions of a consequence hold near a point, at all velocities; without a point, everywhere."""
-        consequence = self.consequences[place]
+        consequence = self.consequences[number]
         if point is None:
             return (
                 consequence.at is None
                 and not consequence.nonzero
                 and all(map(self.has_value_everywhere, consequence.defined))
             )
+        # a ball that holds all velocities, as near as a ball can: a motion may be slowed down
         wide = {v: arb(0, 10**30) for v in self.velocities}
 
         def evaluate() -> bool:
@@ -264,7 +265,7 @@ class CheckedRelations(CheckedTexts):
                 return False
             return consequence.at in (None, point.name) and all(map(not_zero, values[: len(consequence.nonzero)]))
 
-        return self.once(("met", place, point.name), evaluate)
+        return self.once(("met", number, point.name), evaluate)
 
 
 def fault_text(error: Exception) -> str:

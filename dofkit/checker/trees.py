@@ -326,6 +326,7 @@ def evaluated(tree: Tree, values: Mapping[str, Any], effort: Effort) -> Any:
 
 
 def _value(node: Tree, values: Mapping[str, Any], below: tuple[Any, ...]) -> Any:
+    """Return the ball of a node from the values of the nodes below it; refuse where it may have no smooth value."""
     head = node.head
     if isinstance(node.value, Fraction):
         return arb(fmpq(node.value.numerator, node.value.denominator))

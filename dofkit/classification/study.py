@@ -192,7 +192,7 @@ def singular(study: Study) -> Decided:
 
 
 def lecture_count(study: Study) -> Count:
-    """f = N d - k beside the truth."""
+    """Return the textbook count f = N d - k, with the reason why it differs from the freedom."""
     reduced, outcome = study.reduced, study.outcome
     written = sum(all(isinstance(p, Finite) for p in normal.pieces) for r in reduced for normal in r.normals)
     hidden = sum(len(a.hidden) for a in outcome.answers)

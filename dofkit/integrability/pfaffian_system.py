@@ -124,7 +124,10 @@ def confinements(forms: Codistribution, variety: Variety) -> tuple[tuple[Expr, .
 
 
 def prolong(alternatives: Sequence[Sequence[Expr]], setting: Setting) -> tuple[tuple[Expr, ...], ...] | None:
-    """The branches of hidden relations; none where they cannot hold, None where they have too many together."""
+    """Return the branches on which the relations of some alternative vanish together, ``((),)`` for no alternatives.
+
+    Empty where no alternative can vanish, None where there are too many branches, or it is not known.
+    """
     if not alternatives:
         return ((),)
     options = [_joint_branches(alternative, setting) for alternative in alternatives]

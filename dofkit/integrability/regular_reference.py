@@ -63,7 +63,7 @@ def regular_reference(
 
 
 def _is_regular(forms: Codistribution, point: FieldPoint) -> bool:
-    """Return whether rows that depend on others at the point depend on them along a generic curve through it.
+    """Return whether rows that depend on others at the point do so along a generic curve through it: constant rank.
 
     On the fields X with A_d X_d = -A_f X_f, where A holds the independent rows, every other row has to vanish.
     """

@@ -61,6 +61,7 @@ class RationalPoint:
         return fmpq(self.rng.randrange(1, 97), self.rng.choice((3, 5, 7, 8)))
 
     def generator(self, var: Var, args: Sequence[Scalar]) -> Scalar:
+        """Return the value of a generator of the ring at this point, chosen when it is first asked for."""
         key = var.key if var.kind == "symbol" else (var.kind, var.key)
         if key not in self.values:
             self._set(key, var, args)

@@ -65,7 +65,7 @@ def in_general_position(system: System, rows: Sequence[Row], setting: Setting) -
 
 
 def linked_particles(system: System) -> list[tuple[int, Pair]] | None:
-    """Return the ends of every link, with its constraint; None where not only links join particles."""
+    """Return the ends of every link, with its constraint; None unless every connection consists of links."""
     particles = set(system.particles)
     if not all(c.facts.bars and particles.issuperset(c.members) for c in system.connections):
         return None

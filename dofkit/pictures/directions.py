@@ -77,7 +77,7 @@ class Distribution:
 
 
 def element(q: Iterable[float], directions: Array, size: float, role: Role = "field") -> Iterator[Shape]:
-    """Yield the admissible directions at a point: a short line, or a small disc."""
+    """Yield the symbol of the admissible directions at a point: a short line, a disc for two, a ball for three."""
     middle = np.array(place(q))
     spanned = _orthonormal(directions)
     if len(spanned) == 1:

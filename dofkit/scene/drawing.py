@@ -129,7 +129,7 @@ def _diameter(points: list[tuple[float, ...]]) -> float:
 
 
 def _extremes(points: list[tuple[float, ...]]) -> list[tuple[float, ...]]:
-    """Return the points that reach furthest in one of a few dozen directions."""
+    """Return the points that reach furthest along axes and diagonals, enough to measure how large the drawing is."""
     extremes = set()
     for direction in every_product((-1, 0, 1), repeat=len(points[0])):
         if direction > (0,) * len(direction):

@@ -68,7 +68,7 @@ def _claim(verdict: Verdict) -> Claim:
 
 
 def _circuits(removal: Removal, order: Sequence[int], redundant: Sequence[int]) -> dict[int, list[int]]:
-    """For each constraint that can go a minimal set of those kept from which it follows; none where that is open."""
+    """Return for each redundant constraint a minimal set of the others that imply it, as far as time allows."""
     result = {}
     others = [o for o in order if o not in redundant]
     for owner in redundant:

@@ -199,6 +199,7 @@ class RealSearch:
     def _refined(
         self, symbols: Mapping[Expr, float], rows: Sequence[int], columns: Sequence[int], seed: int
     ) -> RealPoint | None:
+        """Return the point near some floats at which these rows, solved for these columns, are certified to vanish."""
         exact, certified = {s: arb(v) for s, v in symbols.items()}, True
         if rows:
             moved = self._newton(exact, rows, columns, seed)
@@ -254,9 +255,10 @@ class RealSearch:
 
 
 def are_joined(search: RealSearch, start: Mapping[Expr, arb], end: RealPoint, rank: int) -> bool:
-    """Return whether zeros of ``rank`` independent relations at ``end`` are a curve to it from the zero ``start``.
+    """Return whether it is proved that a curve of zeros leads from ``start`` to ``end``.
 
-    In a box around both points as many unknowns are then functions of the other symbols [KrawczykNewton].
+    In a box around both, ``rank`` relations that are independent at ``end`` must determine as many unknowns as
+    functions of the other symbols [KrawczykNewton].
     """
     at = values(search.ring, end.point, search.upto)
     part = ball_part(jacobian(search.ring, at, end.point, search.nodes, search.columns, arb(0)))

@@ -301,6 +301,7 @@ def _command(name: str, text: str, start: int, end: int, column: int) -> tuple[s
 
 
 def _dots(name: str, text: str, end: int, column: int) -> tuple[str, int]:
+    """Return the name of what stands under one dot or two, such as ``xdot_i``, and where the text goes on."""
     match = _DOTTED.match(text, end)
     if match is None:
         hint = "write the velocity of `x` as `xdot`"

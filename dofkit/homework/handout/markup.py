@@ -45,7 +45,7 @@ class SetFormula(NamedTuple):
 
 @lru_cache(maxsize=4096)
 def formula(text: str) -> SetFormula:
-    """Return a formula in the grammar of scenes, or in LaTeX if it has a backslash or is none of the grammar.
+    """Typeset a formula in the grammar of scenes, or in LaTeX if it has a backslash or is none of the grammar.
 
     >>> formula("l^2 thetadot").latex
     'l^{2} \\\\dot{\\\\theta}'

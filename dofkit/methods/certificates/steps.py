@@ -140,7 +140,7 @@ def needed_puts(scenery: Scenery, trees: Iterable[Tree], order: Order) -> Order:
 
 
 def solved_pairs(scenery: Scenery, names: Sequence[str], point: FoundPoint) -> list[str]:
-    """Write the steps that prove coordinates to be 0, and return the ids of those that the checker accepts.
+    """Add the steps that prove coordinates to be 0 and that the checker accepts; return their ids.
 
     Two relations that are linear in the same coordinates, without other terms, are satisfied by 0 only where their
     determinant is not 0.

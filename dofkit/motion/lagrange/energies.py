@@ -303,7 +303,7 @@ class EntryWorlds:
 
 
 def moving(world: World, value: object, *where: str | int) -> Expr:
-    """A number or a text, which may mention velocities; 0, and a fault of the world's, where it is neither."""
+    """Return a number or text, which may mention velocities, as an expression; else 0, and the world has a fault."""
     if isinstance(value, (str, Fraction)):
         return world.expression(value, *where, allow=MOVING)
     world.fault("one value is needed here, not a list", *where, hint="write a number or a text")

@@ -107,7 +107,7 @@ def modelled(study: Examined, energy: Energy, names: Names, care: Care = ELIMINA
     eliminator = Eliminator(study.setting.positive, energy.potential, study.system.reference, care)
     for relations in ([*finite, *integrals], finite, []):
         elimination = _agreeing(eliminator, relations, coordinates, free)
-        model = _built_somehow(study, energy, elimination, coordinates)
+        model = _built_or_none(study, energy, elimination, coordinates)
         if model is not None:
             return model
     raise NoEquationsError(
@@ -144,10 +144,10 @@ def _possible(study: Examined) -> None:
         raise NoEquationsError(f"it is undecided how the system can move, so no equations of motion are given: {why}")
 
 
-def _built_somehow(
+def _built_or_none(
     study: Examined, energy: Energy, elimination: Elimination, coordinates: Sequence[str]
 ) -> LagrangeModel | None:
-    """The model after an elimination; None where it cannot be built, also because something has no value there."""
+    """Return the model after an elimination; None where an expression has no value once coordinates are eliminated."""
     try:
         return _built(study, energy, elimination, coordinates)
     except NoValueError:
