@@ -305,6 +305,7 @@ def test_the_picture_of_the_readme(served: Served, bench: Any) -> None:
 def test_completion_offers_fields_types_and_names(served: Served, bench: Any) -> None:
     page = bench.page
     write(page, "coordinates: [x, y, theta]\nconstraints:\n")
+    page.locator("#report").filter(has_not_text="phi").wait_for(timeout=SOON)  # so the names are those of this scene
     for typed, offered, key in (
         ("- {n", ["name"], "Enter"),
         ("edge, t", ["text", "type", "theta"], "Escape"),
