@@ -69,7 +69,9 @@ def _where_it_vanishes(
     if unless_late(partial(hold_nowhere, vanishing, (), setting.positive), False):
         return []
     branches = normalise(condition.expr, setting.positive, True).branches
-    return [answered(replace(block, rows=(*block.rows, *(Row(owner, p) for p in branch)))) for branch in branches]
+    # without the conditions of a branch more motions are counted among those on which u is 0
+    added = [[Row(owner, p) for p in branch if not isinstance(p, DomainCondition)] for branch in branches]
+    return [answered(replace(block, rows=(*block.rows, *rows))) for rows in added]
 
 
 def _equations_of_motion(block: Block) -> list[Expr]:
