@@ -123,7 +123,11 @@ def _by_field(chart: Chart, pose: Mapping[Expr, Expr]) -> AtReference | None:
 
 
 def _with_fewer(
-    chart: Chart, pose: Mapping[Expr, Expr], point: FieldPoint, fields: Sequence[Sequence[Any]]
+    chart: Chart,
+    pose: Mapping[Expr, Expr],
+    point: FieldPoint,
+    fields: Sequence[Sequence[Any]],
+    asked: Sequence[criteria.Criterion] = criteria.CRITERIA,
 ) -> tuple[LocalDimension, int]:
     """Return the local dimension by a chart with fewer coordinates, where there is one, and how many went.
 
@@ -141,7 +145,7 @@ def _with_fewer(
     kept = [i for i, s in enumerate(chart.symbols) if s in small.symbols]
     rigid = rank_of([[field[i] for i in kept] for field in fields], point.p)
     ball = ball_point(small, pose, here.rng) if "balls" in chart.setting.engines else None
-    local = criteria.local_at(small, here, ball, rigid)
+    local = criteria.local_at(small, here, ball, rigid, asked=asked)
     return replace(local, dimension=None if local.dimension is None else local.dimension + free), spared
 
 
@@ -197,7 +201,7 @@ def _of_part(chart: Chart, pose: Mapping[Expr, Expr], rank: int) -> tuple[LocalD
     rigid = rank_of(fields, point.p)
     if corank == rigid:
         return LocalDimension(corank, "proved", _rigid(), argument="rigid to first order"), 0
-    local, spared = _with_fewer(chart, pose, point, fields)
+    local, spared = _with_fewer(chart, pose, point, fields, criteria.OF_MANIFOLDS)
     return (local if local.dimension == corank else None), spared
 
 

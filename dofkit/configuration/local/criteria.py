@@ -7,7 +7,7 @@ the germ (`germ.Germ`) in `conclusions`, a row here and one of the arguments; it
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 from flint import ctx
@@ -55,11 +55,13 @@ CRITERIA: tuple[Criterion, ...] = (
     Criterion("critical branch", "probable", conclusions.critical_branch),
     Criterion("branch followed", "numeric", conclusions.branch_followed),
 )
+#: Those by which the set is the whole manifold of the independent relations, or undecided.
+OF_MANIFOLDS = CRITERIA[:4]
 
 
-def decision(germ: Germ) -> tuple[Criterion | None, LocalDimension]:
-    """Return the first criterion that decides, and what it says; None where all are asked and none does."""
-    for criterion in CRITERIA:
+def decision(germ: Germ, asked: Sequence[Criterion] = CRITERIA) -> tuple[Criterion | None, LocalDimension]:
+    """Return the first criterion that decides, and what it says; None where all ``asked`` are and none does."""
+    for criterion in asked:
         conclusion = criterion.decide(germ)
         if conclusion is None:
             continue
@@ -75,7 +77,12 @@ def decision(germ: Germ) -> tuple[Criterion | None, LocalDimension]:
 
 @raising_no_value
 def local_dimension(
-    field: Manifold, ball: Manifold | None, rigid: int, time: int | None = None, distance: bool = True
+    field: Manifold,
+    ball: Manifold | None,
+    rigid: int,
+    time: int | None = None,
+    distance: bool = True,
+    asked: Sequence[Criterion] = CRITERIA,
 ) -> LocalDimension:
     """The local dimension at the point; ``rigid`` is the dimension of the motions that move everything as one body.
 
@@ -84,7 +91,7 @@ def local_dimension(
     at the point be looked at from a distance? Raises NoValueError.
     """
     with ctx.workprec(max(ctx.prec, precision())):
-        return decision(Germ(field, ball, rigid, time, distance))[1]
+        return decision(Germ(field, ball, rigid, time, distance), asked)[1]
 
 
 @raising_no_value
@@ -94,7 +101,13 @@ def numeric_dimension(ball: Manifold, rigid: int, time: int | None = None) -> Lo
 
 
 def local_at(
-    chart: Chart, point: FieldPoint, ball: BallPoint | None, rigid: int, time: int | None = None, drawn: bool = True
+    chart: Chart,
+    point: FieldPoint,
+    ball: BallPoint | None,
+    rigid: int,
+    time: int | None = None,
+    drawn: bool = True,
+    asked: Sequence[Criterion] = CRITERIA,
 ) -> LocalDimension:
     """Return the local dimension at a point of the variety, time counted where it is a column.
 
@@ -103,7 +116,7 @@ def local_at(
     """
     try:
         field, over_balls = _manifolds(chart, frame_at(chart, point), point, ball)
-        return local_dimension(field, over_balls, rigid, time, drawn and "balls" in chart.setting.engines)
+        return local_dimension(field, over_balls, rigid, time, drawn and "balls" in chart.setting.engines, asked)
     except NoValueError:
         return LocalDimension(
             None, "undecided", "the equations could not be evaluated along a curve through this configuration"
