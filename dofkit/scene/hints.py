@@ -118,15 +118,23 @@ def type_advice(word: object, entry: Mapping[str, Any]) -> str | None:
 
 
 def likely_types(word: object, entry: Mapping[str, Any]) -> list[str]:
-    """Return the type that a word means, or else the types with the keys of an entry, misspelt ones only if need be."""
+    """Return the type that a word means, or else the types with the keys of an entry, misspelt ones only if need be.
+
+    Without a type the word is a key that is the name of one: `{equation: x = y}`.
+    """
     if word is None:
-        word = next((part for key, part in entry.items() if str(key).lower() == "type"), None)
+        types_as_keys = (key for key in entry if key not in _ALL_FIELDS and meant_type(key, {}))
+        word = next((part for key, part in entry.items() if str(key).lower() == "type"), next(types_as_keys, None))
     meant, keys = meant_type(word, entry), [str(key) for key in entry if str(key).lower() not in ("type", "name")]
     if meant or not keys:
         return [meant] if meant else []
     fields = {kind: cls.model_fields.keys() for kind, cls in TYPES.items()}
     having = [kind for kind, cls in TYPES.items() if _required(cls) <= {*keys} <= fields[kind]]
     return having or [kind for kind in TYPES if all(meant_key(key, tuple(fields[kind])) for key in keys)]
+
+
+#: The keys of constraints of any type.
+_ALL_FIELDS = frozenset(key for cls in TYPES.values() for key in cls.model_fields)
 
 
 def _required(cls: type[ConstraintBase]) -> set[str]:

@@ -121,6 +121,7 @@ def test_what_is_hard_is_right_or_open(texts: str, truth: bool, why: str) -> Non
     assert report.feasible in (truth, None), why
     if report.feasible is None:
         assert any("not decided" in line for line in report.warnings)
+        assert report.verdicts["feasible"].verdict == "undecided"
 
 
 @pytest.mark.parametrize("texts", ["h(x) >= 1; x >= 0", "y = h(x); y >= 0; x >= 1", "h(x) > h(y); x = y"])

@@ -286,6 +286,7 @@ BAD: list[tuple[Any, tuple[str | int, ...], int | None, str, str]] = [
     ({"coordinates": ["x"], "constraints": ["x = 1/0"]}, (*C0, "text"), 7, "zero", ""),
     (plane({"type": "lnk"}), (*C0, "type"), None, "no constraint type 'lnk'", "'link'"),
     (plane({"between": ["A", "B"]}), C0, None, "`type`", "link"),
+    (plane({"equation": "x_A = 1", "name": "wall"}), C0, None, "`type`", "'equation'"),
     (plane({"type": "link", "between": ["A"]}), (*C0, "between", 1), None, "2 entries", ""),
     (plane({"type": "link", "between": ["A", "C"]}), (*C0, "between", 1), None, "no particle 'C'", "A, B"),
     (plane({"type": "link", "between": ["A", "A"]}), (*C0, "between", 1), None, "two different points", ""),

@@ -198,7 +198,7 @@ def inequalities_together(study: Study, fields: Mapping[str, Any]) -> Mapping[st
     """The report's fields, beside what is ``fields`` already."""
     result = feasibility(study.reduced, study.setting, study.outcome, study.dependence.conflicting.members)
     at = _texts(study.system, result.at) if result.feasible else None
-    claims = {} if result.feasible is None else _claims(result)
+    claims = _claims(result)
     return {
         "feasible": result.feasible,
         "infeasible": [study.names[i] for i in result.infeasible],
@@ -212,6 +212,8 @@ def inequalities_together(study: Study, fields: Mapping[str, Any]) -> Mapping[st
 
 def _claims(feasibility: Feasibility) -> dict[str, FieldVerdict]:
     """How sure it is, and by which argument."""
+    if feasibility.feasible is None:
+        return {"feasible": FieldVerdict.of(Claim("undecided"))}
     argument: ArgumentKey = "met at a point" if feasibility.feasible else "excluded together"
     claim = FieldVerdict.of(Claim(feasibility.verdict, argument, BITS, GAP))
     return {"feasible": claim} | ({"infeasible": claim} if feasibility.infeasible and not feasibility.reasons else {})
