@@ -118,7 +118,7 @@ def _by_field(chart: Chart, pose: Mapping[Expr, Expr]) -> AtReference | None:
         looked = FollowedClasses(coordinates=n - spared, spared=spared)
         return AtReference(n - rank_q, local, matrix, point.p, rank, rigid, looked=looked)
     ball = ball_point(chart, pose, point.rng) if rank < len(matrix) and "balls" in chart.setting.engines else None
-    local = _at_fixed_time(criteria.local_at(chart, point, ball, rigid, chart.time), timed)
+    local = _at_fixed_time(criteria.local_at(chart, point, ball, rigid), timed)
     return AtReference(n - rank_q, local, matrix, point.p, rank, rigid)
 
 

@@ -54,7 +54,7 @@ def variety_at(chart: Chart, samples: list[FieldPoint], seed: int, core: Sequenc
     argument: ArgumentKey | None = "regular point"
     reasons: list[str] = []
     if rank < len(chart.nodes):
-        local = criteria.local_at(chart, samples[0], None, 0, chart.time, drawn=False)
+        local = criteria.local_at(chart, samples[0], None, 0, drawn=False)
         if local.dimension is None or local.confined or local.dimension < columns - rank:
             exact = None if local.confined else local.dimension
             dimension = None if exact is None else exact - timed

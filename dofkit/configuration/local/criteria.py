@@ -105,18 +105,17 @@ def local_at(
     point: FieldPoint,
     ball: BallPoint | None,
     rigid: int,
-    time: int | None = None,
     drawn: bool = True,
     asked: Sequence[Criterion] = CRITERIA,
 ) -> LocalDimension:
     """Return the local dimension at a point of the variety, time counted where it is a column.
 
-    ``time``: the number of that column, where it matters whether time moves on. A point that was ``drawn`` may be one
-    where a relation is flat: what is 0 along a curve is looked at from a distance, if balls may be asked.
+    A point that was ``drawn`` may be one where a relation is flat: what is 0 along a curve is looked at from a
+    distance, if balls may be asked.
     """
     try:
         field, over_balls = _manifolds(chart, frame_at(chart, point), point, ball)
-        return local_dimension(field, over_balls, rigid, time, drawn and "balls" in chart.setting.engines, asked)
+        return local_dimension(field, over_balls, rigid, chart.time, drawn and "balls" in chart.setting.engines, asked)
     except NoValueError:
         return LocalDimension(
             None, "undecided", "the equations could not be evaluated along a curve through this configuration"
