@@ -22,7 +22,7 @@ from dofkit.benchmark.record import Outcome, TrialLine
 from dofkit.benchmark.sentences import explained
 from dofkit.benchmark.statistics import grouped
 from dofkit.benchmark.tasks import TrialTask
-from dofkit.methods.table import Knobs, Reply
+from dofkit.methods.table import Reply
 
 # In a worker
 
@@ -47,16 +47,14 @@ _warm: set[tuple[str, str, str]] = set()
 class TrialQuestion:
     """What a worker is asked: a question about a scene, for one method; ``limit`` in seconds of processor time.
 
-    ``repeats``: how often a short one is repeated; ``answering``: what knows the methods, as ``module:function``.
+    ``answering``: what knows the methods, as ``module:function``.
     """
 
     scene: Mapping[str, Any]
     question: str
     method: str
-    knobs: Knobs
     answer: Mapping[str, str] | None
     limit: float
-    repeats: int = AGAIN
     answering: str = ANSWERING
 
 
@@ -70,14 +68,14 @@ def timed_reply(asked: TrialQuestion) -> Json:
     if key not in _warm:
         _warm.add(key)
         answer = _WARM_ANSWER if asked.question == "equivalence" else None
-        _timed(function, TrialQuestion(_WARM_SCENE, asked.question, asked.method, Knobs(), answer, asked.limit))
+        _timed(function, TrialQuestion(_WARM_SCENE, asked.question, asked.method, answer, asked.limit))
     try:
         with interrupting(asked.limit):
             reply, seconds = _timed(function, asked)
     except LateError:
         return None
     if seconds < SHORT:
-        seconds = min([seconds, *(_timed(function, asked)[1] for _ in range(asked.repeats))])
+        seconds = min([seconds, *(_timed(function, asked)[1] for _ in range(AGAIN))])
     return {**asdict(reply), "seconds": seconds}
 
 
@@ -89,7 +87,7 @@ def _timed(function: Callable[..., Reply], asked: TrialQuestion) -> tuple[Reply,
         warnings.simplefilter("ignore")
         start = time.thread_time()
         try:
-            reply = function(asked.scene, asked.question, asked.method, asked.knobs, asked.answer)
+            reply = function(asked.scene, asked.question, asked.method, asked.answer)
         except MemoryError:
             raise
         except Exception as error:
@@ -145,10 +143,8 @@ class Bench:
 
     def submit(self, task: TrialTask) -> Future[Ended]:
         """Begin with a trial."""
-        t, repeats = task.trial, 0 if task.knob else AGAIN
-        asked = TrialQuestion(
-            t.scene, t.question, task.method, task.knobs, t.answer, self.limit, repeats, self.answering
-        )
+        t = task.trial
+        asked = TrialQuestion(t.scene, t.question, task.method, t.answer, self.limit, self.answering)
         return self.pool.submit(self.pool.run, Job(timed_reply, asked, PATIENCE * self.limit + SPARE))
 
     def line(self, task: TrialTask, ended: Ended) -> TrialLine:
@@ -169,7 +165,7 @@ def _line(task: TrialTask, answer: object, outcome: Outcome, seconds: float, rea
     t = task.trial
     why = "" if outcome == "right" else explained(task.method, t.question, outcome, reason)
     about = (t.family, t.name, t.question, task.method, t.size, dict(t.swept), t.truth)
-    return TrialLine(*about, answer, outcome, seconds, " ".join(why.split()), task.knob, float(task.value), task.group)
+    return TrialLine(*about, answer, outcome, seconds, " ".join(why.split()))
 
 
 def run(tasks: Iterable[TrialTask], bench: Bench) -> Iterator[TrialLine]:

@@ -8,12 +8,10 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from dofkit.benchmark.trials.construction import Trial
-from dofkit.methods.table import Knobs, Reply
+from dofkit.methods.table import Reply
 
 
-def answered(
-    scene: Mapping[str, Any], question: str, method: str, knobs: Knobs, answer: Mapping[str, str] | None
-) -> Reply:
+def answered(scene: Mapping[str, Any], question: str, method: str, answer: Mapping[str, str] | None) -> Reply:
     """What each of them tells; the truth is 2."""
     del question, answer
     size = scene.get("size", 1)
@@ -28,8 +26,6 @@ def answered(
         raise KeyError("x")
     if method == "process":
         return Reply(os.getpid())
-    if method == "coarse":
-        return Reply(2 if knobs.tolerance < 1e-3 else 3)
     told = {"wrong": 3, "undecided": None, "cannot": None}.get(method, 2)
     return Reply(told, reason="" if told else f"it is {method}", cannot=method == "cannot")
 
