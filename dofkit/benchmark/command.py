@@ -62,7 +62,7 @@ def chart(options: ChartOptions) -> bool:
         finish(record.read(options.source), options.out)
         return True
     chosen = options.selection.with_names(FAMILIES)
-    trials = chosen.thinned(chosen.trials(FAMILIES, chosen.quick))
+    trials = chosen.trials(FAMILIES)
     work = list(tasks.trial_tasks(trials, chosen.methods))
     started, data = time.monotonic(), Data(_provenance(options, len(trials)))
     try:

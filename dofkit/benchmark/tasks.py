@@ -4,31 +4,27 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, get_args
+from typing import get_args
 
 from dofkit.benchmark.record import ChartError
 from dofkit.benchmark.statistics import grouped
-from dofkit.benchmark.trials.construction import Trial
+from dofkit.benchmark.trials.construction import Trial, few
 from dofkit.methods.table import METHODS, Question
 from dofkit.scene.fields import suggestion
 
-#: Trials of each family and question, at most, where nothing is said; and in a quick run.
-MOST, MOST_QUICK = 32, 2
-Families = Mapping[str, Callable[[bool], Iterator[Trial]]]
+#: Trials of each family and question, at most.
+MOST = 32
+Families = Mapping[str, Callable[[], Iterator[Trial]]]
 
 
 @dataclass(frozen=True)
 class Selection:
-    """Questions, families and methods by name; an empty one stands for all of them.
-
-    ``most``: so many trials of each family and question, at most; 0: all.
-    """
+    """Questions, families and methods by name; an empty one stands for all of them."""
 
     questions: Sequence[str] = ()
     families: Sequence[str] = ()
     methods: Sequence[str] = ()
     quick: bool = False
-    most: int | None = None
 
     def with_names(self, families: Families) -> Selection:
         """Return it with all names written out. Raises ChartError with the nearest one for a name that is none."""
@@ -39,18 +35,15 @@ class Selection:
             methods=_names(self.methods, list(METHODS), "method", "methods"),
         )
 
-    def trials(self, families: Families, quick: bool) -> list[Trial]:
-        """Return all trials of what was chosen, family by family. Raises ChartError where there are none."""
-        chosen = [t for name in self.families for t in families[name](quick) if t.question in self.questions]
+    def trials(self, families: Families) -> list[Trial]:
+        """Return the trials of what was chosen, family by family. Raises ChartError where there are none."""
+        chosen: list[Trial] = []
+        for name in self.families:
+            trials = [trial for trial in families[name]() if trial.question in self.questions]
+            chosen += few(trials) if self.quick else _thinned(trials)
         if not chosen:
             raise ChartError("no trial of these families asks such a question")
         return chosen
-
-    def thinned(self, trials: Sequence[Trial]) -> list[Trial]:
-        """Return not more of each family and question than wanted, from the smallest to the largest."""
-        most = self.most if self.most is not None else MOST_QUICK if self.quick else MOST
-        rows = grouped(trials, lambda trial: (trial.family, trial.question)).values()
-        return [trial for row in rows for trial in evenly(sorted(row, key=lambda t: t.size), most or len(row))]
 
     def options(self) -> Iterator[str]:
         """Yield the same, as it is written on the command line."""
@@ -59,15 +52,13 @@ class Selection:
                 yield f"--{option} {','.join(names)}"
         if self.quick:
             yield "--quick"
-        if self.most is not None:
-            yield f"--most {self.most}"
 
 
-def evenly(row: Sequence[Any], most: int) -> list[Any]:
-    """Return at most so many members: the first, the last and what lies between them at even distances."""
-    if len(row) <= most:
-        return list(row)
-    return [row[round(i * (len(row) - 1) / max(1, most - 1))] for i in range(most)]
+def _thinned(trials: Sequence[Trial]) -> Iterator[Trial]:
+    """Yield at most `MOST` trials of each question, from the smallest to the largest at even distances."""
+    for row in grouped(trials, lambda trial: trial.question).values():
+        by_size, most = sorted(row, key=lambda trial: trial.size), min(MOST, len(row))
+        yield from (by_size[round(i * (len(row) - 1) / max(1, most - 1))] for i in range(most))
 
 
 def _names(asked: Iterable[str], available: Sequence[str], what: str, plural: str) -> list[str]:

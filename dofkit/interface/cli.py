@@ -261,7 +261,6 @@ def chart(
     out: options.ChartFolder = Path("dofkit-chart"),
     source: options.ChartSource = None,
     quick: options.Quick = False,
-    most: options.Most = None,
     workers: options.Workers = None,
     timeout: options.Timeout = None,
 ) -> None:
@@ -269,7 +268,7 @@ def chart(
     from dofkit.benchmark.command import ChartOptions, chart
     from dofkit.benchmark.tasks import Selection
 
-    selection = Selection(question or (), families or (), methods or (), quick, most)
+    selection = Selection(question or (), families or (), methods or (), quick)
     with failures_of("chart"):
         whole = chart(ChartOptions(selection, out, source, workers, timeout))
     if not whole:

@@ -43,7 +43,7 @@ def ran(methods: Sequence[str], limit: float = 0.3) -> list[TrialLine]:
     """The trials of the family by these methods, in two workers."""
     with Pool(2, modules=("dofkit.benchmark.runner", "shared.chart_methods")) as pool:
         bench = runner.Bench(pool, limit, "shared.chart_methods:answered")
-        return list(runner.run(tasks.trial_tasks(chart_methods.family(False), methods), bench))
+        return list(runner.run(tasks.trial_tasks(chart_methods.family(), methods), bench))
 
 
 # -- running ---------------------------------------------------------------------------------------
@@ -92,7 +92,7 @@ def test_ladders_climb_by_size_and_other_ladders_go_on() -> None:
     sizes = [line.size for line in lines if line.method == "hangs"]
     assert sizes[:4] == [1, 1, 2, 2]
     assert sizes[4:].index(4) < sizes[4:].index(8)
-    trial = next(chart_methods.family(True))
+    trial = next(chart_methods.family())
     one, other = tasks.TrialTask(trial, "m"), tasks.TrialTask(replace(trial, size=7, name="b"), "m")
     assert one.ladder == other.ladder
     swept = tasks.TrialTask(replace(trial, swept={"digits": 3}), "m")
@@ -118,15 +118,16 @@ def test_answers_are_judged(truth: Any, told: Any, outcome: Outcome) -> None:
 
 
 def test_of_many_trials_some_are_taken_from_the_smallest_to_the_largest() -> None:
-    trials = [replace(t, name=f"{t.name}{k}") for t in chart_methods.family(False) for k in range(3)]
-    assert [t.size for t in Selection(most=4).thinned(trials)] == [1, 2, 4, 8]
-    assert len(Selection(most=0).thinned(trials)) == len(trials) == 24
-    assert [t.size for t in Selection(quick=True).thinned(trials)] == [1, 8]
-    assert list(Selection(["dof"], [], ["auto", "field"], True, 7).options()) == [
+    trials = [replace(t, name=f"{t.name}{k}") for t in chart_methods.family() for k in range(8)]
+    chosen = Selection(["dof"], ["boxes"]).trials({"boxes": lambda: iter(trials)})
+    assert (len(trials), len(chosen), chosen[0].size, chosen[-1].size) == (64, tasks.MOST, 1, 8)
+    assert [t.size for t in chosen] == sorted(t.size for t in chosen)
+    quick = Selection(["dof"], ["boxes"], quick=True).trials({"boxes": chart_methods.family})
+    assert [t.size for t in quick] == [1]
+    assert list(Selection(["dof"], [], ["auto", "field"], True).options()) == [
         "--question dof",
         "--methods auto,field",
         "--quick",
-        "--most 7",
     ]
 
 
@@ -238,7 +239,7 @@ def test_the_command_runs_tells_and_redraws(tmp_path: Path) -> None:
     assert "of the answers of `auto` none is wrong and 0 % are undecided." in " ".join(done.output.split())
     assert "nothing is drawn without matplotlib: pip install 'dofkit[chart]'" in done.output
     data = record.read(out)
-    assert len(data.lines) == 2 * 2
+    assert len(data.lines) == 2
     assert {found.outcome for found in data.lines} == {"right"}
     assert data.ran.command == "dofkit chart --families boxes --methods auto,field --quick"
     again = CliRunner().invoke(app, ["chart", "--from", str(out), "--out", str(tmp_path / "again")])
@@ -284,4 +285,4 @@ def test_an_interrupted_run_keeps_what_it_has(tmp_path: Path, monkeypatch: pytes
     assert "interrupted after 1 of " in done.output
     assert "the run was interrupted: this is only a part of it" in done.output
     assert len(record.read(tmp_path).lines) == 1
-    assert isinstance(next(chart_methods.family(True)), Trial)
+    assert isinstance(next(chart_methods.family()), Trial)

@@ -38,13 +38,13 @@ def combined(rows: Sequence[Sequence[str]], forms: Sequence[Form]) -> list[Form]
     return products
 
 
-def mixed_forms(quick: bool) -> Iterator[KnownScene]:
+def mixed_forms() -> Iterator[KnownScene]:
     """n exact forms mixed by functions: none integrates alone, all do together; with a contact form among them, none.
 
     The matrix is lower times upper triangular with ones on both diagonals: determinant 1.
     """
     because = "what they span does not change with a regular matrix of functions"
-    for n, seed in [(2, 0)] if quick else [(2, 0), (2, 1), (3, 0), (3, 1), (4, 0), (5, 0)]:
+    for n, seed in [(2, 0), (2, 1), (3, 0), (3, 1), (4, 0), (5, 0)]:
         rng = random.Random(f"mixed {n} {seed}")
         names = [*(f"u{k}" for k in range(n)), *(f"v{k}" for k in range(n)), "w"]
         exact = [_exact(rng, k, n) for k in range(n)]
@@ -90,25 +90,25 @@ def _unimodular(rng: random.Random, n: int) -> list[list[str]]:
     ]
 
 
-def together(quick: bool) -> Iterator[KnownScene]:
+def together() -> Iterator[KnownScene]:
     """Forms with their system: the label of each is one of the whole.
 
     Among them are five variables of growth 2, 3, 5 [Cartan1910].
     """
-    return map(tabled, tables("forms.yaml")["together"][: 9 if quick else None])
+    return map(tabled, tables("forms.yaml")["together"])
 
 
 # Time
 
 
-def rheonomic(quick: bool) -> Iterator[KnownScene]:
+def rheonomic() -> Iterator[KnownScene]:
     """Relations and forms with time in them."""
-    return map(tabled, tables("forms.yaml")["time"][:: 4 if quick else 1])
+    return map(tabled, tables("forms.yaml")["time"])
 
 
-def hidden_by_time(quick: bool) -> Iterator[KnownScene]:
+def hidden_by_time() -> Iterator[KnownScene]:
     """Each coordinate the rate of the last: one finite relation at the start fixes all, and none leaves all free."""
-    for n in (2, 3) if quick else (2, 3, 4, 6):
+    for n in (2, 3, 4, 6):
         names = [f"x{k}" for k in range(n)]
         rates = [f"x{k}dot = x{k + 1}" for k in range(n - 1)]
         last = f"x{n - 1}"
@@ -131,14 +131,14 @@ def hidden_by_time(quick: bool) -> Iterator[KnownScene]:
 # Many small parts that have nothing to do with each other, or share one coordinate
 
 
-def many_blocks(quick: bool) -> Iterator[KnownScene]:
+def many_blocks() -> Iterator[KnownScene]:
     """Copies of one part, each in its own coordinates: what is true of one holds of each."""
     blocks = tables("forms.yaml")["blocks"]
     for part in blocks:
-        for n in (1, 2) if quick else (1, 4, 8, 16, 64):
+        for n in (1, 4, 8, 16, 64):
             if n <= part["most"]:
                 yield _blocks(f"{n} times {part['name']}", [part] * n, part["because"])
-    for n in (1,) if quick else (1, 2, 4):
+    for n in (1, 2, 4):
         yield _blocks(f"{n} of each", [*blocks] * n, "freedoms of separate parts add up")
 
 
@@ -158,12 +158,12 @@ def _blocks(name: str, blocks: Sequence[Row], because: str) -> KnownScene:
 # Long chains
 
 
-def chained_forms(quick: bool) -> Iterator[KnownScene]:
+def chained_forms() -> Iterator[KnownScene]:
     """dq_i = q_i+1 dq_0: nothing integrates while the end is open, everything once it closes (Goursat's normal form).
 
     Closed: the last form reads dq_n = q_0 dq_0, so that q_n, then q_n-1, and so on are functions of q_0.
     """
-    for n in (2, 3) if quick else (2, 3, 4, 6, 8):
+    for n in (2, 3, 4, 6, 8):
         names = [f"q{k}" for k in range(n + 1)]
         forms = [f"dq{k} - q{k + 1} dq0 = 0" for k in range(1, n)]
         half = n // 2
@@ -184,11 +184,11 @@ def chained_forms(quick: bool) -> Iterator[KnownScene]:
             yield known_scene(name, scene_of(names, *rows), because, n, dof=dof, integrability=labels)
 
 
-def trailers(quick: bool) -> Iterator[KnownScene]:
+def trailers() -> Iterator[KnownScene]:
     """A car that steers with trailers: every configuration is reached [Laumond1993]; on a straight rail it is not."""
     controllable = "controllable: the derived system of n + 2 forms goes down to none (Laumond 1993)"
     straight = "its heading stays, so the axle runs straight and one direction is left: all integrate"
-    for n in (0, 1) if quick else (0, 1, 2, 4, 8, 16, 24):
+    for n in (0, 1, 2, 4, 8, 16, 24):
         scene = car(n)
         about = f"a car with {n} trailers", scene, controllable, n + 2
         labels = every(numbered(n + 2), False)

@@ -9,10 +9,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import islice
 from typing import Any
 
-from dofkit.benchmark.trials.construction import KnownScene, Row, known_scene, tables
+from dofkit.benchmark.trials.construction import KnownScene, Row, tables
 from dofkit.benchmark.trials.frameworks import Framework, Position, framework, hinged_loop
 
 Move = Callable[[Position], Position]
@@ -89,6 +88,8 @@ MOVES: Mapping[str, tuple[Move, float, float]] = {
     "moved a million away": (lambda p: tuple(x + MILLION * (k + 1) for k, x in enumerate(p)), 1, MILLION),
     "small and far away": (lambda p: tuple(x / MILLION + MILLION for x in p), 1 / MILLION, MILLION),
 }
+#: How the truth of a pose is known.
+DERIVED = "derived by hand at the singular pose and beside it; of rounded numbers the exact rank"
 #: The tolerance of exact drawings.
 TOLERANCE = "1e-4"
 
@@ -100,8 +101,8 @@ def _moved(pose: FrameworkPose, step: Fraction, how: str, named: str = "", **mor
     return pose.placed(f"{pose.name}, {float(step):g} beside, {how}{named}", step, move, swept, **more)
 
 
-def steps() -> Iterator[KnownScene]:
-    """Yield each at its singular pose, and 10^-1 ... 10^-12 from it."""
+def near_singular() -> Iterator[KnownScene]:
+    """At singular poses, and 10^-1 ... 10^-12 from them."""
     for step in (ZERO, *STEPS):
         for pose in NEAR:
             name = f"{pose.name}, {float(step):g} beside"
@@ -109,8 +110,8 @@ def steps() -> Iterator[KnownScene]:
         yield from (_moved(pose, step, "as drawn") for pose in JOINTED)
 
 
-def sizes() -> Iterator[KnownScene]:
-    """Yield each a million times larger, smaller, and far away: at the singular pose and near it."""
+def scaled() -> Iterator[KnownScene]:
+    """A million times larger and smaller, and far away: at singular poses and near them."""
     for how in MOVES:
         for step in (ZERO, STEPS[0]):
             yield from (_moved(pose, step, how) for pose in (*NEAR, *JOINTED))
@@ -128,8 +129,8 @@ def rounded(digits: int) -> Move:
     return lambda p: tuple(Fraction(round(x * 10**digits), 10**digits) for x in p)
 
 
-def roundings() -> Iterator[KnownScene]:
-    """Yield singular poses with rounded coordinates; the known answer is that of the rounded numbers, taken as exact.
+def rounded_poses() -> Iterator[KnownScene]:
+    """Rounded drawings: exact as they are written.
 
     Where the bars are independent after rounding, the finite freedom equals that by rank; else it is unknown.
     """
@@ -142,8 +143,8 @@ def roundings() -> Iterator[KnownScene]:
             yield pose.scene(name, drawn, (first if regular else None, first), {"digits": digits})
 
 
-def measured() -> Iterator[KnownScene]:
-    """Yield the same with a tolerance of the last digit: the truth is of what was rounded."""
+def measured_poses() -> Iterator[KnownScene]:
+    """Rounded drawings with a tolerance: true is what was rounded."""
     for digits in DIGITS:
         for pose in NEAR:
             drawn = pose.at(ZERO).moved(turned).moved(rounded(digits))
@@ -163,58 +164,12 @@ def measured_elsewhere() -> Iterator[KnownScene]:
 def _scene_of_pose(
     name: str, scene: dict[str, Any], coordinates: int, equations: int, freedom: Freedom, swept: Mapping[str, Any]
 ) -> KnownScene:
-    """Where the rows are independent at the reference configuration, no constraint can be dropped."""
     dof, first = freedom
     truth: dict[str, Any] = {"consistent": True, "instantaneous_dof": first}
     if dof is not None:
         truth |= {"dof": dof, "velocity_dof": dof, "singular": first != dof}
         truth["redundant_equations"] = max(0, equations - (coordinates - dof))
-    if first == coordinates - equations:
-        truth["redundant"] = []
-    return KnownScene(scene, truth, name=name, group=name.partition(",")[0], swept=swept)
-
-
-#: Every sweep by name.
-SWEEPS: Mapping[str, Callable[[], Iterator[KnownScene]]] = {
-    "beside a singular pose": steps,
-    "scaled and moved": sizes,
-    "rounded": roundings,
-    "rounded, with tolerance": measured,
-    "scaled and moved, with tolerance": measured_elsewhere,
-}
-
-# Families: the degree of freedom alone, which is known at every step
-
-#: The steps that are taken.
-TAKEN = (0, 1e-1, 1e-3, 1e-6, 1e-12)
-DERIVED = "derived by hand at the singular pose and beside it, for every step"
-RANKED = "the exact rank of what is written: independent bars stay so, and nothing is singular there"
-
-
-def _freedom(case: KnownScene, because: str = DERIVED) -> KnownScene:
-    return known_scene(case.name, case.scene, because, swept=case.swept, dof=case.dof)
-
-
-def near_singular(quick: bool) -> Iterator[KnownScene]:
-    """At singular poses, and 10^-1 ... 10^-12 from them."""
-    cases = islice(steps(), 0, None, 17) if quick else (c for c in steps() if c.swept["step"] in TAKEN)
-    return (_freedom(case) for case in cases)
-
-
-def scaled(quick: bool) -> Iterator[KnownScene]:
-    """A million times larger and smaller, and far away."""
-    cases = islice(sizes(), 0, None, 31 if quick else 3)
-    return (_freedom(case) for case in cases)
-
-
-def rounded_poses(quick: bool) -> Iterator[KnownScene]:
-    """Rounded drawings: exact as they are written."""
-    return (_freedom(case, RANKED) for case in islice(roundings(), 0, None, 11 if quick else 1))
-
-
-def measured_poses(quick: bool) -> Iterator[KnownScene]:
-    """Rounded drawings with a tolerance: true is what was rounded."""
-    return (_freedom(case) for case in islice(measured(), 0, None, 11 if quick else 1))
+    return KnownScene(scene, truth, name=name, group=name.partition(",")[0], because=DERIVED, swept=swept)
 
 
 FAMILIES = {
