@@ -228,11 +228,12 @@ def _titles(titles: Mapping[str, str], as_json: bool) -> None:
 def verify(files: options.CertificateFiles, strict: options.Strict = False, as_json: options.AsJson = False) -> None:
     """Check a certificate with the independent checker."""
     from dofkit.interface.classification import echo
-    from dofkit.interface.jobs import Request, verification
+    from dofkit.interface.jobs import Request, replies
 
     if len(files) > 2:
         raise typer.BadParameter("a scene and its certificate, or a certificate alone", param_hint="[SCENE] CERT")
-    printed = verification(Request(files[0], Output.here(as_json), certificate=files[-1], strict=strict))
+    request = Request(files[0], Output.here(as_json), certificate=files[-1], strict=strict)
+    [printed] = replies("verification_lines", files[:1], request)
     echo(printed)
     raise typer.Exit(UNREADABLE if printed.outcome is None else printed.outcome["status"])
 
