@@ -8,7 +8,7 @@ import tempfile
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import AbstractContextManager
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from datetime import UTC, datetime
 from importlib.util import find_spec
 from pathlib import Path
@@ -20,39 +20,16 @@ from rich.table import Table
 from dofkit.base import __version__
 from dofkit.base.runs import cores
 from dofkit.base.workers import function_named
-from dofkit.benchmark import record, runner, tasks
+from dofkit.benchmark import record, runner
 from dofkit.benchmark.record import AUTO, OUTCOMES, ChartError, Data, Ran
 from dofkit.benchmark.sentences import TWICE, sentences
 from dofkit.benchmark.statistics import Score, against, front, grouped, scores
-from dofkit.benchmark.tasks import Selection
+from dofkit.benchmark.tasks import ChartOptions
 from dofkit.benchmark.trials import FAMILIES
 
-#: Seconds of processor time for a trial, and in a quick run.
-LIMIT, LIMIT_QUICK = 2.0, 0.5
 #: What draws the figures, and so needs matplotlib.
 FIGURES = "dofkit.benchmark.figures:write"
 NO_MATPLOTLIB = "nothing is drawn without matplotlib: pip install 'dofkit[chart]'"
-
-
-@dataclass(frozen=True)
-class ChartOptions:
-    """The options of the command. ``source``: a folder with the data of a run, to be drawn again."""
-
-    selection: Selection
-    out: Path
-    source: Path | None = None
-    workers: int | None = None
-    limit: float | None = None
-
-    @property
-    def seconds(self) -> float:
-        """The limit for a trial, in seconds of processor time."""
-        return self.limit or (LIMIT_QUICK if self.selection.quick else LIMIT)
-
-    def command(self) -> str:
-        """Return the command that makes the same data again, wherever it is written."""
-        limit = [] if self.limit is None else [f"--timeout {self.limit:g}"]
-        return " ".join(["dofkit chart", *self.selection.options(), *limit])
 
 
 def chart(options: ChartOptions) -> bool:
@@ -61,10 +38,8 @@ def chart(options: ChartOptions) -> bool:
     if options.source is not None:
         finish(record.read(options.source), options.out)
         return True
-    chosen = options.selection.with_names(FAMILIES)
-    trials = chosen.trials(FAMILIES)
-    work = list(tasks.trial_tasks(trials, chosen.methods))
-    started, data = time.monotonic(), Data(_provenance(options, len(trials)))
+    work = options.tasks(FAMILIES)
+    started, data = time.monotonic(), Data(_provenance(options, sum(task.method == work[0].method for task in work)))
     try:
         with runner.bench_of(options.workers, options.seconds) as bench, _bar() as bar:
             progress = bar.add_task("trials", total=len(work))
@@ -93,7 +68,6 @@ def _provenance(options: ChartOptions, trials: int) -> Ran:
         python=platform.python_version(),
         workers=options.workers or cores(),
         limit=options.seconds,
-        quick=options.selection.quick,
         trials=trials,
         minutes=0,
         complete=False,

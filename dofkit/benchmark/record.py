@@ -56,7 +56,6 @@ class Ran:
     python: str
     workers: int
     limit: float
-    quick: bool
     trials: int
     minutes: float
     complete: bool

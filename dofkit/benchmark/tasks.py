@@ -1,9 +1,10 @@
-"""What is to be run: the trials that are asked for by name, each by each method."""
+"""The options of the command, and what they ask for: trials by name, each by each method."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from pathlib import Path
 from typing import get_args
 
 from dofkit.benchmark.record import ChartError
@@ -17,56 +18,8 @@ MOST = 32
 Families = Mapping[str, Callable[[], Iterator[Trial]]]
 
 
-@dataclass(frozen=True)
-class Selection:
-    """Questions, families and methods by name; an empty one stands for all of them."""
-
-    questions: Sequence[str] = ()
-    families: Sequence[str] = ()
-    methods: Sequence[str] = ()
-    quick: bool = False
-
-    def with_names(self, families: Families) -> Selection:
-        """Return it with all names written out. Raises ChartError with the nearest one for a name that is none."""
-        return replace(
-            self,
-            questions=_names(self.questions, get_args(Question), "question", "questions"),
-            families=_names(self.families, list(families), "family", "families"),
-            methods=_names(self.methods, list(METHODS), "method", "methods"),
-        )
-
-    def trials(self, families: Families) -> list[Trial]:
-        """Return the trials of what was chosen, family by family. Raises ChartError where there are none."""
-        chosen: list[Trial] = []
-        for name in self.families:
-            trials = [trial for trial in families[name]() if trial.question in self.questions]
-            chosen += few(trials) if self.quick else _thinned(trials)
-        if not chosen:
-            raise ChartError("no trial of these families asks such a question")
-        return chosen
-
-    def options(self) -> Iterator[str]:
-        """Yield the same, as it is written on the command line."""
-        for option, names in (("question", self.questions), ("families", self.families), ("methods", self.methods)):
-            if names:
-                yield f"--{option} {','.join(names)}"
-        if self.quick:
-            yield "--quick"
-
-
-def _thinned(trials: Sequence[Trial]) -> Iterator[Trial]:
-    """Yield at most `MOST` trials of each question, from the smallest to the largest at even distances."""
-    for row in grouped(trials, lambda trial: trial.question).values():
-        by_size, most = sorted(row, key=lambda trial: trial.size), min(MOST, len(row))
-        yield from (by_size[round(i * (len(row) - 1) / max(1, most - 1))] for i in range(most))
-
-
-def _names(asked: Iterable[str], available: Sequence[str], what: str, plural: str) -> list[str]:
-    names = [name.strip() for text in asked for name in text.split(",") if name.strip()]
-    for name in names:
-        if name not in available:
-            raise ChartError(f"there is no {what} '{name}': {suggestion(name, available, plural)}")
-    return [name for name in available if name in names] if names else list(available)
+#: Seconds of processor time for a trial, and in a quick run.
+LIMIT, LIMIT_QUICK = 2.0, 0.5
 
 
 @dataclass(frozen=True)
@@ -84,6 +37,61 @@ class TrialTask:
         return (t.family, t.question, swept, self.method)
 
 
-def trial_tasks(trials: Iterable[Trial], methods: Sequence[str]) -> Iterator[TrialTask]:
-    """Yield every trial by every method."""
-    return (TrialTask(trial, method) for trial in trials for method in methods)
+@dataclass(frozen=True)
+class ChartOptions:
+    """The options of the command; questions, families and methods by name, where no name stands for all of them.
+
+    ``source``: a folder with the data of a run, to be drawn again; ``limit``: seconds of processor time for a trial.
+    """
+
+    out: Path
+    questions: Sequence[str] = ()
+    families: Sequence[str] = ()
+    methods: Sequence[str] = ()
+    quick: bool = False
+    source: Path | None = None
+    workers: int | None = None
+    limit: float | None = None
+
+    @property
+    def seconds(self) -> float:
+        """The limit for a trial, in seconds of processor time."""
+        return self.limit or (LIMIT_QUICK if self.quick else LIMIT)
+
+    def tasks(self, families: Families) -> list[TrialTask]:
+        """Return the trials that are asked for, family by family, each by each method.
+
+        Raises ChartError where there are none, and with the nearest name for one that is none.
+        """
+        questions = _names(self.questions, get_args(Question), "question", "questions")
+        methods = _names(self.methods, list(METHODS), "method", "methods")
+        trials: list[Trial] = []
+        for family in _names(self.families, list(families), "family", "families"):
+            asked = [trial for trial in families[family]() if trial.question in questions]
+            trials += few(asked) if self.quick else _thinned(asked)
+        if not trials:
+            raise ChartError("no trial of these families asks such a question")
+        return [TrialTask(trial, method) for trial in trials for method in methods]
+
+    def command(self) -> str:
+        """Return the command that makes the same data again, wherever it is written."""
+        names = {"question": self.questions, "families": self.families, "methods": self.methods}
+        words = [f"--{option} {','.join(values)}" for option, values in names.items() if values]
+        words += ["--quick"] if self.quick else []
+        words += [] if self.limit is None else [f"--timeout {self.limit:g}"]
+        return " ".join(["dofkit chart", *words])
+
+
+def _thinned(trials: Sequence[Trial]) -> Iterator[Trial]:
+    """Yield at most `MOST` trials of each question, from the smallest to the largest at even distances."""
+    for row in grouped(trials, lambda trial: trial.question).values():
+        by_size, most = sorted(row, key=lambda trial: trial.size), min(MOST, len(row))
+        yield from (by_size[round(i * (len(row) - 1) / max(1, most - 1))] for i in range(most))
+
+
+def _names(asked: Iterable[str], available: Sequence[str], what: str, plural: str) -> list[str]:
+    names = [name.strip() for text in asked for name in text.split(",") if name.strip()]
+    for name in names:
+        if name not in available:
+            raise ChartError(f"there is no {what} '{name}': {suggestion(name, available, plural)}")
+    return [name for name in available if name in names] if names else list(available)

@@ -266,12 +266,11 @@ def chart(
     timeout: options.Timeout = None,
 ) -> None:
     """Compare methods by speed and accuracy on known scenes."""
-    from dofkit.benchmark.command import ChartOptions, chart
-    from dofkit.benchmark.tasks import Selection
+    from dofkit.benchmark.command import chart
+    from dofkit.benchmark.tasks import ChartOptions
 
-    selection = Selection(question or (), families or (), methods or (), quick)
     with failures_of("chart"):
-        whole = chart(ChartOptions(selection, out, source, workers, timeout))
+        whole = chart(ChartOptions(out, question or (), families or (), methods or (), quick, source, workers, timeout))
     if not whole:
         raise typer.Exit(INTERRUPTED)
 

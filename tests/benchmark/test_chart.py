@@ -19,7 +19,7 @@ from dofkit.benchmark.record import AUTO, Data, Outcome, Ran, TrialLine
 from dofkit.benchmark.runner import outcome_of
 from dofkit.benchmark.sentences import caption
 from dofkit.benchmark.statistics import Score
-from dofkit.benchmark.tasks import Selection
+from dofkit.benchmark.tasks import ChartOptions
 from dofkit.benchmark.trials.construction import Trial
 from dofkit.interface.cli import app
 
@@ -32,7 +32,6 @@ RAN = Ran(
     python="3.11",
     workers=2,
     limit=4.0,
-    quick=True,
     trials=8,
     minutes=1.5,
     complete=True,
@@ -43,7 +42,8 @@ def ran(methods: Sequence[str], limit: float = 0.3) -> list[TrialLine]:
     """The trials of the family by these methods, in two workers."""
     with Pool(2, modules=("dofkit.benchmark.runner", "shared.chart_methods")) as pool:
         bench = runner.Bench(pool, limit, "shared.chart_methods:answered")
-        return list(runner.run(tasks.trial_tasks(chart_methods.family(), methods), bench))
+        work = [tasks.TrialTask(trial, method) for trial in chart_methods.family() for method in methods]
+        return list(runner.run(work, bench))
 
 
 # -- running ---------------------------------------------------------------------------------------
@@ -117,18 +117,18 @@ def test_answers_are_judged(truth: Any, told: Any, outcome: Outcome) -> None:
     assert outcome_of(truth, told) == outcome
 
 
+def asked(methods: Sequence[str] = ("auto",), quick: bool = False) -> ChartOptions:
+    return ChartOptions(Path(), questions=["dof"], methods=methods, quick=quick)
+
+
 def test_of_many_trials_some_are_taken_from_the_smallest_to_the_largest() -> None:
     trials = [replace(t, name=f"{t.name}{k}") for t in chart_methods.family() for k in range(8)]
-    chosen = Selection(["dof"], ["boxes"]).trials({"boxes": lambda: iter(trials)})
+    chosen = [task.trial for task in asked().tasks({"boxes": lambda: iter(trials)})]
     assert (len(trials), len(chosen), chosen[0].size, chosen[-1].size) == (64, tasks.MOST, 1, 8)
     assert [t.size for t in chosen] == sorted(t.size for t in chosen)
-    quick = Selection(["dof"], ["boxes"], quick=True).trials({"boxes": chart_methods.family})
-    assert [t.size for t in quick] == [1]
-    assert list(Selection(["dof"], [], ["auto", "field"], True).options()) == [
-        "--question dof",
-        "--methods auto,field",
-        "--quick",
-    ]
+    assert [t.trial.size for t in asked(quick=True).tasks({"boxes": chart_methods.family})] == [1]
+    command = asked(methods=["auto", "field"], quick=True).command()
+    assert command == "dofkit chart --question dof --methods auto,field --quick"
 
 
 # -- what the lines say ----------------------------------------------------------------------------
