@@ -21,7 +21,7 @@ LADDERS = (
     "cliques", "double bananas", "Henneberg", "links on a line", "doors", "cranks", "loops of hinges",
     "braced grids", "chains of links", "chains of bodies", "trees of bodies", "rolling",
     "chained forms", "trailers",
-    "chains of equations", "many blocks", "mixed forms", "rates of rates",
+    "chains of equations", "many blocks", "rates of rates",
     "sums of squares",
 )  # fmt: skip
 #: Families whose scenes are links between particles, and how many joints are still checked by the rank.

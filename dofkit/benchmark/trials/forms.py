@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import random
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 from dofkit.benchmark.trials.construction import (
@@ -16,78 +15,6 @@ from dofkit.benchmark.trials.construction import (
     tabled,
     tables,
 )
-
-#: A form by coordinate: coefficients as text.
-Form = Mapping[str, str]
-
-
-def text(form: Form) -> str:
-    """Return a form as an equation."""
-    return " + ".join(f"({value}) d{q}" for q, value in form.items()) + " = 0"
-
-
-def combined(rows: Sequence[Sequence[str]], forms: Sequence[Form]) -> list[Form]:
-    """Return the forms multiplied by a matrix of functions (texts; an empty one is 0)."""
-    products: list[Form] = []
-    for row in rows:
-        terms: dict[str, list[str]] = {}
-        for factor, form in zip(row, forms, strict=True):
-            for q, value in form.items() if factor else ():
-                terms.setdefault(q, []).append(f"({factor})*({value})")
-        products.append({q: " + ".join(values) for q, values in terms.items()})
-    return products
-
-
-def mixed_forms() -> Iterator[KnownScene]:
-    """n exact forms mixed by functions: none integrates alone, all do together; with a contact form among them, none.
-
-    The matrix is lower times upper triangular with ones on both diagonals: determinant 1.
-    """
-    because = "what they span does not change with a regular matrix of functions"
-    for n, seed in [(2, 0), (2, 1), (3, 0), (3, 1), (4, 0), (5, 0)]:
-        rng = random.Random(f"mixed {n} {seed}")
-        names = [*(f"u{k}" for k in range(n)), *(f"v{k}" for k in range(n)), "w"]
-        exact = [_exact(rng, k, n) for k in range(n)]
-        matrix = _unimodular(rng, n)
-        for name, forms, integrates, dof in (
-            ("exact", exact, True, n + 1),
-            ("one a contact form", [{"u0": "1", "v0": "-w"}, *exact[1:]], False, n + 2),
-        ):
-            rows = [text(form) for form in combined(matrix, forms)]
-            labels = every(numbered(n), integrates) if all(row[0] for row in matrix) or integrates else None
-            about = f"{n} forms in {2 * n + 1} coordinates, {name}, {seed}", scene_of(names, *rows), because, n
-            yield known_scene(*about, dof=dof, integrability=labels)
-
-
-def _exact(rng: random.Random, k: int, n: int) -> Form:
-    """Return d(u_k + a function of the v) for a random one."""
-    a, b, i, j = rng.randint(1, 5), rng.randint(1, 5), rng.randrange(n), rng.randrange(n)
-    slopes = rng.choice(
-        (
-            {f"v{i}": f"{2 * a}*v{i}"},
-            {f"v{i}": f"{a}*cos(v{i})"},
-            {f"v{i}": f"{a}*exp({b}*v{i})"},
-            {f"v{i}": f"v{j}", f"v{j}": f"v{i}"} if i != j else {f"v{i}": f"{3 * b}*v{i}^2"},
-        )
-    )
-    return {f"u{k}": "1", **slopes}
-
-
-def _unimodular(rng: random.Random, n: int) -> list[list[str]]:
-    """Return (1 on the diagonal, f_i below) (1 on the diagonal, g_j above): entries sum_k L_ik U_kj."""
-
-    def entry() -> str:
-        return rng.choice((f"u{rng.randrange(n)}", f"v{rng.randrange(n)}^2", f"sin(u{rng.randrange(n)})", "w"))
-
-    lower = [[entry() if j < i else "1" if i == j else "" for j in range(n)] for i in range(n)]
-    upper = [[entry() if j > i else "1" if i == j else "" for j in range(n)] for i in range(n)]
-    return [
-        [
-            " + ".join(f"({lower[i][k]})*({upper[k][j]})" for k in range(n) if lower[i][k] and upper[k][j])
-            for j in range(n)
-        ]
-        for i in range(n)
-    ]
 
 
 def together() -> Iterator[KnownScene]:
@@ -212,7 +139,6 @@ def car(n: int) -> dict[str, Any]:
 
 
 FAMILIES = {
-    "mixed forms": mixed_forms,
     "forms together": together,
     "time": rheonomic,
     "rates of rates": hidden_by_time,
