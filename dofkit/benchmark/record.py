@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
 from dataclasses import asdict, dataclass, field, fields
 from pathlib import Path
 from typing import Any, Literal
@@ -31,7 +31,6 @@ class TrialLine:
     question: str
     method: str
     size: int
-    swept: Mapping[str, Any]
     truth: Any
     answer: Any
     outcome: Outcome
@@ -73,7 +72,7 @@ class Data:
 
 TRIALS, RAN = "trials.csv", "run.json"
 #: Columns that hold JSON, and those that hold numbers; the others are plain text.
-_JSON = ("swept", "truth", "answer")
+_JSON = ("truth", "answer")
 _NUMBERS: dict[str, Callable[[str], Any]] = {"size": int, "seconds": float}
 _COLUMNS = [column.name for column in fields(TrialLine)]
 

@@ -151,7 +151,7 @@ class Bench:
 def _line(task: TrialTask, answer: object, outcome: Outcome, seconds: float, reason: str) -> TrialLine:
     t = task.trial
     why = "" if outcome == "right" else explained(task.method, t.question, outcome, reason)
-    about = (t.family, t.name, t.question, task.method, t.size, dict(t.swept), t.truth)
+    about = (t.family, t.name, t.question, task.method, t.size, t.truth)
     return TrialLine(*about, answer, outcome, seconds, " ".join(why.split()))
 
 

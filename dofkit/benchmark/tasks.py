@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -31,10 +32,10 @@ class TrialTask:
 
     @property
     def ladder(self) -> tuple[str, ...]:
-        """What is the same in trials of which only the size differs."""
+        """What is the same in trials of which only the size differs: in a name that has it, n stands for it."""
         t = self.trial
-        swept = repr(sorted(t.swept.items(), key=str))
-        return (t.family, t.question, swept, self.method)
+        member, found = re.subn(rf"\b{t.size} by {t.size}\b|\b{t.size}\b", "n", t.name, count=1)
+        return (t.family, t.question, member if found else "", self.method)
 
 
 @dataclass(frozen=True)

@@ -93,10 +93,10 @@ def test_ladders_climb_by_size_and_other_ladders_go_on() -> None:
     assert sizes[:4] == [1, 1, 2, 2]
     assert sizes[4:].index(4) < sizes[4:].index(8)
     trial = next(chart_methods.family())
-    one, other = tasks.TrialTask(trial, "m"), tasks.TrialTask(replace(trial, size=7, name="b"), "m")
+    one, other = tasks.TrialTask(trial, "m"), tasks.TrialTask(replace(trial, size=7, name="box-7-0"), "m")
     assert one.ladder == other.ladder
-    swept = tasks.TrialTask(replace(trial, swept={"digits": 3}), "m")
-    assert len({one.ladder, swept.ladder, tasks.TrialTask(trial, "n").ladder}) == 3
+    another = tasks.TrialTask(replace(trial, name="box-1-0, 3 digits"), "m")
+    assert len({one.ladder, another.ladder, tasks.TrialTask(trial, "n").ladder}) == 3
 
 
 @pytest.mark.parametrize(
@@ -157,7 +157,7 @@ def line(trial: str, method: str, outcome: Outcome, seconds: float, size: int = 
     """A line about a family of boxes."""
     told = {"right": 2, "wrong": 3}.get(outcome)
     why = "" if outcome == "right" else 'because, he said, "no"; θ'
-    return TrialLine("boxes", trial, "dof", method, size, {"gap": "1/9"}, 2, told, outcome, seconds, why)
+    return TrialLine("boxes", trial, "dof", method, size, 2, told, outcome, seconds, why)
 
 
 LINES = [
@@ -199,8 +199,8 @@ def test_what_is_written_is_read_back(tmp_path: Path) -> None:
     back = record.read(tmp_path)
     assert back == DATA
     header, first = (tmp_path / "trials.csv").read_text(encoding="utf-8").splitlines()[:2]
-    assert header.startswith("family,trial,question,method,size,swept,truth,answer,outcome,seconds,why")
-    assert first.startswith('boxes,b1,dof,auto,1,"{""gap""')
+    assert header.startswith("family,trial,question,method,size,truth,answer,outcome,seconds,why")
+    assert first.startswith("boxes,b1,dof,auto,1,2,2,right,0.002,")
     (tmp_path / record.RAN).write_text(json.dumps({"ran": 1}))
     with pytest.raises(record.ChartError, match="are not those of a run"):
         record.read(tmp_path)

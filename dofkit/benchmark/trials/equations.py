@@ -73,7 +73,7 @@ def linear_rows() -> Iterator[KnownScene]:
             ("scaled by", f"{step}*({_row(last)} - ({value})) = 0", n - k, [f"c{k + 1}"]),
         ):
             about = f"{n} coordinates, {how} 1e-{digits}", scene_of(names, *texts, text), because, n
-            yield known_scene(*about, swept={"gap": 10.0**-digits}, dof=dof, redundancy=over)
+            yield known_scene(*about, dof=dof, redundancy=over)
 
 
 def _row(row: Sequence[Fraction]) -> str:
@@ -91,7 +91,7 @@ def touching() -> Iterator[KnownScene]:
                 name = f"{row['name']}, {how}" + (f" by 1e-{digits}" if k != 1 else "")
                 scene = scene_of(row["coordinates"], *(text.replace("{e}", e) for text in row["rows"]))
                 about = name, scene, because, len(row["rows"])
-                yield known_scene(*about, swept={"gap": float(e)}, dof=dof, redundancy=over)
+                yield known_scene(*about, dof=dof, redundancy=over)
 
 
 #: The powers of ten by which configuration-level equations are moved away.
@@ -109,9 +109,7 @@ def scales() -> Iterator[KnownScene]:
             label = {"c1": row["holonomic"]} if "holonomic" in row else None
             about = f"{row['name']}, {radius}", scene, row["because"]
             over = row.get("redundant")
-            yield known_scene(
-                *about, swept={"scale": 10.0**power}, dof=row["dof"], integrability=label, redundancy=over
-            )
+            yield known_scene(*about, dof=row["dof"], integrability=label, redundancy=over)
 
 
 def branches() -> Iterator[KnownScene]:
@@ -150,7 +148,7 @@ def high_powers() -> Iterator[KnownScene]:
             if k > LARGEST and "(" in "".join(texts):
                 continue
             about = f"{name}, k = {k}", scene_of(coordinates, *texts), because, k
-            yield known_scene(*about, swept={"power": k}, dof=dof, redundancy=over)
+            yield known_scene(*about, dof=dof, redundancy=over)
 
 
 def power_forms() -> Iterator[KnownScene]:
@@ -172,7 +170,7 @@ def power_forms() -> Iterator[KnownScene]:
                 continue
             about = f"{name}, k = {k}", scene_of("x y z", text), because, k
             label, dof = {"c1": integrates}, 2 if integrates else 3
-            yield known_scene(*about, swept={"power": k}, dof=dof, integrability=label)
+            yield known_scene(*about, dof=dof, integrability=label)
 
 
 def sums_of_squares() -> Iterator[KnownScene]:

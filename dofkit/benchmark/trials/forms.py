@@ -119,12 +119,12 @@ def trailers() -> Iterator[KnownScene]:
         scene = car(n)
         about = f"a car with {n} trailers", scene, controllable, n + 2
         labels = every(numbered(n + 2), False)
-        yield known_scene(*about, swept={"member": "steers"}, dof=n + 4, integrability=labels)
+        yield known_scene(*about, dof=n + 4, integrability=labels)
         if n <= 3:
             held = {**scene, "constraints": ["phi = 0", *scene["constraints"]]}
             about = f"a car with {n} trailers that does not steer", held, straight, n + 2
             labels = every(numbered(n + 3), True)
-            yield known_scene(*about, swept={"member": "does not steer"}, dof=1, integrability=labels)
+            yield known_scene(*about, dof=1, integrability=labels)
 
 
 def car(n: int) -> dict[str, Any]:

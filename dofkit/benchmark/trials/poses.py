@@ -48,19 +48,19 @@ class FrameworkPose:
             positions[end] = _stepped(positions[end], row["by"], step)
         return framework(joints, ground, row["bars"])
 
-    def scene(self, name: str, drawn: Framework, freedom: Freedom, swept: Mapping[str, Any], **more: Any) -> KnownScene:
+    def scene(self, name: str, drawn: Framework, freedom: Freedom, **more: Any) -> KnownScene:
         """Return the scene of a framework, one of this pose's or moved, with its truth."""
-        return _scene_of_pose(name, drawn.scene(**more), drawn.coordinates, len(drawn.bars), freedom, swept)
+        return _scene_of_pose(name, drawn.scene(**more), drawn.coordinates, len(drawn.bars), freedom)
 
-    def placed(self, name: str, step: Fraction, move: Move, swept: Mapping[str, Any], **more: Any) -> KnownScene:
+    def placed(self, name: str, step: Fraction, move: Move, **more: Any) -> KnownScene:
         """Return the scene at a step, with all positions moved."""
-        return self.scene(name, self.at(step).moved(move), self.freedom(step), swept, **more)
+        return self.scene(name, self.at(step).moved(move), self.freedom(step), **more)
 
 
 class HingedPose(FrameworkPose):
     """A loop of hinged bodies that is overconstrained at step 0; a single body is held by all hinges."""
 
-    def placed(self, name: str, step: Fraction, move: Move, swept: Mapping[str, Any], **more: Any) -> KnownScene:
+    def placed(self, name: str, step: Fraction, move: Move, **more: Any) -> KnownScene:
         """Return the scene at a step, with all positions moved."""
         row = self.row
         number, part = row["moved"]
@@ -69,7 +69,7 @@ class HingedPose(FrameworkPose):
             by = {key: row["by"] if (i, key) == (number, part) else [0, 0, 0] for key in ("place", "axis")}
             hinges.append((move(_stepped(place, by["place"], step)), _stepped(axis, by["axis"], step)))
         scene = {**hinged_loop(hinges, row["bodies"]), **more}
-        return _scene_of_pose(name, scene, 6 * row["bodies"], 5 * len(hinges), self.freedom(step), swept)
+        return _scene_of_pose(name, scene, 6 * row["bodies"], 5 * len(hinges), self.freedom(step))
 
 
 NEAR = [FrameworkPose(row) for row in tables("poses.yaml")["frameworks"]]
@@ -79,14 +79,13 @@ ZERO = Fraction(0)
 #: Digits to which coordinates are rounded.
 DIGITS = (12, 9, 6, 4, 3)
 MILLION = 10**6
-#: (move, scale, offset) by name.
-MOVES: Mapping[str, tuple[Move, float, float]] = {
-    "as drawn": (lambda p: p, 1, 0),
-    "a million times larger": (lambda p: tuple(x * MILLION for x in p), MILLION, 0),
-    "a million times smaller": (lambda p: tuple(x / MILLION for x in p), 1 / MILLION, 0),
-    "moved a hundred away": (lambda p: tuple(x + 100 * (k + 1) for k, x in enumerate(p)), 1, 100),
-    "moved a million away": (lambda p: tuple(x + MILLION * (k + 1) for k, x in enumerate(p)), 1, MILLION),
-    "small and far away": (lambda p: tuple(x / MILLION + MILLION for x in p), 1 / MILLION, MILLION),
+MOVES: Mapping[str, Move] = {
+    "as drawn": lambda p: p,
+    "a million times larger": lambda p: tuple(x * MILLION for x in p),
+    "a million times smaller": lambda p: tuple(x / MILLION for x in p),
+    "moved a hundred away": lambda p: tuple(x + 100 * (k + 1) for k, x in enumerate(p)),
+    "moved a million away": lambda p: tuple(x + MILLION * (k + 1) for k, x in enumerate(p)),
+    "small and far away": lambda p: tuple(x / MILLION + MILLION for x in p),
 }
 #: How the truth of a pose is known.
 DERIVED = "derived by hand at the singular pose and beside it; of rounded numbers the exact rank"
@@ -96,9 +95,7 @@ TOLERANCE = "1e-4"
 
 def _moved(pose: FrameworkPose, step: Fraction, how: str, named: str = "", **more: Any) -> KnownScene:
     """Return a pose at a step, moved."""
-    move, scale, offset = MOVES[how]
-    swept = {"step": float(step), "scale": scale, "offset": offset} | {key: float(v) for key, v in more.items()}
-    return pose.placed(f"{pose.name}, {float(step):g} beside, {how}{named}", step, move, swept, **more)
+    return pose.placed(f"{pose.name}, {float(step):g} beside, {how}{named}", step, MOVES[how], **more)
 
 
 def near_singular() -> Iterator[KnownScene]:
@@ -106,7 +103,7 @@ def near_singular() -> Iterator[KnownScene]:
     for step in (ZERO, *STEPS):
         for pose in NEAR:
             name = f"{pose.name}, {float(step):g} beside"
-            yield pose.placed(name, step, MOVES["as drawn"][0], {"step": float(step)})
+            yield pose.placed(name, step, MOVES["as drawn"])
         yield from (_moved(pose, step, "as drawn") for pose in JOINTED)
 
 
@@ -140,7 +137,7 @@ def rounded_poses() -> Iterator[KnownScene]:
             first = drawn.by_rank()
             regular = drawn.coordinates - first == len(drawn.bars)
             name = f"{pose.name}, {digits} digits"
-            yield pose.scene(name, drawn, (first if regular else None, first), {"digits": digits})
+            yield pose.scene(name, drawn, (first if regular else None, first))
 
 
 def measured_poses() -> Iterator[KnownScene]:
@@ -148,9 +145,8 @@ def measured_poses() -> Iterator[KnownScene]:
     for digits in DIGITS:
         for pose in NEAR:
             drawn = pose.at(ZERO).moved(turned).moved(rounded(digits))
-            swept = {"digits": digits, "tolerance": 10.0**-digits}
             name = f"{pose.name}, {digits} digits with tolerance"
-            yield pose.scene(name, drawn, pose.freedom(ZERO), swept, tolerance=f"1e-{digits}")
+            yield pose.scene(name, drawn, pose.freedom(ZERO), tolerance=f"1e-{digits}")
 
 
 def measured_elsewhere() -> Iterator[KnownScene]:
@@ -161,15 +157,13 @@ def measured_elsewhere() -> Iterator[KnownScene]:
             yield from (_moved(p, step, how, tolerance=TOLERANCE) for p in JOINTED)
 
 
-def _scene_of_pose(
-    name: str, scene: dict[str, Any], coordinates: int, equations: int, freedom: Freedom, swept: Mapping[str, Any]
-) -> KnownScene:
+def _scene_of_pose(name: str, scene: dict[str, Any], coordinates: int, equations: int, freedom: Freedom) -> KnownScene:
     dof, first = freedom
     truth: dict[str, Any] = {"consistent": True, "instantaneous_dof": first}
     if dof is not None:
         truth |= {"dof": dof, "velocity_dof": dof, "singular": first != dof}
         truth["redundant_equations"] = max(0, equations - (coordinates - dof))
-    return KnownScene(scene, truth, name=name, group=name.partition(",")[0], because=DERIVED, swept=swept)
+    return KnownScene(scene, truth, name=name, group=name.partition(",")[0], because=DERIVED)
 
 
 FAMILIES = {
