@@ -24,7 +24,7 @@ _UNBROKEN = 1 << 16
 
 
 def as_text(sheet: Sheet, width: int | None = None, colours: Colours | None = None) -> str:
-    """Return the whole sheet as lines without blanks at their ends; ``width``: columns (None: the terminal's, or 80)."""
+    """Return the sheet as lines without blanks at their ends; ``width``: columns (None: the terminal's, or 80)."""
     coloured = colours is not None
     console = Console(
         file=io.StringIO(),
