@@ -279,7 +279,7 @@ def _cells(axes: Axes, cells: Sequence[tuple[int, int, Score]]) -> None:
         widths = [WIDE * score.share(outcome) for _, _, score in cells]
         style: dict[str, Any] = {"color": OUTCOME_COLOURS[outcome], "hatch": OUTCOME_HATCHES.get(outcome)}
         axes.barh(heights, widths, BAR, lefts, edgecolor="#FFFFFF", linewidth=0, **style)
-        lefts = [left + width for left, width in zip(lefts, widths, strict=True)]
+        lefts = [start + width for start, width in zip(lefts, widths, strict=True)]
     for x, y, score in cells:
         frame = ("#000000", 1.0) if score.method == AUTO else ("#9A9A9A", 0.5)
         axes.barh(y, WIDE, BAR, x, fill=False, edgecolor=frame[0], linewidth=frame[1])

@@ -34,8 +34,8 @@ class TrialTask:
     def ladder(self) -> tuple[str, ...]:
         """What is the same in trials of which only the size differs: in a name that has it, n stands for it."""
         t = self.trial
-        member, found = re.subn(rf"\b{t.size} by {t.size}\b|\b{t.size}\b", "n", t.name, count=1)
-        return (t.family, t.question, member if found else "", self.method)
+        member, count = re.subn(rf"\b{t.size} by {t.size}\b|\b{t.size}\b", "n", t.name, count=1)
+        return (t.family, t.question, member if count else "", self.method)
 
 
 @dataclass(frozen=True)
