@@ -57,7 +57,7 @@ def _trials() -> Iterator[dict[str, Any]]:
     share = -(-TRIALS // len(families))
     rows: list[dict[str, Any]] = []
     for family in families:
-        pool = list(islice((t for t in FAMILIES[family](False) if t.size <= 64), 4 * share))
+        pool = list(islice((t for t in FAMILIES[family]() if t.size <= 64), 4 * share))
         random.Random(family).shuffle(pool)
         rows += [{"group": f"trials/{family}", "name": t.name, "scene": t.scene} for t in pool[:share]]
     yield from ({**row, "name": f"{i} {row['name']}"} for i, row in enumerate(rows[:TRIALS]))

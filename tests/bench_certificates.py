@@ -29,6 +29,7 @@ from shared.tampering import accepted, edited, renewed, tampered, untrue
 
 import dofkit
 from dofkit.benchmark.trials import FAMILIES
+from dofkit.benchmark.trials.construction import few
 from dofkit.checker import CheckError
 from dofkit.checker.verification import verify
 from dofkit.methods.certificates.certificate import Certifying
@@ -98,7 +99,7 @@ def others(quick: bool) -> list[tuple[str, Mapping[str, Any]]]:
     found: dict[str, tuple[str, Mapping[str, Any]]] = {}
     for name, family in FAMILIES.items():
         if name != "catalog":
-            for trial in family(True):
+            for trial in few(family()):
                 key = json.dumps(trial.scene, sort_keys=True, default=str)
                 found.setdefault(key, (re.sub(r"\W+", "-", f"{name} {len(found)}"), trial.scene))
     return list(found.values())

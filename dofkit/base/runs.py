@@ -83,8 +83,9 @@ class Pool:
             for worker in self.workers:
                 worker.kill()
             if not (running := [call for call in self._calls.copy() if not call.done()]):
-                return
+                break
             wait(running, timeout=0.05)
+        self._threads.shutdown()
 
     def __enter__(self) -> Self:
         return self

@@ -189,14 +189,13 @@ class Worker:
     """A process that does one job after another; it starts with the first one and ends with this object.
 
     ``memory``: the bytes of address space that it may take; ``modules``: what it imports before the first job, which
-    counts as its start; ``fork``: a copy of this process where that is safe, instead of a fresh Python.
+    counts as its start.
     """
 
-    def __init__(self, memory: int = MEMORY, modules: Sequence[str] = (), *, fork: bool = False) -> None:
+    def __init__(self, memory: int = MEMORY, modules: Sequence[str] = ()) -> None:
         """``memory``: the limit of its address space in bytes; ``modules``: what it imports before its first job."""
         self.memory = memory
         self.modules = tuple(modules)
-        self._fork = fork
         self._forget()
 
     def _forget(self) -> None:
@@ -306,8 +305,6 @@ class Worker:
 
     def _started(self) -> _Process:
         """Return a new process. A fresh Python shares two pipes with this process."""
-        if self._fork and can_fork():
-            return _Fork(self.memory, self.modules)
         paths = [os.path.abspath(place) for place in sys.path if place]  # never the working folder
         return subprocess.Popen(
             [sys.executable, "-P", "-m", "dofkit.base.workers", str(self.memory), *self.modules],

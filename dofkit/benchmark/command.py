@@ -8,7 +8,7 @@ import tempfile
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import AbstractContextManager
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from datetime import UTC, datetime
 from importlib.util import find_spec
 from pathlib import Path
@@ -20,38 +20,16 @@ from rich.table import Table
 from dofkit.base import __version__
 from dofkit.base.runs import cores
 from dofkit.base.workers import function_named
-from dofkit.benchmark import record, runner, tasks
-from dofkit.benchmark.record import ALL, AUTO, ChartError, ChartRun, Data, Ran, Score
-from dofkit.benchmark.sentences import TWICE, sentences, summary
-from dofkit.benchmark.tasks import Selection
+from dofkit.benchmark import record, runner
+from dofkit.benchmark.record import AUTO, OUTCOMES, ChartError, Data, Ran
+from dofkit.benchmark.sentences import TWICE, sentences
+from dofkit.benchmark.statistics import Score, against, front, grouped, scores
+from dofkit.benchmark.tasks import ChartOptions
 from dofkit.benchmark.trials import FAMILIES
 
-#: Seconds of processor time for a trial, and in a quick run.
-LIMIT, LIMIT_QUICK = 2.0, 0.5
 #: What draws the figures, and so needs matplotlib.
-FIGURES = "dofkit.benchmark.figures.table:write"
+FIGURES = "dofkit.benchmark.figures:write"
 NO_MATPLOTLIB = "nothing is drawn without matplotlib: pip install 'dofkit[chart]'"
-
-
-@dataclass(frozen=True)
-class ChartOptions:
-    """The options of the command. ``source``: a folder with the data of a run, to be drawn again."""
-
-    selection: Selection
-    out: Path
-    source: Path | None = None
-    workers: int | None = None
-    limit: float | None = None
-
-    @property
-    def seconds(self) -> float:
-        """The limit for a trial, in seconds of processor time."""
-        return self.limit or (LIMIT_QUICK if self.selection.quick else LIMIT)
-
-    def command(self) -> str:
-        """Return the command that makes the same data again, wherever it is written."""
-        limit = [] if self.limit is None else [f"--timeout {self.limit:g}"]
-        return " ".join(["dofkit chart", *self.selection.options(), *limit])
 
 
 def chart(options: ChartOptions) -> bool:
@@ -60,24 +38,22 @@ def chart(options: ChartOptions) -> bool:
     if options.source is not None:
         finish(record.read(options.source), options.out)
         return True
-    chosen = options.selection.with_names(FAMILIES)
-    trials = chosen.thinned(chosen.trials(FAMILIES, chosen.quick))
-    work = list(tasks.trial_tasks(trials, chosen.methods))
-    swept = list(tasks.sweeps(chosen.trials(FAMILIES, False), chosen.methods, chosen.quick))
-    started, data = time.monotonic(), Data(_provenance(options, len(trials)))
+    work = options.tasks(FAMILIES)
+    started, data = time.monotonic(), Data(_provenance(options, sum(task.method == work[0].method for task in work)))
     try:
-        _gather(options, work, swept, data)
+        with runner.bench_of(options.workers, options.seconds) as bench, _bar() as bar:
+            progress = bar.add_task("trials", total=len(work))
+            for line in runner.run(work, bench):
+                data.lines.append(line)
+                bar.update(progress, advance=1)
         complete = True
     except KeyboardInterrupt:
         complete = False
-        done, total = len(data.lines) + len(data.sweeps), len(work) + len(swept)
-        Console(stderr=True).print(f"interrupted after {done} of {total} trials", highlight=False)
+        Console(stderr=True).print(f"interrupted after {len(data.lines)} of {len(work)} trials", highlight=False)
         if not data.lines:
             return False
-    minutes, lines, sweeps = (time.monotonic() - started) / 60, len(data.lines), len(data.sweeps)
-    ran = replace(data.ran, lines=lines, sweeps=sweeps, minutes=minutes, complete=complete)
-    data = replace(data, ran=ran)
-    finish(data, options.out)
+    ran = replace(data.ran, minutes=(time.monotonic() - started) / 60, complete=complete)
+    finish(replace(data, ran=ran), options.out)
     return complete
 
 
@@ -92,10 +68,7 @@ def _provenance(options: ChartOptions, trials: int) -> Ran:
         python=platform.python_version(),
         workers=options.workers or cores(),
         limit=options.seconds,
-        quick=options.selection.quick,
         trials=trials,
-        lines=0,
-        sweeps=0,
         minutes=0,
         complete=False,
     )
@@ -105,11 +78,10 @@ def finish(data: Data, out: Path) -> None:
     """Write the data, draw them where matplotlib is installed, and print what they show."""
     order = {key: i for i, key in enumerate(dict.fromkeys((line.family, line.question) for line in data.lines))}
     data.lines.sort(key=lambda line: (order[line.family, line.question], line.size, line.trial))
-    chart = summary(data)
     record.write(data, out)
     able = find_spec("matplotlib") is not None
-    drawn = list(function_named(FIGURES)(chart, out)) if able and data.ran.complete else []
-    show(chart, data, out, drawn)
+    drawn = list(function_named(FIGURES)(data, out)) if able and data.ran.complete else []
+    show(data, out, drawn)
     if not able:
         Console(stderr=True).print(NO_MATPLOTLIB, highlight=False, markup=False)
 
@@ -122,18 +94,6 @@ def writable(out: Path) -> None:
             pass
     except OSError as error:
         raise ChartError(f"nothing can be written to {out}: {error.strerror}") from None
-
-
-def _gather(
-    options: ChartOptions, work: Sequence[tasks.TrialTask], swept: Sequence[tasks.TrialTask], data: Data
-) -> None:
-    """Fill the data."""
-    with runner.bench_of(options.workers, options.seconds) as bench, _bar() as bar:
-        for name, members, lines in (("trials", work, data.lines), ("sweeps", swept, data.sweeps)):
-            progress = bar.add_task(name, total=len(members))
-            for line in runner.run(members, bench):
-                lines.append(line)
-                bar.update(progress, advance=1)
 
 
 def _bar() -> AbstractContextManager[Progress]:
@@ -157,14 +117,14 @@ def machine() -> str:
 # On the terminal
 
 
-def show(chart: ChartRun, data: Data, out: Path, drawn: Sequence[Path]) -> None:
+def show(data: Data, out: Path, drawn: Sequence[Path]) -> None:
     """Print a table for each question, where the files are, and how ``auto`` did."""
     console = Console(highlight=False, markup=False)
-    if chart.scores:
-        console.print(table(chart))
-        for sentence in auto_sentences(chart):
+    if data.lines:
+        console.print(table(data))
+        for sentence in auto_sentences(data):
             console.print(sentence, soft_wrap=True)
-    console.print(f"data: {out}/ (trials.csv, sweeps.csv, run.json)", soft_wrap=True)
+    console.print(f"data: {out}/ (trials.csv, run.json)", soft_wrap=True)
     if drawn:
         names = ", ".join(path.stem for path in drawn)
         console.print(f"figures, as .png and .svg: {names}", soft_wrap=True)
@@ -172,35 +132,31 @@ def show(chart: ChartRun, data: Data, out: Path, drawn: Sequence[Path]) -> None:
         console.print("the run was interrupted: this is only a part of it", soft_wrap=True)
 
 
-def table(chart: ChartRun) -> Table:
+def table(data: Data) -> Table:
     """Return the scores question by question, the fastest method first."""
-    columns = ("question", "method", "right", "wrong", "undecided", "timed out", "cannot", "median", "Pareto")
-    rows = Table(*columns, box=None, pad_edge=False)
+    rows = Table("question", "method", *OUTCOMES, "median", "Pareto", box=None, pad_edge=False)
     for column in rows.columns[2:8]:
         column.justify = "right"
-    totals = [score for score in chart.scores if score.family == ALL]
-    fronts = {front.question: front.methods for front in chart.fronts}
-    for question in dict.fromkeys(score.question for score in totals):
-        members = sorted((s for s in totals if s.question == question), key=lambda s: s.median_seconds or 0.0)
+    for question, lines in grouped(data.lines, lambda line: line.question).items():
+        members = sorted(scores(lines).values(), key=lambda score: score.median or 0.0)
+        best = front(members)
         for i, score in enumerate(members):
-            mark = "yes" if score.method in fronts.get(question, ()) else ""
-            style = "bold" if score.method == AUTO else None
-            rows.add_row(
-                question if i == 0 else "", *_cells(score), mark, style=style, end_section=score is members[-1]
-            )
+            style, mark = "bold" if score.method == AUTO else None, "yes" if score in best else ""
+            cells = (question if i == 0 else "", *_cells(score), mark)
+            rows.add_row(*cells, style=style, end_section=score is members[-1])
     return rows
 
 
 def _cells(score: Score) -> tuple[str, ...]:
-    counts = (score.right, score.wrong, score.undecided, score.timed_out, score.cannot)
-    median = "" if score.median_seconds is None else f"{1000 * score.median_seconds:.3g} ms"
+    counts = (score.counts.get(outcome, 0) for outcome in OUTCOMES)
+    median = "" if score.median is None else f"{1000 * score.median:.3g} ms"
     return (score.method, *(str(count) if count else "-" for count in counts), median)
 
 
-def auto_sentences(chart: ChartRun) -> Iterator[str]:
+def auto_sentences(data: Data) -> Iterator[str]:
     """Yield how ``auto`` did, and the families on which it is slower than the fastest method that is never wrong."""
-    yield from sentences(chart)
-    slow = [(row.sound_ratio or 0, row) for row in chart.against]
+    yield from sentences(data)
+    slow = [(row.sound_ratio or 0, row) for row in against(data.lines)]
     for ratio, row in sorted(slow, key=lambda pair: -pair[0])[:5]:
         if ratio > TWICE:
             yield f"  {row.question}, {row.family}: {ratio:.1f} times {row.sound}"

@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import FIRST_COMPLETED, Future, wait
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass
+from functools import partial
 from typing import Any
 
 from dofkit.base.process_limits import LateError, interrupting
@@ -22,7 +23,7 @@ from dofkit.benchmark.record import Outcome, TrialLine
 from dofkit.benchmark.sentences import explained
 from dofkit.benchmark.statistics import grouped
 from dofkit.benchmark.tasks import TrialTask
-from dofkit.methods.table import Knobs, Reply
+from dofkit.methods.table import Reply
 
 # In a worker
 
@@ -43,45 +44,30 @@ _WARM_ANSWER = {"constraint": "circle", "text": "2*x^2 + 2*y^2 = 2"}
 _warm: set[tuple[str, str, str]] = set()
 
 
-@dataclass(frozen=True)
-class TrialQuestion:
-    """What a worker is asked: a question about a scene, for one method; ``limit`` in seconds of processor time.
+def timed_reply(asked: tuple[TrialTask, float, str]) -> Json:
+    """Return the reply to a task within a limit of processor time, by what knows the methods (``module:function``).
 
-    ``repeats``: how often a short one is repeated; ``answering``: what knows the methods, as ``module:function``.
+    It is a mapping ``value, reason, cannot, seconds``; None where it took longer. What is late is interrupted, so that
+    the process stays warm; only what cannot be is killed with it.
     """
-
-    scene: Mapping[str, Any]
-    question: str
-    method: str
-    knobs: Knobs
-    answer: Mapping[str, str] | None
-    limit: float
-    repeats: int = AGAIN
-    answering: str = ANSWERING
-
-
-def timed_reply(asked: TrialQuestion) -> Json:
-    """Return the reply as a mapping ``value, reason, cannot, seconds``; None where it took longer than the limit.
-
-    What is late is interrupted, so that the process stays warm; only what cannot be is killed with it.
-    """
-    function = function_named(asked.answering)
-    key = (asked.answering, asked.question, asked.method)
+    task, limit, answering = asked
+    function = partial(function_named(answering), task.trial.scene, task.trial.question, task.method, task.trial.answer)
+    key = (answering, task.trial.question, task.method)
     if key not in _warm:
         _warm.add(key)
-        answer = _WARM_ANSWER if asked.question == "equivalence" else None
-        _timed(function, TrialQuestion(_WARM_SCENE, asked.question, asked.method, Knobs(), answer, asked.limit))
+        answer = _WARM_ANSWER if task.trial.question == "equivalence" else None
+        _timed(partial(function_named(answering), _WARM_SCENE, task.trial.question, task.method, answer))
     try:
-        with interrupting(asked.limit):
-            reply, seconds = _timed(function, asked)
+        with interrupting(limit):
+            reply, seconds = _timed(function)
     except LateError:
         return None
     if seconds < SHORT:
-        seconds = min([seconds, *(_timed(function, asked)[1] for _ in range(asked.repeats))])
+        seconds = min([seconds, *(_timed(function)[1] for _ in range(AGAIN))])
     return {**asdict(reply), "seconds": seconds}
 
 
-def _timed(function: Callable[..., Reply], asked: TrialQuestion) -> tuple[Reply, float]:
+def _timed(function: Callable[[], Reply]) -> tuple[Reply, float]:
     """Return the reply and its processor time. SymPy's cache is emptied first: each trial counts for itself."""
     if "sympy" in sys.modules:
         sys.modules["sympy"].core.cache.clear_cache()
@@ -89,7 +75,7 @@ def _timed(function: Callable[..., Reply], asked: TrialQuestion) -> tuple[Reply,
         warnings.simplefilter("ignore")
         start = time.thread_time()
         try:
-            reply = function(asked.scene, asked.question, asked.method, asked.knobs, asked.answer)
+            reply = function()
         except MemoryError:
             raise
         except Exception as error:
@@ -145,10 +131,7 @@ class Bench:
 
     def submit(self, task: TrialTask) -> Future[Ended]:
         """Begin with a trial."""
-        t, repeats = task.trial, 0 if task.knob else AGAIN
-        asked = TrialQuestion(
-            t.scene, t.question, task.method, task.knobs, t.answer, self.limit, repeats, self.answering
-        )
+        asked = (task, self.limit, self.answering)
         return self.pool.submit(self.pool.run, Job(timed_reply, asked, PATIENCE * self.limit + SPARE))
 
     def line(self, task: TrialTask, ended: Ended) -> TrialLine:
@@ -168,8 +151,8 @@ class Bench:
 def _line(task: TrialTask, answer: object, outcome: Outcome, seconds: float, reason: str) -> TrialLine:
     t = task.trial
     why = "" if outcome == "right" else explained(task.method, t.question, outcome, reason)
-    about = (t.family, t.name, t.question, task.method, t.size, dict(t.swept), t.truth)
-    return TrialLine(*about, answer, outcome, seconds, " ".join(why.split()), task.knob, float(task.value), task.group)
+    about = (t.family, t.name, t.question, task.method, t.size, t.truth)
+    return TrialLine(*about, answer, outcome, seconds, " ".join(why.split()))
 
 
 def run(tasks: Iterable[TrialTask], bench: Bench) -> Iterator[TrialLine]:

@@ -1,88 +1,60 @@
-"""The summary of a run: its statistics, a caption for each figure, what the figures show, and why methods fail.
-
-Each sentence is worked out from the data of the run, and so may stand beside the figures.
-"""
+"""What the data of a run show, in sentences that may stand beside the figures, and why a method fails on a trial."""
 
 from __future__ import annotations
 
-from dataclasses import replace
 from importlib import resources
 
 import yaml
 
-from dofkit.benchmark import statistics
-from dofkit.benchmark.record import ALL, AUTO, ChartRun, Data, Ran, Score
+from dofkit.benchmark.record import AUTO, Data
+from dofkit.benchmark.statistics import against, scores
 from dofkit.methods.table import METHODS
 
 #: `auto` should take no more than so many times the fastest method that is right.
 TWICE = 2
 
 
-def summary(data: Data) -> ChartRun:
-    """Return all that is drawn and printed."""
+def caption(figure: str, data: Data) -> str:
+    """Return what a figure shows, what was run on what, and by which command."""
     captions = yaml.safe_load((resources.files(__package__) / "captions.yaml").read_text(encoding="utf-8"))
-    scores, points = statistics.scores(data.lines), statistics.points(data.lines)
-    return ChartRun(
-        ran=data.ran,
-        scores=scores,
-        fronts=statistics.fronts(scores),
-        points=points,
-        fits=statistics.fits(points),
-        steps=statistics.steps(data.sweeps),
-        against=statistics.against(data.lines),
-        captions={name: f"{text} {provenance(data.ran)}" for name, text in captions.items()},
-    )
-
-
-def provenance(ran: Ran) -> str:
-    """Return what was run on what, and by which command."""
+    ran = data.ran
     return (
-        f"{ran.trials} trials whose answers are known by construction, at most {ran.limit:g} s of processor time each; "
-        f"dofkit {ran.version}, Python {ran.python}, {ran.machine}, {ran.cores} cores, {ran.date[:10]}. "
-        f"Made by: {ran.command}"
+        f"{captions[figure]} {ran.trials} trials whose answers are known by construction, at most {ran.limit:g} s of "
+        f"processor time each; dofkit {ran.version}, Python {ran.python}, {ran.machine}, {ran.cores} cores, "
+        f"{ran.date[:10]}. Made by: {ran.command}"
     )
 
 
-def sentences(chart: ChartRun) -> list[str]:
+def sentences(data: Data) -> list[str]:
     """Return how often ``auto`` is right and how long it takes, as far as the run has data of them."""
-    return [text for text in (_trials(chart), _time(chart)) if text]
+    return [text for text in (_trials(data), _time(data)) if text]
 
 
-def _trials(chart: ChartRun) -> str:
-    mine = _total(chart, AUTO)
-    if mine is None:
+def _trials(data: Data) -> str:
+    by_method = scores(data.lines)
+    if AUTO not in by_method:
         return ""
-    methods = len({score.method for score in chart.scores})
-    undecided = mine.trials - mine.right - mine.wrong
-    wrong = f"{mine.wrong} {'is' if mine.wrong == 1 else 'are'}" if mine.wrong else "none is"
+    auto = by_method[AUTO]
+    number = auto.counts.get("wrong", 0)
+    wrong = f"{number} {'is' if number == 1 else 'are'}" if number else "none is"
+    trials = f"{data.ran.trials:,}".replace(",", " ")
     return (
-        f"{_spaced(chart.ran.trials)} trials by {methods} methods, at most {chart.ran.limit:g} s each: of the "
-        f"answers of `auto` {wrong} wrong and {_percent(undecided, mine.trials)} are undecided."
+        f"{trials} trials by {len(by_method)} methods, at most {data.ran.limit:g} s each: of the answers of `auto` "
+        f"{wrong} wrong and {percent(auto.share_unanswered, 'less than ', 'more than ')} are undecided."
     )
 
 
-def _time(chart: ChartRun) -> str:
-    sound = [row.sound_ratio for row in chart.against if row.sound_ratio is not None]
-    every = [row.ratio for row in chart.against]
+def _time(data: Data) -> str:
+    rows = against(data.lines)
+    sound = [row.sound_ratio for row in rows if row.sound_ratio is not None]
     if not sound:
         return ""
-    within, lucky = sum(ratio <= TWICE for ratio in sound), sum(ratio <= TWICE for ratio in every)
+    within, lucky = sum(ratio <= TWICE for ratio in sound), sum(row.ratio <= TWICE for row in rows)
     where = "On every family" if within == len(sound) else f"On {within} of {len(sound)} families"
     return (
         f"{where} `auto` takes at most twice the time of the fastest method that is right there and wrong nowhere; "
-        f"with those that are right there by luck it does on {lucky} of {len(every)}."
+        f"with those that are right there by luck it does on {lucky} of {len(rows)}."
     )
-
-
-def _total(chart: ChartRun, method: str) -> Score | None:
-    """Return the score of a method on all questions together."""
-    rows = [score for score in chart.scores if score.method == method and score.family == ALL]
-    counts = {name: sum(getattr(row, name) for row in rows) for name in ("trials", "right", "wrong")}
-    return replace(rows[0], **counts) if rows else None
-
-
-def _percent(count: float, trials: float) -> str:
-    return percent(count / trials, "less than ", "more than ")
 
 
 def percent(share: float, below: str = "<", above: str = ">") -> str:
@@ -97,13 +69,6 @@ def percent(share: float, below: str = "<", above: str = ">") -> str:
     if 99.9 < value < 100:
         return f"{above}99.9 %"
     return f"{value:.1f} %" if 0 < value < 10 or 90 < value < 100 else f"{value:.0f} %"
-
-
-def _spaced(number: int) -> str:
-    return f"{number:,}".replace(",", " ")
-
-
-# Why a method fails
 
 
 def explained(method: str, question: str, outcome: str, reason: str = "") -> str:

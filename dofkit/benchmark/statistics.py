@@ -1,20 +1,18 @@
-"""Statistics of a run: scores, Pareto fronts, how cost grows, sweeps, and `auto` against the other methods."""
+"""Statistics of a run: scores, Pareto fronts, and `auto` against the other methods."""
 
 from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from statistics import median
-from typing import TypeVar
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 
-from dofkit.benchmark.record import ALL, AUTO, Against, Fit, Front, MedianTime, Score, Step, TrialLine
+from dofkit.benchmark.record import AUTO, Outcome, TrialLine
 
 T = TypeVar("T")
 K = TypeVar("K")
-#: A fit is made over so many sizes at least, and over the sizes down to this part of the largest.
-SIZES, DECADE = 3, 10
 
 
 def grouped(members: Iterable[T], key: Callable[[T], K]) -> dict[K, list[T]]:
@@ -25,114 +23,69 @@ def grouped(members: Iterable[T], key: Callable[[T], K]) -> dict[K, list[T]]:
     return groups
 
 
-def scores(lines: Sequence[TrialLine]) -> list[Score]:
-    """Return the scores of every question and method, over all families and for each."""
-    overall = grouped(lines, lambda line: (line.question, ALL, line.method))
-    by_family = grouped(lines, lambda line: (line.question, line.family, line.method))
-    return [_score(*key, members) for key, members in {**overall, **by_family}.items()]
+class Score(NamedTuple):
+    """How a method did on some trials: its outcomes, and percentiles of its seconds on all but ``cannot``.
+
+    ``low``, ``median`` and ``high`` are the tenth, the fiftieth and the ninetieth; None where it can answer no trial.
+    """
+
+    method: str
+    counts: Mapping[Outcome, int]
+    trials: int
+    low: float | None
+    median: float | None
+    high: float | None
+
+    def share(self, outcome: Outcome) -> float:
+        """Return the share of an outcome among all trials."""
+        return self.counts.get(outcome, 0) / self.trials
+
+    @property
+    def share_unanswered(self) -> float:
+        """Neither right nor wrong answers, among all trials."""
+        return (self.trials - self.counts.get("right", 0) - self.counts.get("wrong", 0)) / self.trials
 
 
-def _score(question: str, family: str, method: str, lines: Sequence[TrialLine]) -> Score:
-    counts = Counter(line.outcome for line in lines)
+def scores(lines: Iterable[TrialLine]) -> dict[str, Score]:
+    """Return the score of each method on these trials."""
+    return {method: _score(method, rows) for method, rows in grouped(lines, lambda line: line.method).items()}
+
+
+def _score(method: str, lines: Sequence[TrialLine]) -> Score:
     seconds = [line.seconds for line in lines if line.outcome != "cannot"]
-    low, middle, high = np.quantile(seconds, (0.1, 0.5, 0.9)).tolist() if seconds else (None, None, None)
-    return Score(
-        question=question,
-        family=family,
-        method=method,
-        trials=len(lines),
-        right=counts["right"],
-        wrong=counts["wrong"],
-        undecided=counts["undecided"],
-        timed_out=counts["timed out"],
-        cannot=counts["cannot"],
-        median_seconds=middle,
-        low_seconds=low,
-        high_seconds=high,
-    )
+    percentiles = np.quantile(seconds, (0.1, 0.5, 0.9)).tolist() if seconds else (None, None, None)
+    return Score(method, Counter(line.outcome for line in lines), len(lines), *percentiles)
 
 
-def fronts(every: Iterable[Score]) -> list[Front]:
-    """Return the Pareto front of each question, over all families."""
-    questions = grouped([score for score in every if score.family == ALL], lambda score: score.question)
-    return [
-        Front(question=question, methods=front(rows), never_wrong=front([row for row in rows if not row.wrong]))
-        for question, rows in questions.items()
-    ]
-
-
-def front(members: Sequence[Score]) -> list[str]:
-    """Return the methods that none beats in median seconds, share of right and share of wrong answers; fastest first.
+def front(members: Iterable[Score]) -> list[Score]:
+    """Return the scores that none beats in median seconds, share of right and share of wrong answers; fastest first.
 
     A method that is never right is no choice at all.
     """
-    able = [score for score in members if score.median_seconds is not None and score.right]
+    able = [score for score in members if score.median is not None and score.share("right")]
     best = [score for score in able if not any(beats(other, score) for other in able)]
-    return [score.method for score in sorted(best, key=lambda score: score.median_seconds or 0.0)]
+    return sorted(best, key=lambda score: score.median or 0.0)
 
 
 def beats(score: Score, other: Score) -> bool:
     """Return whether a score is at least as good in everything, and better in something (Pareto dominance)."""
-    a, b = ((-(s.median_seconds or 0.0), s.share_right, -s.share_wrong) for s in (score, other))
+    a, b = ((-(s.median or 0.0), s.share("right"), -s.share("wrong")) for s in (score, other))
     return a != b and all(x >= y for x, y in zip(a, b, strict=True))
 
 
-def points(lines: Sequence[TrialLine]) -> list[MedianTime]:
-    """Return the median time of each method at each size, of families with at least `SIZES` sizes."""
-    sized = [line for line in lines if line.outcome != "cannot" and line.size > 0]
-    times = []
-    for (question, family), members in grouped(sized, lambda line: (line.question, line.family)).items():
-        if len({line.size for line in members}) < SIZES:
-            continue
-        for (method, size), same in sorted(grouped(members, lambda line: (line.method, line.size)).items()):
-            late = sum(line.outcome == "timed out" for line in same)
-            seconds = median(line.seconds for line in same)
-            about = {"question": question, "family": family, "method": method}
-            times.append(MedianTime(**about, size=size, seconds=seconds, trials=len(same), timed_out=late))
-    return times
+class Against(NamedTuple):
+    """``auto`` against the fastest method that is right on all trials of a family.
 
-
-def fits(times: Sequence[MedianTime]) -> list[Fit]:
-    """Return a power law for every curve of at least three sizes, without those that timed out."""
-    fitted = []
-    curves = grouped(times, lambda point: (point.question, point.family, point.method))
-    for (question, family, method), curve in curves.items():
-        timed = [(p.size, p.seconds) for p in curve if not p.timed_out and p.size > 0 and p.seconds > 0]
-        largest = max((size for size, _ in timed), default=0)
-        upper = [(size, seconds) for size, seconds in timed if size * DECADE >= largest]
-        law = power_law(upper)
-        if law is not None:
-            exponent, error, factor = law
-            about = {"question": question, "family": family, "method": method}
-            fitted.append(Fit(**about, exponent=exponent, error=error, factor=factor, points=len(upper)))
-    return fitted
-
-
-def power_law(pairs: Sequence[tuple[float, float]]) -> tuple[float, float, float] | None:
-    """Return (a, its standard error, c) of y = c x^a by least squares on logarithms; None for fewer than three x.
-
-    >>> a, error, c = power_law([(1, 3.0), (2, 12.0), (4, 48.0)])
-    >>> round(a, 9), round(error, 9), round(c, 9)
-    (2.0, 0.0, 3.0)
+    ``ratio`` is the median over trials of the ratio of their seconds; ``sound``: the fastest of them that is never
+    wrong on the question, with the same ratio for that one.
     """
-    if len({x for x, _ in pairs}) < SIZES:
-        return None
-    u, v = np.log(np.array(pairs, dtype=float).T)
-    (exponent, constant), covariance = np.polyfit(u, v, 1, full=False, cov=True)
-    return float(exponent), float(np.sqrt(covariance[0, 0])), float(np.exp(constant))
 
-
-def steps(lines: Sequence[TrialLine]) -> list[Step]:
-    """Return every sweep, step by step; what a method cannot answer at all is left out."""
-    able = [line for line in lines if line.outcome != "cannot"]
-    rows = []
-    for key, members in grouped(able, lambda line: (line.knob, line.method, line.group, line.value)).items():
-        sweep, method, group, value = key
-        counts = Counter(line.outcome for line in members)
-        about = {"trials": len(members), "right": counts["right"], "wrong": counts["wrong"]}
-        undecided = counts["undecided"] + counts["timed out"]
-        rows.append(Step(sweep=sweep, method=method, group=group, value=value, undecided=undecided, **about))
-    return rows
+    question: str
+    family: str
+    fastest: str
+    ratio: float
+    sound: str | None
+    sound_ratio: float | None
 
 
 def against(lines: Sequence[TrialLine]) -> list[Against]:
@@ -152,16 +105,8 @@ def against(lines: Sequence[TrialLine]) -> list[Against]:
         seconds = {m: median(line.seconds for line in row) for m, row in right.items()}
         fastest = min(seconds, key=seconds.__getitem__)
         sound = min((m for m in seconds if (question, m) not in erring), key=seconds.__getitem__, default=None)
-        rows.append(
-            Against(
-                question=question,
-                family=family,
-                fastest=fastest,
-                ratio=ratios[fastest],
-                sound=sound,
-                sound_ratio=None if sound is None else ratios[sound],
-            )
-        )
+        sound_ratio = None if sound is None else ratios[sound]
+        rows.append(Against(question, family, fastest, ratios[fastest], sound, sound_ratio))
     return rows
 
 

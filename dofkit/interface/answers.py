@@ -24,7 +24,7 @@ from dofkit.interface.show.faults import complaint
 from dofkit.interface.show.motion import sheet_of_motion
 from dofkit.interface.show.report import changed, sheet_of_report, unexpected
 from dofkit.interface.show.sheet import SheetSection
-from dofkit.interface.show.terminal import Screen, as_text, brief_line, outcome_of, selected_line, selection_of
+from dofkit.interface.show.terminal import as_text, brief_line, outcome_of, selected_line, selection_of
 from dofkit.methods.stages import classified, lowered, stages
 from dofkit.report import Report
 from dofkit.scene.catalog import FoundFile, find
@@ -34,21 +34,6 @@ from dofkit.scene.scene import Scene, without
 
 #: The public functions that draw, by the kind of the picture.
 _PICTURES = {"mechanism": "draw", "graph": "graph", "directions": "phase", "motion": "animate", "loop": "animate"}
-
-
-def report_lines(request: Request) -> Iterator[Json]:
-    """Yield what is printed of the report on a file; before that an empty mapping, as soon as the file is read."""
-    return answer_lines(request, _report)
-
-
-def motion_lines(request: Request) -> Iterator[Json]:
-    """Yield what is printed of the equations of motion of a file."""
-    return answer_lines(request, _equations)
-
-
-def picture_lines(request: Request) -> Iterator[Json]:
-    """Write the picture of a file, and yield its path, which is printed."""
-    return answer_lines(request, _picture)
 
 
 def cut_lines(cut: Cut) -> Json:
@@ -125,9 +110,10 @@ def _report_text(report: Report, scene: Scene, request: Request, sections: Seque
     if output.only:
         return selected_line(report, output.only) + "\n"
     if output.brief:
-        return brief_line(report, output.name_width, _screen(request)) + "\n"
+        return brief_line(report, output.name_width, output.colours) + "\n"
     sheet = sheet_of_report(report, scene.title, output.how)
-    return as_text(sheet._replace(sections=(*sections, *sheet.sections)), _screen(request)) + "\n\n"
+    sheet = sheet._replace(sections=(*sections, *sheet.sections))
+    return as_text(sheet, output.width, output.colours) + "\n\n"
 
 
 def _with_certificate(scene: Scene, report: Report, path: str) -> Report:
@@ -161,7 +147,7 @@ def _equations(scene: Scene, request: Request) -> Iterator[Json]:
         yield streams(_line(report.model_dump(mode="json"), request))
     else:
         sheet = sheet_of_motion(as_the_scene(report, scene), scene.title)
-        yield streams(as_text(sheet, _screen(request)) + "\n\n")
+        yield streams(as_text(sheet, request.output.width, request.output.colours) + "\n\n")
 
 
 def _picture(scene: Scene, request: Request) -> Iterator[Json]:
@@ -175,10 +161,6 @@ def _picture(scene: Scene, request: Request) -> Iterator[Json]:
     except OSError as error:
         raise DofkitError(f"the picture cannot be written to '{path}': {error.strerror or error}") from None
     yield streams(f"{path}\n")
-
-
-def _screen(request: Request) -> Screen:
-    return Screen(request.output.width, request.output.colours)
 
 
 def _line(value: Any, request: Request) -> str:
@@ -215,6 +197,12 @@ def _faults_of_error(error: Exception) -> tuple[Fault, ...]:
     message = f"internal error, {type(error).__name__}" + (f": {detail}" if detail else "")
     return (Fault(message, hint="this is a fault of dofkit, please report it with this scene"),)
 
+
+#: What a worker calls for the report on a file, before which an empty mapping tells that it is read; for its equations
+#: of motion; for its picture, whose path is printed.
+report_lines = partial(answer_lines, answer=_report)
+motion_lines = partial(answer_lines, answer=_equations)
+picture_lines = partial(answer_lines, answer=_picture)
 
 # certificates
 

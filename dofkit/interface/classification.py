@@ -1,7 +1,8 @@
-"""The command `classify`: each file's report as it comes, its progress, and a summary of several."""
+"""The command `classify`: each file's report as it comes or kept in a folder, its progress, a summary of several."""
 
 from __future__ import annotations
 
+import hashlib
 import sys
 import time
 from collections import Counter
@@ -9,16 +10,21 @@ from collections.abc import Generator, Iterator, Mapping, Sequence
 from contextlib import closing, nullcontext
 from dataclasses import replace
 from heapq import nlargest
+from pathlib import Path
 from typing import Any
 
 import typer
 
+from dofkit.base import __version__
+from dofkit.base.runs import Journal
 from dofkit.base.verdicts import VERDICTS
 from dofkit.base.wording import many
 from dofkit.interface.jobs import Printed, Request, Run, name_of_file, replies
 from dofkit.interface.output import FAILED, FAILURES, UNREADABLE, Output, progress
 from dofkit.interface.show.faults import safe
 
+#: The file of the reports in their folder.
+REPORTS = "reports.jsonl"
 #: How many scenes a summary names, and how many of the slowest.
 _MOST_NAMED, _SLOWEST = 8, 3
 #: What a finding is called after a number of scenes, where its name alone would be misread.
@@ -72,15 +78,37 @@ def _timed(files: Sequence[str], request: Request, run: Run) -> Iterator[tuple[f
 
 
 def _stream(files: Sequence[str], request: Request, run: Run) -> Generator[Printed]:
-    """Yield what is printed about each file: one after another, or many at once."""
-    if run.workers is None and run.scheduler is None and run.out is None:
-        return replies("report_lines", files, request)
-    from dofkit.interface.many import kept_reports, many_reports  # which imports everything before it forks
-
+    """Yield what is printed about each file; of reports that are kept in a folder only what is not in them."""
     if run.out is None:
-        return many_reports(files, request, run)
+        return replies("report_lines", files, request, run)
     as_json = Output(True, only=request.output.only)
     return kept_reports(files, replace(request, output=as_json), run, run.out)
+
+
+def kept_reports(files: Sequence[str], request: Request, run: Run, folder: Path) -> Generator[Printed]:
+    """Write the reports to a folder, one line each, and yield the rest of what is printed.
+
+    The journal beside the lines stays: a later run asks only about files that are new or have changed. Raises
+    StoppedError, OSError and BusyError.
+    """
+    path = folder / REPORTS
+    ledger = path.with_name(path.name + ".ledger")
+    if not path.exists():
+        ledger.unlink(missing_ok=True)
+    with closing(Journal(ledger, _mark(request))) as journal:
+        with path.open("wb") as reports, closing(replies("report_lines", files, request, run, journal)) as stream:
+            for printed in stream:
+                line = printed.out if printed.out.endswith("\n") else printed.out + "\n"
+                reports.write(line.encode("utf-8", "surrogateescape"))
+                reports.flush()
+                yield printed._replace(out="", err="")
+        journal.keep_written()
+
+
+def _mark(request: Request) -> str:
+    """Return what distinguishes a run from others: the version, and what is asked of every scene."""
+    options = (request.budget, request.method, request.output.only, request.without, request.limits)
+    return hashlib.blake2b(repr((__version__, *options, request.certificate)).encode(), digest_size=16).hexdigest()
 
 
 def longest_name(files: Sequence[str]) -> int:

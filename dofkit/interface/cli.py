@@ -228,11 +228,12 @@ def _titles(titles: Mapping[str, str], as_json: bool) -> None:
 def verify(files: options.CertificateFiles, strict: options.Strict = False, as_json: options.AsJson = False) -> None:
     """Check a certificate with the independent checker."""
     from dofkit.interface.classification import echo
-    from dofkit.interface.jobs import Request, verification
+    from dofkit.interface.jobs import Request, replies
 
     if len(files) > 2:
         raise typer.BadParameter("a scene and its certificate, or a certificate alone", param_hint="[SCENE] CERT")
-    printed = verification(Request(files[0], Output.here(as_json), certificate=files[-1], strict=strict))
+    request = Request(files[0], Output.here(as_json), certificate=files[-1], strict=strict)
+    [printed] = replies("verification_lines", files[:1], request)
     echo(printed)
     raise typer.Exit(UNREADABLE if printed.outcome is None else printed.outcome["status"])
 
@@ -261,17 +262,15 @@ def chart(
     out: options.ChartFolder = Path("dofkit-chart"),
     source: options.ChartSource = None,
     quick: options.Quick = False,
-    most: options.Most = None,
     workers: options.Workers = None,
     timeout: options.Timeout = None,
 ) -> None:
     """Compare methods by speed and accuracy on known scenes."""
-    from dofkit.benchmark.command import ChartOptions, chart
-    from dofkit.benchmark.tasks import Selection
+    from dofkit.benchmark.command import chart
+    from dofkit.benchmark.tasks import ChartOptions
 
-    selection = Selection(question or (), families or (), methods or (), quick, most)
     with failures_of("chart"):
-        whole = chart(ChartOptions(selection, out, source, workers, timeout))
+        whole = chart(ChartOptions(out, question or (), families or (), methods or (), quick, source, workers, timeout))
     if not whole:
         raise typer.Exit(INTERRUPTED)
 

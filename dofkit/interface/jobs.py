@@ -1,24 +1,30 @@
-"""One file after another in a worker that is watched: no file stops those that follow.
+"""Files that are answered by workers that are watched: no file stops those that follow.
 
-Nothing heavy is imported here: the worker does that. Where this process may be forked the worker is a copy of it, so
-that a single scene costs hardly more than without a worker.
+Nothing heavy is imported here: the workers do that. Where this process may be forked they are copies of it, so that a
+single scene costs hardly more than without a worker.
 """
 
 from __future__ import annotations
 
+import hashlib
 import json
 import os
+import re
 import stat
 import sys
 from collections import Counter
 from collections.abc import Generator, Iterator, Mapping, Sequence
+from contextlib import ExitStack
 from dataclasses import dataclass, replace
+from functools import partial
+from importlib import import_module
 from pathlib import Path
 from typing import Any, NamedTuple, Protocol
 
 from dofkit.base.deadline import DEFAULT_SECONDS, limit
 from dofkit.base.documents import MOST_BYTES
-from dofkit.base.workers import Job, JobOutcome, Worker
+from dofkit.base.runs import Cluster, Journal, Pool, in_order, shared
+from dofkit.base.workers import MEMORY, Job, JobOutcome
 from dofkit.interface.output import Output
 from dofkit.methods.table import MethodName
 
@@ -27,6 +33,8 @@ STDIN = "stdin"
 ANSWERS = "dofkit.interface.answers"
 #: Seconds for printing the report of a scene whose worker was killed.
 TELLING_SECONDS = 10.0
+#: An attribute of a model that names another file.
+_INCLUDES = re.compile(rb"\bfile\s*=")
 #: The time limit of a certificate or a picture is this many times that of a report.
 SHARE = 3
 
@@ -59,17 +67,35 @@ class Request:
         """The scene's name if the file does not give one."""
         return name_of_file(self.file)
 
+    @property
+    def size(self) -> int:
+        """About how many bytes it holds."""
+        return len(self.data or b"") + 200
+
+    @property
+    def key(self) -> str:
+        """What distinguishes the file from others and from earlier contents; what includes other files is new."""
+        includes = self.data is not None and _INCLUDES.search(self.data)
+        named = f"{self.file}\0{os.urandom(16).hex() if includes else ''}\0".encode("utf-8", "surrogateescape")
+        content = b"-" if self.data is None else b"+" + self.data
+        return hashlib.blake2b(named + content, digest_size=16).hexdigest()
+
 
 class Run(NamedTuple):
     """The findings that a run fails on, who answers many scenes at once, and the folder for their reports.
 
-    ``workers``: processes on this machine (None: one for each core); ``scheduler``: the address of a Dask cluster.
+    ``workers``: processes on this machine (None: one, or with a folder one for each core); ``scheduler``: the address
+    of a Dask cluster.
     """
 
     fail_on: tuple[str, ...] = ()
     workers: int | None = None
     scheduler: str | None = None
     out: Path | None = None
+
+
+#: One worker answers one file after another.
+ONE_BY_ONE = Run()
 
 
 class Cut(NamedTuple):
@@ -93,27 +119,40 @@ class Printed(NamedTuple):
 
 
 class Runner(Protocol):
-    """A worker, or a pool of them."""
+    """A pool of workers."""
 
     def run(self, job: Job) -> JobOutcome:
         """Do one job."""
 
 
-def replies(function: str, files: Sequence[str], request: Request) -> Generator[Printed]:
-    """Yield what is printed about each file, in order; ``function``: the one of the answers that the worker calls."""
-    worker = Worker(modules=(ANSWERS,), fork=True)
-    try:
-        for each in requests(files, request):
-            yield reply(worker, function, each)
-    finally:
-        worker.kill()
+def replies(
+    function: str, files: Sequence[str], request: Request, run: Run = ONE_BY_ONE, journal: Journal | None = None
+) -> Generator[Printed]:
+    """Yield what is printed about each file, in order; ``function``: the one of the answers that a worker calls.
+
+    With a journal, what an earlier run answered is not asked again. Raises StoppedError.
+    """
+    with ExitStack() as stack:
+        if run.scheduler is not None:
+            crew: Cluster | Pool = stack.enter_context(Cluster(run.scheduler))
+            work = partial(_reply_there, function)
+        else:
+            pool = crew = stack.enter_context(Pool(run.workers or (None if run.out else 1), MEMORY, (ANSWERS,)))
+            if pool.width > 1:
+                import_module(ANSWERS)  # once for all workers, which are forks
+            pool.fork()
+            work = partial(reply, pool, function)
+        everything = run.scheduler is not None or journal is not None
+        for _, printed in in_order(crew, work, requests(files, request, everything), journal):
+            yield Printed(*printed)
 
 
-def requests(files: Sequence[str], request: Request) -> Iterator[Request]:
-    """Yield the request for each file, with the bytes of standard input and of pipes."""
+def requests(files: Sequence[str], request: Request, everything: bool = False) -> Iterator[Request]:
+    """Yield the request for each file, with the bytes of standard input and of pipes; or of ``everything``."""
     pictures = request.pictures or (None,) * len(files)
     for file, path, picture in zip(files, certificate_paths(files, request.certificate), pictures, strict=True):
-        yield replace(request, file=file, data=data_of(file), certificate=path, picture=picture, pictures=())
+        data = data_of(file, everything)
+        yield replace(request, file=file, data=data, certificate=path, picture=picture, pictures=())
 
 
 def certificate_paths(files: Sequence[str], certificate: str | None) -> list[str | None]:
@@ -155,13 +194,9 @@ def reply(runner: Runner, function: str, request: Request) -> Printed:
     return _without_worker(request.name, outcome.reason, request.output.as_json)
 
 
-def verification(request: Request) -> Printed:
-    """Return the lines printed for the check of a certificate, in a worker that can be killed."""
-    worker = Worker(modules=(ANSWERS,), fork=True)
-    try:
-        return reply(worker, "verification_lines", request)
-    finally:
-        worker.kill()
+def _reply_there(function: str, request: Request) -> Printed:
+    """Return the same on a machine of a cluster, by killable workers of its own."""
+    return reply(shared(ANSWERS), function, request)
 
 
 def _without_worker(name: str, reason: str, as_json: bool) -> Printed:

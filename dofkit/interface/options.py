@@ -221,7 +221,5 @@ ChartFolder = Annotated[Path, Option("--out", metavar="DIR", callback=folder, he
 _SOURCE = "Redraw the figures from the data of an earlier run."
 ChartSource = Annotated[Path | None, Option("--from", metavar="DIR", help=_SOURCE)]
 Quick = Annotated[bool, flag("--quick", "Run a few small trials of each family, in under a minute.")]
-_MOST = "The number of trials per family and question; 0 for all."
-Most = Annotated[int | None, Option("--most", metavar="N", min=0, help=_MOST)]
 _TIMEOUT = "Processor time per trial and method."
 Timeout = Annotated[float | None, Option("--timeout", metavar="SECONDS", min=0.01, help=_TIMEOUT)]

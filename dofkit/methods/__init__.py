@@ -7,8 +7,8 @@ it needs, by dofkit's engines or by any method on its own. All methods are held 
 answers (`dofkit chart`).
 
 Types
-    A `Method` is a row of `table`, with what it is sound for and what it costs, question by question; `Knobs` are its
-    settings, a `Reply` its answer with its verdict.
+    A `Method` is a row of `table`, with what it is sound for and what it costs, question by question; a `Reply` is its
+    answer with its verdict.
 
 Mechanisms, in the order in which a scene meets them
     1. `stages` yields a report in which everything is undecided, then the finished one; with a budget `supervised` has

@@ -14,7 +14,7 @@ from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import cleared, in_velocities
 from dofkit.expressions.tree import Expr
-from dofkit.methods.table import Knobs, Reply
+from dofkit.methods.table import Reply
 from dofkit.relations.normal.normal_form import linear_form, velocities_of
 from dofkit.relations.normal.pieces import Pfaffian
 from dofkit.scene.lowering import lower
@@ -265,8 +265,8 @@ def independent_at_reference(sampled: SampledPoints, numbers: Decider) -> bool:
     return numbers.rank([row[: sampled.rows.n] for row in rows]) == len(rows)
 
 
-Look = Callable[[Scene | System, Knobs], tuple[SampledPoints, Decider] | Reply]
-Answering = Callable[[Scene | System, Knobs], Reply]
+Look = Callable[[Scene | System], tuple[SampledPoints, Decider] | Reply]
+Answering = Callable[[Scene | System], Reply]
 
 
 def questions_at_points(
@@ -277,17 +277,17 @@ def questions_at_points(
     ``certainty``: of the freedom where all equations are independent at the reference configuration.
     """
 
-    def dof(scene: Scene | System, knobs: Knobs) -> Reply:
+    def dof(scene: Scene | System) -> Reply:
         """Coordinates less the rank of the Jacobian, forms that pass Frobenius' test included."""
-        samples = look_at(scene, knobs)
+        samples = look_at(scene)
         if isinstance(samples, Reply):
             return samples
         sure = certainty(*samples) if independent_at_reference(*samples) else "undecided"
         return Reply(freedom(*samples), verdict=sure)
 
-    def at_points(answer: Callable[[SampledPoints, Decider], Any], scene: Scene | System, knobs: Knobs) -> Reply:
+    def at_points(answer: Callable[[SampledPoints, Decider], Any], scene: Scene | System) -> Reply:
         """Return an answer from the points; where the constraints contradict each other there is none."""
-        samples = look_at(scene, knobs)
+        samples = look_at(scene)
         if isinstance(samples, Reply):
             return replace(samples, value=None)
         return Reply(answer(*samples))

@@ -6,7 +6,6 @@ What is answered is what `classify` says too.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from contextlib import nullcontext
 from dataclasses import replace
 from typing import Any
 
@@ -22,13 +21,12 @@ from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.freedom.preparation import prepared
 from dofkit.classification.labels.entries import labels_in_system
 from dofkit.classification.study import Study, study
-from dofkit.exact.points.balls import balls_of, precise_for, precision
-from dofkit.exact.zero import BALLS, BOTH, Engines
+from dofkit.exact.points.balls import precise_for, precision
+from dofkit.exact.zero import BOTH, Engines
 from dofkit.methods.table import (
     CONTRADICTORY,
     METHODS,
     QUESTIONS,
-    Knobs,
     MethodName,
     Question,
     Reply,
@@ -230,7 +228,6 @@ def answered(
     scene: Scene | Mapping[str, Any],
     question: Question,
     method: MethodName,
-    knobs: Knobs | None = None,
     answer: Mapping[str, str] | None = None,
 ) -> Reply:
     """Return the answer that a reader would believe who trusted this method alone, right or wrong.
@@ -238,25 +235,22 @@ def answered(
     ``answer``: for ``equivalence``, ``{"constraint": NAME, "text": TEXT}``. Where the method cannot or does not
     answer, ``value`` is None and ``reason`` says why. Raises SceneError where the scene cannot be read.
     """
-    row, settings = METHODS[method], knobs or Knobs()
+    row = METHODS[method]
     if question not in row.uses:
         return cannot(f"{method} has no way to answer this: {row.cannot}")
     read = scene if isinstance(scene, Scene) else load(scene)
     try:
         if row.engines:
-            return _by_engines(row.engines, read, question, settings, answer)
+            return _by_engines(row.engines, read, question, answer)
         work = function_of(method, question)
-        return work(read, settings, answer) if question == "equivalence" else work(read, settings)
+        return work(read, answer) if question == "equivalence" else work(read)
     except OverflowError as error:
         return Reply(None, reason=f"a number that occurs is too large or too small to compute with ({error})")
     except FAILURES as error:
         return Reply(None, reason=str(error) or type(error).__name__)
 
 
-def _by_engines(
-    engines: Engines, scene: Scene, question: Question, knobs: Knobs, answer: Mapping[str, str] | None
-) -> Reply:
-    """Return the answer of dofkit's engines; balls alone take the bits of their numbers."""
-    with balls_of(knobs.bits) if engines == BALLS else nullcontext():
-        reply = answered_by(scene, question, answer, engines=engines)
+def _by_engines(engines: Engines, scene: Scene, question: Question, answer: Mapping[str, str] | None) -> Reply:
+    """Return the answer of dofkit's engines."""
+    reply = answered_by(scene, question, answer, engines=engines)
     return replace(reply, value=sorted(reply.value)) if question == "redundancy" and reply.value else reply

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dofkit.base.verdicts import weakest
 from dofkit.integrability.traits import exact
 from dofkit.methods.as_written import Written, as_written, labelled
-from dofkit.methods.table import Knobs, Reply
+from dofkit.methods.table import Reply
 from dofkit.scene.scene import Scene
 from dofkit.system import GROUND, System
 
@@ -22,16 +22,14 @@ def naive(written: Written) -> int:
     return len(written.coordinates) - len(written.finite)
 
 
-def dof(scene: Scene | System, knobs: Knobs) -> Reply:
+def dof(scene: Scene | System) -> Reply:
     """f = N d - k, each rigid body with d(d+1)/2 coordinates."""
-    del knobs
     number = naive(as_written(scene))
     return Reply(None, reason=_BELOW.format(number)) if number < 0 else Reply(number)
 
 
-def integrability(scene: Scene | System, knobs: Knobs) -> Reply:
+def integrability(scene: Scene | System) -> Reply:
     """Closed forms are called holonomic, all others are not: equality of mixed partials, which is exactness."""
-    del knobs
     written = as_written(scene)
     closed: dict[int, bool] = {}
     verdicts = []
@@ -42,13 +40,12 @@ def integrability(scene: Scene | System, knobs: Knobs) -> Reply:
     return Reply(labelled(written, closed), verdict=weakest(*verdicts))  # [PoincareLemma]
 
 
-def redundancy(scene: Scene | System, knobs: Knobs) -> Reply:
+def redundancy(scene: Scene | System) -> Reply:
     """Return no redundant constraint where the count leaves at least the freedom that is certain; else None.
 
     Certain is the motion of the whole as a rigid body, d(d+1)/2, where nothing holds it to the ground. A count that
     leaves less proves that something is redundant, and cannot name it.
     """
-    del knobs
     written = as_written(scene)
     number, least = naive(written), least_freedom(written)
     if number >= least:
@@ -66,9 +63,8 @@ def least_freedom(written: Written) -> int:
     return d * (d + 1) // 2
 
 
-def equivalence(scene: Scene, knobs: Knobs, answer: Mapping[str, str]) -> Reply:
+def equivalence(scene: Scene, answer: Mapping[str, str]) -> Reply:
     """Are the texts the same, blanks and the sides' order aside?"""
-    del knobs
     asked = next(c.text for c in as_written(scene).system.constraints if c.name == answer["constraint"])
     return Reply(plain(asked) == plain(answer["text"]))
 

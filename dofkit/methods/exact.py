@@ -27,7 +27,7 @@ from dofkit.methods.as_written import (
     questions_at_points,
     sampled_points,
 )
-from dofkit.methods.table import CONTRADICTORY, Knobs, Reply, cannot
+from dofkit.methods.table import CONTRADICTORY, Reply, cannot
 from dofkit.relations.linear_relations import explicit_relations
 from dofkit.scene.scene import Scene
 from dofkit.system import System
@@ -171,8 +171,7 @@ def give_values(point: RationalPoint, solved: Mapping[Expr, Expr], rows: Written
     rows.at(point, fmpq(0))
 
 
-def _points_of(scene: Scene | System, knobs: Knobs) -> tuple[SampledPoints, Decider] | Reply:
-    del knobs
+def _points_of(scene: Scene | System) -> tuple[SampledPoints, Decider] | Reply:
     numbers = Rationals()
     written = as_written(scene)
     if written.system.tolerance is not None:

@@ -6,7 +6,7 @@ from dofkit.base.verdicts import Verdict
 from dofkit.classification.dependence.circuits import OwnedRows, analyse
 from dofkit.exact.matrices.sparse import SparseRow
 from dofkit.exact.points.field import prime_for
-from dofkit.methods.table import Knobs, Reply, cannot
+from dofkit.methods.table import Reply, cannot
 from dofkit.mobility.general_position import in_general_position, linked_particles, unprescribed_links
 from dofkit.mobility.graph.linkage import linkage
 from dofkit.mobility.placement import general_placement, rows_of
@@ -26,9 +26,8 @@ def _joined(scene: Scene | System) -> System | Reply:
     return system if other is None else cannot(WRITTEN.format(other))
 
 
-def dof(scene: Scene | System, knobs: Knobs) -> Reply:
+def dof(scene: Scene | System) -> Reply:
     """Coordinates less the rank in general position."""
-    del knobs
     system = _joined(scene)
     if isinstance(system, Reply):
         return system
@@ -36,18 +35,16 @@ def dof(scene: Scene | System, knobs: Knobs) -> Reply:
     return Reply(len(system.coordinates) - rank, verdict=_verdict(system))
 
 
-def integrability(scene: Scene | System, knobs: Knobs) -> Reply:
+def integrability(scene: Scene | System) -> Reply:
     """Links and joints are finite."""
-    del knobs
     system = _joined(scene)
     if isinstance(system, Reply):
         return system
     return Reply({c.name: True for c in system.constraints}, verdict="proved")
 
 
-def redundancy(scene: Scene | System, knobs: Knobs) -> Reply:
+def redundancy(scene: Scene | System) -> Reply:
     """By the rank in general position with and without each."""
-    del knobs
     system = _joined(scene)
     if isinstance(system, Reply):
         return system

@@ -24,24 +24,23 @@ from dofkit.methods.as_written import (
     questions_at_points,
     sampled_points,
 )
-from dofkit.methods.table import CONTRADICTORY, Knobs, Reply
+from dofkit.methods.table import CONTRADICTORY, Reply
 from dofkit.scene.scene import Scene
 from dofkit.system import System
 
 #: Starts of Newton's method, and points that are looked at.
 STARTS, POINTS = 10, 5
+#: Singular values and differences below this share of the largest count as 0.
+TOLERANCE = 1e-9
 #: A singular value is clearly not 0 above the first share of the largest, and no more than rounding below the second.
 SIGNAL, ROUNDING = 1e-6, 1e-13
 NOWHERE = "Newton's method found no configuration from {} starts"
 
 
 class Floats:
-    """The numbers of this method: what is below ``tolerance`` of the largest is 0."""
+    """The numbers of this method: what is below `TOLERANCE` of the largest is 0."""
 
     zero = 0.0
-
-    def __init__(self, tolerance: float) -> None:
-        self.tolerance = tolerance
 
     def rank(self, matrix: Matrix) -> int:
         if not matrix or not matrix[0]:
@@ -49,7 +48,7 @@ class Floats:
         return self._rank(singular_values(matrix))
 
     def _rank(self, singular: np.ndarray) -> int:
-        return int(np.sum(singular > self.tolerance * float(singular.max(initial=0.0))))
+        return int(np.sum(singular > TOLERANCE * float(singular.max(initial=0.0))))
 
     def kernel(self, matrix: Matrix, columns: int) -> Matrix:
         """An orthonormal basis of what the rows vanish on."""
@@ -59,7 +58,7 @@ class Floats:
         return [list(row) for row in right[self._rank(singular) :]]
 
     def vanishes(self, value: Scalar, scale: Sequence[Scalar]) -> bool:
-        return bool(abs(value) <= self.tolerance * max(map(abs, scale), default=1.0))
+        return bool(abs(value) <= TOLERANCE * max(map(abs, scale), default=1.0))
 
     def points(self, written: Written, rows: WrittenRows, drawn: bool) -> list[FloatPoint]:
         if drawn:
@@ -102,8 +101,8 @@ def singular_values(matrix: Matrix) -> Any:
     return np.linalg.svd(np.array(matrix, dtype=float), compute_uv=False)
 
 
-def _points_of(scene: Scene | System, knobs: Knobs) -> tuple[SampledPoints, Decider] | Reply:
-    numbers = Floats(knobs.tolerance)
+def _points_of(scene: Scene | System) -> tuple[SampledPoints, Decider] | Reply:
+    numbers = Floats()
     sampled = sampled_points(as_written(scene), numbers)
     return Reply(CONTRADICTORY, reason=NOWHERE.format(STARTS)) if sampled is None else (sampled, numbers)
 

@@ -19,7 +19,7 @@ from dofkit.classification.undecided import open_entry, open_report, sketch, why
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
-from dofkit.methods.table import METHODS, Knobs, MethodName, Question, Reply, function_of
+from dofkit.methods.table import METHODS, MethodName, Question, Reply, function_of
 from dofkit.relations.answer import BITS, GAP, Answer
 from dofkit.relations.blocks import Block
 from dofkit.report import ConstraintEntry, Count, FieldVerdict, ForceEntry, Report
@@ -148,7 +148,7 @@ def report_of_method(system: System, method: MethodName) -> Report:
 
 def _reply(system: System, method: MethodName, question: Question) -> Reply:
     try:
-        reply: Reply = function_of(method, question)(system, Knobs())
+        reply: Reply = function_of(method, question)(system)
     except OutOfTimeError:
         raise
     except (ArithmeticError, NotImplementedError, ValueError) as error:

@@ -16,7 +16,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.sympy_bridge import Bridge
 from dofkit.expressions.tree import Expr
 from dofkit.methods.as_written import Written, as_written, labelled, without_loss
-from dofkit.methods.table import Knobs, Reply
+from dofkit.methods.table import Reply
 from dofkit.scene.scene import Scene
 from dofkit.system import System
 
@@ -104,9 +104,8 @@ def passing(symbols: Symbols) -> list[bool]:
     return points
 
 
-def dof(scene: Scene | System, knobs: Knobs) -> Reply:
+def dof(scene: Scene | System) -> Reply:
     """Coordinates less the rank that SymPy finds, forms that pass Frobenius' test included."""
-    del knobs
     symbols = Symbols(as_written(scene))
     return Reply(_freedom(symbols, passing(symbols)))
 
@@ -116,9 +115,8 @@ def _freedom(symbols: Symbols, passes: Sequence[bool]) -> int:
     return symbols.n - int(symbols.rows(range(len(symbols.finite)), kept).rank())
 
 
-def integrability(scene: Scene | System, knobs: Knobs) -> Reply:
+def integrability(scene: Scene | System) -> Reply:
     """By wedge products."""
-    del knobs
     symbols = Symbols(as_written(scene))
     labels: dict[int, bool] = {}
     for (i, _), passes in zip(symbols.forms, passing(symbols), strict=True):
@@ -126,9 +124,8 @@ def integrability(scene: Scene | System, knobs: Knobs) -> Reply:
     return Reply(labelled(symbols.written, labels))
 
 
-def redundancy(scene: Scene | System, knobs: Knobs) -> Reply:
+def redundancy(scene: Scene | System) -> Reply:
     """Constraints without which the rank that SymPy finds stays as it is, the last written first."""
-    del knobs
     symbols = Symbols(as_written(scene))
 
     def ranks(finite: Sequence[int], forms: Sequence[int]) -> tuple[int, int]:

@@ -42,7 +42,7 @@ class Method:
 
 
 def function_of(method: MethodName, question: Question) -> Callable[..., Reply]:
-    """Return the function of a method's module for a question of its row: (scene, knobs), for equivalence the answer.
+    """Return the function of a method's module for a question of its row: (scene), for equivalence the answer too.
 
     The module is imported where it is first asked for: some need SymPy or numpy.
     """
@@ -159,18 +159,6 @@ METHODS: Mapping[MethodName, Method] = {
         "undecided",
     ),
 }
-
-
-@dataclass(frozen=True)
-class Knobs:
-    """Settings of a method.
-
-    ``tolerance``: singular values and differences below this share of the largest count as 0 (numeric); ``bits``: the
-    precision of balls, None for the ladder that they climb by themselves.
-    """
-
-    tolerance: float = 1e-9
-    bits: int | None = None
 
 
 @dataclass(frozen=True)

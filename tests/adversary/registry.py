@@ -25,15 +25,15 @@ _LECTURES = "Lectures and homework"
 
 
 def _drawn_from(family: str) -> Generator:
-    """Return one of the scenes of a family of the charts; small ones for the smallest sizes."""
+    """Return what draws one of the scenes of a family of the charts, up to a size."""
 
     @cache
-    def members(quick: bool) -> list[KnownScene]:
-        return list(KNOWN_SCENES[family](quick))
+    def members() -> list[KnownScene]:
+        return sorted(KNOWN_SCENES[family](), key=lambda scene: scene.size)
 
     def drawn(rng: random.Random, size: int) -> KnownScene:
-        large = [scene for scene in members(False) if scene.size <= SMALL * size] if size > 1 else []
-        return rng.choice(large or members(True))
+        small = [scene for scene in members() if scene.size <= SMALL * max(1, size)]
+        return rng.choice(small or members()[:1])
 
     return drawn
 

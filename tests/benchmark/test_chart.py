@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import math
 import sys
 from collections.abc import Sequence
 from dataclasses import replace
@@ -15,15 +14,14 @@ from shared import chart_methods
 from typer.testing import CliRunner
 
 from dofkit.base.runs import Pool
-from dofkit.benchmark import command, record, runner, statistics, tasks
-from dofkit.benchmark.figures import table as figures_table
-from dofkit.benchmark.record import AUTO, Data, Outcome, Ran, Score, TrialLine
+from dofkit.benchmark import command, figures, record, runner, statistics, tasks
+from dofkit.benchmark.record import AUTO, Data, Outcome, Ran, TrialLine
 from dofkit.benchmark.runner import outcome_of
-from dofkit.benchmark.sentences import summary
-from dofkit.benchmark.tasks import Selection
+from dofkit.benchmark.sentences import caption
+from dofkit.benchmark.statistics import Score
+from dofkit.benchmark.tasks import ChartOptions
 from dofkit.benchmark.trials.construction import Trial
 from dofkit.interface.cli import app
-from dofkit.methods.table import Knobs
 
 RAN = Ran(
     version="0",
@@ -34,10 +32,7 @@ RAN = Ran(
     python="3.11",
     workers=2,
     limit=4.0,
-    quick=True,
     trials=8,
-    lines=0,
-    sweeps=0,
     minutes=1.5,
     complete=True,
 )
@@ -47,7 +42,8 @@ def ran(methods: Sequence[str], limit: float = 0.3) -> list[TrialLine]:
     """The trials of the family by these methods, in two workers."""
     with Pool(2, modules=("dofkit.benchmark.runner", "shared.chart_methods")) as pool:
         bench = runner.Bench(pool, limit, "shared.chart_methods:answered")
-        return list(runner.run(tasks.trial_tasks(chart_methods.family(False), methods), bench))
+        work = [tasks.TrialTask(trial, method) for trial in chart_methods.family() for method in methods]
+        return list(runner.run(work, bench))
 
 
 # -- running ---------------------------------------------------------------------------------------
@@ -96,16 +92,11 @@ def test_ladders_climb_by_size_and_other_ladders_go_on() -> None:
     sizes = [line.size for line in lines if line.method == "hangs"]
     assert sizes[:4] == [1, 1, 2, 2]
     assert sizes[4:].index(4) < sizes[4:].index(8)
-    trial = next(chart_methods.family(True))
-    one, other = tasks.TrialTask(trial, "m"), tasks.TrialTask(replace(trial, size=7, name="b"), "m")
+    trial = next(chart_methods.family())
+    one, other = tasks.TrialTask(trial, "m"), tasks.TrialTask(replace(trial, size=7, name="box-7-0"), "m")
     assert one.ladder == other.ladder
-    swept = tasks.TrialTask(replace(trial, swept={"digits": 3}), "m")
-    assert (
-        len(
-            {one.ladder, swept.ladder, tasks.TrialTask(trial, "n").ladder, tasks.TrialTask(trial, "m", knob="k").ladder}
-        )
-        == 4
-    )
+    another = tasks.TrialTask(replace(trial, name="box-1-0, 3 digits"), "m")
+    assert len({one.ladder, another.ladder, tasks.TrialTask(trial, "n").ladder}) == 3
 
 
 @pytest.mark.parametrize(
@@ -126,41 +117,18 @@ def test_answers_are_judged(truth: Any, told: Any, outcome: Outcome) -> None:
     assert outcome_of(truth, told) == outcome
 
 
-def test_sweeps_turn_what_the_trials_sweep() -> None:
-    base = next(chart_methods.family(True))
-    told = {**base.scene, "tolerance": "1e-3"}
-    rounded = [
-        replace(base, name=f"r{d}-{k}", scene=told, swept={"digits": d, "tolerance": 10.0**-d})
-        for d in (3, 9)
-        for k in range(40)
-    ]
-    near = [replace(base, name=name, swept={"gap": gap}) for name, gap in (("n", -1e-3), ("m", "1/1000"), ("far", 1))]
-    near.append(replace(base, name="large", size=99, swept={"gap": 1e-3}))
-    rounded.append(replace(base, name="exact as written", swept={"digits": 5}))
-    found = list(tasks.sweeps([*rounded, *near], ["auto", "numeric", "balls"], False))
-    tolerances = [task for task in found if task.knob == "tolerance"]
-    assert {task.knobs.tolerance for task in tolerances} == {task.value for task in tolerances} == set(tasks.TOLERANCES)
-    assert len(tolerances) == 2 * tasks.MOST_SWEPT * len(tasks.TOLERANCES)
-    assert {task.group for task in tolerances} == {"3", "9"}
-    assert not any("tolerance" in task.trial.scene for task in tolerances)
-    tolerant = [task for task in found if task.knob == "scene tolerance"]
-    assert all(task.trial.scene["tolerance"] == task.value and task.knobs == Knobs() for task in tolerant)
-    balls = [task for task in found if task.knob == "bits"]
-    assert {(task.trial.name, task.group) for task in balls} == {("n", "0.001"), ("m", "0.001")}
-    assert not [task for task in found if task.method == "field"]
+def asked(methods: Sequence[str] = ("auto",), quick: bool = False) -> ChartOptions:
+    return ChartOptions(Path(), questions=["dof"], methods=methods, quick=quick)
 
 
 def test_of_many_trials_some_are_taken_from_the_smallest_to_the_largest() -> None:
-    trials = [replace(t, name=f"{t.name}{k}") for t in chart_methods.family(False) for k in range(3)]
-    assert [t.size for t in Selection(most=4).thinned(trials)] == [1, 2, 4, 8]
-    assert len(Selection(most=0).thinned(trials)) == len(trials) == 24
-    assert [t.size for t in Selection(quick=True).thinned(trials)] == [1, 8]
-    assert list(Selection(["dof"], [], ["auto", "field"], True, 7).options()) == [
-        "--question dof",
-        "--methods auto,field",
-        "--quick",
-        "--most 7",
-    ]
+    trials = [replace(t, name=f"{t.name}{k}") for t in chart_methods.family() for k in range(8)]
+    chosen = [task.trial for task in asked().tasks({"boxes": lambda: iter(trials)})]
+    assert (len(trials), len(chosen), chosen[0].size, chosen[-1].size) == (64, tasks.MOST, 1, 8)
+    assert [t.size for t in chosen] == sorted(t.size for t in chosen)
+    assert [t.trial.size for t in asked(quick=True).tasks({"boxes": chart_methods.family})] == [1]
+    command = asked(methods=["auto", "field"], quick=True).command()
+    assert command == "dofkit chart --question dof --methods auto,field --quick"
 
 
 # -- what the lines say ----------------------------------------------------------------------------
@@ -168,20 +136,7 @@ def test_of_many_trials_some_are_taken_from_the_smallest_to_the_largest() -> Non
 
 def score(method: str, seconds: float | None, right: int, wrong: int) -> Score:
     """Of ten trials."""
-    return Score(
-        question="dof",
-        family="all",
-        method=method,
-        trials=10,
-        right=right,
-        wrong=wrong,
-        undecided=10 - right - wrong,
-        timed_out=0,
-        cannot=0,
-        median_seconds=seconds,
-        low_seconds=seconds,
-        high_seconds=seconds,
-    )
+    return Score(method, {"right": right, "wrong": wrong, "undecided": 10 - right - wrong}, 10, *[seconds] * 3)
 
 
 def test_the_pareto_front_by_hand() -> None:
@@ -192,29 +147,17 @@ def test_the_pareto_front_by_hand() -> None:
     worse = score("worse", 2.5, 4, 1)  # beaten by sound
     none = score("none", 0.1, 0, 0)  # never right
     members = [best, slow, fast, worse, none, sound]
-    assert statistics.front(members) == ["fast", "sound", AUTO]
-    (front,) = statistics.fronts(members)
-    assert (front.methods, front.never_wrong) == (["fast", "sound", AUTO], ["sound", AUTO])
+    assert statistics.front(members) == [fast, sound, best]
+    assert statistics.front([score for score in members if not score.share("wrong")]) == [sound, best]
     assert statistics.beats(best, slow)
     assert not statistics.beats(best, best)
-
-
-def test_exact_power_laws_are_found() -> None:
-    assert statistics.power_law([(1, 2.0), (2, 16.0)]) is None
-    exponent, error, factor = statistics.power_law([(n, 0.5 * n**3) for n in (1, 2, 4, 8)]) or (0.0, 1.0, 0.0)
-    assert (round(exponent, 12), round(factor, 12)) == (3, 0.5)
-    assert error < 1e-12
-    # ln y = 0, 1, 0, 1 over ln x = 0, 1, 2, 3: the slope is 1/5, what is left 4/5, so its error sqrt(4/5 / 2 / 5)
-    curve = [(math.exp(u), math.exp(v)) for u, v in ((0, 0), (1, 1), (2, 0), (3, 1))]
-    exponent, error, factor = statistics.power_law(curve) or (0.0, 0.0, 0.0)
-    assert (exponent, error, factor) == pytest.approx((0.2, math.sqrt(0.08), math.exp(0.2)))
 
 
 def line(trial: str, method: str, outcome: Outcome, seconds: float, size: int = 1) -> TrialLine:
     """A line about a family of boxes."""
     told = {"right": 2, "wrong": 3}.get(outcome)
     why = "" if outcome == "right" else 'because, he said, "no"; θ'
-    return TrialLine("boxes", trial, "dof", method, size, {"gap": "1/9"}, 2, told, outcome, seconds, why)
+    return TrialLine("boxes", trial, "dof", method, size, 2, told, outcome, seconds, why)
 
 
 LINES = [
@@ -226,65 +169,38 @@ LINES = [
     line("b4", "count", "undecided", 0.0001),
     line("b8", "count", "cannot", 0.0001),
 ]
-_STEPS: list[tuple[float, Outcome]] = [(1e-9, "wrong"), (1e-3, "right"), (1e-1, "undecided")]
-SWEEPS = [
-    replace(line("b1", "numeric", outcome, 0.001), knob="tolerance", value=value, group=group)
-    for group in ("3", "9")
-    for value, outcome in _STEPS
-]
-DATA = Data(RAN, LINES, SWEEPS)
+DATA = Data(RAN, LINES)
 
 
-def test_scores_points_and_auto_against_the_fastest() -> None:
-    chart = summary(DATA)
-    whole = {row.method: row for row in chart.scores if row.family == "all"}
-    count = whole["count"]
-    assert (count.trials, count.right, count.wrong, count.undecided, count.timed_out, count.cannot) == (
-        4,
-        1,
-        1,
-        1,
-        0,
-        1,
-    )
-    assert count.median_seconds == 0.0001
-    assert whole["symbolic"].timed_out == 1
-    assert whole[AUTO].median_seconds == pytest.approx(0.006)
-    assert {(p.method, p.size, p.timed_out) for p in chart.points} >= {("symbolic", 8, 1), (AUTO, 8, 0)}
-    fits = {fit.method: fit for fit in chart.fits}
-    assert fits["symbolic"].exponent == pytest.approx(2)
-    assert fits["symbolic"].points == 3  # not that which timed out
-    assert fits[AUTO].exponent == pytest.approx(1)
-    (against,) = chart.against
+def test_scores_and_auto_against_the_fastest() -> None:
+    by_method = statistics.scores(LINES)
+    assert by_method["count"].counts == {"right": 1, "wrong": 1, "undecided": 1, "cannot": 1}
+    assert (by_method["count"].median, by_method["count"].share_unanswered) == (0.0001, 0.5)
+    assert by_method["symbolic"].counts["timed out"] == 1
+    assert by_method[AUTO].median == pytest.approx(0.006)
+    (against,) = statistics.against(LINES)
     assert against.fastest == "graph"
     assert against.ratio == pytest.approx(4)
     assert (against.sound, against.sound_ratio) == ("graph", pytest.approx(4))
-    assert [(s.group, s.value, s.right, s.wrong, s.undecided) for s in chart.steps][:3] == [
-        ("3", 1e-9, 0, 1, 0),
-        ("3", 1e-3, 1, 0, 0),
-        ("3", 1e-1, 0, 0, 1),
-    ]
-    assert list(command.auto_sentences(chart)) == [
+    assert list(command.auto_sentences(DATA)) == [
         "8 trials by 4 methods, at most 4 s each: of the answers of `auto` none is wrong and 0 % are undecided.",
         "On 0 of 1 families `auto` takes at most twice the time of the fastest method that is right there and wrong "
         "nowhere; with those that are right there by luck it does on 0 of 1.",
         "  dof, boxes: 4.0 times graph",
     ]
-    assert all(text.endswith("Made by: dofkit chart --quick") for text in chart.captions.values())
+    assert all(caption(name, DATA).endswith("Made by: dofkit chart --quick") for name in figures.FIGURES)
 
 
 # -- files -----------------------------------------------------------------------------------------
 
 
 def test_what_is_written_is_read_back(tmp_path: Path) -> None:
-    chart = summary(DATA)
     record.write(DATA, tmp_path)
     back = record.read(tmp_path)
     assert back == DATA
-    assert summary(back) == chart
     header, first = (tmp_path / "trials.csv").read_text(encoding="utf-8").splitlines()[:2]
-    assert header.startswith("family,trial,question,method,size,swept,truth,answer,outcome,seconds,why")
-    assert first.startswith('boxes,b1,dof,auto,1,"{""gap""')
+    assert header.startswith("family,trial,question,method,size,truth,answer,outcome,seconds,why")
+    assert first.startswith("boxes,b1,dof,auto,1,2,2,right,0.002,")
     (tmp_path / record.RAN).write_text(json.dumps({"ran": 1}))
     with pytest.raises(record.ChartError, match="are not those of a run"):
         record.read(tmp_path)
@@ -294,15 +210,11 @@ def test_what_is_written_is_read_back(tmp_path: Path) -> None:
 
 @pytest.mark.sweep
 def test_every_figure_is_drawn(tmp_path: Path) -> None:
-    chart = summary(DATA)
-    bits = replace(SWEEPS[0], knob="bits", method="balls", value=16.0, group="1/9")
-    more = [bits, replace(bits, value=64.0), *SWEEPS]
-    chart = summary(replace(DATA, sweeps=more))
-    drawn = [path.stem for path in figures_table.write(chart, tmp_path)]
-    assert drawn == list(figures_table.FIGURES)
+    lines = [replace(row, family=family) for row in LINES for family in ("trailers", "boxes")]
+    drawn = [path.stem for path in figures.write(Data(RAN, lines), tmp_path)]
+    assert drawn == list(figures.FIGURES)
     assert all((tmp_path / f"{name}.{end}").stat().st_size > 5000 for name in drawn for end in ("png", "svg"))
-    assert set(chart.captions) == set(figures_table.FIGURES)
-    assert figures_table.FIGURES["cost"](summary(Data(RAN, LINES[:1]))) is None
+    assert figures.FIGURES["cost"](Data(RAN, LINES[:1])) is None
 
 
 # -- the command -----------------------------------------------------------------------------------
@@ -327,7 +239,7 @@ def test_the_command_runs_tells_and_redraws(tmp_path: Path) -> None:
     assert "of the answers of `auto` none is wrong and 0 % are undecided." in " ".join(done.output.split())
     assert "nothing is drawn without matplotlib: pip install 'dofkit[chart]'" in done.output
     data = record.read(out)
-    assert len(data.lines) == 2 * 2
+    assert len(data.lines) == 2
     assert {found.outcome for found in data.lines} == {"right"}
     assert data.ran.command == "dofkit chart --families boxes --methods auto,field --quick"
     again = CliRunner().invoke(app, ["chart", "--from", str(out), "--out", str(tmp_path / "again")])
@@ -373,4 +285,4 @@ def test_an_interrupted_run_keeps_what_it_has(tmp_path: Path, monkeypatch: pytes
     assert "interrupted after 1 of " in done.output
     assert "the run was interrupted: this is only a part of it" in done.output
     assert len(record.read(tmp_path).lines) == 1
-    assert isinstance(next(chart_methods.family(True)), Trial)
+    assert isinstance(next(chart_methods.family()), Trial)

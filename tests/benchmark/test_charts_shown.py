@@ -7,8 +7,9 @@ from functools import cache
 from pathlib import Path
 
 from dofkit.benchmark import record
+from dofkit.benchmark.figures import FIGURES
 from dofkit.benchmark.record import AUTO, Data
-from dofkit.benchmark.sentences import sentences, summary
+from dofkit.benchmark.sentences import caption, sentences
 from dofkit.benchmark.statistics import against
 from dofkit.benchmark.trials import FAMILIES
 from dofkit.methods.table import METHODS
@@ -56,15 +57,14 @@ def test_auto_is_on_the_front_and_hardly_slower_than_what_is_sound() -> None:
 
 def test_every_sentence_about_a_chart_is_worked_out_from_its_data() -> None:
     told = " ".join(PAGE.split())
-    assert [sentence for sentence in sentences(summary(data())) if sentence not in told] == []
+    assert [sentence for sentence in sentences(data()) if sentence not in told] == []
 
 
 def test_the_figures_of_the_site_are_there_and_made_by_its_command() -> None:
     shown = re.findall(r"\]\(../charts/([^)]+)\)", PAGE)
     assert shown
     assert all((CHARTS / path).is_file() for path in shown)
-    chart = summary(data())
-    assert chart.ran.complete
-    assert chart.ran.command == "dofkit chart"
+    assert data().ran.complete
+    assert data().ran.command == "dofkit chart"
     assert "`dofkit chart --out tests/charts`" in PAGE
-    assert all(caption.endswith("Made by: dofkit chart") for caption in chart.captions.values())
+    assert all(caption(name, data()).endswith("Made by: dofkit chart") for name in FIGURES)

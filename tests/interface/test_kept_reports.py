@@ -18,8 +18,8 @@ import dofkit
 from dofkit.base.runs import BusyError, Journal, Pool
 from dofkit.base.workers import Job, JobOutcome
 from dofkit.interface.answers import streams
-from dofkit.interface.jobs import Cut, Printed, Request, Run
-from dofkit.interface.many import QueuedScene, answer, kept_reports
+from dofkit.interface.classification import kept_reports
+from dofkit.interface.jobs import Cut, Printed, Request, Run, reply
 from dofkit.interface.named_files import named_files
 from dofkit.interface.output import Output
 
@@ -113,12 +113,12 @@ class Counting:
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.files: list[str] = []
-        monkeypatch.setattr("dofkit.interface.many.answer", self.answered)
+        monkeypatch.setattr("dofkit.interface.jobs.reply", self.answered)
         monkeypatch.setattr(Pool, "fork", lambda pool: None)
 
-    def answered(self, pool: Pool, scene: QueuedScene) -> Printed:
-        self.files.append(Path(scene.request.file).stem)
-        return Printed(f"{len(scene.request.data or b'')}\n", "", 0, {"verdict": "proved", "is": []})
+    def answered(self, pool: Pool, function: str, request: Request) -> Printed:
+        self.files.append(Path(request.file).stem)
+        return Printed(f"{len(request.data or b'')}\n", "", 0, {"verdict": "proved", "is": []})
 
     def run(self, out: Path, files: list[Path], stop: int | None = None, budget: float = 60.0) -> list[str]:
         """Which files are asked about by a run that is stopped after so many."""
@@ -228,7 +228,7 @@ class Breaking:
 
 def test_a_scene_that_ends_its_worker_ends_no_other() -> None:
     pool: Any = Breaking()
-    printed = [answer(pool, QueuedScene(request(file=f"s{k}"))) for k in range(6)]
+    printed = [reply(pool, "report_lines", request(file=f"s{k}")) for k in range(6)]
     assert [one.out for one in printed if not one.errors] == ["s0\n", "s1\n", "s2\n", "s4\n", "s5\n"]
     assert "it could not be processed: it ended" in printed[3].out
 

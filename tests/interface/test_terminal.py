@@ -12,7 +12,7 @@ from dofkit.base.verdicts import ArgumentKey, Verdict
 from dofkit.interface.show.assurance import checked_claims
 from dofkit.interface.show.decimals import as_the_scene
 from dofkit.interface.show.report import MOST_ROWS, labels, sheet_of_report
-from dofkit.interface.show.terminal import Screen, as_text
+from dofkit.interface.show.terminal import as_text
 from dofkit.report import ConstraintEntry, Count, FieldVerdict, ForceEntry, Redundancy, Report
 
 
@@ -45,7 +45,7 @@ def report(**fields: Any) -> Report:
 def shown(
     told: Report, title: str | None = "A title", width: int = 80, how: bool = False, coloured: bool = False
 ) -> str:
-    return as_text(sheet_of_report(told, title, how), Screen(width, "standard" if coloured else None))
+    return as_text(sheet_of_report(told, title, how), width, "standard" if coloured else None)
 
 
 def test_arguments_are_shown_where_they_are_asked_for() -> None:

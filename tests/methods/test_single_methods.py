@@ -13,7 +13,7 @@ import dofkit.methods
 from dofkit.base.verdicts import VERDICTS
 from dofkit.benchmark.sentences import explained
 from dofkit.methods.ask import answered
-from dofkit.methods.table import METHODS, QUESTIONS, Knobs, MethodName, Question, function_of
+from dofkit.methods.table import METHODS, QUESTIONS, MethodName, Question, function_of
 from dofkit.report import Report
 
 HOME = Path(dofkit.methods.__file__).parent
@@ -148,16 +148,9 @@ def test_a_method_answers_what_its_row_says(method: MethodName) -> None:
     assert METHODS[method].engines or all(callable(function_of(method, question)) for question in METHODS[method].uses)
 
 
-def test_balls_of_few_bits_do_not_tell_a_small_number_from_zero() -> None:
-    """e^(pi sqrt 163) is 262537412640768744 but for 7.5e-13, which 100 bits do not show beside it and 128 do."""
-    given = scene("dz + (exp(pi*sqrt(163)) - 262537412640768744) y dx = 0")
-    told = [answered(given, "integrability", "balls", Knobs(bits=b)).value for b in (53, 128)]
-    assert told == [{"c1": None}, {"c1": False}]
-
-
-def test_a_tolerance_takes_what_is_small_for_zero() -> None:
-    given = scene("x = 0", "x + y/10^7 = 0", coordinates=("x", "y"))
-    assert [answered(given, "dof", "numeric", Knobs(tolerance=t)).value for t in (1e-5, 1e-9)] == [1, 0]
+def test_what_is_small_is_taken_for_zero() -> None:
+    given = scene("x = 0", "x + y/10^10 = 0", coordinates=("x", "y"))
+    assert [answered(given, "dof", method).value for method in ("numeric", "auto")] == [1, 0]
 
 
 def test_a_question_alone_is_answered_as_the_report_answers_it() -> None:

@@ -14,7 +14,7 @@ import dofkit
 from dofkit.configuration import at_reference as local
 from dofkit.exact.matrices.sparse import rank_of_rows
 from dofkit.interface.show.report import sheet_of_report
-from dofkit.interface.show.terminal import Screen, as_text
+from dofkit.interface.show.terminal import as_text
 from dofkit.mobility.placement import drawn_placement, rows_of
 from dofkit.report import Report
 from dofkit.scene.constraints import TYPES
@@ -459,7 +459,7 @@ def test_a_driven_count_adds_up() -> None:
 
 
 def test_both_counts_and_why_they_err_are_shown() -> None:
-    text = " ".join(as_text(sheet_of_report(told("sarrus-linkage")), Screen(200)).split())
+    text = " ".join(as_text(sheet_of_report(told("sarrus-linkage")), 200).split())
     assert "Gruebler-Kutzbach M = 6(N - 1 - j) + sum f = 6(6 - 1 - 6) + 6 = 0" in text
     assert "with 5 in place of 6 the count is 5(6 - 1 - 6) + 6 = 1" in text
     assert "generic mobility 0 " in text

@@ -15,6 +15,7 @@ from shared.reductions import SCENES, differences, model_sizes, study_of
 
 import dofkit
 from dofkit.benchmark.trials import FAMILIES
+from dofkit.benchmark.trials.construction import few
 from dofkit.classification.dependence.circuits import OwnedRows, analyse
 from dofkit.exact.matrices.sparse import rank_of_rows
 from dofkit.relations.setting import ALL, REDUCTIONS, ReductionName
@@ -77,7 +78,7 @@ def scenes_of_families() -> Iterator[Any]:
     """The small members of the families, every scene once."""
     seen = set()
     for name, family in FAMILIES.items():
-        for trial in family(True) if name != "catalog" else ():
+        for trial in few(family()) if name != "catalog" else ():
             key = json.dumps(trial.scene, sort_keys=True, default=str)
             if key not in seen:
                 seen.add(key)

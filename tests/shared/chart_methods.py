@@ -8,12 +8,10 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from dofkit.benchmark.trials.construction import Trial
-from dofkit.methods.table import Knobs, Reply
+from dofkit.methods.table import Reply
 
 
-def answered(
-    scene: Mapping[str, Any], question: str, method: str, knobs: Knobs, answer: Mapping[str, str] | None
-) -> Reply:
+def answered(scene: Mapping[str, Any], question: str, method: str, answer: Mapping[str, str] | None) -> Reply:
     """What each of them tells; the truth is 2."""
     del question, answer
     size = scene.get("size", 1)
@@ -28,15 +26,13 @@ def answered(
         raise KeyError("x")
     if method == "process":
         return Reply(os.getpid())
-    if method == "coarse":
-        return Reply(2 if knobs.tolerance < 1e-3 else 3)
     told = {"wrong": 3, "undecided": None, "cannot": None}.get(method, 2)
     return Reply(told, reason="" if told else f"it is {method}", cannot=method == "cannot")
 
 
-def family(quick: bool) -> Iterator[Trial]:
+def family() -> Iterator[Trial]:
     """Four sizes, two trials each."""
-    for size in (1, 2) if quick else (4, 1, 2, 8):
+    for size in (4, 1, 2, 8):
         for k in range(2):
             scene = {"coordinates": ["x"], "constraints": [], "size": size, "k": k}
             yield Trial("boxes", f"box-{size}-{k}", "dof", scene, 2, "by construction", size)

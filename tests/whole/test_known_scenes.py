@@ -13,8 +13,9 @@ from adversary.running import answered, faults, outcome
 from shared.known_scenes import swept
 
 from dofkit.benchmark.trials.construction import KnownScene
-from dofkit.benchmark.trials.identities import CONTEXTS, NOT_ZERO, TRAPS, Trap, tiny_steps
-from dofkit.benchmark.trials.poses import JOINTED, NEAR, SWEEPS, FrameworkPose
+from dofkit.benchmark.trials.identities import NOT_ZERO, TRAPS, Trap, in_contexts, near_misses, tiny_steps
+from dofkit.benchmark.trials.poses import FAMILIES as POSES
+from dofkit.benchmark.trials.poses import JOINTED, NEAR, FrameworkPose, measured_elsewhere
 from dofkit.expressions.enclosures import interval_of
 from dofkit.expressions.text import Names, parse_expression
 from dofkit.expressions.tree import num
@@ -23,25 +24,28 @@ from dofkit.expressions.tree import num
 def identities() -> Iterator[KnownScene]:
     """Yield expressions that are zero by an identity, in every context."""
     for trap in TRAPS:
-        yield from (known for context in CONTEXTS if (known := context(trap, trap.zero, True)))
+        yield from in_contexts(trap, trap.zero, True)
 
 
-def near_misses() -> Iterator[KnownScene]:
+def misses() -> Iterator[KnownScene]:
     """Yield expressions that are nearly such an identity and are not zero, in every context."""
-    every = [*((trap, miss) for trap in TRAPS for miss in trap.misses), *((trap, trap.zero) for trap in NOT_ZERO)]
-    for trap, text in every:
-        yield from (known for context in CONTEXTS if (known := context(trap, text, False)))
+    for trap in TRAPS:
+        yield from near_misses(trap)
+    for trap in NOT_ZERO:
+        yield from in_contexts(trap, trap.zero, False)
 
 
+#: Scenes near singular poses.
+SWEEPS = {**POSES, "scaled and moved, with tolerance": measured_elsewhere}
 #: The scenes of each family, and the least share of right answers.
 FAMILIES: Mapping[str, tuple[Callable[[], Iterator[KnownScene]], float]] = {
     "identities": (identities, 0.7),
-    "near misses of identities": (near_misses, 0.97),
+    "near misses of identities": (misses, 0.97),
     "tiny steps from integrable": (tiny_steps, 0.97),
 }
 #: The same of scenes near singular poses. Far from the origin floating point tells little of measured positions, and a
 #: spherical four-bar a millionth large, a million away, is not followed to a finite distance.
-FLOORS = {"rounded, with tolerance": 0.85, "scaled and moved": 0.99, "scaled and moved, with tolerance": 0.65}
+FLOORS = {"rounded, with tolerance": 0.85, "size and place": 0.99, "scaled and moved, with tolerance": 0.65}
 #: Of the large families every third scene is answered in the sweep.
 STEPS = {"near misses of identities": 3}
 

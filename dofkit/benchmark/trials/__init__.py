@@ -19,9 +19,9 @@ from dofkit.benchmark.trials import (
     lectures,
     poses,
 )
-from dofkit.benchmark.trials.construction import KnownScene, Trial, few
+from dofkit.benchmark.trials.construction import KnownScene, Trial
 
-Family = Callable[[bool], Iterator[Trial]]
+Family = Callable[[], Iterator[Trial]]
 
 #: What the families are about: five headings, and the modules under each.
 _HEADINGS: Mapping[str, tuple[ModuleType, ...]] = {
@@ -35,8 +35,8 @@ _HEADINGS: Mapping[str, tuple[ModuleType, ...]] = {
 HEADINGS: Mapping[str, str] = {
     name: heading for heading, modules in _HEADINGS.items() for module in modules for name in module.FAMILIES
 }
-#: The scenes of each family by name. ``quick``: small ones.
-KNOWN_SCENES: Mapping[str, Callable[[bool], Iterator[KnownScene]]] = {
+#: The scenes of each family by name.
+KNOWN_SCENES: Mapping[str, Callable[[], Iterator[KnownScene]]] = {
     name: scenes for modules in _HEADINGS.values() for module in modules for name, scenes in module.FAMILIES.items()
 }
 #: What each family is, in a line.
@@ -46,12 +46,8 @@ GLOSSES: Mapping[str, str] = {
 
 
 def _family(name: str) -> Family:
-    def trials(quick: bool) -> Iterator[Trial]:
-        every = (trial for scene in KNOWN_SCENES[name](quick) for trial in scene.trials(name))
-        return few(every) if quick else every
-
-    return trials
+    return lambda: (trial for scene in KNOWN_SCENES[name]() for trial in scene.trials(name))
 
 
-#: Every family by name. ``quick``: a few small members that stand for the others.
+#: The trials of each family by name.
 FAMILIES: Mapping[str, Family] = {name: _family(name) for name in KNOWN_SCENES}

@@ -18,9 +18,9 @@ def _loop(hinges: Sequence[tuple[Place, Place]], bodies: int) -> dict[str, Any]:
     return hinged_loop([(at, axis) for at, axis in exact], bodies)
 
 
-def doors(quick: bool) -> Iterator[KnownScene]:
+def doors() -> Iterator[KnownScene]:
     """A door on n hinges: on one line it turns, and all but the first say nothing new; off the line it is held."""
-    for n in (2, 3) if quick else (2, 3, 4, 8, 16):
+    for n in (2, 3, 4, 8, 16):
         # name, the places and axes of the hinges, dof, how many of the first are needed
         rows: list[tuple[str, list[tuple[Place, Place]], int, int]] = [
             ("on one line", [([0, 0, k], [0, 0, 1]) for k in range(n)], 1, 1),
@@ -36,10 +36,10 @@ def doors(quick: bool) -> Iterator[KnownScene]:
             yield known_scene(*about, dof=dof, redundancy=redundant)
 
 
-def cranks(quick: bool) -> Iterator[KnownScene]:
+def cranks() -> Iterator[KnownScene]:
     """A platform on n parallel bars of one length moves; with one foot aside, or one bar longer, it does not."""
     because = "parallel bars of one length: a circle for every point; three that are not through one point hold it"
-    for n in (3, 4) if quick else (3, 4, 8, 16):
+    for n in (3, 4, 8, 16):
         platform = [[k, 2 + k % 2] for k in range(n)]
         feet: list[list[Any]] = [[x, y - 2] for x, y in platform]
         names = [f"bar{k}" for k in range(n)]
@@ -63,10 +63,10 @@ def cranks(quick: bool) -> Iterator[KnownScene]:
             yield known_scene(f"{n} bars, {name}", scene, because, n, dof=dof, redundancy=redundant)
 
 
-def loops(quick: bool) -> Iterator[KnownScene]:
+def loops() -> Iterator[KnownScene]:
     """A closed loop of n hinges in space: parallel ones move as in the plane, a tilted one is locked."""
     because = "parallel screws have rank 3; a tilted one is outside of them, and so does not turn"
-    for n in (4, 5) if quick else (4, 5, 6, 8):
+    for n in (4, 5, 6, 8):
         hinges: list[tuple[Place, Place]] = [([k, k * (n - 1 - k), 0], [0, 0, 1]) for k in range(n)]
         rows: list[tuple[str, Place, int]] = [
             ("parallel", [0, 0, 1], n - 3),
@@ -78,19 +78,19 @@ def loops(quick: bool) -> Iterator[KnownScene]:
             yield known_scene(f"{n} hinges, {name}", scene, because, n, dof=dof)
 
 
-def named_loops(quick: bool) -> Iterator[KnownScene]:
+def named_loops() -> Iterator[KnownScene]:
     """Loops with a name [Bennett1903]."""
-    for row in tables("poses.yaml")["loops"][:: 2 if quick else 1]:
+    for row in tables("poses.yaml")["loops"]:
         n = len(row["hinges"])
         scene = _loop(row["hinges"], n - 1)
         yield known_scene(row["name"], scene, row["because"], n, dof=row["dof"])
 
 
-def trees(quick: bool) -> Iterator[KnownScene]:
+def trees() -> Iterator[KnownScene]:
     """Joints of every type, each body on one before it; and one of the joints written twice."""
     because = "the freedoms of the joints of a tree add up; a joint written twice adds nothing"
-    for d, n in ((d, n) for n in ((1, 2) if quick else (1, 2, 4, 8, 16)) for d in (2, 3)):
-        for seed in range(1 if quick or n > 4 else 2):
+    for d, n in ((d, n) for n in (1, 2, 4, 8, 16) for d in (2, 3)):
+        for seed in range(1 if n > 4 else 2):
             rng = random.Random(f"tree {d} {n} {seed}")
             scene = tree(rng, d, n)
             joints = scene.scene["constraints"]
@@ -103,21 +103,21 @@ def trees(quick: bool) -> Iterator[KnownScene]:
                 yield known_scene(*about, because, n, dof=scene.dof, redundancy=redundant)
 
 
-def random_loops(quick: bool) -> Iterator[KnownScene]:
+def random_loops() -> Iterator[KnownScene]:
     """Closed loops of joints of every type, where their screws span all or are independent."""
     because = "rates whose screws cancel, by the exact rank: regular where they span all, none where independent"
-    for d, n in ((d, n) for n in ((1, 2) if quick else (1, 2, 3, 4, 5, 6)) for d in (2, 3)):
-        for seed in range(2 if quick else 4):
+    for d, n in ((d, n) for n in (1, 2, 3, 4, 5, 6) for d in (2, 3)):
+        for seed in range(4):
             scene = loop(random.Random(f"loop {d} {n} {seed}"), d, n)
             if scene.dof is not None:
                 name = f"{n} bodies in dimension {d}, {seed}"
                 yield known_scene(name, scene.scene, because, n, dof=scene.dof)
 
 
-def rolling(quick: bool) -> Iterator[KnownScene]:
+def rolling() -> Iterator[KnownScene]:
     """Balls that roll on a plane, where nothing integrates, and discs that roll on a line, where all does."""
     because = "a ball reaches every place and every turn; a disc on a line is where its angle says"
-    for n in (1, 2) if quick else (1, 2, 4, 8):
+    for n in (1, 2, 4, 8):
         bodies = [f"b{k}" for k in range(n)]
         rolls = [{"type": "roll", "body": body, "radius": f"{k + 1}"} for k, body in enumerate(bodies)]
         held = [{"type": "equation", "text": f"y_b{k} = {k}"} for k in range(n)]
@@ -133,10 +133,10 @@ def rolling(quick: bool) -> Iterator[KnownScene]:
 # Long chains
 
 
-def pendulums(quick: bool) -> Iterator[KnownScene]:
+def pendulums() -> Iterator[KnownScene]:
     """Links one after the other from the ground; closed on the ground; and with links written twice."""
     because = "each link takes one; a chain that is not straight is regular; a link written twice adds nothing"
-    for d, n in ((d, n) for n in ((2, 4) if quick else (2, 4, 8, 16, 32, 64, 128)) for d in (2, 3)):
+    for d, n in ((d, n) for n in (2, 4, 8, 16, 32, 64, 128) for d in (2, 3)):
         places = [[k, k * k % 3, k % 2][:d] for k in range(n + 1)]
         ends: list[Any] = [places[0], *(f"P{k}" for k in range(1, n + 1))]
         particles = [{"name": name, "at": at} for name, at in zip(ends[1:], places[1:], strict=True)]
@@ -159,10 +159,10 @@ def _link(name: str, a: Any, b: Any) -> dict[str, Any]:
     return {"name": name, "type": "link", "between": [a, b]}
 
 
-def chained_bodies(quick: bool) -> Iterator[KnownScene]:
+def chained_bodies() -> Iterator[KnownScene]:
     """Bodies hinged one to the next, in the plane and in space; every third hinge welded too."""
     because = "an open chain: the freedoms of the joints add up; a hinge between welded bodies says nothing new"
-    for d, n in ((d, n) for n in ((2, 4) if quick else (2, 4, 8, 16, 32)) for d in (2, 3)):
+    for d, n in ((d, n) for n in (2, 4, 8, 16, 32) for d in (2, 3)):
         names = ["ground", *(f"b{k}" for k in range(n))]
         hinges: list[dict[str, Any]] = []
         for k in range(n):

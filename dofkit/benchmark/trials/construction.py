@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache
@@ -24,7 +23,7 @@ class Trial:
     """One question about one scene. Its truth is never asked of dofkit.
 
     ``scene`` is a mapping as `dofkit.load` takes it; ``truth`` see `Truth`; ``because`` says in one line why it holds.
-    ``size`` counts what grows with the family; ``swept`` holds what is varied (``digits``, ``gap``, ``scale``, ...).
+    ``size`` counts what grows with the family.
     ``answer``: for equivalence, ``{"constraint": name, "text": what was handed in}``.
     """
 
@@ -35,7 +34,6 @@ class Trial:
     truth: Truth
     because: str
     size: int = 1
-    swept: Mapping[str, Any] = field(default_factory=dict)
     answer: Mapping[str, str] | None = None
 
 
@@ -49,7 +47,7 @@ class KnownScene:
     p0, p1, ..., of t and of coordinates before them, onto an open part of the configuration space that the truth
     speaks of: as many parameters as ``dof``. By it the truth can be confirmed.
     ``group``: scenes that belong together; ``equivalence``: a constraint, a text, and whether they are the same. For
-    ``because``, ``size`` and ``swept`` see `Trial`.
+    ``because`` and ``size`` see `Trial`.
     """
 
     scene: Mapping[str, Any]
@@ -60,7 +58,6 @@ class KnownScene:
     group: str = ""
     because: str = ""
     size: int = 1
-    swept: Mapping[str, Any] = field(default_factory=dict)
     equivalence: tuple[str, str, bool] | None = None
 
     @property
@@ -92,27 +89,20 @@ class KnownScene:
     def _trial(
         self, family: str, name: str, question: Question, truth: Truth, answer: Mapping[str, str] | None = None
     ) -> Trial:
-        about = (self.because, self.size, self._variation())
-        return Trial(family, name, question, self.scene, truth, *about, answer)
-
-    def _variation(self) -> dict[str, Any]:
-        """Return what is varied; where only the size is, the family's growing member: its name with n for the size."""
-        member, sizes = re.subn(rf"\b{self.size} by {self.size}\b|\b{self.size}\b", "n", self.name, count=1)
-        return dict(self.swept) if self.swept else {"member": member} if sizes else {}
+        return Trial(family, name, question, self.scene, truth, self.because, self.size, answer)
 
 
 class Answers(TypedDict, total=False):
     """Answers to the questions of a trial; those that are None, or left out, are not known.
 
     ``dof`` -1: the constraints contradict each other; ``integrability``: whether each constraint is holonomic in the
-    system; ``redundancy``: what can be dropped; ``equivalence`` and ``swept``: see `KnownScene`.
+    system; ``redundancy``: what can be dropped; ``equivalence``: see `KnownScene`.
     """
 
     dof: int | None
     integrability: Mapping[str, bool] | None
     redundancy: Sequence[str] | None
     equivalence: tuple[str, str, bool]
-    swept: Mapping[str, Any]
 
 
 def known_scene(
@@ -127,8 +117,7 @@ def known_scene(
     truth: dict[str, Any] = dict(IMPOSSIBLE) if dof == -1 else {} if dof is None else {"consistent": True, "dof": dof}
     truth |= {f"{constraint}.holonomic": value for constraint, value in (answers.get("integrability") or {}).items()}
     truth |= {} if redundant is None else {"redundant": list(redundant)}
-    swept, equivalence = answers.get("swept", {}), answers.get("equivalence")
-    return KnownScene(scene, truth, {}, None, name, "", because, size, swept, equivalence)
+    return KnownScene(scene, truth, {}, None, name, "", because, size, answers.get("equivalence"))
 
 
 #: The truth about constraints that contradict each other.

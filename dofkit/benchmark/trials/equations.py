@@ -11,9 +11,9 @@ from dofkit.benchmark.trials.construction import KnownScene, known_scene, labels
 TABLES = tables("equations.yaml")
 
 
-def hidden_relations(quick: bool) -> Iterator[KnownScene]:
+def hidden_relations() -> Iterator[KnownScene]:
     """Relations whose functions depend on each other; with a row that does not, and one that contradicts them."""
-    for number, row in enumerate(TABLES["hidden"][:: 6 if quick else 1]):
+    for number, row in enumerate(TABLES["hidden"]):
         n, k = len(row["coordinates"].split()), len(row["rows"])
         members: list[tuple[str, str | None, int, list[str]]] = [
             ("one that follows", row["implied"], n - k, [f"c{k + 1}"]),
@@ -28,9 +28,9 @@ def hidden_relations(quick: bool) -> Iterator[KnownScene]:
             yield known_scene(*about, dof=dof, redundancy=over)
 
 
-def rotations(quick: bool) -> Iterator[KnownScene]:
+def rotations() -> Iterator[KnownScene]:
     """R^T R = 1, then R R^T = 1 too: the second says nothing new, as a left inverse is a right one."""
-    for n in (2,) if quick else (2, 3):
+    for n in (2, 3):
         names = [f"r{i}{j}" for i in range(n) for j in range(n)]
         pairs = [(i, j) for i in range(n) for j in range(i, n)]
         columns = [f"{' + '.join(f'r{k}{i}*r{k}{j}' for k in range(n))} = {int(i == j)}" for i, j in pairs]
@@ -48,11 +48,11 @@ def rotations(quick: bool) -> Iterator[KnownScene]:
             yield known_scene(*about, dof=dof, redundancy=redundant)
 
 
-def linear_rows(quick: bool) -> Iterator[KnownScene]:
+def linear_rows() -> Iterator[KnownScene]:
     """Rows of a linear system; the last a combination of the others, at a gap; scaled; with coefficients far apart."""
     because = "the first rows are in echelon form; the last is a combination of them, but for the gap"
-    sizes = (3, 6) if quick else (3, 6, 12)
-    for n, digits in ((n, d) for n in sizes for d in ((6, 30) if quick else (6, 12, 30, 60))):
+    sizes = (3, 6, 12)
+    for n, digits in ((n, d) for n in sizes for d in (6, 12, 30, 60)):
         if n > 6 and digits > 30:
             continue
         rng = random.Random(f"rows {n}")
@@ -73,34 +73,34 @@ def linear_rows(quick: bool) -> Iterator[KnownScene]:
             ("scaled by", f"{step}*({_row(last)} - ({value})) = 0", n - k, [f"c{k + 1}"]),
         ):
             about = f"{n} coordinates, {how} 1e-{digits}", scene_of(names, *texts, text), because, n
-            yield known_scene(*about, swept={"gap": 10.0**-digits}, dof=dof, redundancy=over)
+            yield known_scene(*about, dof=dof, redundancy=over)
 
 
 def _row(row: Sequence[Fraction]) -> str:
     return " + ".join(f"({v})*x{j}" for j, v in enumerate(row) if v)
 
 
-def touching(quick: bool) -> Iterator[KnownScene]:
+def touching() -> Iterator[KnownScene]:
     """Surfaces that miss each other by a gap, touch, or meet: none, a point, or more."""
     because = "real solutions are there on one side of the gap only"
-    for row in TABLES["touching"][:: 5 if quick else 1]:
-        for digits in (9,) if quick else (0, 12, 30, 60):
+    for row in TABLES["touching"]:
+        for digits in (0, 12, 30, 60):
             signs = (("apart", f"1e-{digits}", 0), ("meeting", f"-1e-{digits}", 2))
             for how, e, k in (*signs, ("touching", "0", 1)) if digits in (9, 12) else signs:
                 dof, over = row["dof"][k], row["redundant"][k] if digits in (0, 12) else None
                 name = f"{row['name']}, {how}" + (f" by 1e-{digits}" if k != 1 else "")
                 scene = scene_of(row["coordinates"], *(text.replace("{e}", e) for text in row["rows"]))
                 about = name, scene, because, len(row["rows"])
-                yield known_scene(*about, swept={"gap": float(e)}, dof=dof, redundancy=over)
+                yield known_scene(*about, dof=dof, redundancy=over)
 
 
 #: The powers of ten by which configuration-level equations are moved away.
 FAR = (3, 6, 9)
 
 
-def scales(quick: bool) -> Iterator[KnownScene]:
+def scales() -> Iterator[KnownScene]:
     """Circles and planes of any size, anywhere, in any unit: the answers must not depend on the scale."""
-    for power in (-9, 9) if quick else (-30, -9, -6, 3, 6, 9, 30):
+    for power in (-30, -9, -6, 3, 6, 9, 30):
         radius, offset = f"1e{power}", f"1e{abs(power)}"
         for row in TABLES["scales"]:
             if row.get("offset") and "holonomic" not in row and power not in FAR:
@@ -109,14 +109,12 @@ def scales(quick: bool) -> Iterator[KnownScene]:
             label = {"c1": row["holonomic"]} if "holonomic" in row else None
             about = f"{row['name']}, {radius}", scene, row["because"]
             over = row.get("redundant")
-            yield known_scene(
-                *about, swept={"scale": 10.0**power}, dof=row["dof"], integrability=label, redundancy=over
-            )
+            yield known_scene(*about, dof=row["dof"], integrability=label, redundancy=over)
 
 
-def branches(quick: bool) -> Iterator[KnownScene]:
+def branches() -> Iterator[KnownScene]:
     """Products: the set is the union of the branches, the freedom that of the largest."""
-    for row in TABLES["branches"][: 4 if quick else None]:
+    for row in TABLES["branches"]:
         scene = scene_of(row["coordinates"], *row["rows"])
         about = row["name"], scene, row["because"], len(scene["coordinates"])
         yield known_scene(*about, dof=row["dof"], integrability=labels(row.get("holonomic")))
@@ -129,10 +127,10 @@ POWERS = (1, 2, 3, 8, 16, 32, 64)
 LARGEST = 32
 
 
-def high_powers(quick: bool) -> Iterator[KnownScene]:
+def high_powers() -> Iterator[KnownScene]:
     """Powers of an equation have its zeros, and no gradient there; x^k with y^k are curves, points or nothing."""
     because = "a power is 0 where its base is; real even powers are not negative"
-    for k in (2, 3) if quick else POWERS:
+    for k in POWERS:
         even = k % 2 == 0
         curve = "x^2 + y^2 - 1"
         # (name, coordinates, rows, dof, redundant: None where it is not asked)
@@ -150,12 +148,12 @@ def high_powers(quick: bool) -> Iterator[KnownScene]:
             if k > LARGEST and "(" in "".join(texts):
                 continue
             about = f"{name}, k = {k}", scene_of(coordinates, *texts), because, k
-            yield known_scene(*about, swept={"power": k}, dof=dof, redundancy=over)
+            yield known_scene(*about, dof=dof, redundancy=over)
 
 
-def power_forms(quick: bool) -> Iterator[KnownScene]:
+def power_forms() -> Iterator[KnownScene]:
     """Forms with powers in them, and powers of forms."""
-    for k in (2, 3) if quick else POWERS:
+    for k in POWERS:
         # (name, text, integrates?, because)
         rows = [
             ("d(x^k y) + z", f"{k}*x^{k - 1}*y dx + x^{k} dy + dz = 0", True, "the differential of x^k y + z"),
@@ -172,12 +170,12 @@ def power_forms(quick: bool) -> Iterator[KnownScene]:
                 continue
             about = f"{name}, k = {k}", scene_of("x y z", text), because, k
             label, dof = {"c1": integrates}, 2 if integrates else 3
-            yield known_scene(*about, swept={"power": k}, dof=dof, integrability=label)
+            yield known_scene(*about, dof=dof, integrability=label)
 
 
-def sums_of_squares(quick: bool) -> Iterator[KnownScene]:
+def sums_of_squares() -> Iterator[KnownScene]:
     """One equation that says n things: a sum of n squares; with a sign, or a constant, it does not."""
-    for n in (2, 3) if quick else (2, 3, 4, 6, 8, 12):
+    for n in (2, 3, 4, 6, 8, 12):
         total, mixed = _sum(n, "(x{k} - {k})^2"), _sum(n, "(x{k} + 2 x{next})^2")
         rows: list[tuple[str, str, int, str]] = [
             ("a point", f"{total} = 0", 0, "every square is 0"),
@@ -214,9 +212,9 @@ def _sum(n: int, text: str, first: int = 0) -> str:
 # Long chains
 
 
-def chained_equations(quick: bool) -> Iterator[KnownScene]:
+def chained_equations() -> Iterator[KnownScene]:
     """Relations each between neighbours: x_i+1 = f(x_i), and the ends tied once more, rightly or not."""
-    for n in (3, 6) if quick else (3, 6, 12, 24):
+    for n in (3, 6, 12, 24):
         names = [f"x{k}" for k in range(n)]
         sums = [f"x{k + 1} = 2 x{k} + 1" for k in range(n - 1)]
         factor = 2 ** (n - 1)

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import random
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 from dofkit.benchmark.trials.construction import (
@@ -17,98 +16,26 @@ from dofkit.benchmark.trials.construction import (
     tables,
 )
 
-#: A form by coordinate: coefficients as text.
-Form = Mapping[str, str]
 
-
-def text(form: Form) -> str:
-    """Return a form as an equation."""
-    return " + ".join(f"({value}) d{q}" for q, value in form.items()) + " = 0"
-
-
-def combined(rows: Sequence[Sequence[str]], forms: Sequence[Form]) -> list[Form]:
-    """Return the forms multiplied by a matrix of functions (texts; an empty one is 0)."""
-    products: list[Form] = []
-    for row in rows:
-        terms: dict[str, list[str]] = {}
-        for factor, form in zip(row, forms, strict=True):
-            for q, value in form.items() if factor else ():
-                terms.setdefault(q, []).append(f"({factor})*({value})")
-        products.append({q: " + ".join(values) for q, values in terms.items()})
-    return products
-
-
-def mixed_forms(quick: bool) -> Iterator[KnownScene]:
-    """n exact forms mixed by functions: none integrates alone, all do together; with a contact form among them, none.
-
-    The matrix is lower times upper triangular with ones on both diagonals: determinant 1.
-    """
-    because = "what they span does not change with a regular matrix of functions"
-    for n, seed in [(2, 0)] if quick else [(2, 0), (2, 1), (3, 0), (3, 1), (4, 0), (5, 0)]:
-        rng = random.Random(f"mixed {n} {seed}")
-        names = [*(f"u{k}" for k in range(n)), *(f"v{k}" for k in range(n)), "w"]
-        exact = [_exact(rng, k, n) for k in range(n)]
-        matrix = _unimodular(rng, n)
-        for name, forms, integrates, dof in (
-            ("exact", exact, True, n + 1),
-            ("one a contact form", [{"u0": "1", "v0": "-w"}, *exact[1:]], False, n + 2),
-        ):
-            rows = [text(form) for form in combined(matrix, forms)]
-            labels = every(numbered(n), integrates) if all(row[0] for row in matrix) or integrates else None
-            about = f"{n} forms in {2 * n + 1} coordinates, {name}, {seed}", scene_of(names, *rows), because, n
-            yield known_scene(*about, dof=dof, integrability=labels)
-
-
-def _exact(rng: random.Random, k: int, n: int) -> Form:
-    """Return d(u_k + a function of the v) for a random one."""
-    a, b, i, j = rng.randint(1, 5), rng.randint(1, 5), rng.randrange(n), rng.randrange(n)
-    slopes = rng.choice(
-        (
-            {f"v{i}": f"{2 * a}*v{i}"},
-            {f"v{i}": f"{a}*cos(v{i})"},
-            {f"v{i}": f"{a}*exp({b}*v{i})"},
-            {f"v{i}": f"v{j}", f"v{j}": f"v{i}"} if i != j else {f"v{i}": f"{3 * b}*v{i}^2"},
-        )
-    )
-    return {f"u{k}": "1", **slopes}
-
-
-def _unimodular(rng: random.Random, n: int) -> list[list[str]]:
-    """Return (1 on the diagonal, f_i below) (1 on the diagonal, g_j above): entries sum_k L_ik U_kj."""
-
-    def entry() -> str:
-        return rng.choice((f"u{rng.randrange(n)}", f"v{rng.randrange(n)}^2", f"sin(u{rng.randrange(n)})", "w"))
-
-    lower = [[entry() if j < i else "1" if i == j else "" for j in range(n)] for i in range(n)]
-    upper = [[entry() if j > i else "1" if i == j else "" for j in range(n)] for i in range(n)]
-    return [
-        [
-            " + ".join(f"({lower[i][k]})*({upper[k][j]})" for k in range(n) if lower[i][k] and upper[k][j])
-            for j in range(n)
-        ]
-        for i in range(n)
-    ]
-
-
-def together(quick: bool) -> Iterator[KnownScene]:
+def together() -> Iterator[KnownScene]:
     """Forms with their system: the label of each is one of the whole.
 
     Among them are five variables of growth 2, 3, 5 [Cartan1910].
     """
-    return map(tabled, tables("forms.yaml")["together"][: 9 if quick else None])
+    return map(tabled, tables("forms.yaml")["together"])
 
 
 # Time
 
 
-def rheonomic(quick: bool) -> Iterator[KnownScene]:
+def rheonomic() -> Iterator[KnownScene]:
     """Relations and forms with time in them."""
-    return map(tabled, tables("forms.yaml")["time"][:: 4 if quick else 1])
+    return map(tabled, tables("forms.yaml")["time"])
 
 
-def hidden_by_time(quick: bool) -> Iterator[KnownScene]:
+def hidden_by_time() -> Iterator[KnownScene]:
     """Each coordinate the rate of the last: one finite relation at the start fixes all, and none leaves all free."""
-    for n in (2, 3) if quick else (2, 3, 4, 6):
+    for n in (2, 3, 4, 6):
         names = [f"x{k}" for k in range(n)]
         rates = [f"x{k}dot = x{k + 1}" for k in range(n - 1)]
         last = f"x{n - 1}"
@@ -131,14 +58,14 @@ def hidden_by_time(quick: bool) -> Iterator[KnownScene]:
 # Many small parts that have nothing to do with each other, or share one coordinate
 
 
-def many_blocks(quick: bool) -> Iterator[KnownScene]:
+def many_blocks() -> Iterator[KnownScene]:
     """Copies of one part, each in its own coordinates: what is true of one holds of each."""
     blocks = tables("forms.yaml")["blocks"]
     for part in blocks:
-        for n in (1, 2) if quick else (1, 4, 8, 16, 64):
+        for n in (1, 4, 8, 16, 64):
             if n <= part["most"]:
                 yield _blocks(f"{n} times {part['name']}", [part] * n, part["because"])
-    for n in (1,) if quick else (1, 2, 4):
+    for n in (1, 2, 4):
         yield _blocks(f"{n} of each", [*blocks] * n, "freedoms of separate parts add up")
 
 
@@ -158,12 +85,12 @@ def _blocks(name: str, blocks: Sequence[Row], because: str) -> KnownScene:
 # Long chains
 
 
-def chained_forms(quick: bool) -> Iterator[KnownScene]:
+def chained_forms() -> Iterator[KnownScene]:
     """dq_i = q_i+1 dq_0: nothing integrates while the end is open, everything once it closes (Goursat's normal form).
 
     Closed: the last form reads dq_n = q_0 dq_0, so that q_n, then q_n-1, and so on are functions of q_0.
     """
-    for n in (2, 3) if quick else (2, 3, 4, 6, 8):
+    for n in (2, 3, 4, 6, 8):
         names = [f"q{k}" for k in range(n + 1)]
         forms = [f"dq{k} - q{k + 1} dq0 = 0" for k in range(1, n)]
         half = n // 2
@@ -184,20 +111,20 @@ def chained_forms(quick: bool) -> Iterator[KnownScene]:
             yield known_scene(name, scene_of(names, *rows), because, n, dof=dof, integrability=labels)
 
 
-def trailers(quick: bool) -> Iterator[KnownScene]:
+def trailers() -> Iterator[KnownScene]:
     """A car that steers with trailers: every configuration is reached [Laumond1993]; on a straight rail it is not."""
     controllable = "controllable: the derived system of n + 2 forms goes down to none (Laumond 1993)"
     straight = "its heading stays, so the axle runs straight and one direction is left: all integrate"
-    for n in (0, 1) if quick else (0, 1, 2, 4, 8, 16, 24):
+    for n in (0, 1, 2, 4, 8, 16, 24):
         scene = car(n)
         about = f"a car with {n} trailers", scene, controllable, n + 2
         labels = every(numbered(n + 2), False)
-        yield known_scene(*about, swept={"member": "steers"}, dof=n + 4, integrability=labels)
+        yield known_scene(*about, dof=n + 4, integrability=labels)
         if n <= 3:
             held = {**scene, "constraints": ["phi = 0", *scene["constraints"]]}
             about = f"a car with {n} trailers that does not steer", held, straight, n + 2
             labels = every(numbered(n + 3), True)
-            yield known_scene(*about, swept={"member": "does not steer"}, dof=1, integrability=labels)
+            yield known_scene(*about, dof=1, integrability=labels)
 
 
 def car(n: int) -> dict[str, Any]:
@@ -212,7 +139,6 @@ def car(n: int) -> dict[str, Any]:
 
 
 FAMILIES = {
-    "mixed forms": mixed_forms,
     "forms together": together,
     "time": rheonomic,
     "rates of rates": hidden_by_time,

@@ -32,11 +32,11 @@ def _linked_scene(
     return known_scene(name, scene, because, size, dof=dof, redundancy=redundant)
 
 
-def cliques(quick: bool) -> Iterator[KnownScene]:
+def cliques() -> Iterator[KnownScene]:
     """All pairs, joint after joint: its first d links put a joint in its place, each further one is redundant."""
     because = "d links fix a joint to a rigid framework; further links are redundant"
     sizes = {1: (4, 8, 16, 32), 2: (4, 8, 16, 32, 64), 3: (4, 5, 8, 16, 32)}
-    for d, n in ((d, n) for d, ladder in sizes.items() for n in (ladder[:1] if quick else ladder)):
+    for d, n in ((d, n) for d, ladder in sizes.items() for n in ladder):
         links = [(i, j) for j in range(n) for i in range(j)]
         needed = [(i, j) for i, j in links if i < d]
         for name, chosen in (("all pairs", links), ("only the links that are needed", needed)):
@@ -54,22 +54,22 @@ BIPARTITE = (
 )  # fmt: skip
 
 
-def complete_bipartite(quick: bool) -> Iterator[KnownScene]:
+def complete_bipartite() -> Iterator[KnownScene]:
     """Every joint of one kind with every one of the other [BolkerRoth1980]."""
     because = "rigid in the plane from 3 and 3 on, in space from 4 and 6 or 5 and 5 on (Bolker and Roth 1980)"
-    for d, m, n, dof, over in BIPARTITE[:: 5 if quick else 1]:
+    for d, m, n, dof, over in BIPARTITE:
         links = [(i, m + j) for j in range(n) for i in range(m)]
         redundant = None if over is None else links[len(links) - over :]
         yield _linked_scene(f"{m} and {n} joints in dimension {d}", (m + n, d, links), because, m + n, dof, redundant)
 
 
-def bananas(quick: bool) -> Iterator[KnownScene]:
+def bananas() -> Iterator[KnownScene]:
     """Rigid spindles, each of two ends and a triangle: on the same two ends they are dependent; in a ring they are not.
 
     On the same ends: the last link of every one but the first says again how far these are apart. In a ring of three
     or more: a polygon of rigid bars, each free to turn about itself.
     """
-    for n in (2, 3) if quick else (2, 3, 4, 8, 16, 32, 64):
+    for n in (2, 3, 4, 8, 16, 32, 64):
         same = [link for k in range(n) for link in _spindle(0, 1, 2 + 3 * k)]
         ring = [link for k in range(n) for link in _spindle(k, (k + 1) % n, n + 3 * k)]
         row = [link for k in range(n) for link in _spindle(k, k + 1, n + 1 + 3 * k)]
@@ -93,15 +93,15 @@ def _spindle(a: int, b: int, first: int) -> list[Link]:
     return [*combinations(triangle, 2), *((end, c) for end in (a, b) for c in triangle)]
 
 
-def henneberg(quick: bool) -> Iterator[KnownScene]:
+def henneberg() -> Iterator[KnownScene]:
     """Put together joint by joint [Henneberg1911] [TayWhiteley1985]: rigid, and no link too many.
 
     With links more, each of them is redundant; with the last one left out, there is one freedom more.
     """
     because = "each step keeps the links independent, and with d joints more than links the framework rigid"
     ladder = {2: (4, 8, 16, 32, 64, 128, 256, 512), 3: (5, 8, 16, 32, 64, 128)}
-    members = [(d, n, 0) for d, sizes in ladder.items() for n in (sizes[:1] if quick else sizes)]
-    for d, n, seed in (*members, *(() if quick else ((2, 8, 1), (3, 8, 1)))):
+    members = [(d, n, 0) for d, sizes in ladder.items() for n in sizes]
+    for d, n, seed in (*members, (2, 8, 1), (3, 8, 1)):
         links = henneberg_links(n, d, random.Random(f"{n} {d} {seed}"))
         pairs = {frozenset(link) for link in links}
         others = [link for link in combinations(range(n), 2) if frozenset(link) not in pairs]
@@ -128,10 +128,10 @@ def henneberg_links(joints: int, dimension: int, rng: random.Random) -> list[Lin
     return links
 
 
-def trees_on_a_line(quick: bool) -> Iterator[KnownScene]:
+def trees_on_a_line() -> Iterator[KnownScene]:
     """Links along a line: one that closes a circle is redundant, and every part moves by itself."""
     because = "one freedom for every connected part; the last link of a circle is redundant"
-    for n in (4, 8) if quick else (4, 8, 16, 32, 64, 128, 256, 512):
+    for n in (4, 8, 16, 32, 64, 128, 256, 512):
         rng = random.Random(n)
         links = sorted({(min(a, b), max(a, b)) for a, b in (rng.sample(range(n), 2) for _ in range(n))})
         rng.shuffle(links)
@@ -155,25 +155,25 @@ def union(vertices: Iterable[T], edges: Iterable[tuple[T, T]]) -> tuple[int, lis
 # With positions
 
 
-def bars(quick: bool) -> Iterator[KnownScene]:
+def bars() -> Iterator[KnownScene]:
     """Random bars between joints at random places, some pairs twice: the exact rank."""
     because = "the rank of the rigidity matrix over the rationals, at places in general position"
-    for d, n in ((d, n) for n in ((4, 5) if quick else (4, 6, 8, 12, 16)) for d in (1, 2, 3)):
-        for seed in range(1 if quick else 2):
+    for d, n in ((d, n) for n in (4, 6, 8, 12, 16) for d in (1, 2, 3)):
+        for seed in range(2):
             drawn = graph(random.Random(f"bars {d} {n} {seed}"), d, n, twice=True)
             over = [f"bar{i}" for i in dependent(drawn)]
             about = f"{n} joints in dimension {d}, {seed}", drawn.scene(), because
             yield known_scene(*about, n, dof=drawn.by_rank(), redundancy=over)
 
 
-def braced_grids(quick: bool) -> Iterator[KnownScene]:
+def braced_grids() -> Iterator[KnownScene]:
     """m by m squares drawn, some with a diagonal: rows and columns as a graph [BolkerCrapo1977].
 
     A row and a column are joined where their square is braced; a brace that closes a circle is redundant, and every
     part of the graph turns by itself.
     """
     because = "Bolker and Crapo 1977: 3 + (parts of the graph of rows and columns) - 1"
-    for m in (2, 3) if quick else (2, 3, 4, 6, 8, 12):
+    for m in (2, 3, 4, 6, 8, 12):
         squares = [(i, j) for i in range(m) for j in range(m)]
         cycle = [(i, i) for i in range(m)] + [(i, (i + 1) % m) for i in range(m)]
         pairs = [(f"p{i}_{j}", f"p{i + 1}_{j}") for i in range(m) for j in range(m + 1)]

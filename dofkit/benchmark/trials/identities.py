@@ -143,12 +143,13 @@ CONTEXTS: tuple[Context, ...] = (*(_in_text(*row) for row in TEXTS), with_time, 
 
 # Tiny steps
 
+STEPPED = "a step is exact, however small"
 #: The sizes of the step, as a person writes them.
 STEPS = ("1e-6", "1e-12", "1e-30", "1/7000000000000000000")
 
 
 def tiny_steps() -> Iterator[KnownScene]:
-    """Yield every base form and system with every step."""
+    """Forms and relations a tiny exact step away from integrable, dependent or consistent ones."""
     for step in STEPS:
         for row in TABLES["forms"]:
             n, integrable = len(row["coordinates"].split()), row["integrable"]
@@ -169,66 +170,43 @@ def tiny_steps() -> Iterator[KnownScene]:
 def _stepped(row: Mapping[str, Any], step: str, rows: Sequence[str], truth: dict[str, Any]) -> KnownScene:
     texts = [text.replace("{e}", f"({step})") for text in rows]
     scene = scene_of(row.get("coordinates", "x y z"), *texts)
-    return KnownScene(scene, truth, name=f"{row['name']}, by {step}", group=row["name"])
+    return KnownScene(scene, truth, name=f"{row['name']}, by {step}", group=row["name"], because=STEPPED)
 
 
 # Families
 
-#: Of the contexts and the ways of writing, how far on the next trap or base begins.
-STRIDE = 5
-#: The steps that are taken.
-TAKEN = ("1e-12", "1e-30")
 
-
-def identities(quick: bool) -> Iterator[KnownScene]:
-    """Zero by an identity, or missed by a constant that floating point does not see, or by a sign."""
-    names = set()
-    for trap, text, zero, number in _traps(9 if quick else 1):
-        scene = _in_context(trap, text, zero, number)
-        if scene is not None and scene.name not in names:
-            names.add(scene.name)
-            because = "zero by an identity" if zero else "an identity missed by a constant, or by a sign"
+def in_contexts(trap: Trap, text: str, zero: bool) -> Iterator[KnownScene]:
+    """Yield the trap in every context in which it can stand."""
+    because = "zero by an identity" if zero else "an identity missed by a constant, or by a sign"
+    for context in CONTEXTS:
+        if (scene := context(trap, text, zero)) is not None:
             yield replace(scene, because=because)
 
 
-def _traps(stride: int) -> Iterator[tuple[Trap, str, bool, int]]:
-    """Yield each trap, an expression, whether it is zero, and in which context it stands."""
-    for number, trap in enumerate(TRAPS[::stride]):
-        yield trap, trap.zero, True, number
-        if number % 3:
-            yield trap, trap.tiny[number % 2], False, number
-        if number % 3 == 1 and trap.sign:
-            yield trap, trap.sign, False, number + STRIDE
-    for number, trap in enumerate(NOT_ZERO[::stride]):
-        for turn in range(3):
-            yield trap, trap.zero, False, number + STRIDE * turn
+def identities() -> Iterator[KnownScene]:
+    """Zero by an identity, or missed by a constant that floating point does not see, or by a sign."""
+    for trap in TRAPS:
+        yield from in_contexts(trap, trap.zero, True)
+        yield from near_misses(trap)
+    for trap in NOT_ZERO:
+        yield from in_contexts(trap, trap.zero, False)
 
 
-def _in_context(trap: Trap, text: str, zero: bool, number: int) -> KnownScene | None:
-    """Return the trap in the first context from this number on in which it can stand."""
-    scenes = (CONTEXTS[(number + turn) % len(CONTEXTS)](trap, text, zero) for turn in range(len(CONTEXTS)))
-    return next((scene for scene in scenes if scene is not None), None)
+def near_misses(trap: Trap) -> Iterator[KnownScene]:
+    """Yield every expression that is nearly an identity and is not zero, in every context."""
+    for text in trap.misses:
+        yield from in_contexts(trap, text, False)
 
 
-def steps(quick: bool) -> Iterator[KnownScene]:
-    """Forms and relations a tiny exact step away from integrable, dependent or consistent ones."""
-    for number, scene in enumerate(tiny_steps()):
-        if number % 23 if quick else not scene.name.endswith(TAKEN):
-            continue
-        yield replace(scene, because="a step is exact, however small")
-
-
-def bases(quick: bool) -> Iterator[KnownScene]:
+def bases() -> Iterator[KnownScene]:
     """Powers to different bases in the coefficients of forms."""
-    for number, row in enumerate(TABLES["bases"][:: 4 if quick else 1]):
+    for row in TABLES["bases"]:
         zero = row["zero"]
         trap = Trap(row["name"], zero, None, "w")
-        for turn, (text, is_zero) in enumerate(((zero, True), (f"{zero} + 1e-12", False), (f"{zero} + 1", False))):
-            scene = _in_context(trap, text, is_zero, 2 * number + turn)
-            if scene is not None:
-                because = "one function, written to two bases" if is_zero else "off by a constant"
-                yield replace(scene, because=because)
-    for power in (2,) if quick else (2, 3, 5, 8, 12):
+        for text in (zero, f"{zero} + 1e-12", f"{zero} + 1"):
+            yield from in_contexts(trap, text, text == zero)
+    for power in (2, 3, 5, 8, 12):
         for name, second, dof, because in (
             (f"a factor 2^({power} x)", "dy", 2, "dz + dy"),
             (f"a contact form by 2^({power} x)", "y dx", 3, "dz + y dx"),
@@ -238,4 +216,4 @@ def bases(quick: bool) -> Iterator[KnownScene]:
             yield known_scene(*about, dof=dof, integrability={"c1": dof == 2})
 
 
-FAMILIES = {"identities": identities, "tiny steps": steps, "mixed bases": bases}
+FAMILIES = {"identities": identities, "tiny steps": tiny_steps, "mixed bases": bases}

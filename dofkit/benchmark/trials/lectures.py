@@ -23,11 +23,9 @@ def scenes() -> Iterator[tuple[str, dict[str, Any]]]:
         yield name, dict(read_document(catalog_text(name).encode(), name).value)
 
 
-def catalog(quick: bool) -> Iterator[KnownScene]:
+def catalog() -> Iterator[KnownScene]:
     """Every scene of the catalog: its freedom, its labels, what is redundant in it."""
-    for number, (name, scene) in enumerate(scenes()):
-        if quick and number % 12:
-            continue
+    for name, scene in scenes():
         expect = scene["expect"]
         yield known_scene(
             name,
@@ -67,16 +65,16 @@ def _scene(row: Row) -> dict[str, Any]:
     return scene_of(row["coordinates"], *rows, parameters=row.get("parameters", {}))
 
 
-def answers(quick: bool) -> Iterator[KnownScene]:
+def answers() -> Iterator[KnownScene]:
     """Every constraint in every notation, and in those of its own."""
     for number, row in enumerate(TABLES["finite"]):
         for turn, notation in enumerate(TABLES["ways"]):
-            if (number + turn) % (16 if quick else 2) == 0 and (notation["name"] != "in a cubic" or number < 2):
+            if (number + turn) % 2 == 0 and (notation["name"] != "in a cubic" or number < 2):
                 yield _rewritten(row, notation)
-    for row in () if quick else TABLES["moving"]:
+    for row in TABLES["moving"]:
         yield from (_rewritten(row, notation) for notation in FOR_FORMS)
     for row in (*TABLES["finite"], *TABLES["moving"]):
-        for answer in row["answers"][:: 5 if quick else 1]:
+        for answer in row["answers"]:
             about = f"{row['name']}: {answer['text']}", _scene(row), answer["because"]
             yield known_scene(*about, equivalence=("asked", answer["text"], answer["same"]))
 
@@ -87,9 +85,9 @@ def _rewritten(row: Row, notation: Row) -> KnownScene:
     return known_scene(*about, equivalence=answer)
 
 
-def inequalities(quick: bool) -> Iterator[KnownScene]:
+def inequalities() -> Iterator[KnownScene]:
     """A side of a surface: the same side of the same surface, or not."""
-    for row in TABLES["sides"][:: 4 if quick else 1]:
+    for row in TABLES["sides"]:
         disc = scene_of("x y", _asked("x^2 + y^2 <= R^2"), parameters={"R": "positive"})
         answer = ("asked", row["text"], row["same"])
         yield known_scene(row["text"], disc, "a disc", equivalence=answer)

@@ -9,10 +9,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import islice
 from typing import Any
 
-from dofkit.benchmark.trials.construction import KnownScene, Row, known_scene, tables
+from dofkit.benchmark.trials.construction import KnownScene, Row, tables
 from dofkit.benchmark.trials.frameworks import Framework, Position, framework, hinged_loop
 
 Move = Callable[[Position], Position]
@@ -49,19 +48,19 @@ class FrameworkPose:
             positions[end] = _stepped(positions[end], row["by"], step)
         return framework(joints, ground, row["bars"])
 
-    def scene(self, name: str, drawn: Framework, freedom: Freedom, swept: Mapping[str, Any], **more: Any) -> KnownScene:
+    def scene(self, name: str, drawn: Framework, freedom: Freedom, **more: Any) -> KnownScene:
         """Return the scene of a framework, one of this pose's or moved, with its truth."""
-        return _scene_of_pose(name, drawn.scene(**more), drawn.coordinates, len(drawn.bars), freedom, swept)
+        return _scene_of_pose(name, drawn.scene(**more), drawn.coordinates, len(drawn.bars), freedom)
 
-    def placed(self, name: str, step: Fraction, move: Move, swept: Mapping[str, Any], **more: Any) -> KnownScene:
+    def placed(self, name: str, step: Fraction, move: Move, **more: Any) -> KnownScene:
         """Return the scene at a step, with all positions moved."""
-        return self.scene(name, self.at(step).moved(move), self.freedom(step), swept, **more)
+        return self.scene(name, self.at(step).moved(move), self.freedom(step), **more)
 
 
 class HingedPose(FrameworkPose):
     """A loop of hinged bodies that is overconstrained at step 0; a single body is held by all hinges."""
 
-    def placed(self, name: str, step: Fraction, move: Move, swept: Mapping[str, Any], **more: Any) -> KnownScene:
+    def placed(self, name: str, step: Fraction, move: Move, **more: Any) -> KnownScene:
         """Return the scene at a step, with all positions moved."""
         row = self.row
         number, part = row["moved"]
@@ -70,7 +69,7 @@ class HingedPose(FrameworkPose):
             by = {key: row["by"] if (i, key) == (number, part) else [0, 0, 0] for key in ("place", "axis")}
             hinges.append((move(_stepped(place, by["place"], step)), _stepped(axis, by["axis"], step)))
         scene = {**hinged_loop(hinges, row["bodies"]), **more}
-        return _scene_of_pose(name, scene, 6 * row["bodies"], 5 * len(hinges), self.freedom(step), swept)
+        return _scene_of_pose(name, scene, 6 * row["bodies"], 5 * len(hinges), self.freedom(step))
 
 
 NEAR = [FrameworkPose(row) for row in tables("poses.yaml")["frameworks"]]
@@ -80,37 +79,36 @@ ZERO = Fraction(0)
 #: Digits to which coordinates are rounded.
 DIGITS = (12, 9, 6, 4, 3)
 MILLION = 10**6
-#: (move, scale, offset) by name.
-MOVES: Mapping[str, tuple[Move, float, float]] = {
-    "as drawn": (lambda p: p, 1, 0),
-    "a million times larger": (lambda p: tuple(x * MILLION for x in p), MILLION, 0),
-    "a million times smaller": (lambda p: tuple(x / MILLION for x in p), 1 / MILLION, 0),
-    "moved a hundred away": (lambda p: tuple(x + 100 * (k + 1) for k, x in enumerate(p)), 1, 100),
-    "moved a million away": (lambda p: tuple(x + MILLION * (k + 1) for k, x in enumerate(p)), 1, MILLION),
-    "small and far away": (lambda p: tuple(x / MILLION + MILLION for x in p), 1 / MILLION, MILLION),
+MOVES: Mapping[str, Move] = {
+    "as drawn": lambda p: p,
+    "a million times larger": lambda p: tuple(x * MILLION for x in p),
+    "a million times smaller": lambda p: tuple(x / MILLION for x in p),
+    "moved a hundred away": lambda p: tuple(x + 100 * (k + 1) for k, x in enumerate(p)),
+    "moved a million away": lambda p: tuple(x + MILLION * (k + 1) for k, x in enumerate(p)),
+    "small and far away": lambda p: tuple(x / MILLION + MILLION for x in p),
 }
+#: How the truth of a pose is known.
+DERIVED = "derived by hand at the singular pose and beside it; of rounded numbers the exact rank"
 #: The tolerance of exact drawings.
 TOLERANCE = "1e-4"
 
 
 def _moved(pose: FrameworkPose, step: Fraction, how: str, named: str = "", **more: Any) -> KnownScene:
     """Return a pose at a step, moved."""
-    move, scale, offset = MOVES[how]
-    swept = {"step": float(step), "scale": scale, "offset": offset} | {key: float(v) for key, v in more.items()}
-    return pose.placed(f"{pose.name}, {float(step):g} beside, {how}{named}", step, move, swept, **more)
+    return pose.placed(f"{pose.name}, {float(step):g} beside, {how}{named}", step, MOVES[how], **more)
 
 
-def steps() -> Iterator[KnownScene]:
-    """Yield each at its singular pose, and 10^-1 ... 10^-12 from it."""
+def near_singular() -> Iterator[KnownScene]:
+    """At singular poses, and 10^-1 ... 10^-12 from them."""
     for step in (ZERO, *STEPS):
         for pose in NEAR:
             name = f"{pose.name}, {float(step):g} beside"
-            yield pose.placed(name, step, MOVES["as drawn"][0], {"step": float(step)})
+            yield pose.placed(name, step, MOVES["as drawn"])
         yield from (_moved(pose, step, "as drawn") for pose in JOINTED)
 
 
-def sizes() -> Iterator[KnownScene]:
-    """Yield each a million times larger, smaller, and far away: at the singular pose and near it."""
+def scaled() -> Iterator[KnownScene]:
+    """A million times larger and smaller, and far away: at singular poses and near them."""
     for how in MOVES:
         for step in (ZERO, STEPS[0]):
             yield from (_moved(pose, step, how) for pose in (*NEAR, *JOINTED))
@@ -128,8 +126,8 @@ def rounded(digits: int) -> Move:
     return lambda p: tuple(Fraction(round(x * 10**digits), 10**digits) for x in p)
 
 
-def roundings() -> Iterator[KnownScene]:
-    """Yield singular poses with rounded coordinates; the known answer is that of the rounded numbers, taken as exact.
+def rounded_poses() -> Iterator[KnownScene]:
+    """Rounded drawings: exact as they are written.
 
     Where the bars are independent after rounding, the finite freedom equals that by rank; else it is unknown.
     """
@@ -139,17 +137,16 @@ def roundings() -> Iterator[KnownScene]:
             first = drawn.by_rank()
             regular = drawn.coordinates - first == len(drawn.bars)
             name = f"{pose.name}, {digits} digits"
-            yield pose.scene(name, drawn, (first if regular else None, first), {"digits": digits})
+            yield pose.scene(name, drawn, (first if regular else None, first))
 
 
-def measured() -> Iterator[KnownScene]:
-    """Yield the same with a tolerance of the last digit: the truth is of what was rounded."""
+def measured_poses() -> Iterator[KnownScene]:
+    """Rounded drawings with a tolerance: true is what was rounded."""
     for digits in DIGITS:
         for pose in NEAR:
             drawn = pose.at(ZERO).moved(turned).moved(rounded(digits))
-            swept = {"digits": digits, "tolerance": 10.0**-digits}
             name = f"{pose.name}, {digits} digits with tolerance"
-            yield pose.scene(name, drawn, pose.freedom(ZERO), swept, tolerance=f"1e-{digits}")
+            yield pose.scene(name, drawn, pose.freedom(ZERO), tolerance=f"1e-{digits}")
 
 
 def measured_elsewhere() -> Iterator[KnownScene]:
@@ -160,61 +157,13 @@ def measured_elsewhere() -> Iterator[KnownScene]:
             yield from (_moved(p, step, how, tolerance=TOLERANCE) for p in JOINTED)
 
 
-def _scene_of_pose(
-    name: str, scene: dict[str, Any], coordinates: int, equations: int, freedom: Freedom, swept: Mapping[str, Any]
-) -> KnownScene:
-    """Where the rows are independent at the reference configuration, no constraint can be dropped."""
+def _scene_of_pose(name: str, scene: dict[str, Any], coordinates: int, equations: int, freedom: Freedom) -> KnownScene:
     dof, first = freedom
     truth: dict[str, Any] = {"consistent": True, "instantaneous_dof": first}
     if dof is not None:
         truth |= {"dof": dof, "velocity_dof": dof, "singular": first != dof}
         truth["redundant_equations"] = max(0, equations - (coordinates - dof))
-    if first == coordinates - equations:
-        truth["redundant"] = []
-    return KnownScene(scene, truth, name=name, group=name.partition(",")[0], swept=swept)
-
-
-#: Every sweep by name.
-SWEEPS: Mapping[str, Callable[[], Iterator[KnownScene]]] = {
-    "beside a singular pose": steps,
-    "scaled and moved": sizes,
-    "rounded": roundings,
-    "rounded, with tolerance": measured,
-    "scaled and moved, with tolerance": measured_elsewhere,
-}
-
-# Families: the degree of freedom alone, which is known at every step
-
-#: The steps that are taken.
-TAKEN = (0, 1e-1, 1e-3, 1e-6, 1e-12)
-DERIVED = "derived by hand at the singular pose and beside it, for every step"
-RANKED = "the exact rank of what is written: independent bars stay so, and nothing is singular there"
-
-
-def _freedom(case: KnownScene, because: str = DERIVED) -> KnownScene:
-    return known_scene(case.name, case.scene, because, swept=case.swept, dof=case.dof)
-
-
-def near_singular(quick: bool) -> Iterator[KnownScene]:
-    """At singular poses, and 10^-1 ... 10^-12 from them."""
-    cases = islice(steps(), 0, None, 17) if quick else (c for c in steps() if c.swept["step"] in TAKEN)
-    return (_freedom(case) for case in cases)
-
-
-def scaled(quick: bool) -> Iterator[KnownScene]:
-    """A million times larger and smaller, and far away."""
-    cases = islice(sizes(), 0, None, 31 if quick else 3)
-    return (_freedom(case) for case in cases)
-
-
-def rounded_poses(quick: bool) -> Iterator[KnownScene]:
-    """Rounded drawings: exact as they are written."""
-    return (_freedom(case, RANKED) for case in islice(roundings(), 0, None, 11 if quick else 1))
-
-
-def measured_poses(quick: bool) -> Iterator[KnownScene]:
-    """Rounded drawings with a tolerance: true is what was rounded."""
-    return (_freedom(case) for case in islice(measured(), 0, None, 11 if quick else 1))
+    return KnownScene(scene, truth, name=name, group=name.partition(",")[0], because=DERIVED)
 
 
 FAMILIES = {

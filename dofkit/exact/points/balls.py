@@ -75,23 +75,12 @@ def smooth_function(name: str, arguments: int, seed: int) -> SmoothFunction:
 PRECISION, SHORT = 256, 64
 #: Whole numbers up to this need no rounding.
 WHOLE = 1 << 16
-_bits: ContextVar[int | None] = ContextVar("ball_bits", default=None)
 _more: ContextVar[int] = ContextVar("ball_bits_more", default=0)
-
-
-@contextmanager
-def balls_of(bits: int | None) -> Iterator[None]:
-    """Compute with balls of so many bits within, None for as many as are needed: what few bits tell can be measured."""
-    token = _bits.set(bits)
-    try:
-        yield
-    finally:
-        _bits.reset(token)
 
 
 def precision() -> int:
     """Return the bits of a ball."""
-    return _bits.get() or PRECISION + _more.get()
+    return PRECISION + _more.get()
 
 
 @contextmanager
@@ -103,11 +92,6 @@ def precise_for(longest: int) -> Iterator[None]:
             yield
     finally:
         _more.reset(token)
-
-
-def fixed_bits() -> int | None:
-    """Return the bits that were asked for; None where they may be raised."""
-    return _bits.get()
 
 
 class _RealPoint:

@@ -18,7 +18,7 @@ from dofkit.interface.show.motion import sheet_of_motion
 from dofkit.interface.show.page import as_html
 from dofkit.interface.show.report import MOST_ROWS, names_of, sheet_of_entry, sheet_of_report
 from dofkit.interface.show.sheet import TONES, Column, Content, Fact, Formula, Grid, Remark, Sheet, SheetSection, Tone
-from dofkit.interface.show.terminal import Screen, as_text
+from dofkit.interface.show.terminal import as_text
 from dofkit.mobility.graph.linkage import Linkage
 from dofkit.mobility.graph.links import Link
 from dofkit.motion.lagrange.report import MotionReport
@@ -121,7 +121,7 @@ Shown = TypeVar("Shown", Report, MotionReport)
 
 def text_of(value: object, width: int | None, how: bool) -> str:
     """Return lines for a terminal."""
-    return as_text(sheet_of(value, how), Screen(width))
+    return as_text(sheet_of(value, how), width)
 
 
 def html_of(value: object) -> str:

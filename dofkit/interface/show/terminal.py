@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 import json
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 from rich.console import Console, Group, RenderableType
 from rich.padding import Padding
@@ -23,22 +23,15 @@ STYLES: dict[Tone, str] = {"plain": "", "good": "green", "care": "yellow", "bad"
 _UNBROKEN = 1 << 16
 
 
-class Screen(NamedTuple):
-    """The columns of a terminal (None: its own, or 80), and its colours (None: without)."""
-
-    width: int | None = None
-    colours: Colours | None = None
-
-
-def as_text(sheet: Sheet, screen: Screen) -> str:
-    """Return the whole sheet as lines, without blanks at their ends."""
-    coloured = screen.colours is not None
+def as_text(sheet: Sheet, width: int | None = None, colours: Colours | None = None) -> str:
+    """Return the sheet as lines without blanks at their ends; ``width``: columns (None: the terminal's, or 80)."""
+    coloured = colours is not None
     console = Console(
         file=io.StringIO(),
-        width=_UNBROKEN if sheet.copied else screen.width,
+        width=_UNBROKEN if sheet.copied else width,
         force_terminal=coloured,
         force_jupyter=False,
-        color_system=screen.colours,
+        color_system=colours,
         emoji=False,
         markup=False,
         no_color=not coloured,
@@ -115,7 +108,7 @@ def headline(name_width: int) -> str:
     return f"{'scene':<{min(name_width, WIDEST_NAME)}}  {'f':>3} {'v':>3}  {'system':<{LABELS}}  verdict"
 
 
-def brief_line(report: Report, name_width: int, screen: Screen) -> str:
+def brief_line(report: Report, name_width: int, colours: Colours | None = None) -> str:
     """Return ``NAME  f  v  labels  verdict`` and remarkable findings; ``name_width``: that of the longest name."""
     name, verdict = safe(report.scene), report.verdict
     text = Text.assemble(
@@ -124,10 +117,10 @@ def brief_line(report: Report, name_width: int, screen: Screen) -> str:
         (f"{verdict:<{VERDICT}}", STYLES[TONES[verdict]]),
         *((f"  {finding}", STYLES["care"]) for finding in _findings(report)),
     )
-    if screen.colours is None:
+    if colours is None:
         return text.plain.rstrip()
     width = len(text.plain) + 1
-    console = Console(file=io.StringIO(), width=width, force_terminal=True, color_system=screen.colours)
+    console = Console(file=io.StringIO(), width=width, force_terminal=True, color_system=colours)
     with console.capture() as captured:
         console.print(text, end="")
     return captured.get().rstrip()

@@ -1,0 +1,343 @@
+"""The figures of a run, one function each: ``draw(data)``, None where there is nothing to show. Needs matplotlib."""
+
+from __future__ import annotations
+
+import math
+import re
+import textwrap
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from pathlib import Path
+from statistics import median
+from typing import Any, cast
+
+import matplotlib as mpl
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+from matplotlib.ticker import EngFormatter, LogLocator, NullLocator, ScalarFormatter
+
+from dofkit.benchmark.record import AUTO, OUTCOMES, Data, Outcome, TrialLine
+from dofkit.benchmark.sentences import caption, percent
+from dofkit.benchmark.statistics import Score, front, grouped, scores
+from dofkit.benchmark.trials import GLOSSES, HEADINGS
+
+# What the figures share: colours that the colour-blind distinguish, titles and captions
+
+#: The colour of words about wrong answers, and of what is not important.
+WRONG, GREY = "#B23A00", "#6E6E6E"
+#: The palette of Okabe and Ito; with a hatch and words wherever it matters.
+OUTCOME_COLOURS: Mapping[Outcome, str] = {
+    "right": "#0072B2",
+    "wrong": "#D55E00",
+    "undecided": "#C9C9C9",
+    "timed out": "#F0E442",
+    "cannot": "#FFFFFF",
+}
+OUTCOME_HATCHES: Mapping[str, str] = {"wrong": "////", "timed out": "...."}
+_COLOURS = ("#E69F00", "#56B4E9", "#009E73", "#CC79A7", "#D55E00", "#0072B2", "#7A7A00", "#8C564B")
+#: Inches that a character of a caption takes, and a line of it.
+_CHARACTER, _LINE = 0.0515, 0.145
+#: The settings of all figures; the same data give the same files.
+_SETTINGS: Mapping[str, Any] = {
+    "font.size": 9,
+    "axes.titlesize": 10,
+    "axes.titleweight": "bold",
+    "axes.titlelocation": "left",
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.axisbelow": True,
+    "axes.grid": True,
+    "grid.color": "#E4E4E4",
+    "grid.linewidth": 0.6,
+    "hatch.linewidth": 0.7,
+    "svg.hashsalt": "dofkit",
+    "svg.fonttype": "path",
+}
+
+
+def write(data: Data, out: Path) -> Iterator[Path]:
+    """Draw all figures into a folder, each as SVG and PNG. Raises OSError."""
+    for name, draw in FIGURES.items():
+        with mpl.rc_context(cast(Any, _SETTINGS)):
+            figure = draw(data)
+            if figure is None:
+                continue
+            figure.savefig(out / f"{name}.svg", metadata={"Date": None})
+            figure.savefig(out / f"{name}.png", dpi=144, metadata={"Software": None})
+        yield out / f"{name}.png"
+
+
+def colours(lines: Iterable[TrialLine]) -> dict[str, str]:
+    """Return the colour of each method: black for ``auto``."""
+    methods = [method for method in dict.fromkeys(line.method for line in lines) if method != AUTO]
+    return {AUTO: "#000000"} | {method: _COLOURS[i % len(_COLOURS)] for i, method in enumerate(methods)}
+
+
+def sheet(width: float, height: float, title: str, text: str, keys: Sequence[Artist] = ()) -> Figure:
+    """Return a figure of so many inches with its title and legend on top and its caption at the bottom."""
+    lines = textwrap.wrap(text, max(40, int((width - 0.3) / _CHARACTER)))
+    below, above = 0.14 + _LINE * len(lines), 0.66 if keys else 0.42
+    total = height + below + above
+    figure = Figure(figsize=(width, total), layout="constrained")
+    FigureCanvasAgg(figure)
+    engine: Any = figure.get_layout_engine()
+    engine.set(rect=(0.005, below / total, 0.99, height / total), w_pad=0.06, h_pad=0.06)
+    figure.text(0.15 / width, 1 - 0.12 / total, title, fontsize=12.5, fontweight="bold", va="top")
+    if keys:
+        place: dict[str, Any] = {"loc": "upper left", "bbox_to_anchor": (0.08 / width, 1 - 0.36 / total)}
+        figure.legend(handles=keys, ncols=len(keys), frameon=False, fontsize=8.5, borderpad=0.2, **place)
+    style: dict[str, Any] = {"fontsize": 7.2, "color": "#444444", "va": "bottom", "linespacing": 1.2}
+    figure.text(0.15 / width, 0.08 / total, "\n".join(lines), **style)
+    return figure
+
+
+# Speed against accuracy
+
+QUESTIONS: Mapping[str, str] = {
+    "dof": "How many degrees of freedom?",
+    "integrability": "Which constraints are holonomic?",
+    "redundancy": "Which constraints are redundant?",
+    "equivalence": "Is the submitted equation the same constraint?",
+}
+#: Seconds that no clock here distinguishes from 0.
+SHORTEST = 1e-6
+#: Where "none" stands on the logarithmic axis of per cent, and its other marks.
+NONE, TICKS = 0.1, (0.3, 1.0, 3.0, 10.0, 30.0, 100.0)
+
+
+def fronts(data: Data) -> Figure | None:
+    """Draw a panel for each question, with a table of its methods."""
+    by_question = grouped(data.lines, lambda line: line.question)
+    able = [line for line in data.lines if line.outcome != "cannot"]
+    asked = [question for question in QUESTIONS if any(line.question == question for line in able)]
+    if not asked:
+        return None
+    across = min(2, len(asked))
+    down = math.ceil(len(asked) / across)
+    title = "Speed against accuracy: share of trials without the right answer, and time"
+    figure = sheet(6.3 * across, 3.5 * down, title, caption("fronts", data), _front_keys())
+    grid = figure.subplots(down, 2 * across, squeeze=False, gridspec_kw={"width_ratios": [1, 0.4] * across})
+    panels, tables = grid[:, ::2].ravel(), grid[:, 1::2].ravel()
+    by_method = colours(data.lines)
+    members = {q: [score for score in scores(by_question[q]).values() if score.median is not None] for q in asked}
+    for panel, table, question in zip(panels, tables, asked, strict=False):
+        panel.set_title(f"{QUESTIONS[question]}   ({max(score.trials for score in members[question])} trials)")
+        _front_axes(panel, [score for rows in members.values() for score in rows])
+        _front_panel(panel, members[question], by_method)
+        _front_table(table, members[question], by_method)
+    for axes in (*tables, *panels[len(asked) :]):
+        axes.set_axis_off()
+    return figure
+
+
+def _front_axes(axes: Axes, members: Sequence[Score]) -> None:
+    """Set the axes that all panels share."""
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.set_xlim(min(_seconds(s.low) for s in members) / 2, max(_seconds(s.high) for s in members) * 1.6)
+    axes.set_ylim(NONE / 1.7, 150)
+    axes.set_yticks([NONE, *TICKS], ["none", *(f"{tick:g} %" for tick in TICKS)])
+    axes.xaxis.set_major_formatter(EngFormatter("s"))
+    axes.xaxis.set_minor_locator(NullLocator())
+    axes.yaxis.set_minor_locator(NullLocator())
+    axes.set_xlabel("processor time per trial")
+    axes.set_ylabel("not right (% of trials)")
+
+
+def _front_panel(axes: Axes, members: Sequence[Score], by_method: Mapping[str, str]) -> None:
+    """Draw the marks, and the front of the methods that are never wrong: a stair, since nothing lies between two."""
+    stair = front([score for score in members if not score.share("wrong")])
+    if stair:
+        x = [*(_seconds(score.median) for score in stair), axes.get_xlim()[1]]
+        y = [_not_right(score) for score in (*stair, stair[-1])]
+        axes.step(x, y, where="post", color="#BBBBBB", linewidth=1.6, zorder=1)
+    for score in members:
+        colour, height = by_method[score.method], _not_right(score)
+        ends = [_seconds(score.low), _seconds(score.high)]
+        axes.plot(ends, [height, height], marker="|", markersize=5, color=colour, linewidth=1.2, alpha=0.75, zorder=3)
+        style: dict[str, Any] = {"marker": "s", "markersize": 11 if score.method == AUTO else 9, "clip_on": False}
+        style |= {"markeredgecolor": "#FFFFFF", "markeredgewidth": 0.7, "zorder": 4}
+        axes.plot(_seconds(score.median), height, color=colour, **style)
+    arrow: dict[str, Any] = {"arrowstyle": "-|>", "color": GREY, "linewidth": 1.6}
+    place: dict[str, Any] = {"xycoords": "axes fraction", "textcoords": "axes fraction", "va": "bottom"}
+    axes.annotate("better", (0.015, 0.03), (0.09, 0.125), arrowprops=arrow, color=GREY, style="italic", **place)
+
+
+def _front_table(axes: Axes, members: Sequence[Score], by_method: Mapping[str, str]) -> None:
+    """Draw the legend of the panel, the best first, with each method's wrong answers in red and the undecided ones."""
+    axes.set_xlim(0, 1)
+    axes.set_ylim(-max(9, len(members)), 0)
+    about: dict[str, Any] = {"fontsize": 8, "va": "center"}
+    for x, text, colour in ((0.68, "wrong", WRONG), (1.0, "no\nanswer", GREY)):
+        axes.text(x, -0.3, text, ha="right", color=colour, **about)
+    for row, score in enumerate(sorted(members, key=lambda s: (1 - s.share("right"), s.median or 0.0))):
+        y, wrong = -1.2 - 0.95 * row, score.share("wrong")
+        weight = "bold" if score.method == AUTO else "normal"
+        axes.plot([0.03], [y], marker="s", markersize=6, color=by_method[score.method])
+        axes.text(0.09, y, score.method, ha="left", color="#222222", fontweight=weight, **about)
+        colour, weight = (WRONG, "bold") if wrong else (GREY, "normal")
+        axes.text(0.68, y, percent(wrong) if wrong else "0", ha="right", color=colour, fontweight=weight, **about)
+        unanswered = score.share_unanswered
+        axes.text(1.0, y, percent(unanswered) if unanswered else "0", ha="right", color=GREY, **about)
+
+
+def _seconds(seconds: float | None) -> float:
+    return max(seconds or 0.0, SHORTEST)
+
+
+def _not_right(score: Score) -> float:
+    """Return the per cent of the trials that are not right; the mark for none where there are none."""
+    return max(NONE, 100 * (1 - score.share("right")))
+
+
+def _front_keys() -> list[Line2D]:
+    bar: dict[str, Any] = {"linewidth": 1.4, "marker": "|", "markersize": 7, "color": "#444444"}
+    return [
+        Line2D([], [], linestyle="none", marker="s", markersize=7, color="#444444", label="median time of a method"),
+        Line2D([], [], label="10th to 90th percentile of its times", **bar),
+        Line2D([], [], linewidth=1.8, color="#BBBBBB", label="Pareto front of the methods that were never wrong"),
+    ]
+
+
+# Method against family: who is right where, and how the others fail; under five headings, the hardest last
+
+#: Inches of a row, of a column, and of the names; characters of what a family is.
+ROW, COLUMN, NAMES, GLOSS = 0.2, 0.86, 5.0, 50
+#: The part of a cell that its bar fills, across and down; the number stands beside it.
+WIDE, BAR = 0.6, 0.62
+#: The row of all families.
+ALL = "all of them"
+
+
+def matrix(data: Data) -> Figure | None:
+    """Draw a row for each family, all its questions together; a column for each method; the totals on top."""
+    if not data.lines:
+        return None
+    by_family = {ALL: data.lines} | grouped(data.lines, lambda line: line.family)
+    rows, methods = row_labels(data.lines), list(scores(data.lines))
+    title = "Where each method is right, wrong, undecided or too slow"
+    keys = [
+        Patch(facecolor=colour, edgecolor="#888888", hatch=OUTCOME_HATCHES.get(outcome), label=outcome)
+        for outcome, colour in OUTCOME_COLOURS.items()
+    ]
+    keys[-1].set_label("not applicable")
+    size = NAMES + COLUMN * len(methods), ROW * (len(rows) + 2.2)
+    figure = sheet(*size, title, caption("matrix", data), keys)
+    axes = figure.subplots()
+    axes.set_axis_off()
+    axes.set_xlim(-NAMES / COLUMN, len(methods))
+    axes.set_ylim(len(rows), -1.6)
+    for x, method in enumerate(methods):
+        weight = "bold" if method == AUTO else "normal"
+        axes.text(x + WIDE / 2, -1.0, method, ha="center", va="center", fontsize=9.5, fontweight=weight)
+    cells: list[tuple[int, int, Score]] = []
+    for y, row in enumerate(rows):
+        by_method = scores(by_family.get(row, ()))
+        _row_label(axes, y, row, max((score.trials for score in by_method.values()), default=0))
+        cells += [(methods.index(method), y, score) for method, score in by_method.items()]
+    _cells(axes, cells)
+    return figure
+
+
+def row_labels(lines: Sequence[TrialLine]) -> list[str]:
+    """Return the labels of the rows: all families together, then each heading with its families.
+
+    Families stand by rising share of trials, over all methods, that were not answered rightly.
+    """
+    families = grouped(lines, lambda line: line.family)
+    shares = {family: sum(line.outcome != "right" for line in row) / len(row) for family, row in families.items()}
+    ranked = sorted(shares, key=lambda family: shares[family])
+    rows = [ALL]
+    for heading in dict.fromkeys(HEADINGS.values()):
+        members = [family for family in ranked if HEADINGS.get(family) == heading]
+        rows += [heading, *members] if members else []
+    return rows + [family for family in ranked if family not in HEADINGS]
+
+
+def _row_label(axes: Axes, y: int, row: str, trials: int) -> None:
+    """Write a heading, or the name of a family with the number of its trials and what it is."""
+    edge = -NAMES / COLUMN
+    if not trials:
+        axes.text(edge + 0.1, y + 0.05, row, fontsize=9.5, fontweight="bold", va="center")
+        axes.plot([edge + 0.1, axes.get_xlim()[1]], [y + 0.48] * 2, color="#CCCCCC", linewidth=0.7)
+        return
+    gloss = re.split(r"[:;\[]", GLOSSES.get(row, ""))[0].strip()
+    gloss = textwrap.shorten(gloss, GLOSS, placeholder=" ...")
+    axes.text(edge + 0.2, y, row, fontsize=8.5, fontweight="bold" if row == ALL else "normal", va="center")
+    axes.text(edge + 2.5, y, f"{trials}", fontsize=8, color="#444444", ha="right", va="center")
+    axes.text(edge + 2.6, y, gloss, fontsize=7, color="#777777", va="center")
+
+
+def _cells(axes: Axes, cells: Sequence[tuple[int, int, Score]]) -> None:
+    """Draw bars of shares; next to each the share that is wrong, or else that of trials without an answer."""
+    heights = [y for _, y, _ in cells]
+    lefts = [float(x) for x, _, _ in cells]
+    for outcome in OUTCOMES:
+        widths = [WIDE * score.share(outcome) for _, _, score in cells]
+        style: dict[str, Any] = {"color": OUTCOME_COLOURS[outcome], "hatch": OUTCOME_HATCHES.get(outcome)}
+        axes.barh(heights, widths, BAR, lefts, edgecolor="#FFFFFF", linewidth=0, **style)
+        lefts = [start + width for start, width in zip(lefts, widths, strict=True)]
+    for x, y, score in cells:
+        frame = ("#000000", 1.0) if score.method == AUTO else ("#9A9A9A", 0.5)
+        axes.barh(y, WIDE, BAR, x, fill=False, edgecolor=frame[0], linewidth=frame[1])
+        if score.share("right") < 1 and score.share("cannot") < 1:
+            value = 100 * (score.share("wrong") or 1 - score.share("right"))
+            text = "<1 %" if value < 1 else ">99 %" if 99 < value < 100 else f"{value:.0f} %"
+            colour, weight = (WRONG, "bold") if score.share("wrong") else ("#777777", "normal")
+            axes.text(x + WIDE + 0.04, y, text, va="center", fontsize=7.2, color=colour, fontweight=weight)
+
+
+# Cost against size
+
+#: The families that are drawn, and what is counted as their size.
+COUNTED: Mapping[str, str] = {
+    "Henneberg": "joints",
+    "links on a line": "links",
+    "chains of bodies": "bodies",
+    "trailers": "trailers",
+}
+
+
+def cost(data: Data) -> Figure | None:
+    """Draw the time of the question for the freedom against the size of some families, log-log."""
+    by_family = grouped([line for line in data.lines if line.question == "dof"], lambda line: line.family)
+    chosen = [family for family in COUNTED if family in by_family]
+    if not chosen:
+        return None
+    across = min(2, len(chosen))
+    down = math.ceil(len(chosen) / across)
+    figure = sheet(5.6 * across + 0.2, 3.3 * down, "Processor time against size", caption("cost", data))
+    grid = figure.subplots(down, across, squeeze=False, sharey=True).ravel()
+    for axes, family in zip(grid, chosen, strict=False):
+        _cost_curves(axes, by_family[family], colours(data.lines), data.ran.limit)
+        axes.set_title(f"{family}: degrees of freedom")
+        axes.set_xlabel(f"size: {COUNTED[family]}")
+        axes.set_ylabel("processor time")
+        axes.yaxis.set_major_formatter(EngFormatter("s"))
+        axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        axes.xaxis.set_major_formatter(ScalarFormatter())
+        axes.xaxis.set_minor_locator(NullLocator())
+    grid[0].legend(fontsize=7.5, framealpha=0.85, borderpad=0.3)
+    for axes in grid[len(chosen) :]:
+        axes.set_axis_off()
+    return figure
+
+
+def _cost_curves(axes: Axes, lines: Sequence[TrialLine], by_method: Mapping[str, str], limit: float) -> None:
+    """Draw a curve for every method, up to the first size that was not done within the limit: a cross on its line."""
+    axes.axhline(limit, color="#999999", linewidth=0.8, linestyle=(0, (2, 2)), zorder=1)
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    for method, rows in grouped((line for line in lines if line.outcome != "cannot"), lambda line: line.method).items():
+        by_size = sorted(grouped(rows, lambda line: line.size).items())
+        late = [size for size, same in by_size if all(line.outcome == "timed out" for line in same)]
+        done = [(size, median(line.seconds for line in same)) for size, same in by_size if size not in late]
+        style: dict[str, Any] = {"color": by_method[method], "linewidth": 2.4 if method == AUTO else 1.2}
+        axes.plot([size for size, _ in done], [s for _, s in done], marker=".", label=method, **style)
+        axes.plot(late[:1], [limit] * len(late[:1]), marker="x", markersize=7, **style)
+
+
+FIGURES: Mapping[str, Callable[[Data], Figure | None]] = {"fronts": fronts, "matrix": matrix, "cost": cost}
