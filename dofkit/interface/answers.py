@@ -92,8 +92,8 @@ def _report(whole: Scene, request: Request) -> Iterator[Json]:
     yield {}
     remaining = request.budget - (time.perf_counter() - start)
     report = system if isinstance(system, Report) else classified(system, remaining, request.method)
-    if request.certificate is not None:
-        report = _with_certificate(scene, report, request.certificate)
+    if request.certificate is not None or request.strict:
+        report = _with_certificate(scene, report, request)
     as_json = request.output.as_json
     sections: tuple[SheetSection, ...] = ()
     if request.without and not as_json:
@@ -130,18 +130,21 @@ def _report_text(report: Report, scene: Scene, request: Request, sections: Seque
     return as_text(sheet._replace(sections=(*sections, *sheet.sections)), _screen(request)) + "\n\n"
 
 
-def _with_certificate(scene: Scene, report: Report, path: str) -> Report:
-    """Return the report with its certificate, which is written to a path."""
+def _with_certificate(scene: Scene, report: Report, request: Request) -> Report:
+    """Return the report with its certificate, which is written if a path was given."""
     from dofkit.methods.certificates.lowering import (
         with_certificate,  # few runs ask for certificates, whose search is large
     )
 
-    report, target = with_certificate(scene, report), Path(path)
+    report = with_certificate(scene, report, request.strict)
+    if request.certificate is None:
+        return report
+    target = Path(request.certificate)
     try:
         target.parent.mkdir(parents=True, exist_ok=True)
         target.write_text(json.dumps(report.certificate, ensure_ascii=False) + "\n", encoding="utf-8")
     except OSError as error:
-        raise DofkitError(f"the certificate cannot be written to '{path}': {error.strerror or error}") from None
+        raise DofkitError(f"the certificate cannot be written to '{target}': {error.strerror or error}") from None
     return report
 
 
