@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from fractions import Fraction
 from functools import partial, reduce
+from itertools import combinations
 
 from flint import fmpq, fmpq_mat
 
@@ -15,6 +16,9 @@ from dofkit.checker.trees import (
     CheckError,
     Tree,
     add,
+    difference,
+    linear_in,
+    negative,
     number,
     power,
     put_in,
@@ -135,6 +139,40 @@ def needed_puts(scenery: Scenery, trees: Iterable[Tree], order: Order) -> Order:
     return needed
 
 
+def solved_pairs(scenery: Scenery, names: Sequence[str], point: FoundPoint) -> list[str]:
+    """Add the steps that prove coordinates to be 0 and that the checker accepts; return their ids.
+
+    Two relations that are linear in the same coordinates, without other terms, are satisfied by 0 only where their
+    determinant is not 0.
+    """
+    ids = []
+    short = [name for name in names if scenery.evidence.relation(name).tree.size <= LARGEST_OF_PAIR]
+    for pair in combinations(short, 2):
+        for step in _pair_steps(scenery, pair, point):
+            if _is_accepted(scenery, step):
+                ids.append(str(step["id"]))
+    return ids
+
+
+def _pair_steps(scenery: Scenery, pair: tuple[str, str], point: FoundPoint) -> Iterator[dict[str, object]]:
+    lefts = [scenery.evidence.relation(name).tree for name in pair]
+    shared = lefts[0].symbols & lefts[1].symbols
+    for first, other in combinations([q for q in scenery.problem.coordinates if q in shared], 2):
+        linear = [linear_in(tree, (first, other)) for tree in lefts]
+        if any(part is None or not scenery.evidence.ring.vanishes(part[1]) for part in linear):
+            continue
+        (a, b), (c, d) = ([part[0].get(q, ZERO) for q in (first, other)] for part in linear if part is not None)
+        h = difference(times(a, d), times(b, c))
+        if not scenery.differs(h, point.estimates):
+            continue
+        for q, factors in ((first, (d, negative(b))), (other, (negative(c), a))):
+            multipliers = {
+                "h": text_of(h),
+                "c": {name: text_of(part) for name, part in zip(pair, factors, strict=True)},
+            }
+            yield {"id": f"{scenery.label}{q} by {' and '.join(pair)}", "by": "implied", "function": q, **multipliers}
+
+
 # Rows that follow from others: cofactors by linear algebra over the rationals.
 
 #: The most terms of all relations that are combined, as they are written and multiplied out.
@@ -157,7 +195,7 @@ def accounted(scenery: Scenery, name: str, rows: Sequence[str], point: FoundPoin
         if (factors := constant_cofactors(scenery, dependent.tree, sources)) is not None:
             return _is_accepted(scenery, {"id": step, "by": "implied", "of": name, "c": factors})
         finite = [row for row in sources if scenery.evidence.relation(row).kind == "finite"]
-        order = puts(scenery, finite)
+        order = puts(scenery, [*solved_pairs(scenery, finite, point), *finite])
         factors = constant_cofactors(scenery, dependent.tree, sources, order) if order else None
     except CheckError:
         return False
