@@ -5,7 +5,6 @@ from __future__ import annotations
 import random
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
-from functools import partial
 from typing import Any
 
 from dofkit.checker.dimension_rules import free_coordinates
@@ -16,7 +15,7 @@ from dofkit.methods.certificates.context import Context, Standing, Told
 from dofkit.methods.certificates.fields import LARGEST_CRAMER, backing, orbit
 from dofkit.methods.certificates.numerics import echelon, least_step
 from dofkit.methods.certificates.scenery import number_text, text_of
-from dofkit.methods.certificates.steps import Order, accounted, given_in_order, operands
+from dofkit.methods.certificates.steps import Order, accounted, operands
 
 #: The size of a step along a motion, of what is added by chance, and the largest denominator of a coefficient.
 STEP, NOISE, DENOMINATOR = 0.25, 0.05, 60
@@ -190,7 +189,7 @@ def _of_set(context: Context, standing: Standing) -> Iterator[Told]:
     letters = (*context.problem.world.generic, *context.problem.world.signs)
     symbols = {name: letter for name in evidence.finite if (letter := evidence.own_symbol(name, letters))}
     if not standing.dependent or standing.accounted:
-        for tried in (order, given_in_order(finite, context.scenery, partial(_gives, context)), []):
+        for tried in (order, []):
             remaining = [name for name in finite if all(name != chosen for chosen, _ in tried)]
             blocks, generic = _split(context, tried, remaining, symbols)
             if all(name in symbols for name in generic):

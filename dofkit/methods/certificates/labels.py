@@ -196,9 +196,16 @@ def _wedge(context: Context, name: str) -> Told | None:
     form = form_or_none(context, name)
     if point is None or form is None:
         return None
-    for triple in combinations([v for v in context.scenery.evidence.variables if v in variables_of(form)], 3):
-        if context.scenery.differs(exterior_part(form, *triple), point.estimates):
-            return {"rule": "wedge", "at": point.name, "triple": list(triple)}
+    triple = _not_closed(context, form, point, 3)
+    return {"rule": "wedge", "at": point.name, "triple": triple} if triple else None
+
+
+def _not_closed(context: Context, form: Components, point: FoundPoint, size: int) -> list[str] | None:
+    """Return so many variables for which a part of d(omega), or of omega ^ d(omega), is not 0 at a point."""
+    variables = [v for v in context.scenery.evidence.variables if v in variables_of(form)]
+    for names in combinations(variables, size):
+        if context.scenery.differs(exterior_part(form, *names), point.estimates):
+            return list(names)
     return None
 
 
@@ -245,8 +252,6 @@ def integral(context: Context, entry: ConstraintEntry, field: str) -> Iterator[T
         yield {**claim, "step": alone}
     if (step := combined_integral(context, function)) is None:
         return
-    if follows_from_integrals(context, names[0], [step]):
-        yield {**claim, "step": step}
     texts = [step_id for other in context.report.constraints if (step_id := integral_text(other))]
     others = [step_id for text in texts if (step_id := combined_integral(context, text)) and step_id != step]
     others = list(dict.fromkeys(others))
@@ -270,12 +275,9 @@ def exact(context: Context, entry: ConstraintEntry, field: str) -> Iterator[Told
     if point is None:
         return
     for name in names:
-        form = form_or_none(context, name) or {}
-        for i, j in combinations([v for v in context.scenery.evidence.variables if v in variables_of(form)], 2):
-            if context.scenery.differs(exterior_part(form, i, j), point.estimates):
-                which = {"relation": name} if len(names) > 1 else {}
-                yield {"rule": "not exact", "at": point.name, "pair": [i, j], **which}
-                break
+        if pair := _not_closed(context, form_or_none(context, name) or {}, point, 2):
+            which = {"relation": name} if len(names) > 1 else {}
+            yield {"rule": "not exact", "at": point.name, "pair": pair, **which}
 
 
 def scleronomic(context: Context, entry: ConstraintEntry, field: str) -> Iterator[Told]:
