@@ -24,7 +24,7 @@ def bounds(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     )
     refuse(path != "/dof" and most["rule"] != "minor", "an upper bound of velocities is `minor`")
     minor = MOST[most["rule"]](evidence, most) if path == "/dof" else evidence.minor(most["minor"])
-    above = size - len(minor.rows)
+    above = size - len(minor.rows) - (most["rule"] == "isolated")
     if least["rule"] == "span":
         point, lower = span(evidence, {"minor": most["minor"], **least}, 1 if path == "/velocity_dof" else 12)
     else:
@@ -74,7 +74,7 @@ def counted(evidence: CheckedEvidence, claim: Told, verified: Told) -> object:
 
 
 def _groups(evidence: CheckedEvidence, verified: Told) -> list[Told]:
-    """What depends on what: nothing, one constraint by itself, or a circuit where one equation is too many.
+    """What depends on what: nothing; a circuit where one equation is too many; all, where without any one nothing.
 
     So it is where what can be dropped was verified at the same point: there the dependent equation is a regular one.
     """
@@ -82,7 +82,7 @@ def _groups(evidence: CheckedEvidence, verified: Told) -> list[Told]:
         verified["/redundant_equations"],
         [owner for owner in owners(evidence) if evidence.owned(owner)],
     )
-    place, whole = verified.get("at /redundant", object()), len(constrained) == 1
+    place, whole = verified.get("at /redundant", object()), len(constrained) == 1 or "apart" in verified
     around = [
         {owner, *verified[f"circuit {owner}"]} for owner in constrained if verified.get(f"at circuit {owner}") == place
     ]
@@ -133,7 +133,10 @@ def _rank(evidence: CheckedEvidence, minor: CheckedMinor, names: tuple[str, ...]
 
 
 def independence(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
-    """How many equations a constraint adds to those before it, where finite ones come before those of velocities."""
+    """How many equations a constraint adds to those before it, where finite equations come before those of velocities.
+
+    For the last finite constraint the rank after it may be taken as n - dof, where the dof was verified there.
+    """
     minor, order = evidence.minor(claim["minor"]), evidence.equations
     evidence.is_about("here", minor.point)
     equations_of_owner = [rows for kind in ("finite", "velocity") if (rows := evidence.owned(claim["owner"], {kind}))]
@@ -141,8 +144,10 @@ def independence(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     added = 0
     for rows in equations_of_owner:
         place = order.index(rows[0])
-        before, after = (_rank(evidence, minor, order[:end]) for end in (place, place + len(rows)))
-        added += min(len(rows), after - before)
+        before, upto = order[:place], order[: place + len(rows)]
+        last = "last" in claim and "/dof at" in verified and not evidence.moving and upto == order
+        after = verified_rank(evidence, minor.point, verified) if last else _rank(evidence, minor, upto)
+        added += min(len(rows), after - _rank(evidence, minor, before))
     return added
 
 
@@ -150,10 +155,20 @@ def redundant(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[st
     """The constraints named follow from the others near the point, and no more could be dropped.
 
     No more: of E equations with r independent rows E - r can be spared at most, where what depends does so by numbers,
-    or is a single relation that depends with cofactors none of which is 0.
+    or is a single relation that depends with cofactors none of which is 0. None is named where ``without`` any the rows
+    of the others are independent, and leave more than the dof that was verified there.
     """
     dropped, every = names_told(claim), set(evidence.equations)
     order = [owner for owner in owners(evidence) if evidence.owned(owner)]
+    if "without" in claim:
+        refuse(evidence.moving or "/dof at" not in verified or not order, "no dof of holonomic equations was verified")
+        for name in order:
+            other = evidence.minor(claim["without"][name])
+            whole = set(other.rows) == every.difference(evidence.owned(name))
+            larger = whole and verified_rank(evidence, other.point, verified) > len(other.rows)
+            refuse(not larger, f"without `{name}` the others are no manifold, or as large")
+        verified["apart"] = True
+        return []
     minor = evidence.accounts(evidence.minor(claim["minor"]), evidence.equations)
     refuse(not set(dropped) <= set(order) or not set(minor.rows) <= every, "no constraints, or rows of no relations")
     kept = relations_of(evidence, [owner for owner in order if owner not in dropped])

@@ -9,10 +9,13 @@ from functools import cached_property, partial
 from itertools import chain, product
 from typing import Any, NamedTuple
 
+from flint import arb, arb_mat, ctx
+
 from dofkit.checker.point import CheckedPoint
 from dofkit.checker.relations import CheckedRelations, Consequence, total_derivative
 from dofkit.checker.trees import (
     ONE,
+    PRECISION,
     ZERO,
     Tree,
     along,
@@ -27,7 +30,7 @@ from dofkit.checker.trees import (
     symbol,
 )
 
-LARGEST_MINOR, LONGEST_WORD, LARGEST_FIELD = 250, 12, 100_000
+LARGEST_MINOR, LONGEST_WORD, LARGEST_FIELD, HIGHEST_ORDER = 250, 12, 100_000, 8
 Told = dict[str, Any]
 VelocityField = dict[str, Tree]
 
@@ -320,6 +323,44 @@ def take_cover(evidence: CheckedEvidence, name: Any) -> list[str]:
     return rows
 
 
+def along_curve(evidence: CheckedEvidence, minor: CheckedMinor, speeds: Told, tree: Tree, order: int) -> Any:
+    """The derivative of a tree of some order along a curve through the minor's point on which its rows stay 0.
+
+    Coordinates in ``speeds`` have these, and no acceleration; those of the columns follow; all others rest. Of g(q) = 0
+    the k-th derivative is J q^(k) and a rest without q^(k), by which q^(k) is found.
+    """
+    refuse(type(order) is not int or not 1 <= order <= HIGHEST_ORDER, "the order of a derivative is small")
+    lefts, moved = [*(evidence.relation(row).tree for row in minor.rows), tree], [*minor.columns, *speeds]
+    names, rates = list(moved), dict[str, Any]()
+    with ctx.workprec(PRECISION):
+        slopes = [[minor.point.value(evidence.slope(row, column)) for column in minor.columns] for row in minor.rows]
+        for k in range(1, order + 1):
+            evidence.effort.spend(10 * sum(equation.size for equation in lefts))
+            lefts = [along({name: symbol(name + "'") for name in names}, equation) for equation in lefts]
+            names += [q + "'" * k for q in moved]
+            rates |= {q + "'" * k: speeds.get(q, arb(0)) if k == 1 else arb(0) for q in moved}
+            remainder = arb_mat([[minor.point.value_with(equation, rates)] for equation in lefts[:-1]])
+            solution = arb_mat(slopes).solve(remainder) if minor.rows else remainder
+            rates |= {q + "'" * k: -solution[i, 0] for i, q in enumerate(minor.columns)}
+    return minor.point.value_with(lefts[-1], rates)
+
+
+def isolated(evidence: CheckedEvidence, claim: Told) -> CheckedMinor:
+    """A minor whose rows leave a dimension more than there is: another relation is not 0 on all that they leave.
+
+    It has a derivative that is not 0 along a curve there, and what is analytic is 0 on a thin set only.
+    """
+    minor, name = evidence.minor(claim["minor"]), claim["zero"]
+    unfit = evidence.moving or evidence.problem.world.names.functions or evidence.holds_time((*minor.rows, name))
+    refuse(unfit or not {*minor.rows, name} <= {*evidence.finite}, "holonomic equations of the scene, without time")
+    evidence.on_set(minor.point, (*minor.rows, name))
+    speeds = {q: minor.point.value(evidence.text(text)) for q, text in claim["speeds"].items()}
+    refuse(not speeds.keys() <= {*evidence.problem.coordinates} - {*minor.columns}, "speeds are of free coordinates")
+    value = along_curve(evidence, minor, speeds, evidence.relation(name).tree, claim["order"])
+    refuse(not not_zero(value), "the zero on the curve is not shown to be isolated")
+    return minor
+
+
 def finite_minor(evidence: CheckedEvidence, claim: Told) -> CheckedMinor:
     """A minor of finite relations and integrals."""
     minor = evidence.minor(claim["minor"])
@@ -327,5 +368,5 @@ def finite_minor(evidence: CheckedEvidence, claim: Told) -> CheckedMinor:
     return minor
 
 
-#: What shows that there are at most as many freedoms as coordinates less rows.
-MOST = {"minor": finite_minor, "frobenius": involutive}
+#: What shows how many freedoms there are at most: as many as coordinates less rows, or one less.
+MOST = {"minor": finite_minor, "frobenius": involutive, "isolated": isolated}

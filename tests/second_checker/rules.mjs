@@ -469,6 +469,7 @@ export class Rules {
   /** The one group of constraints whose equations are redundant together. */
   redundantTogether(surplus, owners) {
     const redundant = this.before("/redundant");
+    if (redundant.apart) return owners;
     const circuits = owners.filter((o) => this.verified.get(`/constraints/${escaped(o)}/circuit`));
     if (surplus !== 1 || circuits.length !== 1) uncovered("redundancies between constraints");
     const circuit = this.before(`/constraints/${escaped(circuits[0])}/circuit`);
@@ -480,6 +481,18 @@ export class Rules {
     refuse(claim.rule !== "cofactors", "another rule");
     const value = list(claim.value);
     const owners = this.s.owners.filter((o) => this.e.relations.some((r) => r.owner === o));
+    if (claim.without !== undefined) {
+      refuse(value.length || this.e.relations.some((r) => r.kind === "velocity") || !owners.length, "it names none");
+      const dof = this.before("/dof");
+      for (const name of owners) {
+        const other = this.e.minor(claim.without[name]);
+        this.sameplace(dof, other.point);
+        const others = ids(this.e.relations.filter((r) => r.owner !== name));
+        refuse(!same(ids(other.rows).sort(), others.sort()), "the rows are all but those of one constraint");
+        refuse(this.e.n - dof.value <= other.rows.length, "without one, the others are as large");
+      }
+      return { apart: true };
+    }
     const minor = this.e.minor(claim.minor);
     this.e.account(minor, this.e.relations, claim.covers);
     refuse(minor.rows.some((r) => !this.s.byId.has(r.id)), "rows are of the scene");
@@ -767,7 +780,9 @@ export class Rules {
       if (!mine.length) continue;
       const start = order.indexOf(mine[0]);
       const [before, upTo] = [order.slice(0, start), order.slice(0, start + mine.length)];
-      const after = this.rank(minor, upTo, claim.covers);
+      const dof = claim.last !== undefined && upTo.length === order.length && kind === "finite" ? this.before("/dof") : null;
+      if (dof) this.sameplace(dof, minor.point);
+      const after = dof ? this.e.n - dof.value : this.rank(minor, upTo, claim.covers);
       added += Math.min(mine.length, after - this.rank(minor, before, claim.covers));
     }
     refuse(added !== claim.value, "the number is another one");

@@ -1,20 +1,24 @@
-"""Evidence for dimensions: families of configurations, and the whole set."""
+"""Evidence for dimensions: families of configurations, the whole set, and points at which rows are stationary."""
 
 from __future__ import annotations
 
 import random
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
+from itertools import combinations
 from typing import Any
 
+from flint import arb
+
 from dofkit.checker.dimension_rules import free_coordinates
+from dofkit.checker.evidence import HIGHEST_ORDER, along_curve
 from dofkit.checker.geometry import determinant, dot
 from dofkit.checker.ring import CheckedRing
 from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, number, power, symbol, times
 from dofkit.methods.certificates.context import Context, Standing, Told
-from dofkit.methods.certificates.fields import LARGEST_CRAMER, backing, orbit
+from dofkit.methods.certificates.fields import LARGEST_CRAMER, backing, kept_motions, orbit
 from dofkit.methods.certificates.numerics import echelon, least_step
-from dofkit.methods.certificates.scenery import number_text, text_of
+from dofkit.methods.certificates.scenery import FAR, number_text, text_of
 from dofkit.methods.certificates.steps import Order, accounted, operands
 
 #: The size of a step along a motion, of what is added by chance, and the largest denominator of a coefficient.
@@ -271,3 +275,54 @@ def _split(
         name for name in remaining if all(sets[name].isdisjoint(sets[other]) for other in remaining if other != name)
     ]
     return alone, [name for name in remaining if name not in alone]
+
+
+# Evidence where rows are stationary at the main point: what is isolated along a curve, and what crosses itself.
+
+SIGNS = (1, -1)
+#: The engines' arguments by which it is so.
+ISOLATED, CROSSING = "isolated zero of one variable", "indefinite form"
+
+
+def stationary(context: Context) -> Iterator[Told]:
+    """Yield dof near a point at which a relation depends on the others to first order alone, by the rule `isolated`."""
+    standing = context.standing
+    if standing is None or context.report.verdicts["dof"].argument not in (ISOLATED, CROSSING):
+        return
+    for least in _motions_from(context, standing, context.report.dof or 0):
+        for most in _isolated(context, standing):
+            yield {"rule": "squeeze", "about": context.about, "most": most, "least": least}
+
+
+def _motions_from(context: Context, standing: Standing, size: int) -> Iterator[Told]:
+    """Yield ``size`` motions from the point: rigid ones of all together, none, or a family."""
+    fields = kept_motions(context, standing.point) if size else {}
+    if len(fields) == size:
+        orbit_of = {"fields": list(fields), "words": [[name] for name in fields], "columns": list(fields.values())}
+        yield {"rule": "span", "at": standing.point.name, "rows": list(context.scenery.evidence.finite), **orbit_of}
+    yield from families(context, size)
+
+
+def _isolated(context: Context, standing: Standing) -> Iterator[Told]:
+    """Yield the rule `isolated`: a dependent relation has a derivative along a free direction, of the lowest order."""
+    free = [q for q in context.problem.coordinates if q not in standing.columns]
+    directions = [{q: 1} for q in free] + [{a: 1, b: sign} for a, b in combinations(free, 2) for sign in SIGNS]
+    for order in range(2, HIGHEST_ORDER + 1):
+        for zero in standing.dependent:
+            for direction in directions:
+                if abs(_derivative_along(context, standing, zero, direction, order)) > FAR:
+                    speeds = {q: str(value) for q, value in direction.items()}
+                    rows = {"minor": context.minor(standing), "zero": zero, "speeds": speeds}
+                    yield {"rule": "isolated", **rows, "order": order}
+                    return
+
+
+def _derivative_along(context: Context, standing: Standing, zero: str, direction: dict[str, int], order: int) -> float:
+    """Return the derivative of this order of the relation ``zero`` along a curve in a direction, or 0 without one."""
+    evidence = context.scenery.evidence
+    try:
+        minor = evidence.minor(context.minor(standing))
+        speeds = {q: arb(value) for q, value in direction.items()}
+        return float(along_curve(evidence, minor, speeds, evidence.relation(zero).tree, order).mid())
+    except (CheckError, ArithmeticError):
+        return 0.0

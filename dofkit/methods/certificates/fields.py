@@ -67,6 +67,17 @@ def covering(context: Context, standing: Standing) -> list[Told] | None:
     return blocks
 
 
+def kept_motions(context: Context, point: FoundPoint) -> dict[str, str]:
+    """Motions of all together that keep all finite relations, each with a column: independent at the point."""
+    scenery = context.scenery
+    finite = list(scenery.evidence.finite)
+    ids = [scenery.entry_id("fields", {"components": motion}) for motion in motions(context.problem.world)]
+    kept = [motion for motion in ids if _kept(scenery, [motion], finite)]
+    fields = [field_named(scenery.evidence, motion) for motion in kept]
+    rows = [{q: point.estimates.value(tree) for q, tree in motion.items()} for motion in fields]
+    return {kept[p.row]: p.column for p in echelon(rows).pivots}
+
+
 def parts_of(scenery: Scenery, names: Sequence[str]) -> list[list[str]]:
     """Return the relations in groups that share no coordinate."""
     classes, groups = UnionFind(), dict[Any, list[str]]()

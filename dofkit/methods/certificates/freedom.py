@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 from dofkit.methods.certificates.context import Context, Told, states_of
-from dofkit.methods.certificates.dimension import everywhere, families, velocities_everywhere
+from dofkit.methods.certificates.dimension import everywhere, families, stationary, velocities_everywhere
 from dofkit.methods.certificates.emptiness import inconsistent
 from dofkit.methods.certificates.fields import backing, integrable_names, involutive_rows, orbit
 from dofkit.methods.certificates.labels import integral_of_text
@@ -65,6 +65,7 @@ def _near(context: Context) -> Iterator[Told]:
     standing = context.standing
     if standing is not None and (backed := backing(context, standing)) is not None:
         yield {"rule": "regular", "minor": context.minor(standing), "about": context.about, **backed}
+    yield from stationary(context)
     if standing is not None and standing.dependent:
         most = {"rule": "minor", "minor": context.minor(standing)}
         for least in families(context, len(context.problem.coordinates) - len(standing.rows)):
@@ -106,6 +107,19 @@ def redundant(context: Context) -> Iterator[Told]:
     standing = context.accounted(names)
     if standing is not None and (backed := backing(context, standing)) is not None:
         yield {"rule": "cofactors", "minor": context.minor(standing), **backed}
+    if not dropped:
+        yield from _needed(context)
+
+
+def _needed(context: Context) -> Iterator[Told]:
+    """For every constraint a minor of all rows of the others."""
+    minors = {}
+    for owner in dict.fromkeys(map(context.owner, context.equations)):
+        standing = context.standing_of([name for name in context.equations if context.owner(name) != owner])
+        if standing is None or standing.dependent:
+            return
+        minors[owner] = context.minor(standing)
+    yield {"rule": "cofactors", "without": minors}
 
 
 def generalized_coordinates(context: Context) -> Iterator[Told]:
@@ -147,6 +161,8 @@ def independent(context: Context, entry: ConstraintEntry, field: str) -> Iterato
     upto.accounted = standing.accounted or not dependent
     if (backed := backing(context, upto)) is not None:
         yield {"rule": "independent", "minor": context.minor(upto), **backed}
+    if len(rows) == len(context.equations):
+        yield {"rule": "independent", "minor": context.minor(upto), "last": True}
 
 
 def circuit(context: Context, entry: ConstraintEntry, field: str) -> Iterator[Told]:
