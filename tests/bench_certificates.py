@@ -1,7 +1,7 @@
 """What certificates show, and what they cost: the whole table of figures. Run it; it is no test.
 
 python tests/bench_certificates.py [--quick] [--seed 1] [--processes 2] [--list FILE]
-[--only coverage,mutations,edits,times,sizes]
+[--only coverage,motions,mutations,edits,times,sizes]
 --list: with every mutated certificate that was accepted, so that a person can see whether its claim is true.
 """
 
@@ -33,6 +33,8 @@ from dofkit.checker import CheckError
 from dofkit.checker.verification import verify
 from dofkit.methods.certificates.certificate import Certifying
 from dofkit.methods.certificates.lowering import document_of_scene
+from dofkit.methods.certificates.motion_evidence import certificate_of_motion
+from dofkit.motion.lagrange.model import NoEquationsError
 from dofkit.scene.scene import Scene
 
 #: Fields that the issue names: of these all that is proved in the catalog is to be verified.
@@ -152,6 +154,45 @@ def coverage(what: str, given: Sequence[Any], goal: str, pool: ProcessPoolExecut
         print(f"  {line}")
     print(f"  refused by the reader: {sum(1 for one in found if isinstance(one, str) and one.startswith('refused'))}")
     return told
+
+
+def moved(path: Path) -> tuple[str, dict[str, Any], bool] | None:
+    """The certificate of a scene's equations of motion, and whether it verifies; None where there are no equations."""
+    try:
+        report = dofkit.lagrange(path)
+    except (dofkit.SceneError, NoEquationsError):
+        return None
+    scene = dofkit.load(path)
+    certificate = certificate_of_motion(scene, report.model_dump(mode="json"), report.classification)
+    return scene.name, certificate, bool(verify(None, json.dumps(certificate)).verified)
+
+
+def tampered_motion(told: tuple[str, dict[str, Any], bool], many: int = 100) -> list[str]:
+    """Of so many mutated certificates those that are accepted though they tell something else."""
+    name, certificate, _ = told
+    rng, found = random.Random(name), []
+    for _ in range(many):
+        change = tampered(certificate, rng)
+        claims = change.certificate["claims"] if change is not None else []
+        if change is None or not claims or claims[0].get("value") == certificate["claims"][0]["value"]:
+            continue
+        try:
+            done = verify(None, change.certificate)
+        except CheckError:
+            continue
+        found += [f"{name}: {change.told}"] if done.verified else []
+    return found
+
+
+def motions(given: Sequence[Path], pool: ProcessPoolExecutor) -> None:
+    """Equations of motion: how many are verified, and what is accepted of those that were tampered with."""
+    told = [one for one in pool.map(moved, given) if one is not None]
+    shown = [one for one in told if one[2]]
+    wrong = [line for lines in pool.map(tampered_motion, shown) for line in lines]
+    print(f"\nequations of motion: {len(shown)} of {len(told)} verify; accepted with other equations, of "
+          f"{100 * len(shown)} that were mutated: {len(wrong)}")  # fmt: skip
+    for line in (*wrong, *(f"no evidence: {name}" for name, _, fine in told if not fine)):
+        print(f"  {line}")
 
 
 # -- tampering ---------------------------------------------------------------------------------------------------------
@@ -287,7 +328,7 @@ def main() -> None:
     parser.add_argument("--quick", action="store_true", help="a tenth")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--processes", type=int, default=2)
-    parser.add_argument("--only", default="coverage,mutations,edits,times,sizes")
+    parser.add_argument("--only", default="coverage,motions,mutations,edits,times,sizes")
     parser.add_argument("--list", type=Path, default=None, help="where to write every accepted mutation")
     given = parser.parse_args()
     parts, step = given.only.split(","), 10 if given.quick else 1
@@ -298,6 +339,8 @@ def main() -> None:
             coverage("test scenes", OURS[::step], "at least 95 %", pool, fields=False)
             print("\nother people's: the benchmark's families but for the catalog, and what the adversary found")
             coverage("other scenes", [*others(given.quick), *ADVERSARY][::step], "at least 90 %", pool, fields=False)
+        if "motions" in parts:
+            motions([*CATALOG, *OURS][::step], pool)
         if "mutations" in parts:
             tamper(catalog, 10_000 // step, given.seed, pool, given.list)
         if "edits" in parts:

@@ -16,8 +16,8 @@ Mechanisms, in the order of checking
        the `ring` of normal forms.
     3. `evidence` has what a certificate puts forward: points (`point`), minors of rows that hold there, velocity
        fields.
-    4. `dimension_rules` and `label_rules` are the rules: one function for each kind of claim, which checks its
-       hypotheses.
+    4. `dimension_rules`, `label_rules` and `motion` are the rules: one function for each kind of claim, which checks
+       its hypotheses.
     5. `verification` reads the certificate with care, bounded in work, and asks the rules. The format is described in
        ``FORMAT.md``.
 """

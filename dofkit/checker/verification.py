@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 from dofkit.checker import dimension_rules as numbers
 from dofkit.checker import label_rules as labels
 from dofkit.checker.evidence import CheckedEvidence, take_cover
+from dofkit.checker.motion import motion
 from dofkit.checker.problem import CheckedProblem as Problem
 from dofkit.checker.problem import canonical, document_of, problem_of_canonical, sha256_of_canonical
 from dofkit.checker.relations import FAULTS, fault_text
@@ -39,6 +40,7 @@ TABLE: tuple[tuple[str, str, Rule], ...] = (
     ("scleronomic, catastatic", "time-dependent", labels.time_dependent),
     ("exact", "exact, not exact", labels.exact), ("integral", "integral", labels.integral),
     ("/dof, /velocity_dof", "everywhere", numbers.everywhere),
+    ("/motion", "lagrange", motion),
 )  # fmt: skip
 RULES = {
     (path, rule): rule_of for paths, rules, rule_of in TABLE for path in paths.split(", ") for rule in rules.split(", ")

@@ -137,19 +137,27 @@ def _with_certificate(scene: Scene, report: Report, request: Request) -> Report:
     )
 
     report = with_certificate(scene, report, request.strict)
-    if request.certificate is None:
-        return report
-    target = Path(request.certificate)
+    if request.certificate is not None:
+        _write_certificate(report.certificate, request.certificate)
+    return report
+
+
+def _write_certificate(certificate: dict[str, Any] | None, path: str) -> None:
+    target = Path(path)
     try:
         target.parent.mkdir(parents=True, exist_ok=True)
-        target.write_text(json.dumps(report.certificate, ensure_ascii=False) + "\n", encoding="utf-8")
+        target.write_text(json.dumps(certificate, ensure_ascii=False) + "\n", encoding="utf-8")
     except OSError as error:
-        raise DofkitError(f"the certificate cannot be written to '{target}': {error.strerror or error}") from None
-    return report
+        raise DofkitError(f"the certificate cannot be written to '{path}': {error.strerror or error}") from None
 
 
 def _equations(scene: Scene, request: Request) -> Iterator[Json]:
     report = dofkit.lagrange(scene, request.linearize, request.budget)
+    if request.certificate is not None:
+        from dofkit.methods.certificates.motion_evidence import certificate_of_motion  # few runs ask for certificates
+
+        fields = report.model_dump(mode="json")
+        _write_certificate(certificate_of_motion(scene, fields, report.classification), request.certificate)
     if request.output.as_json:
         yield streams(_line(report.model_dump(mode="json"), request))
     else:

@@ -126,11 +126,12 @@ def lagrange(
     files: options.Files,
     as_json: options.AsJson = False,
     linearize: options.Linearize = False,
+    certificate: options.CertificatePath = None,
 ) -> None:
     """Derive the equations of motion from the energies."""
     from dofkit.interface.jobs import Request, replies
 
-    request = Request("", Output.here(as_json), linearize=linearize)
+    request = Request("", Output.here(as_json), linearize=linearize, certificate=certificate)
     _print(replies("motion_lines", files, request), as_json)
 
 

@@ -11,6 +11,7 @@ from shared.command_line import called
 from shared.known_scenes import OURS, spread
 
 import dofkit
+from dofkit.checker.problem import document_of, sha256_of
 
 
 @pytest.fixture
@@ -145,3 +146,25 @@ def test_a_scene_in_other_words_is_verified_in_standard_ones(
         assert (status, err) == (0, "")
         assert "claims verified" in out
         assert "failed" not in out
+
+
+@pytest.mark.sweep
+def test_equations_of_motion_have_a_certificate(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """A bead on a parabola: one claim, which is verified, and refused for another mass."""
+    scene, place = tmp_path / "bead.yaml", tmp_path / "why" / "bead.json"
+    scene.write_text(
+        "dimension: 2\nparameters: {m: positive, g: positive}\nparticles: [{name: P, coordinates: [x, y], mass: m}]\n"
+        "constraints: [y = x^2]\nforces: [{type: gravity, acceleration: g}]\n"
+    )
+    status, out, err = called(capsys, "lagrange", str(scene), "--certificate", str(place))
+    assert (status, err) == (0, "")
+    assert "Equations of motion" in out
+    status, out, _ = called(capsys, "verify", "--strict", str(scene), str(place))
+    assert (status, out) == (0, "bead: 1 of 1 claims verified\n")
+    scene.write_text(scene.read_text().replace("mass: m", "mass: 2 m"))
+    certificate = json.loads(place.read_text())
+    certificate["scene"]["sha256"] = sha256_of(document_of(scene.read_text()))
+    place.write_text(json.dumps(certificate))
+    status, out, _ = called(capsys, "verify", str(scene), str(place))
+    assert status == 1
+    assert "failed     /motion by lagrange: the Lagrangian" in out

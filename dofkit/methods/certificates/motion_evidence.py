@@ -1,0 +1,145 @@
+"""Evidence for equations of motion: a point of the motions, rows, and what relations are multiples of."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
+from fractions import Fraction
+from typing import Any
+
+from dofkit.checker.motion import MOTION_FIELDS
+from dofkit.checker.problem import CheckedProblem as Problem
+from dofkit.checker.problem import canonical, problem_of_canonical
+from dofkit.checker.relations import FAULTS
+from dofkit.checker.trees import MINUS, ONE, Tree, along, number, power, substituted, symbol, times
+from dofkit.checker.verification import Verifier
+from dofkit.methods.certificates.certificate import HINDRANCES, without_spare_parts
+from dofkit.methods.certificates.context import Context, Told, empty_certificate
+from dofkit.methods.certificates.lowering import scene_of_checker
+from dofkit.methods.certificates.numerics import Estimates
+from dofkit.methods.certificates.points import FoundPoint
+from dofkit.methods.certificates.scenery import Scenery, number_text, text_of
+from dofkit.report import Report
+from dofkit.scene.scene import Scene
+
+PATH = "/motion"
+#: How many points are tried.
+MOST_POINTS = 4
+
+
+def certificate_of_motion(scene: Scene, motion: Mapping[str, Any], report: Report) -> dict[str, Any]:
+    """The certificate of equations of motion, as `lagrange` tells them; uncovered where no evidence was found.
+
+    ``report``: what the equations rest on.
+    """
+    written, readings = scene_of_checker(scene)
+    document = canonical(written)
+    certificate = empty_certificate(report.scene, document, readings) | {"uncovered": [PATH]}
+    try:
+        problem = problem_of_canonical(document)
+        context = Context(report, Scenery(problem, False, certificate))
+        verifier = Verifier(document, certificate, problem)
+        verifier.evidences[context.scenery.cayley] = context.scenery.evidence
+        for evidence in MotionEvidence(context, {name: motion[name] for name in MOTION_FIELDS}).claims():
+            with suppress(*FAULTS):
+                verifier.check(evidence)
+                certificate |= {"claims": [evidence], "uncovered": []}
+                break
+    except HINDRANCES:
+        pass
+    return without_spare_parts(certificate)
+
+
+class MotionEvidence:
+    """A motion of the report, in the checker's reading."""
+
+    def __init__(self, context: Context, motion: dict[str, Any]) -> None:
+        self.context, self.motion, self.evidence = context, motion, context.scenery.evidence
+        self.problem: Problem = context.problem
+        self.constants = self._constants()
+        self.eliminated = {q: self.read(text) for q, text in motion["eliminated"].items()}
+        constraints = map(self.read, motion["constraints"])
+        self.constraint_of_multiplier = dict(zip(motion["multipliers"], constraints, strict=True))
+
+    def _constants(self) -> dict[str, str]:
+        """Names in the eliminated coordinates that are none of the scene's: constants of integration."""
+        constants: dict[str, str] = {}
+        for text in self.motion["eliminated"].values():
+            for k in range(1, 5):
+                for name in (f"C{k}", f"C_{k}", "C"):
+                    if name in text and name not in (*self.problem.world.signs, *self.problem.coordinates):
+                        constants[name] = "0"
+        return constants
+
+    def read(self, text: str) -> Tree:
+        """A text of the report."""
+        kept = (f"{q}ddot" for q in self.motion["coordinates"])
+        return self.evidence.text(text.removesuffix("= 0"), [*self.motion["multipliers"], *self.constants, *kept])
+
+    def claims(self) -> Iterator[Told]:
+        """Claims, one point after another."""
+        claim: Told = {"path": PATH, "value": self.motion, "rule": "lagrange", "c": self.cofactors()}
+        claim |= {"constants": self.constants} if self.constants else {}
+        size = len(self.eliminated) + len(self.constraint_of_multiplier)
+        for point in self.points() if size else ():
+            standing = self.context.standing_of(self.context.equations, point=point)
+            if standing is not None and len(standing.rows) == size:
+                self.context.add_point(point)
+                for factors in self.factors():
+                    yield {**claim, **factors, "minor": self.context.minor(standing)}
+        if not size:
+            for factors in self.factors():
+                yield {**claim, **factors}
+
+    def factors(self) -> Iterator[Told]:
+        """None, or exponentials that the equations were divided by."""
+        yield {}
+        for power_of_e in sorted(_exponentials(self.read(self.motion["lagrangian"]))):
+            yield {"factors": dict.fromkeys(self.motion["coordinates"], power_of_e)}
+
+    def cofactors(self) -> dict[str, dict[str, str]]:
+        """For every relation that is not 0 where coordinates are put in, the constraint whose multiple it is."""
+        rates = {**{q: symbol(f"{q}dot") for q in self.problem.coordinates}, "t": ONE}
+        put: dict[str, Tree] = {"tdot": ONE, **self.eliminated}
+        put |= {f"{q}dot": along(rates, tree) for q, tree in self.eliminated.items()}
+        multiples, ring = {}, self.evidence.ring
+        for name in self.evidence.equations:
+            residue = substituted(self.evidence.relation(name).tree, put)
+            for multiplier, tree in self.constraint_of_multiplier.items() if not ring.vanishes(residue) else ():
+                ratio = ring.rational(times(residue, power(tree, MINUS)))
+                if ratio is not None:
+                    multiples[name] = {multiplier: number_text(Fraction(int(ratio.p), int(ratio.q)))}
+        return multiples
+
+    def points(self) -> Iterator[FoundPoint]:
+        """The configuration; else points whose eliminated coordinates are put in, or any."""
+        search = self.context.search
+        if self.problem.reference:
+            if (configuration := search.reference()) is not None:
+                yield configuration
+            return
+        if not self.constraint_of_multiplier:
+            yield from filter(None, map(self._put_in, range(MOST_POINTS)))
+        elif self.context.point is not None:
+            yield self.context.point
+
+    def _put_in(self, attempt: int) -> FoundPoint | None:
+        values = dict(self.context.scenery.parameters)
+        values |= {q: Fraction(k + attempt + 2, 7 + 2 * attempt) for k, q in enumerate(self.motion["coordinates"])}
+        values |= {"t": Fraction(attempt, 3)} if self.context.scenery.timed else {}
+        values |= {name: Fraction(self.constants[name]) for name in self.constants}
+        texts = {name: number_text(value) for name, value in values.items() if name not in self.constants}
+        floats = {name: float(value) for name, value in values.items()}
+        numbers = {name: number(value) for name, value in values.items()}
+        try:
+            for q, tree in self.eliminated.items():
+                texts[q] = text_of(substituted(tree, numbers))
+                floats[q] = Estimates(floats).value(self.context.scenery.chosen(tree))
+        except HINDRANCES:
+            return None
+        return FoundPoint(f"T{attempt}", texts, floats, self.context.scenery.functions)
+
+
+def _exponentials(tree: Tree) -> set[str]:
+    below = set[str]().union(*map(_exponentials, tree.below))
+    return below | {text_of(tree)} if tree.head == "exp" else below
