@@ -5,7 +5,11 @@ from __future__ import annotations
 import random
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
+<<<<<<< ours
 from itertools import combinations
+=======
+from functools import partial
+>>>>>>> theirs
 from typing import Any
 
 from flint import arb
@@ -18,8 +22,13 @@ from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, number, power, sym
 from dofkit.methods.certificates.context import Context, Standing, Told
 from dofkit.methods.certificates.fields import LARGEST_CRAMER, backing, kept_motions, orbit
 from dofkit.methods.certificates.numerics import echelon, least_step
+<<<<<<< ours
 from dofkit.methods.certificates.scenery import FAR, number_text, text_of
 from dofkit.methods.certificates.steps import Order, accounted, operands
+=======
+from dofkit.methods.certificates.scenery import number_text, text_of
+from dofkit.methods.certificates.steps import Order, accounted, given_in_order, operands
+>>>>>>> theirs
 
 #: The size of a step along a motion, of what is added by chance, and the largest denominator of a coefficient.
 STEP, NOISE, DENOMINATOR = 0.25, 0.05, 60
@@ -193,7 +202,7 @@ def _of_set(context: Context, standing: Standing) -> Iterator[Told]:
     letters = (*context.problem.world.generic, *context.problem.world.signs)
     symbols = {name: letter for name in evidence.finite if (letter := evidence.own_symbol(name, letters))}
     if not standing.dependent or standing.accounted:
-        for tried in (order, []):
+        for tried in (order, given_in_order(finite, context.scenery, partial(_gives, context)), []):
             remaining = [name for name in finite if all(name != chosen for chosen, _ in tried)]
             blocks, generic = _split(context, tried, remaining, symbols)
             if all(name in symbols for name in generic):

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from fractions import Fraction
-from functools import reduce
+from functools import partial, reduce
 from itertools import combinations
 
 from flint import fmpq, fmpq_mat
@@ -89,22 +89,27 @@ Order = list[list[str]]
 LARGEST_OF_PAIR = 30
 
 
-def puts(scenery: Scenery, names: Iterable[str]) -> Order:
-    """Return finite relations with the coordinates that they give, in the order in which these are put into others.
-
-    Each gives a coordinate that those after it do not hold; the ones with few coordinates are put in last.
-    """
-    coordinates, relation = scenery.problem.coordinates, scenery.evidence.relation
-    finite = [name for name in names if relation(name).kind == "finite"]
-    held = {name: relation(name).tree.symbols.intersection(coordinates) for name in finite}
+def given_in_order(names: Iterable[str], scenery: Scenery, gives: Callable[[str, str], bool]) -> Order:
+    """Return relations with a coordinate each that those before do not hold, the ones with few coordinates first."""
+    coordinates, evidence = scenery.problem.coordinates, scenery.evidence
+    held = {name: evidence.relation(name).tree.symbols.intersection(coordinates) for name in names}
     order: Order = []
     taken: set[str] = set()
     for name in sorted(held, key=lambda name: len(held[name])):
-        fit = next((q for q in coordinates if q in held[name] - taken and _gives(scenery, name, q)), None)
+        fit = next((q for q in coordinates if q in held[name] - taken and gives(name, q)), None)
         if fit is not None:
-            order.insert(0, [name, fit])
+            order.append([name, fit])
             taken |= held[name]
     return order
+
+
+def puts(scenery: Scenery, names: Sequence[str]) -> Order:
+    """Return finite relations with the coordinates that they give, in the order in which these are put into others.
+
+    The later one is put in, the fewer coordinates its relation holds that another one gives.
+    """
+    finite = [name for name in names if scenery.evidence.relation(name).kind == "finite"]
+    return given_in_order(finite, scenery, partial(_gives, scenery))[::-1]
 
 
 def _gives(scenery: Scenery, name: str, q: str) -> bool:
