@@ -5,11 +5,8 @@ from __future__ import annotations
 import random
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
-<<<<<<< ours
-from itertools import combinations
-=======
 from functools import partial
->>>>>>> theirs
+from itertools import combinations
 from typing import Any
 
 from flint import arb
@@ -22,13 +19,8 @@ from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, number, power, sym
 from dofkit.methods.certificates.context import Context, Standing, Told
 from dofkit.methods.certificates.fields import LARGEST_CRAMER, backing, kept_motions, orbit
 from dofkit.methods.certificates.numerics import echelon, least_step
-<<<<<<< ours
 from dofkit.methods.certificates.scenery import FAR, number_text, text_of
-from dofkit.methods.certificates.steps import Order, accounted, operands
-=======
-from dofkit.methods.certificates.scenery import number_text, text_of
 from dofkit.methods.certificates.steps import Order, accounted, given_in_order, operands
->>>>>>> theirs
 
 #: The size of a step along a motion, of what is added by chance, and the largest denominator of a coefficient.
 STEP, NOISE, DENOMINATOR = 0.25, 0.05, 60
