@@ -88,7 +88,7 @@ def certified(given: Path | tuple[str, Mapping[str, Any]]) -> Told | str:
         return f"CheckError of {given}: {str(error)[:120]}"
     except Exception as error:
         return f"CRASH of {given}: {type(error).__name__} {str(error)[:120]}"
-    reasons = dict(making.trial.reasons) if making.trial else {}
+    reasons = dict(making.reasons)
     seconds = middle - start, later - middle, last - later
     told = report.model_dump(mode="json")
     return Told(scene.name, document, told, certificate, reasons, verification.failed, making.contradictions, seconds)

@@ -159,7 +159,7 @@ def timeless(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
 def time_dependent(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
     """Return False, the label of a constraint that depends on time, where a point of the relation shows it.
 
-    There its derivative by t is not 0; or the direction of the form changes with t; or the form integrates with dt.
+    There its derivative by t is not 0; or the direction of the form changes with t; or it integrates alone, with dt.
 
     Where a relation is phi times one without time, none of these is so: where phi is 0 the relation is stationary.
     What is not homogeneous in velocities is not catastatic.
@@ -174,7 +174,7 @@ def time_dependent(evidence: CheckedEvidence, claim: Told, verified: Told) -> bo
     turned = derivative(checked.tree, "t")
     if checked.kind == "velocity" and evidence.is_linear(name):
         turned = evidence.slope(name, "t")
-        integrates = _has_timed_integral(evidence, claim, verified)
+        integrates = verified.get(f"holonomic_alone {claim['owner']}") is True
         refuse(not catastatic and "pair" not in claim and not integrates, "it is not shown to integrate")
         if not catastatic and "pair" in claim:
             a, b = (evidence.slope(name, v) for v in claim["pair"])
@@ -193,15 +193,6 @@ def time_dependent(evidence: CheckedEvidence, claim: Told, verified: Told) -> bo
         refuse(stationary and checked.kind != "inequality", "the relation may be stationary at the point")
     refuse(not not_zero(point.value(turned)), "time may not enter at the point")
     return False
-
-
-def _has_timed_integral(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
-    """Whether a form with a dt term integrates alone, or was verified to have an integral that t occurs in."""
-    owner, point = claim["owner"], evidence.point(claim["at"])
-    if verified.get(f"holonomic_alone {owner}") is True or f"integral {owner}" not in verified:
-        return verified.get(f"holonomic_alone {owner}") is True
-    function = evidence.text(told_integral(evidence, verified[f"integral {owner}"]))
-    return not_zero(point.value(derivative(function, "t")))
 
 
 def integral(evidence: CheckedEvidence, claim: Told, verified: Told) -> object:

@@ -77,8 +77,8 @@ def _report(whole: Scene, request: Request) -> Iterator[Json]:
     yield {}
     remaining = request.budget - (time.perf_counter() - start)
     report = system if isinstance(system, Report) else classified(system, remaining, request.method)
-    if request.certificate is not None:
-        report = _with_certificate(scene, report, request.certificate)
+    if request.certificate is not None or request.strict:
+        report = _with_certificate(scene, report, request)
     as_json = request.output.as_json
     sections: tuple[SheetSection, ...] = ()
     if request.without and not as_json:
@@ -116,14 +116,15 @@ def _report_text(report: Report, scene: Scene, request: Request, sections: Seque
     return as_text(sheet, output.width, output.colours) + "\n\n"
 
 
-def _with_certificate(scene: Scene, report: Report, path: str) -> Report:
-    """Return the report with its certificate, which is written to a path."""
+def _with_certificate(scene: Scene, report: Report, request: Request) -> Report:
+    """Return the report with its certificate, which is written if a path was given."""
     from dofkit.methods.certificates.lowering import (
         with_certificate,  # few runs ask for certificates, whose search is large
     )
 
-    report = with_certificate(scene, report)
-    _write_certificate(report.certificate, path)
+    report = with_certificate(scene, report, request.strict)
+    if request.certificate is not None:
+        _write_certificate(report.certificate, request.certificate)
     return report
 
 

@@ -107,7 +107,7 @@ def kept_reports(files: Sequence[str], request: Request, run: Run, folder: Path)
 
 def _mark(request: Request) -> str:
     """Return what distinguishes a run from others: the version, and what is asked of every scene."""
-    options = (request.budget, request.method, request.output.only, request.without, request.limits)
+    options = (request.budget, request.method, request.output.only, request.without, request.limits, request.strict)
     return hashlib.blake2b(repr((__version__, *options, request.certificate)).encode(), digest_size=16).hexdigest()
 
 

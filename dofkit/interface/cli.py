@@ -72,6 +72,7 @@ def classify(
     budget: options.Budget = DEFAULT_SECONDS,
     method: options.Method = "auto",
     certificate: options.CertificatePath = None,
+    strict: options.OnlyWithEvidence = False,
     limits: options.Limits = False,
     workers: options.SceneWorkers = None,
     scheduler: options.Scheduler = None,
@@ -91,7 +92,7 @@ def classify(
     output = Output.here(as_json, brief or (len(files) > MOST_IN_FULL and not (full or how)), how)
     output = output._replace(only=options.fields(only), name_width=longest_name(files))
     request = Request("", output, budget, cast("MethodName", method), options.listed(without), limits)
-    request = replace(request, certificate=certificate)
+    request = replace(request, certificate=certificate, strict=strict)
     run = Run(options.failures(fail_on), workers, scheduler, out)
     with failures_of("classify"):
         status = classify_files(files, request, run)

@@ -45,8 +45,9 @@ class Request:
 
     ``data``: its bytes, if they have been read already. ``without``: constraints that are dropped; ``limits``: joint
     limits of models become inequalities; ``linearize``: small motions too. ``certificate``: the path or folder that its
-    certificate is written to. ``pictures``: of each file the kind of a picture (mechanism, graph, directions, motion
-    or loop) and its path; ``picture``: that of this file.
+    certificate is written to; ``strict``: what has no evidence is not proved, or not verified. ``pictures``: of each
+    file the kind of a picture (mechanism, graph, directions, motion or loop) and its path; ``picture``: that of this
+    file.
     """
 
     file: str
@@ -181,7 +182,7 @@ def distinct_names(files: Sequence[str]) -> list[str]:
 
 def reply(runner: Runner, function: str, request: Request) -> Printed:
     """Return what is printed about one file, whatever happens to the worker."""
-    share = 1 if request.certificate is None and request.picture is None else SHARE
+    share = SHARE if request.certificate or request.strict or request.picture else 1
     reading = limit(max(request.budget, DEFAULT_SECONDS)) if function == "report_lines" else None
     outcome = runner.run(Job(f"{ANSWERS}:{function}", request, share * limit(request.budget), reading))
     if outcome.finished:

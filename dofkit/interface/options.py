@@ -169,6 +169,7 @@ CertificatePath = Annotated[
 ]
 _SCENE_AND_CERTIFICATE = "A scene and its certificate, or a certificate that holds its scene."
 CertificateFiles = Annotated[list[str], Argument(metavar="[SCENE] CERT", help=_SCENE_AND_CERTIFICATE)]
+OnlyWithEvidence = Annotated[bool, flag("--strict", "Report what is proved without evidence as probable.")]
 Strict = Annotated[bool, flag("--strict", "Fail if a claim is not covered by evidence, too.")]
 
 # Of pictures and equations of motion

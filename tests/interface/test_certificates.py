@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 from shared.command_line import called
-from shared.known_scenes import spread
+from shared.known_scenes import OURS, spread
 
 import dofkit
 from dofkit.checker.problem import document_of, sha256_of
@@ -37,6 +37,18 @@ def test_a_certificate_is_verified_with_its_scene_and_alone(
     document = json.loads(out)
     assert (status, document["failed"], document["uncovered"]) == (0, [], [])
     assert document["claims"] == document["verified"] == len(made["certificate"]["claims"])
+
+
+#: A singular configuration: for its degrees of freedom no rule is known.
+FLATTENED = next(path for path in OURS if path.stem == "parallelogram-flattened")
+
+
+def test_a_strict_report_calls_nothing_proved_that_has_no_evidence(capsys: pytest.CaptureFixture[str]) -> None:
+    status, out, err = called(capsys, "classify", "--strict", "--json", str(FLATTENED))
+    assert (status, err) == (0, "")
+    verdicts = json.loads(out)["verdicts"].values()
+    assert {verdict["checked"] for verdict in verdicts if verdict["verdict"] == "proved"} == {True}
+    assert any(verdict["verdict"] == "probable" for verdict in verdicts)
 
 
 def test_a_false_claim_ends_with_1(made: dict[str, Any], capsys: pytest.CaptureFixture[str]) -> None:

@@ -5,11 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
+from dofkit.checker.evidence import CheckedEvidence
 from dofkit.checker.problem import CheckedProblem as Problem
 from dofkit.checker.problem import canonical, problem_of_canonical
+from dofkit.checker.relations import FAULTS, fault_text
 from dofkit.checker.trees import CheckError
+from dofkit.checker.verification import Verifier
 from dofkit.methods.certificates import emptiness, fields, freedom, labels
-from dofkit.methods.certificates.context import ClaimTrial, Context, Told, empty_certificate
+from dofkit.methods.certificates.context import Context, Told, empty_certificate
 from dofkit.methods.certificates.numerics import NoEstimateError
 from dofkit.methods.certificates.scenery import FAR, Scenery
 from dofkit.report import ConstraintEntry, Report
@@ -60,20 +63,22 @@ def certificate_of(document: Mapping[str, Any], report: Report) -> tuple[dict[st
 class Certifying:
     """A certificate while it is made; ``contradictions``: claims whose evidence gives another value, and why."""
 
+    verifier: Verifier
+
     def __init__(self, document: Mapping[str, Any], report: Report, readings: Mapping[str, str] | None = None) -> None:
         self.document, self.report = canonical(document), report
         self.certificate = empty_certificate(report.scene, self.document, readings or {})
         self.contexts: list[Context] = []
-        self.trial: ClaimTrial | None = None
+        #: Why the last evidence for a claim was not accepted, and what contradicts claims, by path.
+        self.reasons: dict[str, str] = {}
         self.contradictions: dict[str, str] = {}
 
     def written(self) -> dict[str, Any]:
         """All claims that are said to be proved, each with evidence or among the uncovered."""
         try:
             self.contexts = _contexts(self.document, self.report, self.certificate)
-            self.trial = ClaimTrial(self.document, self.certificate, self.contexts[-1].problem)
-            for context in self.contexts:
-                self.trial.admit(context.scenery)
+            self.verifier = Verifier(self.document, self.certificate, self.contexts[-1].problem)
+            self.verifier.evidences = {context.scenery.cayley: context.scenery.evidence for context in self.contexts}
         except CheckError:
             self.contexts = []
         claims, uncovered = self.certificate["claims"], self.certificate["uncovered"]
@@ -99,13 +104,26 @@ class Certifying:
                     **evidence,
                     **({"cayley": True} if context.scenery.cayley else {}),
                 }
-                outcome = self.trial.outcome(claim) if self.trial else "open"
-                if outcome == "shown":
+                if (fault := self._fault(claim, context.scenery.evidence)) is None:
                     return claim
-                if outcome == "contradicted" and self.trial and self._is_of_same_points(context, claim):
-                    contradicted = contradicted or self.trial.reasons[path]
+                if fault.startswith("the evidence gives") and self._is_of_same_points(context, claim):
+                    contradicted = contradicted or fault
         if contradicted and is_proved:
             self.contradictions[path] = contradicted
+        return None
+
+    def _fault(self, claim: Told, evidence: CheckedEvidence) -> str | None:
+        """Return why the checker refuses a claim; what follows by its covers is then forgotten."""
+        number = len(evidence.consequences)
+        try:
+            self.verifier.check(claim)
+        except FAULTS as error:
+            of_covers = [key for key in evidence.seen if key[0] == "covers" or (key[0] == "met" and key[1] >= number)]
+            for key in of_covers if number < len(evidence.consequences) else ():
+                del evidence.seen[key]
+            del evidence.consequences[number:]
+            self.reasons[claim["path"]] = fault_text(error)
+            return self.reasons[claim["path"]]
         return None
 
     def _is_of_same_points(self, context: Context, claim: Told) -> bool:

@@ -5,20 +5,17 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, Literal
+from typing import Any
 
 from dofkit.checker.problem import CheckedProblem as Problem
 from dofkit.checker.problem import sha256_of_canonical
-from dofkit.checker.relations import FAULTS, fault_text
 from dofkit.checker.trees import CheckError
-from dofkit.checker.verification import PARTS, Verifier
+from dofkit.checker.verification import PARTS
 from dofkit.methods.certificates.numerics import NoEstimateError, echelon
 from dofkit.methods.certificates.points import FoundPoint, PointSearch
 from dofkit.methods.certificates.scenery import MOST_ROWS, Scenery
 from dofkit.methods.certificates.steps import accounted, rate_of
 from dofkit.report import Report
-
-Outcome = Literal["shown", "contradicted", "open"]
 
 
 def empty_certificate(name: str, document: Mapping[str, Any], readings: Mapping[str, str]) -> dict[str, Any]:
@@ -27,39 +24,6 @@ def empty_certificate(name: str, document: Mapping[str, Any], readings: Mapping[
     scene |= {"readings": dict(readings)} if readings else {}
     lists: dict[str, list[dict[str, Any]]] = {part: [] for part in PARTS}
     return {"certificate": 1, "scene": scene, "cayley": [], **lists, "claims": [], "uncovered": []}
-
-
-class ClaimTrial:
-    """The checker at work on a certificate that grows."""
-
-    def __init__(self, document: Mapping[str, Any], certificate: dict[str, Any], problem: Problem) -> None:
-        self.verifier = Verifier(document, certificate, problem)
-        self.reasons: dict[str, str] = {}
-
-    def admit(self, scenery: Scenery) -> None:
-        """Use a reading with what is known of it."""
-        self.verifier.evidences[scenery.cayley] = scenery.evidence
-
-    def outcome(self, claim: dict[str, Any]) -> Outcome:
-        """Whether a claim is shown; ``contradicted`` where the evidence gives another value."""
-        counts = {cayley: len(evidence.consequences) for cayley, evidence in self.verifier.evidences.items()}
-        try:
-            self.verifier.check(claim)
-        except FAULTS as error:
-            self.reasons[claim["path"]] = fault_text(error)
-            self._forget(counts)
-            return "contradicted" if fault_text(error).startswith("the evidence gives") else "open"
-        return "shown"
-
-    def _forget(self, counts: Mapping[bool, int]) -> None:
-        """Leave out what follows by covers of a claim that is not written down: who reads the others has it not."""
-        for cayley, evidence in self.verifier.evidences.items():
-            number = counts.get(cayley, len(evidence.consequences))
-            if number < len(evidence.consequences):
-                del evidence.consequences[number:]
-                gone = [key for key in evidence.seen if key[0] == "covers" or (key[0] == "met" and key[1] >= number)]
-                for key in gone:
-                    del evidence.seen[key]
 
 
 Told = dict[str, Any]

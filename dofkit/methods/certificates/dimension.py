@@ -18,7 +18,7 @@ from dofkit.checker.ring import CheckedRing
 from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, number, power, symbol, times
 from dofkit.methods.certificates.context import Context, Standing, Told
 from dofkit.methods.certificates.fields import LARGEST_CRAMER, backing, kept_motions, orbit
-from dofkit.methods.certificates.numerics import echelon, solved
+from dofkit.methods.certificates.numerics import echelon, least_step
 from dofkit.methods.certificates.scenery import FAR, number_text, text_of
 from dofkit.methods.certificates.steps import Order, accounted, given_in_order, operands
 
@@ -60,8 +60,7 @@ def _samples(context: Context) -> Samples:
         moved = {
             q: now[q] + (now[q] - before[q]) * STEP / (far or 1.0) + noise * drawn.uniform(-1, 1) for q in coordinates
         }
-        start = {name: Fraction(value) for name, value in {**now, **moved}.items()}
-        reached = context.search.approached(start, context.equations, set(coordinates))
+        reached = context.search.approached({**now, **moved}, context.equations, set(coordinates))
         if reached is not None:
             samples.append(reached)
             before, now = now, reached
@@ -77,10 +76,9 @@ def _linear_relations(context: Context, samples: Samples) -> Iterator[str]:
     pivots = echelon(rows).pivots
     columns = [p.column for p in pivots]
     for q in coordinates:
-        spanned = [rows[p.row] for p in pivots]
-        terms = None if q in columns else solved(spanned, [row[q] for row in spanned], columns)
-        if terms is None:
+        if q in columns:
             continue
+        terms = least_step([{c: rows[p.row][c] for c in columns} for p in pivots], [rows[p.row][q] for p in pivots])
         short = {p: Fraction(value).limit_denominator(DENOMINATOR) for p, value in terms.items()}
         if all(abs(float(short[p]) - value) < 1e-6 for p, value in terms.items()):
             coefficients = [(q, Fraction(1)), *((p, -value) for p, value in short.items() if value)]

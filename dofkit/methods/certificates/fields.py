@@ -10,7 +10,7 @@ from typing import Any
 from networkx.utils import UnionFind
 
 from dofkit.checker.constraints import Surroundings
-from dofkit.checker.evidence import CheckedEvidence, VelocityField, bracket, field_named, tangent
+from dofkit.checker.evidence import VelocityField, bracket, field_named, tangent
 from dofkit.checker.geometry import determinant
 from dofkit.checker.trees import ZERO, CheckError, Tree, negative
 from dofkit.methods.certificates.context import Context, Standing, Told
@@ -134,31 +134,27 @@ def tangent_fields(context: Context, standing: Standing) -> list[str] | None:
         touched = _touched(context, standing, coordinate)
         if len(touched) > LARGEST_CRAMER:
             return None
-        components = _by_cramer(evidence, touched, [pairs[row] for row in touched], coordinate)
-        ids.append(scenery.entry_id("fields", {"components": components}))
+        columns = [pairs[row] for row in touched]
+        matrix = [[evidence.slope(row, column) for column in columns] for row in touched]
+        h, numerators = by_cramer(matrix, [evidence.slope(row, coordinate) for row in touched])
+        components = {coordinate: h, **dict(zip(columns, map(negative, numerators), strict=True))}
+        texts = {name: text_of(tree) for name, tree in components.items() if tree != ZERO}
+        ids.append(scenery.entry_id("fields", {"components": texts}))
     return ids
 
 
-def _by_cramer(evidence: CheckedEvidence, rows: Sequence[str], columns: Sequence[str], free: str) -> dict[str, str]:
-    """The field with the determinant of the columns at ``free``, and Cramer's numerators at the columns."""
-
-    def minor(names: Sequence[str]) -> Tree:
-        return determinant([[evidence.slope(row, name) for name in names] for row in rows])
-
-    components = {free: minor(columns)}
-    for place, column in enumerate(columns):
-        components[column] = negative(minor([*columns[:place], free, *columns[place + 1 :]]))
-    return {name: text_of(tree) for name, tree in components.items() if tree != ZERO}
+def by_cramer(matrix: Sequence[Sequence[Tree]], right: Sequence[Tree]) -> tuple[Tree, list[Tree]]:
+    """Return the determinant of a square matrix and Cramer's numerators: the matrix maps them to it times the right."""
+    replaced = (
+        [[*line[:i], b, *line[i + 1 :]] for line, b in zip(matrix, right, strict=True)] for i in range(len(matrix))
+    )
+    return determinant(matrix), [*map(determinant, replaced)]
 
 
 def _touched(context: Context, standing: Standing, free: str) -> list[str]:
     """The rows that move together when one free coordinate moves."""
-    evidence = context.scenery.evidence
-    groups = parts_of(context.scenery, standing.rows)
-    if free == "t":
-        moved = [part for part in groups if any(_holds(evidence.relation(row).tree, "t") for row in part)]
-    else:
-        moved = [part for part in groups if any(_holds(evidence.relation(row).tree, free) for row in part)]
+    evidence, groups = context.scenery.evidence, parts_of(context.scenery, standing.rows)
+    moved = [part for part in groups if any(_holds(evidence.relation(row).tree, free) for row in part)]
     return [row for row in standing.rows if any(row in part for part in moved)]
 
 

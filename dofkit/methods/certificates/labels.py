@@ -5,19 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import combinations
 
-from dofkit.checker.geometry import determinant
 from dofkit.checker.label_rules import exterior_part, form_of
 from dofkit.checker.trees import ZERO, CheckError, Tree, add, derivative, negative, number, symbol, times
 from dofkit.methods.certificates.context import Context, Told
 from dofkit.methods.certificates.fields import (
     LARGEST_CRAMER,
+    by_cramer,
     integrable_names,
     involutive_rows,
     pairing,
     reach,
     words_of,
 )
-from dofkit.methods.certificates.numerics import Estimates, NoEstimateError, echelon, solved
+from dofkit.methods.certificates.numerics import Estimates, NoEstimateError, echelon, least_step
 from dofkit.methods.certificates.points import FoundPoint
 from dofkit.methods.certificates.scenery import FAR, text_of
 from dofkit.methods.certificates.steps import Order, needed_puts, puts, rate_of, with_puts
@@ -129,12 +129,8 @@ def cofactors(context: Context, target: Components, rows: dict[str, Components])
     if len(chosen) > LARGEST_CRAMER:
         return None
     matrix = [[rows[row][column] for row in chosen] for column in columns]
-    right = [target[column] for column in columns]
-    h = determinant(matrix)
-    multipliers = {
-        row: determinant([[*line[:i], b, *line[i + 1 :]] for line, b in zip(matrix, right, strict=True)])
-        for i, row in enumerate(chosen)
-    }
+    h, numerators = by_cramer(matrix, [target[column] for column in columns])
+    multipliers = dict(zip(chosen, numerators, strict=True))
     ring = context.scenery.evidence.ring
     for v in context.scenery.evidence.variables:
         total = add(*(times(factor, rows[row][v]) for row, factor in multipliers.items()))
@@ -155,8 +151,8 @@ def _chosen(context: Context, target: Components, rows: dict[str, Components]) -
         kept = [list(rows)[p.row] for p in pivots]
         goal = _floats(context, estimates, target)
         square = [{row: numbers[row].get(p.column, 0.0) for row in kept} for p in pivots]
-        solution = solved(square, [goal.get(p.column, 0.0) for p in pivots], kept) or {}
-        used |= {row for row, value in solution.items() if abs(value) > 1e-9}
+        solution = least_step(square, [goal.get(p.column, 0.0) for p in pivots])
+        used |= {row for row, value in solution.items() if abs(value) > FAR}
     chosen = [row for row in rows if row in used]
     estimates = Estimates(floats)
     pivots = echelon([_floats(context, estimates, rows[row]) for row in chosen]).pivots
@@ -200,9 +196,16 @@ def _wedge(context: Context, name: str) -> Told | None:
     form = form_or_none(context, name)
     if point is None or form is None:
         return None
-    for triple in combinations([v for v in context.scenery.evidence.variables if v in variables_of(form)], 3):
-        if context.scenery.differs(exterior_part(form, *triple), point.estimates):
-            return {"rule": "wedge", "at": point.name, "triple": list(triple)}
+    triple = _not_closed(context, form, point, 3)
+    return {"rule": "wedge", "at": point.name, "triple": triple} if triple else None
+
+
+def _not_closed(context: Context, form: Components, point: FoundPoint, size: int) -> list[str] | None:
+    """Return so many variables for which a part of d(omega), or of omega ^ d(omega), is not 0 at a point."""
+    variables = [v for v in context.scenery.evidence.variables if v in variables_of(form)]
+    for names in combinations(variables, size):
+        if context.scenery.differs(exterior_part(form, *names), point.estimates):
+            return list(names)
     return None
 
 
@@ -247,12 +250,8 @@ def integral(context: Context, entry: ConstraintEntry, field: str) -> Iterator[T
     claim = {"rule": "integral", "at": context.point.name}
     if alone := integral_alone(context, entry, names[0]):
         yield {**claim, "step": alone}
-        if other := context.search.somewhere(context.scenery.evidence.finite, context.problem.coordinates, seed=1):
-            yield {**claim, "step": alone, "at": context.add_point(other)}
     if (step := combined_integral(context, function)) is None:
         return
-    if follows_from_integrals(context, names[0], [step]):
-        yield {**claim, "step": step}
     texts = [step_id for other in context.report.constraints if (step_id := integral_text(other))]
     others = [step_id for text in texts if (step_id := combined_integral(context, text)) and step_id != step]
     others = list(dict.fromkeys(others))
@@ -276,12 +275,9 @@ def exact(context: Context, entry: ConstraintEntry, field: str) -> Iterator[Told
     if point is None:
         return
     for name in names:
-        form = form_or_none(context, name) or {}
-        for i, j in combinations([v for v in context.scenery.evidence.variables if v in variables_of(form)], 2):
-            if context.scenery.differs(exterior_part(form, i, j), point.estimates):
-                which = {"relation": name} if len(names) > 1 else {}
-                yield {"rule": "not exact", "at": point.name, "pair": [i, j], **which}
-                break
+        if pair := _not_closed(context, form_or_none(context, name) or {}, point, 2):
+            which = {"relation": name} if len(names) > 1 else {}
+            yield {"rule": "not exact", "at": point.name, "pair": pair, **which}
 
 
 def scleronomic(context: Context, entry: ConstraintEntry, field: str) -> Iterator[Told]:

@@ -41,17 +41,19 @@ def scene_of_checker(scene: Scene) -> PlainScene:
     return plain_scene(scene, reads)
 
 
-def with_certificate(scene: Scene, report: Report) -> Report:
+def with_certificate(scene: Scene, report: Report, strict: bool = False) -> Report:
     """Return the report with a certificate, and in each verdict whether the checker accepted evidence for it.
 
-    A claim whose evidence gives another value is undecided, with a warning.
+    A claim whose evidence gives another value is undecided, with a warning. If ``strict``, what is proved without
+    evidence is probable.
     """
     document, readings = scene_of_checker(scene)
     making = Certifying(document, report, readings)
     certificate = making.written()
     confirmed = {claim["path"] for claim in certificate["claims"]}
     confirmed -= {path.removeprefix("/verdicts").removesuffix("/about") for path in certificate["uncovered"]}
-    return _checked(report, confirmed, making.contradictions).model_copy(update={"certificate": certificate})
+    checked = _checked(report, confirmed, making.contradictions, strict)
+    return checked.model_copy(update={"certificate": certificate})
 
 
 def told_fields(report: Report) -> Iterator[tuple[str, Any, FieldVerdict]]:
@@ -67,24 +69,29 @@ def _entry_path(entry: ConstraintEntry) -> str:
     return "/constraints/" + entry.name.replace("~", "~0").replace("/", "~1")
 
 
-def _checked(report: Report, confirmed: Collection[str], contradictions: Mapping[str, str]) -> Report:
+def _checked(
+    report: Report, confirmed: Collection[str], contradictions: Mapping[str, str], strict: bool = False
+) -> Report:
     """Return the report with ``checked`` in each verdict, and what is contradicted undecided, with a warning."""
 
+    def told(verdict: FieldVerdict, path: str) -> FieldVerdict:
+        if path in contradictions:
+            return UNDECIDED
+        lowered = strict and verdict.verdict == "proved" and path not in confirmed
+        changes = {"checked": path in confirmed, **({"verdict": "probable"} if lowered else {})}
+        return verdict.model_copy(update=changes)
+
     def revised(model: Model, start: str) -> Model:
-        verdicts = {
-            field: UNDECIDED
-            if f"{start}/{field}" in contradictions
-            else verdict.model_copy(update={"checked": f"{start}/{field}" in confirmed})
-            for field, verdict in model.verdicts.items()
-        }
+        verdicts = {field: told(verdict, f"{start}/{field}") for field, verdict in model.verdicts.items()}
         fields = {field: _OPEN.get(field) for field, verdict in verdicts.items() if verdict is UNDECIDED}
-        weaker = {"verdict": weakest(model.verdict, "undecided")} if fields else {}
-        return model.model_copy(update={**fields, **weaker, "verdicts": verdicts})
+        whole = weakest(model.verdict, *(verdict.verdict for verdict in verdicts.values()))
+        return model.model_copy(update={**fields, "verdict": whole, "verdicts": verdicts})
 
     warnings = [
         f"{path}: a second program finds otherwise ({why}); it is undecided" for path, why in contradictions.items()
     ]
     entries = [revised(entry, _entry_path(entry)) for entry in report.constraints]
-    weaker = {"verdict": weakest(report.verdict, "undecided")} if contradictions else {}
-    changes = {"constraints": entries, "warnings": [*report.warnings, *warnings], **weaker}
-    return revised(report, "").model_copy(update=changes)
+    whole = revised(report, "")
+    verdict = weakest(whole.verdict, *(entry.verdict for entry in entries))
+    changes = {"constraints": entries, "warnings": [*report.warnings, *warnings], "verdict": verdict}
+    return whole.model_copy(update=changes)

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from fractions import Fraction
 from typing import Any
 
 from dofkit.checker.motion import MOTION_FIELDS
 from dofkit.checker.problem import CheckedProblem as Problem
 from dofkit.checker.problem import canonical, problem_of_canonical
+from dofkit.checker.relations import FAULTS
 from dofkit.checker.trees import MINUS, ONE, Tree, along, number, power, substituted, symbol, times
+from dofkit.checker.verification import Verifier
 from dofkit.methods.certificates.certificate import HINDRANCES, without_spare_parts
-from dofkit.methods.certificates.context import ClaimTrial, Context, Told, empty_certificate
+from dofkit.methods.certificates.context import Context, Told, empty_certificate
 from dofkit.methods.certificates.lowering import scene_of_checker
 from dofkit.methods.certificates.numerics import Estimates
 from dofkit.methods.certificates.points import FoundPoint
@@ -35,10 +38,11 @@ def certificate_of_motion(scene: Scene, motion: Mapping[str, Any], report: Repor
     try:
         problem = problem_of_canonical(document)
         context = Context(report, Scenery(problem, False, certificate))
-        trial = ClaimTrial(document, certificate, problem)
-        trial.admit(context.scenery)
+        verifier = Verifier(document, certificate, problem)
+        verifier.evidences[context.scenery.cayley] = context.scenery.evidence
         for evidence in MotionEvidence(context, {name: motion[name] for name in MOTION_FIELDS}).claims():
-            if trial.outcome(evidence) == "shown":
+            with suppress(*FAULTS):
+                verifier.check(evidence)
                 certificate |= {"claims": [evidence], "uncovered": []}
                 break
     except HINDRANCES:

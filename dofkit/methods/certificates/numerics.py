@@ -59,19 +59,6 @@ def echelon(rows: Sequence[Row], prefer: Callable[[int, str], float] | None = No
     return FloatEchelon(pivots, dependent)
 
 
-def solved(rows: Sequence[Row], right: Sequence[float], columns: Sequence[str]) -> dict[str, float] | None:
-    """Return the solution of a square system; None where it is singular in floats."""
-    if not columns:
-        return {}
-    matrix = np.array([[row.get(c, 0.0) for c in columns] for row in rows])
-    try:
-        solution = np.linalg.solve(matrix, np.array(right, dtype=float))
-    except np.linalg.LinAlgError:
-        return None
-    small = np.linalg.norm(matrix) * np.linalg.norm(solution) * 1e-13
-    return dict(zip(columns, solution.tolist(), strict=True)) if small < 1 + np.linalg.norm(right) else None
-
-
 def least_step(rows: Sequence[Row], right: Sequence[float]) -> dict[str, float]:
     """Return a short step x with rows x = right, as nearly as that can be: J^T (J J^T + small)^-1 right."""
     names = sorted({name for row in rows for name in row})

@@ -9,15 +9,15 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
-from flint import arb, ctx, fmpq
+from flint import arb, fmpq
 
 from dofkit.checker.point import CheckedPoint
-from dofkit.checker.trees import PRECISION, CheckError, Tree, derivative, evaluated, number
-from dofkit.methods.certificates.numerics import Estimates, NoEstimateError, Pivot, echelon, least_step, solved
+from dofkit.checker.trees import CheckError, derivative, number
+from dofkit.methods.certificates.numerics import Estimates, NoEstimateError, Pivot, echelon, least_step
 from dofkit.methods.certificates.scenery import Scenery, floats_of, number_text, text_of
 
 #: The radius of every box.
-RADIUS = "1e-30"
+RADIUS = "1e-9"
 
 
 @dataclass
@@ -49,7 +49,7 @@ class FoundPoint:
 
 # From floats to a point that can be checked: short numbers, exact where they do, else a box for interval Newton.
 
-NEAR, DIGITS, ITERATIONS = 1e-9, 42, 40
+NEAR, ITERATIONS = 1e-9, 40
 _ROUNDINGS = (4, 32, 1024, 2**20)
 
 
@@ -62,46 +62,6 @@ def residual(scenery: Scenery, floats: Mapping[str, float], names: Sequence[str]
 ATTEMPTS = 5
 #: Of a hundred attempts for an inequality so many start afar, those after them near the origin.
 AFAR = 12
-
-
-def solved_rows(
-    scenery: Scenery, floats: Mapping[str, float], rows: Sequence[str], columns: Sequence[str]
-) -> dict[str, float] | None:
-    """Return the floats with the columns solved for by Newton's method on as many rows, or None."""
-    solution, wanted = dict(floats), set(columns)
-    for _ in range(ITERATIONS):
-        estimates = Estimates(solution)
-        pairs = [(estimates.value(tree), estimates.gradient(tree)) for tree in map(scenery.tree, rows)]
-        matrix = [{n: s for n, s in slope.items() if n in wanted} for _, slope in pairs]
-        step = solved(matrix, [value for value, _ in pairs], columns)
-        if step is None or any(abs(change) > 1e6 for change in step.values()):
-            return None
-        solution |= {name: solution[name] - change for name, change in step.items()}
-        if max(map(abs, step.values()), default=0.0) < 1e-13:
-            return solution
-    return None
-
-
-def refined(
-    scenery: Scenery, exact: Mapping[str, Fraction], floats: Mapping[str, float], rows: list[str], columns: list[str]
-) -> dict[str, str]:
-    """Decimals of the columns, by Newton's method with a fixed matrix in balls."""
-    estimates = Estimates(floats)
-    wanted = set(columns)
-    lefts: list[Tree] = [scenery.tree(name) for name in rows]
-    matrix = [{n: s for n, s in estimates.gradient(tree).items() if n in wanted} for tree in lefts]
-    with ctx.workprec(PRECISION):
-        balls = {n: arb(fmpq(v.numerator, v.denominator)) for n, v in exact.items()}
-        balls |= {name: arb(floats[name]) for name in columns}
-        balls["tdot"] = arb(1)
-        for _ in range(6):
-            values = [evaluated(tree, balls, scenery.effort).mid() for tree in lefts]
-            size = max((abs(float(v)) for v in values), default=0.0)
-            if size < 1e-60:
-                break
-            scaled = solved(matrix, [float(v / size) for v in values], columns) or {}
-            balls |= {name: (balls[name] - arb(scaled.get(name, 0.0)) * arb(size)).mid() for name in columns}
-        return {name: balls[name].str(DIGITS, radius=False) for name in columns}
 
 
 class PointSearch:
@@ -137,7 +97,7 @@ class PointSearch:
         for attempt in range(seed, seed + ATTEMPTS):
             try:
                 start = self._start(attempt, unknowns)
-                reached = self.approached(start, names, set(unknowns))
+                reached = self.approached(floats_of(start), names, set(unknowns))
                 point = self.settled(reached, names, set(unknowns)) if reached is not None else None
             except (NoEstimateError, CheckError):
                 continue
@@ -197,10 +157,10 @@ class PointSearch:
         return values | {tilt: Fraction(1) for _, tilt, _ in self.problem.turns if values.get(tilt) == 0}
 
     def approached(
-        self, start: Mapping[str, Fraction], names: Sequence[str], unknowns: set[str]
+        self, start: Mapping[str, float], names: Sequence[str], unknowns: set[str]
     ) -> dict[str, float] | None:
         """Gauss and Newton's method from a start."""
-        floats = self._with_generic(floats_of(start), names)
+        floats = self._with_generic(dict(start), names, unknowns)
         for _ in range(ITERATIONS):
             self.scenery.effort.spend(40 * len(names) * (1 + len(names)))
             estimates = Estimates(floats)
@@ -216,9 +176,9 @@ class PointSearch:
                 break
         return floats if residual(self.scenery, floats, names) < NEAR else None
 
-    def _with_generic(self, floats: dict[str, float], names: Sequence[str]) -> dict[str, float]:
+    def _with_generic(self, floats: dict[str, float], names: Sequence[str], unknowns: set[str]) -> dict[str, float]:
         """Generic lengths as they are at the start."""
-        generic = set(self.problem.world.generic)
+        generic = unknowns.intersection(self.problem.world.generic)
         estimates = Estimates(dict(floats))
         for name in names if generic else ():
             tree = self.scenery.tree(name)
@@ -255,7 +215,7 @@ class PointSearch:
                 continue
             floats = {**reached, **floats_of(exact)}
             try:
-                floats_again = solved_rows(self.scenery, floats, rows, columns)
+                floats_again = self.approached(floats, rows, set(columns))
             except NoEstimateError:
                 continue
             if floats_again is None or residual(self.scenery, floats_again, names) > NEAR:
@@ -275,7 +235,7 @@ class PointSearch:
                 texts = {name: number_text(value) for name, value in self._ordered(values).items()}
                 return FoundPoint("P", texts, dict(floats), self.scenery.functions, rank=len(rows))
         texts = {name: number_text(value) for name, value in self._ordered(exact).items()}
-        centre = refined(self.scenery, exact, floats, rows, columns)
+        centre = {name: number_text(Fraction(repr(floats[name]))) for name in columns}
         return FoundPoint("P", texts | centre, dict(floats), self.scenery.functions, rows, columns, len(rows))
 
     def _ordered(self, values: Mapping[str, Fraction]) -> dict[str, Fraction]:

@@ -104,6 +104,9 @@ def test_verdicts_say_whether_they_are_checked() -> None:
     checked = {field: verdict.checked for field, verdict in with_certificate(scene, report).verdicts.items()}
     # Euler's angles are singular at this pose: for a chart in them there is no evidence.
     assert [field for field, accepted in checked.items() if not accepted] == ["generalized_coordinates"]
+    strict = with_certificate(scene, report, strict=True)
+    assert (strict.verdict, strict.verdicts["generalized_coordinates"].verdict) == ("probable", "probable")
+    assert strict.verdicts["dof"].verdict == "proved"
     wrong = report.model_copy(update={"instantaneous_dof": 5})
     assert with_certificate(scene, wrong).verdicts["instantaneous_dof"].checked is False
 
