@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from functools import cached_property, partial
 from typing import TypeVar
 
@@ -29,34 +30,31 @@ T = TypeVar("T")
 _LATE = General(None, why="there was no time to count")
 
 
+@dataclass(frozen=True)
 class CountsBeside:
     """The counts of one scene; the reference configuration is turned into numbers once, where it is asked for."""
 
-    def __init__(self, study: Study, instantaneous: int | None) -> None:
-        self.study, self.instantaneous = study, instantaneous
-        self.system, self.reduced = study.system, study.reduced
-        self.setting, self.outcome = study.setting, study.outcome
+    study: Study
+    instantaneous: int | None
 
     def generic(self) -> Generic | None:
         """The count in general position; None without a reference configuration."""
-        if not self.system.has_geometry:
+        study, system = self.study, self.study.system
+        if not system.has_geometry:
             return None
-        count = partial(in_general_position, self.system, self.outcome.written_rows, self.setting)
-        result = unless_late(count, _LATE)
+        result = unless_late(partial(in_general_position, system, study.outcome.written_rows, study.setting), _LATE)
         if result.rank is None:
             return Generic(dof=None, redundant_equations=None, differs=result.why, verdict="undecided")
-        dof = len(self.system.coordinates) - result.rank
-        equations = self.study.equations
+        dof = len(system.coordinates) - result.rank
         return Generic(
             dof=dof,
-            redundant_equations=max(0, equations - result.rank),
+            redundant_equations=max(0, study.equations - result.rank),
             differs=unless_late(partial(self._differs, dof), None),
             verdict=result.verdict,
         )
 
     def _differs(self, dof: int) -> str | None:
-        here = self.instantaneous
-        here = self.outcome.velocity_dof if here is None else here
+        here = self.study.outcome.velocity_dof if self.instantaneous is None else self.instantaneous
         if here is None or here == dof:
             return None
         if here < dof:
@@ -65,27 +63,23 @@ class CountsBeside:
             )
         more = here - dof
         start = f"this geometry is special: {many(more, 'more equation')} {verb(more, 'is', 'are')} dependent"
-        placement = self._placement
-        answer = (
-            []
-            if placement is None
-            else special_position.special_facts(self.system, placement, self._dependent_sets(), self._slack())
-        )
-        return "; ".join([start, *answer[:MOST_TOLD]])
-
-    def _slack(self) -> float:
-        return SLACK * float(self.system.tolerance or 0)
+        if self._placement is None:
+            return start
+        system = self.study.system
+        slack = SLACK * float(system.tolerance or 0)
+        facts = special_position.special_facts(system, self._placement, self._dependent_sets(), slack)
+        return "; ".join([start, *facts[:MOST_TOLD]])
 
     @cached_property
     def _placement(self) -> Placement | None:
-        if self.system.tolerance is not None:
-            return measured_placement(self.system)
-        return drawn_placement(self.system, self.setting.positive)
+        system = self.study.system
+        measured = system.tolerance is not None
+        return measured_placement(system) if measured else drawn_placement(system, self.study.setting.positive)
 
     def _dependent_sets(self) -> list[list[int]]:
         """The constraints of minimal dependent sets of rows at the reference, of circuits too; none holds another."""
         sets: list[list[int]] = []
-        for block, a in self.outcome.answered_parts:
+        for block, a in self.study.outcome.answered_parts:
             if len(a.matrix) != len(block.rows):
                 continue
             for row, support in list(echelon(a.matrix, a.modulus, supports=True).supports.items())[:MOST_SETS]:
@@ -96,7 +90,7 @@ class CountsBeside:
 
     def nearly(self) -> str | None:
         """What to say of a near-dependence at an exact drawing."""
-        here, system = self.instantaneous, self.system
+        here, system = self.instantaneous, self.study.system
         if here is None or system.tolerance is not None or not system.has_geometry:
             return None
         columns = len(system.coordinates)
@@ -104,18 +98,19 @@ class CountsBeside:
         placement = measured_placement(system) if small else None
         return None if placement is None else nearly_dependent(placement, system.dimension, columns, columns - here)
 
-    def _exact(self) -> Placement | None:
-        return None if self.system.tolerance is not None else self._placement
-
     def mobility(self) -> Mobility | None:
         """Gruebler's and Kutzbach's count; None without bodies and joints."""
-        equations = [r.equations for r in self.reduced]
+        study = self.study
         others = sum(
-            all(isinstance(p, Finite) for p in n.pieces) or self.reduced[i].constraint.facts.joint
-            for i, r in enumerate(self.reduced)
+            r.constraint.facts.joint or all(isinstance(p, Finite) for p in n.pieces)
+            for r in study.reduced
             for n in r.normals
         )
-        return kutzbach_count(self.system, equations, others, self.outcome.velocity_dof, self._exact)
+        equations = [r.equations for r in study.reduced]
+        return kutzbach_count(study.system, equations, others, study.outcome.velocity_dof, self._exact)
+
+    def _exact(self) -> Placement | None:
+        return None if self.study.system.tolerance is not None else self._placement
 
 
 def _if_it_has_a_value(work: Callable[[], T]) -> T | None:

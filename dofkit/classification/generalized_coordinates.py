@@ -9,7 +9,6 @@ from functools import partial
 from dofkit.base.deadline import expired, unless_late
 from dofkit.base.verdicts import OPEN, ArgumentKey, Claim, together
 from dofkit.classification import tangent_spaces
-from dofkit.classification.freedom.bridged_blocks import with_still_parts
 from dofkit.classification.study import Decided, Study, counted, decided
 from dofkit.classification.turned_coordinates import (
     TurnedGroup,
@@ -143,7 +142,6 @@ def _of_block(block: Block, a: Answer, setting: Setting, rotations: Sequence[Rot
     orbit = None if turning else orbit_at_reference(block, a, setting)
     if orbit is not None:
         return orbit.chart_of()
-    block = with_still_parts(block, a, setting)
     result = tangent_spaces.nearby(block, a.dof, setting, turning)
     return result if result is not None or turning else whole
 

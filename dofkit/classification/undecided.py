@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from fractions import Fraction
 
 from dofkit.base.verdicts import OPEN
-from dofkit.expressions.tree import Expr
+from dofkit.classification.freedom.preparation import RATES
+from dofkit.expressions.calculus import diff
 from dofkit.mobility.counts import CountedFacts, count
 from dofkit.report import FORMS, ConstraintEntry, Count, FieldVerdict, ForceEntry, Form, Report
 from dofkit.system import Constraint, Relation, System
@@ -52,28 +52,9 @@ def _form(relation: Relation) -> Form:
     """The form as written; over the reals it may be simpler."""
     if relation.sense != "=":
         return "inequality"
-    if not any(map(_moves, relation.expr.symbols)):
-        return "finite"
-    return "pfaffian" if _degree(relation.expr) <= 1 else "nonlinear"
-
-
-def _moves(symbol: Expr) -> bool:
-    return symbol.args[0] in ("velocity", "differential", "dt")
-
-
-def _degree(e: Expr) -> Fraction:
-    """The degree in velocities or differentials, read off the text; 2 for what is no polynomial in them."""
-    if not any(map(_moves, e.symbols)):
-        return Fraction(0)
-    if e.op == "sym":
-        return Fraction(1)
-    if e.op == "add":
-        return max(map(_degree, e.args))
-    if e.op == "mul":
-        return sum(map(_degree, e.args), Fraction(0))
-    if e.op == "pow" and e.args[1].op == "num":
-        return _degree(e.args[0]) * Fraction(e.args[1].args[0])
-    return Fraction(2)
+    moving = frozenset(s for s in relation.expr.symbols if s.args[0] in RATES)
+    linear = all(moving.isdisjoint(diff(relation.expr, s).symbols) for s in moving)
+    return "finite" if not moving else "pfaffian" if linear else "nonlinear"
 
 
 def open_report(

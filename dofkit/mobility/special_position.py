@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from itertools import combinations
 from typing import Any
 
+from dofkit.base.wording import series
 from dofkit.exact.matrices.sparse import Numbers, cross, rank_of_rows, spanning
 from dofkit.expressions.text import to_text
 from dofkit.mobility.placement import Placement
@@ -87,7 +88,7 @@ def _of_texts(g: Geometry, members: Sequence[int]) -> Iterator[str]:
     texts = [g.names[i] for i in members if g.system.constraints[i].facts.written]
     if texts and len(texts) < len(members):
         yield (
-            f"what {_listed(texts)} say{'s' * (len(texts) == 1)} is consistent with the others at the reference "
+            f"what {series(texts)} say{'s' * (len(texts) == 1)} is consistent with the others at the reference "
             "configuration only"
         )
 
@@ -277,11 +278,7 @@ def _classes(lines: Sequence[DrawnLine], same: Callable[[DrawnLine, DrawnLine], 
 
 
 def _names_of(lines: Sequence[DrawnLine]) -> str:
-    return _listed(list(dict.fromkeys(line.name for line in lines)))
-
-
-def _listed(names: Sequence[str]) -> str:
-    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
+    return series(list(dict.fromkeys(line.name for line in lines)))
 
 
 def _less(a: Numbers, b: Numbers) -> tuple[Any, ...]:

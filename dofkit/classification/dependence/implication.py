@@ -251,17 +251,6 @@ class BlockImplication:
         named = frozenset[str]().union(*(self._coordinates[i] for i in rows))
         return set[int]().union(*(self._users[name] for name in named))
 
-    def within(self, rows: Iterable[int]) -> set[int]:
-        """The rows that mention no other bodies and particles than some rows do, those among them."""
-        held = frozenset[str]().union(*(self._owners[i] for i in rows))
-        return {i for i, owners in enumerate(self._owners) if owners <= held}
-
-    @cached_property
-    def _owners(self) -> list[frozenset[str]]:
-        """Whose coordinates each row mentions: a body's, a particle's, or those that are nobody's."""
-        whose = {c.name: f"of {c.owner}" for c in self.setting.roles if c.owner is not None}
-        return [frozenset(whose.get(name, name) for name in names) for names in self._coordinates]
-
     def linearly(self, row: int, others: Sequence[int]) -> bool | None:
         """Return whether a linear relation is a combination of others over Q; None if not all are linear."""
         pieces = [self.block.rows[i].piece for i in (*others, row)]

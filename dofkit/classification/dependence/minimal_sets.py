@@ -5,8 +5,8 @@ suffices for, every larger set suffices for, and what can be left out together c
 
 Rows of a block that are dependent at a point need not imply each other. Three points on a line: the first two distances
 give the third to first order, but not beside it. A form with a coefficient that is 0 on the set is another form at its
-points: where y = 0, dx - y dz is dx. So a row's support is asked whether it implies the row, and else takes up more of
-the independent rows, those first that share a coordinate with it.
+points: where y = 0, dx - y dz is dx. So a row's support is asked whether it implies the row, and else all independent
+rows are, less those that are not needed.
 """
 
 from __future__ import annotations
@@ -89,13 +89,12 @@ class SufficientSets:
             return list(support)
         before = [i for i in self.pivots if self.owners[i] <= self.owners[row]]
         for among in (before, self.pivots):
-            grown = self._grown(row, support, among)
-            if grown is None:
+            if not self._ask(among) or not self.implication.seems(row, among):
                 continue
-            fewer = self.implication.needed(row, grown)
-            if len(fewer) < len(grown) and self._ask(fewer) and self.implication.follows(row, fewer):
+            fewer = self.implication.needed(row, among)
+            if len(fewer) < len(among) and self._ask(fewer) and self.implication.follows(row, fewer):
                 return sorted(fewer)
-            fewer = self._fewest(row, grown, fewer)
+            fewer = self._fewest(row, among, fewer)
             return fewer if self._ask(fewer) and self.implication.follows(row, fewer) else None
         return None
 
@@ -104,24 +103,6 @@ class SufficientSets:
         check()
         self._asked += len(rows) + 1
         return self._asked <= WORK
-
-    def _grown(self, row: int, support: Sequence[int], among: Sequence[int]) -> list[int] | None:
-        """The support with the rows around it, as far as it takes to imply the row; None where that is never enough.
-
-        First those of its own bodies, then those that share coordinates with them, and so on.
-        """
-        grown = set(support)
-        near = self.implication.within([row, *grown])
-        if near.intersection(among) <= grown:
-            near = self.implication.adjacent_rows([row, *grown])
-        while True:
-            more = {i for i in among if i in near} | grown
-            if more == grown or not self._ask(sorted(more)):
-                return None
-            grown = more
-            if self.implication.seems(row, sorted(grown)):
-                return sorted(grown)
-            near = self.implication.adjacent_rows([row, *grown])
 
     def _fewest(self, row: int, rows: Sequence[int], needed: Sequence[int]) -> list[int]:
         """Rows of which the row follows, less those of constraints without which it does too, the last written first.

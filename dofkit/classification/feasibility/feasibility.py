@@ -6,7 +6,7 @@ configuration is given; time and parameters may be as they like, so that what is
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any
@@ -16,25 +16,17 @@ from flint import arb
 from dofkit.base.deadline import limited, unless_late
 from dofkit.base.verdicts import ArgumentKey, Claim, Verdict, weakest
 from dofkit.classification.dependence.minimal_sets import minimal_set
-from dofkit.classification.feasibility.state_problem import (
-    Part,
-    StateProblem,
-    contradictory,
-    parts_of,
-    problems_of,
-    refuted,
-)
-from dofkit.classification.feasibility.witness import Values, value_of, witness
-from dofkit.classification.freedom.branches import Outcome
+from dofkit.classification.feasibility.sign_claims import contradictory, refuted
+from dofkit.classification.feasibility.state_problem import Part, StateProblem, Values, certified_state, parts_of
 from dofkit.classification.freedom.preparation import copies
 from dofkit.classification.study import Study
-from dofkit.exact.zero import BOTH
+from dofkit.exact.zero import BOTH, is_proved_zero
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import substitute
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import BITS, GAP, Answer
-from dofkit.relations.normal.pieces import Reduced
-from dofkit.relations.setting import Setting
+from dofkit.relations.normal.domain import holds_at
 from dofkit.report import FieldVerdict
 from dofkit.system import System, TypeFacts
 
@@ -54,7 +46,7 @@ NOT_MINIMAL = (
 
 @dataclass(frozen=True)
 class Feasibility:
-    """Whether the all inequalities can be satisfied together with the constraints, and how sure that is.
+    """Whether all inequalities can be satisfied together with the constraints, and how sure that is.
 
     ``at``: where they are, values of the symbols that are coupled to them; ``infeasible``: where they cannot, the
     numbers of constraints that cannot all be met, none of which can be left out unless ``reasons`` say so.
@@ -67,24 +59,21 @@ class Feasibility:
     reasons: tuple[str, ...] = ()
 
 
-def feasibility(
-    reduced: Sequence[Reduced], setting: Setting, outcome: Outcome, conflicting: Sequence[int]
-) -> Feasibility:
-    """Of a system with inequalities; ``conflicting``: what its constraints contradict each other by."""
-    if outcome.consistent is False:
-        answer = weakest(*(a.verdict for a in outcome.answers if a.consistent is False))
-        return Feasibility(False, tuple(conflicting), verdict=answer)
-    if setting.engines != BOTH:
+def feasibility(study: Study) -> Feasibility:
+    """Of a system with inequalities."""
+    if study.outcome.consistent is False:
+        answer = weakest(*(a.verdict for a in study.outcome.answers if a.consistent is False))
+        return Feasibility(False, tuple(study.dependence.conflicting.members), verdict=answer)
+    if study.setting.engines != BOTH:
         return Feasibility(None)
-    repeated = copies(reduced)
-    numbers = [i for i, r in enumerate(reduced) if i not in repeated and (r.normals or r.inequalities)]
-    judge = _Judge(reduced, setting, outcome)
+    repeated = copies(study.reduced)
+    numbers = [i for i, r in enumerate(study.reduced) if i not in repeated and (r.normals or r.inequalities)]
     with limited(SECONDS):
-        result = unless_late(partial(judge.judged, numbers), Feasibility(None, reasons=(OPEN,)))
-    return result if result.feasible is not False else _minimal(judge, result)
+        result = unless_late(partial(_judged, study, numbers), Feasibility(None, reasons=(OPEN,)))
+    return result if result.feasible is not False else _minimal(study, result)
 
 
-def _minimal(judge: _Judge, feasibility: Feasibility) -> Feasibility:
+def _minimal(study: Study, feasibility: Feasibility) -> Feasibility:
     """A set that cannot be met, none of which can be left out (a deletion filter, the last written first).
 
     What is left out leaves a set that is proved not to be met; what is kept is needed, where a point shows that the
@@ -93,7 +82,7 @@ def _minimal(judge: _Judge, feasibility: Feasibility) -> Feasibility:
     members, satisfiable = list(feasibility.infeasible), list[set[int]]()
 
     def infeasible(some: list[int]) -> bool:
-        answer = unless_late(partial(judge.judged, some), Feasibility(None)).feasible
+        answer = unless_late(partial(_judged, study, some), Feasibility(None)).feasible
         if answer:
             satisfiable.append({*some})
         return answer is False
@@ -101,93 +90,82 @@ def _minimal(judge: _Judge, feasibility: Feasibility) -> Feasibility:
     with limited(LEAVING_SECONDS):
         kept = minimal_set(members, infeasible, len(members) // 2 if len(members) > FEW else 1)
     open_ = [i for i in kept if not any(some.issuperset({*kept} - {i}) for some in satisfiable)]
-    names = [f"'{judge.reduced[i].constraint.name}'" for i in open_]
+    names = [f"'{study.names[i]}'" for i in open_]
     text = ", ".join(names[:MOST_NAMES]) + (f" and {len(names) - MOST_NAMES} more" if names[MOST_NAMES:] else "")
     reasons = (NOT_MINIMAL.format(names=text),) if open_ else ()
     return replace(feasibility, infeasible=tuple(kept), reasons=reasons)
 
 
-@dataclass(frozen=True)
-class _Judge:
-    """Judges sets of the constraints of one system."""
+def _judged(study: Study, numbers: Sequence[int]) -> Feasibility:
+    """A point for every part with an inequality, at the same values of time and parameters; or a proof.
 
-    reduced: Sequence[Reduced]
-    setting: Setting
-    outcome: Outcome
+    Parts that share time or parameters and are open are taken together, and these may then have any values.
+    """
+    met: dict[int, Feasibility] = {}
+    alone, joined = (parts_of(study.reduced, numbers, shared) for shared in (False, True))
+    for part, fixed in [*((p, True) for p in alone), *((p, False) for p in joined)]:
+        if not all(i in met for i in part.numbers):
+            result = _of_part(study, part, fixed)
+            if result.feasible is False:
+                return result
+            met |= dict.fromkeys(part.numbers, result) if result.feasible else {}
+    asked = {i for part in alone for i in part.numbers}
+    others = _answers(study, set(numbers) - asked)
+    if not asked <= met.keys() or None in [a.consistent for a in others]:
+        return Feasibility(None, reasons=(OPEN,))
+    at = {s: v for result in met.values() for s, v in result.at.items()}
+    sure = weakest(*(result.verdict for result in met.values()), *(a.verdict for a in others))
+    return Feasibility(True, at=at, verdict=sure)
 
-    def judged(self, numbers: Sequence[int]) -> Feasibility:
-        """A point for every part with an inequality, at the same values of time and parameters; or a proof.
 
-        Parts that share time or parameters and are open are taken together, and these may then have any values.
-        """
-        met: dict[int, Feasibility] = {}
-        alone, joined = (parts_of(self.reduced, numbers, shared) for shared in (False, True))
-        for part, fixed in [*((p, True) for p in alone), *((p, False) for p in joined)]:
-            if not all(i in met for i in part.numbers):
-                result = self._of(part, fixed)
-                if result.feasible is False:
-                    return result
-                met |= dict.fromkeys(part.numbers, result) if result.feasible else {}
-        asked = {i for part in alone for i in part.numbers}
-        others = self._answers(set(numbers) - asked)
-        if not asked <= met.keys() or None in [a.consistent for a in others]:
-            return Feasibility(None, reasons=(OPEN,))
-        at = {s: v for result in met.values() for s, v in result.at.items()}
-        sure = weakest(*(result.verdict for result in met.values()), *(a.verdict for a in others))
-        return Feasibility(True, at=at, verdict=sure)
+def _answers(study: Study, numbers: set[int]) -> list[Answer]:
+    """The answers of blocks of these constraints: where a block can be met, so can a part of it."""
+    pairs = zip(study.outcome.blocks, study.outcome.answers, strict=True)
+    return [a for block, a in pairs if not numbers.isdisjoint(row.constraint for row in block.rows)]
 
-    def _answers(self, numbers: set[int]) -> list[Answer]:
-        """The answers of blocks of these constraints: where a block can be met, so can a part of it."""
-        pairs = zip(self.outcome.blocks, self.outcome.answers, strict=True)
-        return [a for block, a in pairs if not numbers.isdisjoint(row.constraint for row in block.rows)]
 
-    def _of(self, part: Part, fixed: bool) -> Feasibility:
-        """Of one part; ``fixed``: time and parameters have given values where a point is looked for."""
-        positive = self.setting.positive
-        claims = part.written()
-        if not contradictory(claims, positive):
-            for problem in self._problems(part):
-                fixed_values = {s: value_of(s) for s in problem.constants} if fixed else {}
-                at = witness(replace(problem, fixed=fixed_values), positive, self._drawn)
-                if at is not None:
-                    return Feasibility(True, at=at, verdict="proved")
-            if not _refuted(part, positive):
-                return Feasibility(None)
+def _of_part(study: Study, part: Part, fixed: bool) -> Feasibility:
+    """Of one part, a state on one choice of branches, or a proof on each that there is none.
+
+    ``fixed``: time and parameters have given values where a state is looked for.
+    """
+    positive, choices = study.setting.positive, part.choices()
+    remaining = [problems for problems in choices if not contradictory(problems[-1].claims, positive)]
+    for problem in (problem for problems in remaining for problem in problems):
+        at = _state(study, part, problem, fixed)
+        if at is not None:
+            return Feasibility(True, at=at, verdict="proved")
+    if choices and all(refuted(problems[-1].claims, positive) for problems in remaining):
         return Feasibility(False, part.numbers, verdict="proved")
+    return Feasibility(None)
 
-    def _problems(self, part: Part) -> Iterator[StateProblem]:
-        """Yield the problems of which a solution is searched, one or more for each choice of branches.
 
-        Nothing where geometry is measured with a tolerance, or where a part is no list of equations and inequalities.
-        Where a joint can also close turned over only the reference configuration is tried: ``drawn_only``.
-        """
-        measured = self.setting.tolerance is not None and any(r.normals for r in part.reduced)
-        if measured or not part.readable:
-            return
-        turned = any(_turns_over(r.constraint.facts, self.setting.dimension) for r in part.reduced)
-        for choice in part.choices() or ():
-            for problem in problems_of(choice.rows, choice.conditions, choice.names):
-                yield replace(problem, drawn_only=turned)
+def _state(study: Study, part: Part, problem: StateProblem, fixed: bool) -> Values | None:
+    """Return a state that solves a problem: the reference configuration, or one that a search finds.
 
-    @property
-    def _drawn(self) -> Mapping[Expr, Expr]:
-        return self.setting.pose if self.setting.reference is None else self.setting.reference
+    None where geometry is measured with a tolerance. Where a joint can also close turned over only the reference
+    configuration is meant by its relations.
+    """
+    setting = study.setting
+    if setting.tolerance is not None and any(r.normals for r in part.reduced):
+        return None
+    reference, positive = setting.reference, setting.positive
+    if reference is not None and problem.still and study.outcome.consistent and _is_met(problem, reference, positive):
+        return {s: reference[s] for s in problem.places}
+    turned = any(_turns_over(r.constraint.facts, setting.dimension) for r in part.reduced)
+    return None if turned else certified_state(problem, positive, fixed)
+
+
+def _is_met(problem: StateProblem, configuration: Mapping[Expr, Expr], positive: frozenset[Expr]) -> bool:
+    """Return whether a configuration at rest satisfies equations and conditions, those strictly."""
+    if not all(holds_at(c, configuration, positive, strictly=True) for c in problem.conditions):
+        return False
+    return all(is_proved_zero(substitute(e, configuration), positive) for e in problem.equations)
 
 
 def _turns_over(facts: TypeFacts, dimension: int) -> bool:
     """Return whether the relations of a type also hold in an assembly that is turned over, which nobody means."""
     return facts.half_turns and not (facts.axial and dimension < MOST_DIMENSIONS)
-
-
-def _refuted(part: Part, positive: frozenset[Expr]) -> bool:
-    """Return whether it is proved that a part cannot be satisfied: as written, or on every choice of branches."""
-    if not part.readable:
-        return False
-    if refuted(part.written(), positive):
-        return True
-    choices = list(part.choices() or ())
-    claims = [choice.claims() for choice in choices]
-    return bool(choices) and all(refuted(c, positive) for c in claims)
 
 
 #: Decimals of a number that is known as a ball.
@@ -196,7 +174,7 @@ DIGITS = 15
 
 def inequalities_together(study: Study, fields: Mapping[str, Any]) -> Mapping[str, Any]:
     """The report's fields, beside what is ``fields`` already."""
-    result = feasibility(study.reduced, study.setting, study.outcome, study.dependence.conflicting.members)
+    result = feasibility(study)
     at = _texts(study.system, result.at) if result.feasible else None
     claims = _claims(result)
     return {

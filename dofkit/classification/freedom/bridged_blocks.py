@@ -8,10 +8,9 @@ from dataclasses import replace
 from dofkit.base.verdicts import VERDICTS, weakest
 from dofkit.configuration.variety import of_reference
 from dofkit.expressions import tree as ex
-from dofkit.expressions.vectors import difference
 from dofkit.relations.answer import Answer, AnsweredPart, FollowedClasses, Size
 from dofkit.relations.blocks import Block, Row, split, uses_time
-from dofkit.relations.normal.pieces import Finite, JointEquation
+from dofkit.relations.normal.pieces import JointEquation
 from dofkit.relations.setting import Setting
 
 #: A block of so few coordinates, all of whose equations are written out, is answered as soon as a whole.
@@ -103,20 +102,3 @@ def _looked(block: Block, answered: Sequence[AnsweredPart]) -> FollowedClasses:
     if any(not (k.left_out or k.rigid or k.followed) for k in answer):
         return whole._replace(left_out=0, rigid=0, followed=0)
     return whole._replace(left_out=whole.left_out + len(block.rows) - sum(len(p.block.rows) for p in answered))
-
-
-def with_still_parts(block: Block, a: Answer, setting: Setting) -> Block:
-    """The block with x = x0 for the coordinates of parts that do not move from the drawing, however singular they are.
-
-    So it is regular where only such parts are not.
-    """
-    still = [part.block for part in a.answered_parts or () if part.answer.dof == 0 and part.answer.about == "reference"]
-    gone = {id(row) for part in still for row in part.rows}
-    drawn = setting.reference or {}
-    fixed = [
-        Row(part.rows[0].constraint, Finite(difference(s, drawn[s])))
-        for part in still
-        for s in map(ex.coordinate, part.coordinates)
-    ]
-    rows = (*fixed, *(row for row in block.rows if id(row) not in gone))
-    return Block(block.coordinates, rows, block.conditions) if still else block

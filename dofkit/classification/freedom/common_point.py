@@ -103,7 +103,7 @@ def _point_within(chart: Chart, conditions: Sequence[DomainCondition], dof: int 
         if point is not None and point.certified and point.consistent:
             points.append(point)
     wanted = max((p.part.rank for p in points), default=0) if dof is None else chart.coordinates - dof
-    return next((p for p in points if p.part.rank == wanted and _hold_strictly(conditions, p.point.symbols)), None)
+    return next((p for p in points if p.part.rank == wanted and hold_strictly(conditions, p.point.symbols)), None)
 
 
 def _is_same_component(block: Block, result: Answer) -> bool:
@@ -119,10 +119,10 @@ def _is_strict_at_witness(block: Block, result: Answer) -> bool:
         configuration = {s: Fraction(text) for s, text in (result.witness or {}).items()}
     except ValueError:
         return False
-    return not configuration or _hold_strictly(block.conditions, configuration)
+    return not configuration or hold_strictly(block.conditions, configuration)
 
 
-def _hold_strictly(conditions: Iterable[DomainCondition], point: Mapping[Expr, arb | Fraction]) -> bool:
+def hold_strictly(conditions: Iterable[DomainCondition], point: Mapping[Expr, arb | Fraction]) -> bool:
     """Return whether conditions are proved to be satisfied at a point, and not as equations."""
     balls = [(c, interval_of(c.expr, point)) for c in conditions]
     return all(v is not None and not v.contains(0) and (c.sense == "!=" or bool(v > 0)) for c, v in balls)
@@ -184,7 +184,7 @@ def at_one_point(
     if any(a.consistent is not True for a in result):
         return CommonPoint(kept, result)
     point = _point(result, setting)
-    outside = [(i, c) for i, c in domain if not _hold_strictly([c], {s: point.get(s, arb(0)) for s in c.expr.symbols})]
+    outside = [(i, c) for i, c in domain if not hold_strictly([c], {s: point.get(s, arb(0)) for s in c.expr.symbols})]
     names = [*(_names(block) for block in written), *(_names_of(c, i) for i, c in outside)]
     free_values: dict[Expr, str] = {}
     failed: dict[bool | None, list[int]] = {False: [], None: []}

@@ -11,8 +11,9 @@ from dofkit.base.deadline import OutOfTimeError, check
 from dofkit.base.verdicts import Claim, Verdict, together, weakest
 from dofkit.classification.freedom.branches import AnsweredBlocks, Outcome, solve
 from dofkit.classification.labels.companions import Companionship
-from dofkit.classification.labels.entry import Evidence, LabelledRow, entry, label_in_system, unfinished
+from dofkit.classification.labels.entry import Evidence, LabelledRow, entry, label_in_system
 from dofkit.classification.labels.reasons import EntryDependence, Others
+from dofkit.classification.undecided import open_entry
 from dofkit.exact.matrices.sparse import rank_of_rows
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import TIME
@@ -61,7 +62,7 @@ def entries_of(
             if kind is not None and _is_nameless(entries[-1]):
                 by_kind[kind] = entries[-1]
         except OutOfTimeError as error:
-            entries.append(unfinished(r, str(error)))
+            entries.append(open_entry(r.constraint, str(error)))
     return entries
 
 

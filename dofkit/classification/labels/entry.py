@@ -22,7 +22,6 @@ from dofkit.classification.labels.reasons import (
     timed_in_system,
     traits_together,
 )
-from dofkit.classification.undecided import open_entry
 from dofkit.exact.zero import BOTH
 from dofkit.integrability.traits import Integrability, TraitAnswer, Traits, all_of, integrability
 from dofkit.relations.answer import GAP, Answer, HolonomyLabel
@@ -230,15 +229,6 @@ def _integral_of(
     if labels.alone and own_integral is not None:
         return own_integral, others
     return others.integral if labels.alone or labels.in_system else None, others
-
-
-def unfinished(reduced: Reduced, why: str) -> ConstraintEntry:
-    """Return an entry without labels: there was no time for them."""
-    pieces: list[Clause] = [p for normal in reduced.normals for p in normal.pieces] + list(reduced.inequalities)
-    form = max((form_of(p) for p in pieces), key=FORMS.index, default="finite")
-    bilateral = not reduced.inequalities
-    changes = {"form": form, "bilateral": bilateral, "equations": reduced.equations}
-    return open_entry(reduced.constraint, why).model_copy(update=changes)
 
 
 def _proofs(form: Form, forms: Sequence[Pfaffian], by_itself: Answer | None, setting: Setting) -> list[Integrability]:

@@ -1,0 +1,126 @@
+"""What contradicts itself by signs: equations and inequalities, for which no real point is left.
+
+They are linear conditions on their terms, taken for unknowns of their own, beside the signs that terms have wherever
+they have a value [Motzkin1936]; then so are products of two inequalities. What is left is put to boxes [Moore1966].
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from fractions import Fraction
+from functools import lru_cache
+from itertools import combinations_with_replacement
+from typing import Literal, NamedTuple
+
+from flint import fmpq
+
+from dofkit.exact.linear_inequalities import LinearCondition, solution
+from dofkit.expressions import tree as ex
+from dofkit.expressions.terms import linear_terms
+from dofkit.expressions.tree import Expr
+from dofkit.relations.normal.no_solution import no_solution
+
+#: Inequalities of which products are taken.
+MAX_FACTORS = 8
+#: Terms of all together, or twice as many as claims where those are more.
+MAX_TERMS = 80
+#: More claims than this are not put to boxes.
+MAX_BOXED = 40
+#: Functions that are nowhere negative, and those that are above 0; bounded by 1 in size.
+_NOT_NEGATIVE, _POSITIVE, _BOUNDED = frozenset({"abs", "acos"}), frozenset({"exp", "cosh"}), ("sin", "cos", "tanh")
+
+ZERO = fmpq(0)
+Sense = Literal["=", ">=", ">"]
+
+
+class SignClaim(NamedTuple):
+    """``expr`` is 0, or >= 0, or > 0, by its ``sense``."""
+
+    expr: Expr
+    sense: Sense
+
+
+def refuted(claims: Sequence[SignClaim], positive: frozenset[Expr]) -> bool:
+    """True where no real point satisfies all claims: proved. False says nothing.
+
+    Parameters may have any value (those of ``positive`` a positive one), and so may every value of an unknown function.
+    """
+    if contradictory(claims, positive):
+        return True
+    if all(u.op == "sym" or u == ex.ONE for c in claims for u in _terms(c.expr)):
+        return False
+    more = list(_products(claims, positive))
+    if more and contradictory([*claims, *more], positive):
+        return True
+    equations = [c.expr for c in claims if c.sense == "="]
+    others = [c.expr for c in claims if c.sense != "="]
+    return len(claims) <= MAX_BOXED and no_solution(equations, positive, others)
+
+
+@lru_cache(maxsize=4096)
+def _terms(e: Expr) -> Mapping[Expr, Fraction]:
+    """The expression as a combination of its terms."""
+    return linear_terms(e)
+
+
+def contradictory(claims: Sequence[SignClaim], positive: frozenset[Expr]) -> bool:
+    """True where no values of the terms, taken for unknowns of their own, satisfy the claims and the terms' signs."""
+    terms = sorted({u for c in claims for u in _terms(c.expr) if u != ex.ONE}, key=repr)
+    facts = [*claims, *(fact for u in terms for fact in _facts(u, positive))]
+    order = sorted({u for c in facts for u in _terms(c.expr)} - {ex.ONE}, key=repr)
+    if len(order) > max(MAX_TERMS, 2 * len(claims)):
+        return False
+    return solution([_linear_condition(c, order) for c in facts]) is False
+
+
+def _linear_condition(claim: SignClaim, order: Sequence[Expr]) -> LinearCondition:
+    """Return a claim as a linear condition on the terms in ``order``."""
+    terms = _terms(claim.expr)
+    *row, constant = (fmpq(v.numerator, v.denominator) if (v := terms.get(u)) else ZERO for u in (*order, ex.ONE))
+    return LinearCondition(tuple(row), constant, claim.sense)
+
+
+def _facts(term: Expr, positive: frozenset[Expr]) -> Iterator[SignClaim]:
+    """What holds of a term wherever it has a value."""
+    sense = _sign(term, positive)
+    if sense is not None:
+        yield SignClaim(term, sense)
+    if term.op == "fn" and term.args[0] in _BOUNDED:
+        yield from (SignClaim(ex.ONE - term, ">="), SignClaim(ex.ONE + term, ">="))
+    if term.op == "fn" and term.args[0] == "cosh":
+        yield SignClaim(term - ex.ONE, ">=")
+    if term.op == "fn" and term.args[0] == "abs":
+        yield from (SignClaim(term - term.args[1], ">="), SignClaim(term + term.args[1], ">="))
+
+
+def _sign(term: Expr, positive: frozenset[Expr]) -> Sense | None:
+    """>= or > where a product is so wherever it has a value; None where that is not seen."""
+    signs = [_sign_of_factor(f, positive) for f in (term.args if term.op == "mul" else (term,))]
+    if None in signs:
+        return None
+    return ">=" if ">=" in signs else ">"
+
+
+def _sign_of_factor(factor: Expr, positive: frozenset[Expr]) -> Sense | None:
+    if factor in positive or factor.op == "const" or (factor.op == "fn" and factor.args[0] in _POSITIVE):
+        return ">"
+    if factor.op == "fn" and factor.args[0] in _NOT_NEGATIVE:
+        return ">="
+    if factor.op == "pow" and factor.args[1].op == "num":
+        exponent = factor.args[1].args[0]
+        if _sign_of_factor(factor.args[0], positive) == ">":
+            return ">"
+        if exponent.denominator % 2 == 0 or exponent.numerator % 2 == 0:
+            return ">" if exponent < 0 else ">="
+    return None
+
+
+def _products(claims: Sequence[SignClaim], positive: frozenset[Expr]) -> Iterator[SignClaim]:
+    """Inequalities times each other, positive parameters and what bounds functions among them."""
+    symbols = frozenset[Expr]().union(*(c.expr.symbols for c in claims))
+    factors = [c for c in claims if c.sense != "="]
+    factors += [SignClaim(s, ">") for s in sorted(symbols & positive, key=repr)]
+    functions = {u for c in claims for e in _terms(c.expr) for u in ex.nodes(e) if u.op == "fn"}
+    factors += [fact for u in sorted(functions, key=repr) for fact in _facts(u, positive)]
+    for first, other in combinations_with_replacement(factors, 2) if len(factors) <= MAX_FACTORS else ():
+        yield SignClaim(ex.mul(first.expr, other.expr), ">" if first.sense == other.sense == ">" else ">=")
