@@ -100,16 +100,9 @@ def page_height(sketch: Sketch, clips: Sequence[Clip], switches: Sequence[Switch
     """Return the height of `page_html` in pixels: title, answer, panel, buttons, switches, legend, notes."""
     margins = margins_of(sketch)
     panel = (FRAME - 2 * EDGE) * (margins.high - margins.low) / WIDTH
-    lines = [
-        1 + len(sketch.title) // 70,
-        1 + len(sketch.answer) // 85,
-        *(1 + len(note) // 95 for note in _notes(sketch)),
-    ]
-    lines.append(
-        bool(keys_of(sketch.shapes, sketch.meanings)) + (2 + (sketch.dimension < 3)) * bool(clips) + 3 * bool(switches)
-    )
-    lines.append(max((1 + len(clip.text) // 85 for clip in clips if clip.text), default=0))
-    return panel + LINE * sum(lines) + 4 * EDGE
+    texts = [sketch.title, sketch.answer, *_notes(sketch), max((clip.text for clip in clips), key=len, default="")]
+    lines = sum(-(-len(text) // 80) for text in texts) + bool(keys_of(sketch.shapes, sketch.meanings))
+    return panel + LINE * (lines + (2 + (sketch.dimension < 3)) * bool(clips) + 3 * bool(switches)) + 4 * EDGE
 
 
 class Panel(NamedTuple):

@@ -152,16 +152,12 @@ class Eliminator:
             mapping = {ex.coordinate(candidate.name): value}
             try:
                 solved = {n: substitute(e, mapping) for n, e in solved.items()} | {candidate.name: value}
-                remaining = [relation_ for r in remaining for relation_ in self._remainders(r, mapping)]
+                remaining = [r._replace(expr=substitute(r.expr, mapping)) for r in remaining]
+                remaining = [r for r in remaining if not is_identically_zero(r.expr, self.positive)]
             except NoValueError:
                 break
             constants |= relation.constants
         return Elimination(solved, frozenset(constants), tuple(notes))
-
-    def _remainders(self, relation: EliminatedRelation, mapping: Mapping[Expr, Expr]) -> list[EliminatedRelation]:
-        """A relation after a substitution; nothing where it then holds identically."""
-        e = substitute(relation.expr, mapping)
-        return [] if is_identically_zero(e, self.positive) else [relation._replace(expr=e)]
 
     def _best(
         self, relations: Sequence[EliminatedRelation], names: Sequence[str], preferred: Sequence[str], roots: bool
@@ -294,8 +290,12 @@ def inserted(piece: Remaining, elimination: Elimination) -> Remaining:
 
 def vanishes(piece: Remaining, positive: frozenset[Expr]) -> bool:
     """Return whether a relation holds identically, proved in the canonical ring."""
-    expressions = [*piece.coefficients.values(), piece.dt] if isinstance(piece, Pfaffian) else [piece.expr]
-    return all(e.is_zero or is_identically_zero(e, positive) is True for e in expressions)
+    return all(e.is_zero or is_identically_zero(e, positive) is True for e in expressions_of(piece))
+
+
+def expressions_of(piece: Remaining) -> list[Expr]:
+    """Return the coefficients of a form, or the expression that is 0."""
+    return [*piece.coefficients.values(), piece.dt] if isinstance(piece, Pfaffian) else [piece.expr]
 
 
 # roots of squares

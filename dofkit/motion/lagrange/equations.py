@@ -211,8 +211,7 @@ class MotionSource:
     def model(self, care: Care = ELIMINATIONS[0]) -> LagrangeModel:
         """Made ready, with as much eliminated as ``care`` allows. Raises SceneError for masses that are missing."""
         model = modelled(self.study, self.energy, self.names, care)
-        used = frozenset().union(*(e.symbols for e in _energies(model)))
-        faults = missing(used, self.scene)
+        faults = missing(model.energy.symbols, self.scene)
         if faults:
             raise SceneError(tuple(faults), self.scene.name)
         return model
@@ -240,11 +239,6 @@ def _tells_of_motion(scene: Scene) -> bool:
     if scene.energies is not None and scene.energies.kinetic is not None:
         return True
     return any(p.mass is not None for p in scene.particles) or any(b.mass is not None for b in scene.bodies)
-
-
-def _energies(model: LagrangeModel) -> list[Expr]:
-    e = model.energy
-    return [e.kinetic, e.potential, e.dissipation, *e.forces.values()]
 
 
 def _small(scene: Scene, derived: Derived) -> tuple[Linearized | None, tuple[str, ...]]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -23,6 +24,7 @@ from dofkit.motion.lagrange.elimination import (
     Elimination,
     Eliminator,
     Remaining,
+    expressions_of,
     in_velocities,
     inserted,
     motions,
@@ -107,9 +109,10 @@ def modelled(study: Examined, energy: Energy, names: Names, care: Care = ELIMINA
     eliminator = Eliminator(study.setting.positive, energy.potential, study.system.reference, care)
     for relations in ([*finite, *integrals], finite, []):
         elimination = _agreeing(eliminator, relations, coordinates, free)
-        model = _built_or_none(study, energy, elimination, coordinates)
-        if model is not None:
-            return model
+        with suppress(NoValueError):  # an expression may have no value once coordinates are eliminated
+            model = _built(study, energy, elimination, coordinates)
+            if model is not None:
+                return model
     raise NoEquationsError(
         "it is undecided which of the constraints are independent, so no equations of motion are given"
     )
@@ -142,16 +145,6 @@ def _possible(study: Examined) -> None:
     if report.consistent is None or report.dof is None or report.velocity_dof is None:
         why = "; ".join(dict.fromkeys(r for a in study.outcome.answers for r in a.reasons)) or "it was not decided"
         raise NoEquationsError(f"it is undecided how the system can move, so no equations of motion are given: {why}")
-
-
-def _built_or_none(
-    study: Examined, energy: Energy, elimination: Elimination, coordinates: Sequence[str]
-) -> LagrangeModel | None:
-    """Return the model after an elimination; None where an expression has no value once coordinates are eliminated."""
-    try:
-        return _built(study, energy, elimination, coordinates)
-    except NoValueError:
-        return None
 
 
 def _integrals(study: Examined, names: Names) -> Iterator[EliminatedRelation]:
@@ -192,7 +185,7 @@ def _built(
     pieces = [inserted(r.piece, elimination) for r in study.outcome.rows if isinstance(r.piece, Remaining)]
     pieces += [inserted(Finite(g), elimination) for a in study.outcome.answers for g in a.hidden]
     remaining = [p for p in pieces if not vanishes(p, study.setting.positive)]
-    if any(_symbols(p) & elimination.constants for p in remaining):
+    if any(e.symbols & elimination.constants for p in remaining for e in expressions_of(p)):
         return None
     chosen = independent(kept, remaining, study.setting)
     if chosen is None or len(elimination.solved) + len(chosen) != len(coordinates) - (study.report.velocity_dof or 0):
@@ -217,12 +210,6 @@ def _built(
         tuple(study.report.redundant or ()),
         tuple(notes),
     )
-
-
-def _symbols(piece: Remaining) -> frozenset[Expr]:
-    if isinstance(piece, Pfaffian):
-        return frozenset().union(*(e.symbols for e in (*piece.coefficients.values(), piece.dt)))
-    return piece.expr.symbols
 
 
 def _reduced(energy: Energy, elimination: Elimination, kept: Sequence[str], setting: Setting) -> Energy | None:
@@ -251,10 +238,7 @@ def _reduced(energy: Energy, elimination: Elimination, kept: Sequence[str], sett
                     forces[j] = forces.get(j, ZERO) + insert(force) * slope
     potential, notes = without_roots(potential, setting.positive, setting.reference)
     reduced = Energy(kinetic, potential, insert(energy.dissipation), forces, (*energy.notes, *notes))
-    used = (reduced.kinetic, reduced.potential, reduced.dissipation, *forces.values())
-    if any(e.symbols & elimination.constants for e in used):
-        return None
-    return reduced
+    return None if reduced.symbols & elimination.constants else reduced
 
 
 def independent(names: Sequence[str], pieces: Sequence[Remaining], setting: Setting) -> list[Remaining] | None:
