@@ -46,7 +46,7 @@ NOT_SAMPLED = "No finite motion was sampled: {}"
 RESTS = "Time goes on, and the coordinates rest."
 UNCHANGED = "{} is redundant{}: without it the motion goes on unchanged."
 IMPLIED = "{} is implied by the others as long as {} in use: without it the motion goes on unchanged."
-NEEDED = "{} is needed: without it this motion is possible too."
+NEEDED = "{} is needed: without it this motion is possible too (what it moves is outlined in dashes and dots)."
 
 
 class ClipMaker:

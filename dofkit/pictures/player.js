@@ -287,7 +287,7 @@
       const look = data.looks[part.shape.i], first = part.shape.v[0];
       const fresh = clip && clip.dropped && !state.free && gap(here[first[0]], still[first[0]]) > 1e-4;
       if (part.shape.k !== "words") {
-        drawShape(part.shape, part.points, fresh ? ["#D55E00", look[1], look[2], look[3] && "#F7CDB4", 0.6, false] : look);
+        drawShape(part.shape, part.points, fresh ? ["#A31621", look[1] + 0.8, [7, 2, 1.5, 2], look[3] && "#F3C9CE", 0.6, false] : look);
       }
     }
     drawPaths(view);
