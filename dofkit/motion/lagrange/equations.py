@@ -23,7 +23,7 @@ from dofkit.expressions.text.names import Names
 from dofkit.expressions.text.printing import to_text
 from dofkit.expressions.tree import Expr
 from dofkit.motion.lagrange.derivation import SINGULAR, Derived, derive
-from dofkit.motion.lagrange.elimination import ELIMINATIONS, Care, Remaining
+from dofkit.motion.lagrange.elimination import Remaining
 from dofkit.motion.lagrange.energies import Energy, energy_of, missing
 from dofkit.motion.lagrange.joint_motion import joint_motion, written_length
 from dofkit.motion.lagrange.model import LagrangeModel, NoEquationsError, modelled
@@ -41,14 +41,14 @@ __all__ = ["Conserved", "Linearized", "MotionReport", "NoEquationsError", "deriv
 
 #: Equations of longer Lagrangians than this are too long to be read, where much was eliminated.
 LONGEST = 500
-#: Seconds for each attempt with less eliminated than the one before.
+#: Seconds for the equations with all eliminated that can be.
 TRYING = 8.0
 #: Seconds for the equations of a tree in the angles of its joints, and the nodes of a Lagrangian that is tried.
 JOINTS_TRYING, MOST_WRITTEN = 20.0, 2000
 #: Seconds for sorting a Lagrangian, and the nodes of one that is too long for that.
 SORTING, MOST_NODES = 2.0, 1500
 #: Said where the elimination was cut short.
-LONG = "Further elimination would make the equations too long to read, so some constraints keep a multiplier."
+LONG = "Elimination would make the equations too long to read, so the constraints keep multipliers."
 
 #: Said where a tree is too large.
 TOO_LONG = (
@@ -114,29 +114,25 @@ def lagrange(scene: SceneLike, linearize: bool = False, budget: float | None = N
 def derived_of(scene: Scene) -> Derived:
     """The equations of motion as expressions.
 
-    Where they would be longer than a text of a scene may be, less is eliminated, and more multipliers are kept.
+    Where they would be longer than a text of a scene may be, nothing is eliminated, and all multipliers are kept.
     """
     source = read(scene)
     by_joints = _by_joints(source)
     if by_joints is not None:
         return by_joints
-    freest: LagrangeModel | None = None
-    for care in ELIMINATIONS[:-1]:
-        model = source.model(care)
-        if not model.elimination.solved:
-            return derive(model)
-        freest = freest or model
-        model = _sorted(model)
-        if _short(model.energy.lagrangian):
-            try:
-                with by_processor(min(TRYING, remaining_seconds())):
-                    derived = derive(model)
-            except OutOfTimeError:
-                check()
-                continue
+    model = source.model()
+    if not model.elimination.solved:
+        return derive(model)
+    model = _sorted(model)
+    if _short(model.energy.lagrangian):
+        try:
+            with by_processor(min(TRYING, remaining_seconds())):
+                derived = derive(model)
             if _readable(derived):
-                return _with_note(derived, freest)
-    return _with_note(derive(source.model(ELIMINATIONS[-1])), freest)
+                return derived
+        except OutOfTimeError:
+            check()
+    return _noted(derive(source.model(eliminates=False)), LONG)
 
 
 def _by_joints(source: MotionSource) -> Derived | None:
@@ -156,17 +152,11 @@ def _by_joints(source: MotionSource) -> Derived | None:
     except OutOfTimeError:
         check()
         raise NoEquationsError(TOO_LONG.format(len(scene.coordinates), terms, "fewer")) from None
-    if _readable(derived):
-        return derived
-    return replace(derived, model=replace(derived.model, notes=(*derived.model.notes, LENGTHY)))
+    return derived if _readable(derived) else _noted(derived, LENGTHY)
 
 
-def _with_note(derived: Derived, freest: LagrangeModel | None) -> Derived:
-    """Says so where more could have been eliminated."""
-    model = derived.model
-    if freest is None or model.elimination.solved.keys() >= freest.elimination.solved.keys():
-        return derived
-    return replace(derived, model=replace(model, notes=(*model.notes, LONG)))
+def _noted(derived: Derived, note: str) -> Derived:
+    return replace(derived, model=replace(derived.model, notes=(*derived.model.notes, note)))
 
 
 def _short(lagrangian: Expr) -> bool:
@@ -208,9 +198,9 @@ class MotionSource:
         """What is known of the scene's constraints."""
         return examined(self.system, passes=GENERIC)
 
-    def model(self, care: Care = ELIMINATIONS[0]) -> LagrangeModel:
-        """Made ready, with as much eliminated as ``care`` allows. Raises SceneError for masses that are missing."""
-        model = modelled(self.study, self.energy, self.names, care)
+    def model(self, eliminates: bool = True) -> LagrangeModel:
+        """Made ready, with all eliminated that can be, or nothing. Raises SceneError for masses that are missing."""
+        model = modelled(self.study, self.energy, self.names, eliminates)
         faults = missing(model.energy.symbols, self.scene)
         if faults:
             raise SceneError(tuple(faults), self.scene.name)
@@ -250,7 +240,7 @@ def _small(scene: Scene, derived: Derived) -> tuple[Linearized | None, tuple[str
     if not derived.model.elimination.solved or derived.model.elimination.constants:
         return None, (why,)
     try:
-        return linearized(derive(read(scene).model(ELIMINATIONS[-1]))), ()
+        return linearized(derive(read(scene).model(eliminates=False))), ()
     except NoEquationsError:
         return None, (why,)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 from dofkit.base.errors import DofkitError, Fault, NoValueError, SceneError, TextError
@@ -18,8 +18,6 @@ from dofkit.expressions.text import parse_relations
 from dofkit.expressions.text.names import Names, UnknownNameError
 from dofkit.expressions.tree import ZERO, Expr
 from dofkit.motion.lagrange.elimination import (
-    ELIMINATIONS,
-    Care,
     EliminatedRelation,
     Elimination,
     Eliminator,
@@ -93,8 +91,8 @@ class LagrangeModel:
         return self.energy.forces.get(name, ZERO) - diff(self.energy.dissipation, ex.velocity(name))
 
 
-def modelled(study: Examined, energy: Energy, names: Names, care: Care = ELIMINATIONS[0]) -> LagrangeModel:
-    """The system with as much eliminated as is possible in closed form, and as ``care`` allows.
+def modelled(study: Examined, energy: Energy, names: Names, eliminates: bool = True) -> LagrangeModel:
+    """The system with as much eliminated as is possible in closed form, or with nothing eliminated.
 
     Integrals of differential constraints are used where their constants do not enter the motion. Raises
     NoEquationsError where the system is inconsistent or was not decided.
@@ -106,8 +104,8 @@ def modelled(study: Examined, energy: Energy, names: Names, care: Care = ELIMINA
     finite = [EliminatedRelation(r.piece.expr) for r in outcome.rows if isinstance(r.piece, Finite)]
     finite += [EliminatedRelation(g) for a in outcome.answers for g in a.hidden]
     integrals = list(_integrals(study, names))
-    eliminator = Eliminator(study.setting.positive, energy.potential, study.system.reference, care)
-    for relations in ([*finite, *integrals], finite, []):
+    eliminator = Eliminator(study.setting.positive, energy.potential, study.system.reference)
+    for relations in ([*finite, *integrals], finite, []) if eliminates else ([],):
         elimination = _agreeing(eliminator, relations, coordinates, free)
         with suppress(NoValueError):  # an expression may have no value once coordinates are eliminated
             model = _built(study, energy, elimination, coordinates)
@@ -125,7 +123,7 @@ def _agreeing(
     dependent = [c for c in coordinates if c not in free]
     elimination = eliminator.eliminated(relations, coordinates, dependent)
     if elimination.solved.keys() != set(dependent) and len(elimination.solved) == len(dependent):
-        other = replace(eliminator, care=eliminator.care._replace(roots=0)).eliminated(relations, dependent, dependent)
+        other = eliminator.eliminated(relations, dependent, dependent, roots=False)
         if len(other.solved) == len(dependent):
             return other
     return elimination
