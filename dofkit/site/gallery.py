@@ -22,6 +22,7 @@ from dofkit.report import Report
 from dofkit.scene.catalog import catalog_folder, catalog_text
 from dofkit.scene.constraints.base import Equation
 from dofkit.scene.reading import loads
+from dofkit.scene.scene import Scene
 from dofkit.site.markdown import SitePage, bench_link, code, fence, folded, page, picture, prose
 
 FOLDER = "gallery"
@@ -96,16 +97,16 @@ def shown_scene(name: str, folder: str, written: str) -> ShownScene:
         svg=svg_of(drawn.page, PIXELS),
         thumbnail=svg_of(page_of(without_text(drawn.sketch)), PIXELS),
         alternative=drawn.alternative,
-        formulas="".join(_formulas(report)),
+        formulas="".join(_formulas(scene, report)),
         answer=in_a_line(report),
         report=report.text(COLUMNS),
     )
 
 
-def _formulas(report: Report) -> Iterator[str]:
+def _formulas(scene: Scene, report: Report) -> Iterator[str]:
     """Yield the equations of a scene, set as mathematics."""
-    for entry in report.constraints:
-        latex = typeset(entry.text) if entry.type == Equation.kind() else None
+    for constraint, entry in zip(scene.constraints, report.constraints, strict=True):
+        latex = typeset(entry.text) if isinstance(constraint, Equation) else None
         if latex is not None:
             yield f'<li>{_html(entry.name)}: <math aria-label="{escape(entry.text)}">{mathml(latex)}</math></li>'
 

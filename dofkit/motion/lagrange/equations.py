@@ -25,12 +25,12 @@ from dofkit.expressions.tree import Expr
 from dofkit.motion.lagrange.derivation import SINGULAR, Derived, derive
 from dofkit.motion.lagrange.elimination import Remaining
 from dofkit.motion.lagrange.energies import Energy, energy_of, missing
-from dofkit.motion.lagrange.joint_motion import joint_motion, written_length
+from dofkit.motion.lagrange.joint_motion import joint_motion
 from dofkit.motion.lagrange.model import LagrangeModel, NoEquationsError, modelled
 from dofkit.motion.lagrange.report import Conserved, Linearized, MotionReport
 from dofkit.motion.lagrange.small_motions import linearized
-from dofkit.motion.lagrange.tidying import Tidier
-from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian
+from dofkit.motion.lagrange.tidying import Tidier, length
+from dofkit.relations.normal.pieces import Nonlinear, Pfaffian
 from dofkit.scene.drawing import Drawing
 from dofkit.scene.lowering import survey, system_of
 from dofkit.scene.reading import SceneLike, load
@@ -141,7 +141,7 @@ def _by_joints(source: MotionSource) -> Derived | None:
     if tree is None:
         return None
     energy, scene = tree.energy, load(tree.value)
-    terms = written_length(energy.lagrangian)
+    terms = length(energy.lagrangian)
     if terms > MOST_WRITTEN:
         raise NoEquationsError(TOO_LONG.format(len(scene.coordinates), terms, MOST_WRITTEN))
     surveyed = survey(scene)
@@ -287,7 +287,7 @@ def conserved(derived: Derived) -> Iterator[Conserved]:
     """
     model = derived.model
     for name in model.names:
-        if _zero(derived, derived.forces[name]) and not any(_acts(c, name, derived) for c in model.constraints):
+        if _zero(derived, derived.forces[name]) and all(_zero(derived, row[name]) for row in model.slopes):
             quantity = to_text(derived.momenta[name])
             yield Conserved(name=f"p_{name}", quantity=quantity, reason=f"no generalized force acts along {name}.")
     energy = model.energy
@@ -317,14 +317,6 @@ def energy_function(derived: Derived) -> tuple[Expr, bool]:
 
 def _zero(derived: Derived, e: Expr) -> bool:
     return e.is_zero or is_identically_zero(e, derived.model.positive) is True
-
-
-def _acts(piece: Remaining, name: str, derived: Derived) -> bool:
-    """Return whether the constraint's force may have a component along a coordinate."""
-    if isinstance(piece, Pfaffian):
-        return name in piece.coefficients and not _zero(derived, piece.coefficients[name])
-    symbol = ex.coordinate(name) if isinstance(piece, Finite) else ex.velocity(name)
-    return not _zero(derived, diff(piece.expr, symbol))
 
 
 def _workless(piece: Remaining, derived: Derived) -> bool:
