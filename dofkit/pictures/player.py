@@ -101,7 +101,7 @@ def page_height(sketch: Sketch, clips: Sequence[Clip], switches: Sequence[Switch
     margins = margins_of(sketch)
     panel = (FRAME - 2 * EDGE) * (margins.high - margins.low) / WIDTH
     texts = [sketch.title, sketch.answer, *_notes(sketch), max((clip.text for clip in clips), key=len, default="")]
-    lines = sum(-(-len(text) // 80) for text in texts) + bool(keys_of(sketch.shapes, sketch.meanings))
+    lines = sum(-(-len(text) // 90) for text in texts) + bool(keys_of(sketch.shapes, sketch.meanings))
     return panel + LINE * (lines + (2 + (sketch.dimension < 3)) * bool(clips) + 3 * bool(switches)) + 4 * EDGE
 
 
