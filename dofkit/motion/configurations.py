@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from itertools import accumulate
 
 import numpy as np
 
@@ -40,7 +41,6 @@ def configurations(
     *,
     along: str | None = None,
     values: Mapping[str, float] | None = None,
-    both: bool = True,
 ) -> list[dict[str, float]]:
     """Return configurations along a finite motion of a scene, in order.
 
@@ -52,7 +52,7 @@ def configurations(
     scene
         A Scene, a path, a catalog name, a mapping or a System.
     steps
-        The number of steps forward, and (``both``) backward.
+        The number of steps forward, and backward.
     step
         The arc length sqrt(sum dq^2) of a step, with positions divided by the scene's size and angles in radians; where
         time occurs, the step in ``t``.
@@ -61,8 +61,6 @@ def configurations(
     values
         Numbers for parameters without a value (otherwise chosen at random), and for coordinates, near which the first
         configuration is sought, and for ``t`` (otherwise 0).
-    both
-        Whether to go backward too.
 
     Returns
     -------
@@ -92,7 +90,7 @@ def configurations(
     system = source if isinstance(source, System) else lower(source)
     try:
         with sampling(system):
-            return MotionSampler(system, dict(values or {})).configurations(steps, step, along, both=both)
+            return MotionSampler(system, dict(values or {})).configurations(steps, step, along)
     except OutOfTimeError as error:
         raise NoMotionError(str(error)) from None
 
@@ -145,9 +143,7 @@ class MotionSampler:
                 return first_pose
         raise NoMotionError("no regular configuration was found that satisfies the constraints")
 
-    def configurations(
-        self, steps: int, step: float, along: str | None = None, *, both: bool = True
-    ) -> list[dict[str, float]]:
+    def configurations(self, steps: int, step: float, along: str | None = None) -> list[dict[str, float]]:
         """Return the configurations backward, the first, and those forward."""
         if along is not None and along not in self.names:
             raise NoMotionError(no_such(along, self.names, "coordinate"))
@@ -157,7 +153,7 @@ class MotionSampler:
             raise NoMotionError("no motion was found that leaves the first configuration")
         if target is not None and not any(w and abs(float(w.direction @ target)) > STILL for w in both_directions):
             raise NoMotionError(f"'{along}' cannot move at the first configuration")
-        return self._followed(self.follower, both_directions, steps, step, both)
+        return self._followed(self.follower, both_directions, steps, step)
 
     def free_motion(
         self, rates: Mapping[Expr, float], held: Sequence[Expr], steps: int, step: float
@@ -175,22 +171,18 @@ class MotionSampler:
             yield direction, self._followed(self.follower, both_directions, steps, step)
 
     def _followed(
-        self, follower: Follower, both_directions: BothDirections, steps: int, step: float, both: bool = True
+        self, follower: Follower, both_directions: BothDirections, steps: int, step: float
     ) -> list[dict[str, float]]:
         ahead, back = both_directions
         forward, closed = trail(follower, self.start, ahead, steps, step)
-        backward = trail(follower, self.start, back, steps, step)[0] if both and not closed else []
+        backward = trail(follower, self.start, back, steps, step)[0] if not closed else []
         if steps and not forward and not backward:
             raise NoMotionError("no motion was followed that leaves the first configuration")
-        middle = self.values(self.start, {})
-        return [*reversed(self._values_along(backward, middle)), middle, *self._values_along(forward, middle)]
+        return [*self.values_along([self.start, *backward])[:0:-1], *self.values_along([self.start, *forward])]
 
-    def _values_along(self, poses: Sequence[Pose], last: dict[str, float]) -> list[dict[str, float]]:
-        configurations = []
-        for pose in poses:
-            last = self.values(pose, last)
-            configurations.append(last)
-        return configurations
+    def values_along(self, poses: Iterable[Pose]) -> list[dict[str, float]]:
+        """Return the values at some poses, Euler angles near those of the pose before."""
+        return list(accumulate(poses, lambda last, pose: self.values(pose, last), initial=dict[str, float]()))[1:]
 
     def values(self, pose: Pose, last: Mapping[str, float]) -> dict[str, float]:
         """The coordinates of a pose (Euler angles near those of ``last``), and the values of parameters."""

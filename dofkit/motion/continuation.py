@@ -164,7 +164,7 @@ class Follower:
         basis = self.null_space(pose)
         stopped = self.clock is not None and float(np.sum(basis[:, self.clock] ** 2)) < SMALL
         if stopped or len(basis) != self.freedom:
-            return self._leave(pose, target, step, basis)
+            return self._both_ways(pose, self._departures(pose, step, basis), target)
         goal = self._first_direction(basis) if target is None else target
         direction = basis.T @ (basis @ goal)
         if self.clock is not None:
@@ -179,9 +179,6 @@ class Follower:
         column = int(np.argmax(sizes > 0.1 * np.max(sizes))) if self.clock is None else self.clock
         weights[column] = 1.0
         return weights
-
-    def _leave(self, pose: Pose, target: Array | None, step: float, basis: Array) -> BothDirections:
-        return self._both_ways(pose, self._departures(pose, step, basis), target)
 
     def _departures(self, pose: Pose, step: float, basis: Array) -> list[Reached]:
         """At a singular pose: regular ones close to it, reached from random directions; else singular ones."""

@@ -93,9 +93,7 @@ class LoopSampler:
         poses = self._along(pair, size * np.column_stack([np.sin(angles), 1 - np.cos(angles)]))
         centre = self._along(pair, size * np.column_stack([np.zeros(CORNERS), np.linspace(0, 1, CORNERS)]))
         area = CORNERS / 2 * np.sin(2 * np.pi / CORNERS) * size**2
-        configurations = [self.sampler.values(poses[0], {})]
-        for pose in poses[1:]:
-            configurations.append(self.sampler.values(pose, configurations[-1]))
+        configurations = self.sampler.values_along(poses)
         names = (self.columns[pair[0]], self.columns[pair[1]])
         displacement = self._named(self.relations.between(self.start, poses[-1]))
         return Loop(

@@ -73,6 +73,9 @@ class PoseRelations:
         if self.timed:
             self.plain.append(ex.TIME)
             self.scales, self.angles = np.append(self.scales, 1.0), np.append(self.angles, False)
+        self.symbols = [*self.plain, *(ex.coordinate(n) for r in self.rotations for n in r.names)]
+        indices = (self.ring.var_index(s) for s in self.symbols)
+        self.generators = [-1 if index is None else index for index in indices]  # no generator has the number -1
         self.constants = {s: 1.0 for e in limits for s in e.symbols if s.args[0] == "parameter"}
         if not self.timed and any(ex.TIME in e.symbols for e in limits):
             self.constants[ex.TIME] = 0.0  # only limits know of time: it stands still
@@ -110,7 +113,7 @@ class PoseRelations:
 
     def at(self, pose: Pose) -> tuple[Array, Array]:
         """The finite relations and their derivatives by the scaled columns, rows of length 1 where they can be."""
-        f, j = self._evaluated(pose, self._values)
+        f, j = self._gradients(pose)
         norms = np.linalg.norm(j, axis=1)
         usual = self._usual
         norms = np.where(norms > FLAT * usual, norms, usual)
@@ -125,19 +128,18 @@ class PoseRelations:
             turns = np.hstack([np.ones((len(self.rotations), 1)), rng.uniform(-1, 1, (len(self.rotations), 3))])
             turns = turns / np.linalg.norm(turns, axis=1, keepdims=True)
             try:
-                _, j = self._evaluated(Pose(self.scales * rng.standard_normal(len(self.plain)), turns), self._values)
+                _, j = self._gradients(Pose(self.scales * rng.standard_normal(len(self.plain)), turns))
             except FAULTS:
                 continue
             lengths = np.maximum(lengths, np.linalg.norm(j, axis=1))
         return np.where(lengths > 0, lengths, 1.0)
 
-    @property
-    def _values(self) -> list[Mapping[Any, int]]:
-        return [{None: n} for n in self.finite]
-
     def forms_at(self, pose: Pose) -> Array:
         """The forms over the scaled columns, rows of length 1."""
-        _, j = self._evaluated(pose, self.forms)
+        point, vectors = self._point(pose)
+        at, zero = values(self.ring, point), point.number(ex.ZERO.args[0])
+        rows = [[at[form[s]] if s in form else zero for s in self.symbols] for form in self.forms]
+        j = self._by_columns(rows, vectors)
         norms = np.linalg.norm(j, axis=1)
         return j / np.where(norms > FLAT, norms, 1.0)[:, None]
 
@@ -185,32 +187,22 @@ class PoseRelations:
             vectors.append(vector)
         return (BallPoint(symbols, 0) if exact else FloatPoint(symbols, 0)), vectors
 
-    def _evaluated(self, pose: Pose, rows: Sequence[Mapping[Any, int]]) -> tuple[Array, Array]:
-        """Rows {None: node} as values and gradients, rows {symbol: node} as coefficients."""
+    def _gradients(self, pose: Pose) -> tuple[Array, Array]:
+        """Return the values of the finite relations and their derivatives by the scaled columns."""
         point, vectors = self._point(pose)
-        at = values(self.ring, point)
-        zero = point.number(ex.ZERO.args[0])
-        turned = [ex.coordinate(n) for r in self.rotations for n in r.names]
-        symbols = [*self.plain, *turned]
-        present = {s: i for s in symbols if (i := self.ring.var_index(s)) is not None}
-        f, j = np.zeros(len(rows)), np.zeros((len(rows), self.columns))
-        for k, row in enumerate(rows):
-            if None in row:
-                f[k] = _middle(at[row[None]])
-                line = jacobian(self.ring, at, point, [row[None]], list(present.values()), zero)[0]
-                derivatives = dict(zip(present, line, strict=True))
-            else:
-                derivatives = {s: at[n] for s, n in row.items()}
-            line = [derivatives.get(s, zero) for s in symbols]
-            j[k] = self._by_columns(line, vectors)
-        return f, j
+        at, zero = values(self.ring, point), point.number(ex.ZERO.args[0])
+        lines = jacobian(self.ring, at, point, self.finite, self.generators, zero)
+        return np.array([_middle(at[n]) for n in self.finite]), self._by_columns(lines, vectors)
 
-    def _by_columns(self, line: Sequence[Any], vectors: Sequence[Sequence[Any]]) -> Array:
-        n = len(self.plain)
-        entries = [float(_middle(v)) * s for v, s in zip(line[:n], self.scales, strict=True)]
-        for k, g in enumerate(vectors):
-            entries += [_middle(v) for v in _by_turn(line[n + 3 * k : n + 3 * k + 3], g)]
-        return np.array(entries)
+    def _by_columns(self, lines: Sequence[Sequence[Any]], vectors: Sequence[Sequence[Any]]) -> Array:
+        """Return rows over the symbols as rows over the scaled columns."""
+        n, j = len(self.plain), np.zeros((len(lines), self.columns))
+        for row, line in zip(j, lines, strict=True):
+            row[:n] = [_middle(v) * s for v, s in zip(line[:n], self.scales, strict=True)]
+            for k, g in enumerate(vectors):
+                part = slice(n + 3 * k, n + 3 * k + 3)
+                row[part] = [_middle(v) for v in _by_turn(line[part], g)]
+        return j
 
     def coordinate_values(self, pose: Pose, last: Mapping[str, float]) -> dict[str, float]:
         """The values of all coordinates (Euler angles near those told ``last``), and of time where it occurs."""

@@ -14,7 +14,7 @@ from dofkit.pictures.shapes import AT_REST, SQUARE, Place, Shape, Sketch, fixed,
 from dofkit.pictures.words import alternative, answer, meanings, state_of, sure
 from dofkit.report import Report
 from dofkit.scene.scene import Scene
-from dofkit.system import GROUND, Constraint, System
+from dofkit.system import GROUND, System
 
 #: More nodes than this are put on circles instead of being spread by springs; more than the second have no names.
 MOST_SPREAD, MOST_NAMES = 450, 90
@@ -60,16 +60,9 @@ def constraint_graph(system: System) -> nx.Graph:
     for constraint, connection in zip(system.constraints, system.connections, strict=True):
         node = ("constraint", constraint.name)
         graph.add_node(node)
-        graph.add_edges_from((("thing", m), node) for m in {*connection.members, *_mentioned(system, constraint)})
+        owners = {c.owner or c.name for c in system.coordinates if c.name in constraint.mentioned}
+        graph.add_edges_from((("thing", m), node) for m in {*connection.members, *owners})
     return graph
-
-
-def _mentioned(system: System, constraint: Constraint) -> Iterator[str]:
-    """Yield the owners, or else the names, of the coordinates in a constraint's relations."""
-    names = {s.args[1] for r in constraint.relations for s in r.expr.symbols}
-    for c in system.coordinates:
-        if c.name in names:
-            yield c.owner or c.name
 
 
 def _spots(graph: nx.Graph) -> dict[Node, Place]:

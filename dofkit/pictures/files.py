@@ -102,7 +102,7 @@ def svg_of(page: Page, width: float | None = None, script: str = "") -> str:
         f'width="{on_screen:g}" height="{on_screen * page.height / page.width:g}" role="img" '
         f'font-family="{FONT}" stroke-linejoin="round">'
     )
-    words = f"<title>{escape(page.title)}</title><desc>{escape(page.alternative)}</desc>"
+    words = f"<title>{escape(page.title or page.alternative)}</title><desc>{escape(page.alternative)}</desc>"
     ground = f'<rect width="{page.width:g}" height="{page.height:g}" fill="#FFFFFF"/>'
     body = "\n".join(_element(mark, page.height) for mark in page.marks)
     drawing = f"<defs>{_HATCH}</defs>{ground}\n{body}"

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from functools import cache
 from itertools import pairwise, takewhile
 from typing import Any
 
@@ -33,21 +32,14 @@ def level_lines(value: Callable[[Array, Array], Array], box: Sequence[float], co
     z = np.ma.masked_invalid(np.broadcast_to(value(x, y), x.shape))
     if z.count() == 0 or float(z.min()) > 0 or float(z.max()) < 0 or float(np.ptp(z)) == 0:
         return []
-    contours = _axes().contour(x, y, z, levels=[0.0])
-    segments = contours.allsegs[0]
-    contours.remove()
+    from contourpy import contour_generator
+
+    contours: Any = contour_generator(x, y, z, name="mpl2014")
+    segments = contours.lines(0.0)[0]
     usual = float(np.median(np.abs(z.compressed())))
     return [
         _thinned(s, DRAWN if count == GRID else FEW_DRAWN) for s in segments if len(s) > 1 and _is_zero(value, s, usual)
     ]
-
-
-@cache
-def _axes() -> Any:
-    """Return axes on which level lines are computed; making them takes longer than computing."""
-    from matplotlib.figure import Figure
-
-    return Figure().add_subplot()
 
 
 def _is_zero(value: Callable[[Array, Array], Array], line: Array, usual: float) -> bool:

@@ -46,7 +46,7 @@ NOT_SAMPLED = "No finite motion was sampled: {}"
 RESTS = "Time goes on, and the coordinates rest."
 UNCHANGED = "{} is redundant{}: without it the motion goes on unchanged."
 IMPLIED = "{} is implied by the others as long as {} in use: without it the motion goes on unchanged."
-NEEDED = "{} is needed: without it this motion is possible too."
+NEEDED = "{} is needed: without it this motion is possible too (what it moves is outlined in dashes and dots)."
 
 
 class ClipMaker:
@@ -208,12 +208,16 @@ class ClipMaker:
     # Constraints left out
 
     def switches(self) -> Iterator[tuple[Switch, list[Clip]]]:
-        """Yield a switch for each constraint of a scene with redundant ones, with the motion that is new without it."""
+        """Yield switches for the constraints of a scene with redundant ones, and the motion that is new without each.
+
+        Of many constraints the redundant ones have a switch before others.
+        """
         report = self.stage.report
         redundant = report.redundant or []
         if not self.moves or not report.redundant_equations:
             return
-        for entry in report.constraints[:MOST_SWITCHES]:
+        first = sorted(report.constraints, key=lambda entry: entry.name not in redundant)[:MOST_SWITCHES]
+        for entry in (entry for entry in report.constraints if entry in first):
             if entry.name in redundant:
                 yield Switch(entry.name, UNCHANGED.format(entry.name, sure(report, "redundant")), True), []
                 continue

@@ -286,9 +286,9 @@
     for (const part of parts) {
       const look = data.looks[part.shape.i], first = part.shape.v[0];
       const fresh = clip && clip.dropped && !state.free && gap(here[first[0]], still[first[0]]) > 1e-4;
-      if (part.shape.k !== "words") {
-        drawShape(part.shape, part.points, fresh ? ["#D55E00", look[1], look[2], look[3] && "#F7CDB4", 0.6, false] : look);
-      }
+      const round = part.shape.k === "ball";
+      const red = ["#A31621", look[1] + 0.8, round ? [] : [7, 2, 1.5, 2], look[3] && "#A31621", round ? 1 : 0.2, false];
+      if (part.shape.k !== "words") { drawShape(part.shape, part.points, fresh ? red : look); }
     }
     drawPaths(view);
     if (data.axes.length) { drawAxes(view); }

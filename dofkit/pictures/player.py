@@ -100,16 +100,9 @@ def page_height(sketch: Sketch, clips: Sequence[Clip], switches: Sequence[Switch
     """Return the height of `page_html` in pixels: title, answer, panel, buttons, switches, legend, notes."""
     margins = margins_of(sketch)
     panel = (FRAME - 2 * EDGE) * (margins.high - margins.low) / WIDTH
-    lines = [
-        1 + len(sketch.title) // 70,
-        1 + len(sketch.answer) // 85,
-        *(1 + len(note) // 95 for note in _notes(sketch)),
-    ]
-    lines.append(
-        bool(keys_of(sketch.shapes, sketch.meanings)) + (2 + (sketch.dimension < 3)) * bool(clips) + 3 * bool(switches)
-    )
-    lines.append(max((1 + len(clip.text) // 85 for clip in clips if clip.text), default=0))
-    return panel + LINE * sum(lines) + 4 * EDGE
+    texts = [sketch.title, sketch.answer, *_notes(sketch), max((clip.text for clip in clips), key=len, default="")]
+    lines = sum(-(-len(text) // 90) for text in texts) + bool(keys_of(sketch.shapes, sketch.meanings))
+    return panel + LINE * (lines + (2 + (sketch.dimension < 3)) * bool(clips) + 3 * bool(switches)) + 4 * EDGE
 
 
 class Panel(NamedTuple):
@@ -169,7 +162,7 @@ def player_data(
         "looks": [[k.line, k.width, list(k.dash), k.fill, k.dense, k.hatch, k.layer] for k in looks],
         "names": name_size(sketch),
         "traced": [[carriers.index(v.carrier), *_rounded(v.at)] for v in sketch.traced if v.carrier in carriers],
-        "still": [_pose_row(sketch.poses.get(c, AT_REST)) for c in carriers],
+        "still": [_pose_row(sketch.poses.get(c, AT_REST), digits) for c in carriers],
         "clips": [_clip_data(sketch, clip, carriers, program, digits) for clip in clips],
         "switches": [switch._asdict() for switch in switches],
         "program": None if program is None else program.data(carriers),
@@ -216,8 +209,8 @@ def _clip_data(
     if program is not None:
         frames: list[Any] = [[round(v, max(4, digits)) for v in program.values(numbers)] for numbers in clip.path]
     else:
-        still = [_frame_row(sketch.poses.get(c, AT_REST), digits) for c in carriers]
-        rows = ([_frame_row(frame.get(c, AT_REST), digits) for c in carriers] for frame in clip.frames)
+        still = [_pose_row(sketch.poses.get(c, AT_REST), digits) for c in carriers]
+        rows = ([_pose_row(frame.get(c, AT_REST), digits) for c in carriers] for frame in clip.frames)
         frames = [[0 if p == q else p for p, q in zip(row, still, strict=True)] for row in rows]
     arrows = [[_rounded(a), _rounded(b)] for a, b in clip.arrows]
     start = 0 if clip.loop else gaps.index(min(gaps))
@@ -229,16 +222,10 @@ def far(first: Displacement, last: Displacement) -> float:
     return float(max(np.max(np.abs(first.turn - last.turn)), np.max(np.abs(first.shift - last.shift))))
 
 
-def _pose_row(pose: Displacement) -> list[float]:
+def _pose_row(pose: Displacement, digits: int) -> list[float]:
     """Return a carrier's shift and, if it rotates, the vector part of the unit quaternion of its rotation."""
-    if np.allclose(pose.turn, np.eye(3), atol=1e-9):
-        return _rounded(pose.shift)
-    return [*_rounded(pose.shift), *_rounded(quaternion(pose.turn)[1:])]
-
-
-def _frame_row(pose: Displacement, digits: int) -> list[float]:
-    row = _pose_row(pose)
-    return [*(round(v, digits) for v in row[:3]), *(round(v, 4) for v in row[3:])]
+    turn = [] if np.allclose(pose.turn, np.eye(3), atol=1e-9) else _rounded(quaternion(pose.turn)[1:])
+    return [*(round(v, digits) for v in _rounded(pose.shift)), *(round(v, 4) for v in turn)]
 
 
 def _number(value: float) -> float:

@@ -1,6 +1,7 @@
 """What a picture is made of before it is put on paper: shapes carried by bodies and particles, and how they look.
 
-The colours are those that the colour-blind can tell apart (Okabe and Ito's), with a pattern for each meaning.
+The colours are those that the colour-blind can tell apart (Okabe and Ito's, and a deep red beside their orange), with a
+pattern for each meaning.
 """
 
 from __future__ import annotations
@@ -162,14 +163,15 @@ def quaternion(turn: Array) -> Array:
 # Looks
 
 SKY, GREEN, BLUE, VERMILLION, PURPLE = "#56B4E9", "#009E73", "#0072B2", "#D55E00", "#CC79A7"
+AMBER, RED = "#B87A00", "#A31621"
 GREY, WHITE, INK = "#6E6E6E", "#FFFFFF", "#222222"
 #: Each colour as it is on dark paper; on light paper it is as named.
 ON_DARK: Mapping[str, str] = {
     WHITE: "#151B23", "#F1F1F1": "#1E2630", "#EFEFEF": "#2A333D", "#A8A8A8": "#7D8792",
     "#8A8A8A": "#78828D", GREY: "#97A1AC", "#555555": "#A9B3BD", "#444444": "#C3CBD3", "#333333": "#CBD3DB",
     INK: "#E6EDF3", BLUE: "#6CB6F0", SKY: "#56B4E9", GREEN: "#2FC99E", "#8CCDB9": "#3E8A75",
-    "#7A5C2E": "#CBA56A", "#B87A00": "#E8AC3C", "#FBE3B5": "#4B3B17", "#8A5A00": "#EDB44E",
-    VERMILLION: "#FF8B45", "#F7CDB4": "#55321D", "#B34700": "#FF955A", PURPLE: "#E3A0C5",
+    "#7A5C2E": "#CBA56A", AMBER: "#E8AC3C", "#FBE3B5": "#4B3B17", "#8A5A00": "#EDB44E",
+    VERMILLION: "#FF8B45", "#F3C9CE": "#4E2029", RED: "#EE4F6B", PURPLE: "#E3A0C5",
 }  # fmt: skip
 
 
@@ -211,10 +213,10 @@ _PLAIN: Mapping[Role, Ink] = {
     "further": Ink(PURPLE, 2.0, (1.5, 1.5), layer=5),
 }
 _LOUD: Mapping[State, Ink] = {
-    "redundant": Ink("#B87A00", 2.2, (5.0, 2.5), fill="#FBE3B5", layer=6),
-    "conflicting": Ink(VERMILLION, 3.2, (2.2, 1.4), fill="#F7CDB4", layer=6),
+    "redundant": Ink(AMBER, 2.2, (5.0, 2.5), fill="#FBE3B5", layer=6),
+    "conflicting": Ink(RED, 3.2, (2.2, 1.4), fill="#F3C9CE", layer=6),
 }
-_LOUD_NAMES = {"redundant": "#8A5A00", "conflicting": "#B34700"}
+_LOUD_NAMES = {"redundant": "#8A5A00", "conflicting": RED}
 #: The roles that show the state of a constraint, and those of them with thin lines.
 _OF_CONSTRAINTS = ("joint", "guide", "bar", "rope", "locus", "tie", "surface")
 _THIN = ("guide", "joint", "surface")

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from html import escape
 
 import numpy as np
 
-from dofkit.base.wording import many
 from dofkit.methods.classify import classify
 from dofkit.pictures.constraint_graph import graph_sketch, hover_script
 from dofkit.pictures.coordinates import coordinate_sketch
@@ -21,6 +19,7 @@ from dofkit.pictures.paper import Page
 from dofkit.pictures.player import framed, page_height, page_html
 from dofkit.pictures.shapes import Sketch
 from dofkit.pictures.stage import POINT, StagedScene, stage_of
+from dofkit.pictures.words import contents
 from dofkit.report import Report
 from dofkit.scene.reading import SceneLike, load
 from dofkit.scene.scene import Scene
@@ -216,17 +215,6 @@ def unanswered(scene: Scene, report: Report, title: str) -> Picture | None:
     stage = staged(scene, report)
     sketch = sketch_of(stage)
     shapes = tuple(s._replace(state="moving" if s.role in ("body", "point") else "plain") for s in sketch.shapes)
-    contents = f"{title}: {', '.join(_contents(scene))}."
     notes = (FREE_PLACES,) if stage.schematic else ()
-    plain = replace(sketch, title="", answer="", alternative=contents, shapes=shapes, measurable=False)
-    return Picture(replace(plain, meanings=None, notes=notes))
-
-
-def _contents(scene: Scene) -> Iterator[str]:
-    if scene.bodies:
-        yield many(len(scene.bodies), "body")
-    if scene.particles:
-        yield many(len(scene.particles), "particle")
-    if scene.coordinates:
-        yield many(len(scene.coordinates), "coordinate")
-    yield many(len(scene.constraints), "constraint")
+    plain = replace(sketch, title="", answer="", alternative=f"{contents(scene, title)}.", shapes=shapes)
+    return Picture(replace(plain, meanings=None, measurable=False, notes=notes))

@@ -83,10 +83,7 @@ def _freedom(report: Report) -> Iterator[str]:
 
 def alternative(scene: Scene, report: Report) -> str:
     """Return what is drawn, and the answer, in a few sentences."""
-    further = "further " if scene.bodies or scene.particles else ""
-    counts = [(scene.bodies, "body"), (scene.particles, "particle"), (scene.coordinates, f"{further}coordinate")]
-    contents = [many(len(items), what) for items, what in (*counts, (scene.constraints, "constraint")) if items]
-    sentences = [f"{scene.title or scene.name}: {', '.join(contents) or 'nothing is declared'}.", f"{answer(report)}."]
+    sentences = [f"{contents(scene, scene.title or scene.name)}.", f"{answer(report)}."]
     how = sure(report, "redundant")
     wholly = report.redundant or []
     if wholly:
@@ -98,6 +95,14 @@ def alternative(scene: Scene, report: Report) -> str:
         vector = ", ".join(map(str, report.growth_vector))
         sentences.append(f"Growth vector ({vector}){sure(report, 'growth_vector')}.")
     return " ".join(sentences)
+
+
+def contents(scene: Scene, title: str) -> str:
+    """Return a title, and how many bodies, particles, coordinates and constraints a scene has."""
+    further = "further " if scene.bodies or scene.particles else ""
+    counts = [(scene.bodies, "body"), (scene.particles, "particle"), (scene.coordinates, f"{further}coordinate")]
+    listed = [many(len(items), what) for items, what in (*counts, (scene.constraints, "constraint")) if items]
+    return f"{title}: {', '.join(listed) or 'nothing is declared'}"
 
 
 def _names(names: Iterable[str]) -> str:

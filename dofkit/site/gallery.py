@@ -7,18 +7,22 @@ import json
 import re
 from collections.abc import Iterator, Sequence
 from functools import cache
+from html import escape
 from itertools import groupby
 from operator import attrgetter
 from pathlib import Path
 from typing import NamedTuple
 
+from dofkit.expressions.text.typesetting import mathml, typeset
 from dofkit.methods.classify import classify
 from dofkit.pictures.files import svg_of
 from dofkit.pictures.layout import page_of
 from dofkit.pictures.still import draw, without_text
 from dofkit.report import Report
 from dofkit.scene.catalog import catalog_folder, catalog_text
+from dofkit.scene.constraints.base import Equation
 from dofkit.scene.reading import loads
+from dofkit.scene.scene import Scene
 from dofkit.site.markdown import SitePage, bench_link, code, fence, folded, page, picture, prose
 
 FOLDER = "gallery"
@@ -38,6 +42,7 @@ class ShownScene(NamedTuple):
     svg: str
     thumbnail: str
     alternative: str
+    formulas: str
     answer: str
     report: str
 
@@ -92,9 +97,18 @@ def shown_scene(name: str, folder: str, written: str) -> ShownScene:
         svg=svg_of(drawn.page, PIXELS),
         thumbnail=svg_of(page_of(without_text(drawn.sketch)), PIXELS),
         alternative=drawn.alternative,
+        formulas="".join(_formulas(scene, report)),
         answer=in_a_line(report),
         report=report.text(COLUMNS),
     )
+
+
+def _formulas(scene: Scene, report: Report) -> Iterator[str]:
+    """Yield the equations of a scene, set as mathematics."""
+    for constraint, entry in zip(scene.constraints, report.constraints, strict=True):
+        latex = typeset(entry.text) if isinstance(constraint, Equation) else None
+        if latex is not None:
+            yield f'<li>{_html(entry.name)}: <math aria-label="{escape(entry.text)}">{mathml(latex)}</math></li>'
 
 
 def in_a_line(report: Report) -> str:
@@ -150,6 +164,7 @@ def _entry(scene: ShownScene, has_bench: bool) -> str:
             f"## {prose(scene.title)} {{#{scene.name}}}",
             f"{code(scene.name)}: {prose(scene.answer)}",
             picture(f"{scene.name}.svg", scene.alternative),
+            *([f'<ul class="equation">{scene.formulas}</ul>'] if scene.formulas else []),
             *([bench_link("../bench", f"#example={scene.name}")] if has_bench else []),
             folded("The scene", fence("yaml", scene.written)),
             folded("The report", fence("text", scene.report)),

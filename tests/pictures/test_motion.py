@@ -16,6 +16,7 @@ from shared.residuals import residual
 import dofkit
 from dofkit.base.errors import ArgumentError
 from dofkit.expressions.tree import coordinate
+from dofkit.pictures import motion_clips
 from dofkit.pictures.animation import STILL, Animation
 from dofkit.pictures.files import ExtraMissingError
 from dofkit.pictures.motion_clips import GOES_ON
@@ -91,12 +92,15 @@ def test_both_motions_leave_a_flat_parallelogram() -> None:
     assert sorted(ratios) == pytest.approx([-3, 1], abs=0.2)
 
 
-def test_a_switch_leaves_out_a_constraint() -> None:
+def test_a_switch_leaves_out_a_constraint(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of more constraints than have a switch a redundant one has."""
     door = {"bodies": ["door"], "constraints": [_hinge("lower", 0), _hinge("upper", 2)]}
     moving = dofkit.animate(door)
     assert [(s.name, s.free) for s in moving.switches] == [("lower", False), ("upper", True)]
     assert "as long as upper is in use" in moving.switches[0].text
     assert [clip.name for clip in moving.clips] == ["a finite motion"]
+    monkeypatch.setattr(motion_clips, "MOST_SWITCHES", 1)
+    assert [s.name for s in dofkit.animate(door).switches] == ["upper"]
 
 
 def test_without_a_constraint_that_is_needed_the_others_hold() -> None:

@@ -75,11 +75,15 @@ def test_states_differ_by_pattern_not_by_colour_alone() -> None:
     assert ink_of(body._replace(state="plain")).hatch
 
 
+def linear(colour: str) -> list[float]:
+    """Red, green and blue as linear light."""
+    parts = [int(colour[k : k + 2], 16) / 255 for k in (1, 3, 5)]
+    return [p / 12.92 if p <= 0.04045 else ((p + 0.055) / 1.055) ** 2.4 for p in parts]
+
+
 def brightness(colour: str) -> float:
     """The relative luminance of the guidelines for content of the web (WCAG 2)."""
-    parts = [int(colour[k : k + 2], 16) / 255 for k in (1, 3, 5)]
-    red, green, blue = (p / 12.92 if p <= 0.04045 else ((p + 0.055) / 1.055) ** 2.4 for p in parts)
-    return 0.2126 * red + 0.7152 * green + 0.0722 * blue
+    return sum(w * p for w, p in zip((0.2126, 0.7152, 0.0722), linear(colour), strict=True))
 
 
 def contrast(one: str, other: str) -> float:
@@ -94,6 +98,30 @@ def test_every_line_and_name_is_as_clear_on_dark_paper() -> None:
         wanted = 4.5 if role == "name" else min(3.0, contrast(ink.line, WHITE))
         assert contrast(ON_DARK[ink.line], ON_DARK[WHITE]) >= wanted, role
         assert ink.fill is None or ink.fill in ON_DARK
+
+
+#: What those without one kind of cones see (Machado, Oliveira and Fernandes 2009), from linear light to linear light.
+COLOUR_BLIND = {
+    "deuteranopia": [[0.3673, 0.8606, -0.2280], [0.2801, 0.6725, 0.0474], [-0.0118, 0.0429, 0.9690]],
+    "protanopia": [[0.1523, 1.0526, -0.2049], [0.1145, 0.7863, 0.0992], [-0.0039, -0.0481, 1.0520]],
+}
+TO_XYZ = [[0.4339, 0.3762, 0.1899], [0.2126, 0.7152, 0.0722], [0.0177, 0.1095, 0.8728]]
+
+
+@pytest.mark.parametrize("kind", COLOUR_BLIND)
+def test_the_colour_blind_can_tell_what_moves_is_redundant_or_conflicts(kind: str) -> None:
+    """Differences are those of CIE 1976 (L*, a*, b*), of which 20 is plain to see; patterns differ besides."""
+
+    def seen(colour: str) -> np.ndarray:
+        x, y, z = np.cbrt(np.array(TO_XYZ) @ np.clip(np.array(COLOUR_BLIND[kind]) @ linear(colour), 0.01, 1))
+        return np.array([116 * y - 16, 500 * (x - y), 200 * (y - z)])
+
+    inks = [ink_of(Shape("hull", (), "body", state)) for state in ("plain", "moving")]
+    inks += [ink_of(Shape("line", (), "bar", state)) for state in ("redundant", "conflicting")]
+    for first, second in combinations(inks, 2):
+        for one, other in ((first.line, second.line), (ON_DARK[first.line], ON_DARK[second.line])):
+            assert np.linalg.norm(seen(one) - seen(other)) > 20
+        assert (first.dash, first.hatch) != (second.dash, second.hatch)
 
 
 def test_a_typesetter_that_knows_no_light_and_dark_has_white_paper(tmp_path: Path) -> None:

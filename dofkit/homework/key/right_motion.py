@@ -16,7 +16,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.tree import ZERO, Expr
 from dofkit.motion.lagrange.derivation import derive
-from dofkit.motion.lagrange.elimination import ELIMINATIONS, by_time, in_velocities
+from dofkit.motion.lagrange.elimination import by_time, in_velocities
 from dofkit.motion.lagrange.equations import derived_of, read
 from dofkit.relations.normal.pieces import Finite, Pfaffian
 from dofkit.scene.scene import Scene
@@ -93,7 +93,7 @@ def points(ring: Ring, relations: Sequence[Expr]) -> Iterator[tuple[int, Any]]:
 
 def right_motion(scene: Scene, whole: bool = False) -> RightMotion:
     """Return the motion of a scene; ``whole``: with nothing eliminated. Raises DofkitError if there is none."""
-    derived = derive(read(scene).model(ELIMINATIONS[-1])) if whole else derived_of(scene)
+    derived = derive(read(scene).model(eliminates=False)) if whole else derived_of(scene)
     model = derived.model
     rates: dict[Expr, Expr] = {}
     for piece in model.constraints:

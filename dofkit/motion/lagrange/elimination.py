@@ -46,18 +46,8 @@ def motions(solved: Mapping[str, Expr]) -> dict[Expr, Expr]:
     return values
 
 
-class Care(NamedTuple):
-    """What is eliminated: solutions of at most so many nodes, and at most so many relations by a root.
-
-    With more roots there are too many branches, and none is taken.
-    """
-
-    nodes: int
-    roots: int
-
-
-#: From the freest to none at all: the next is taken where the equations would be too long to read.
-ELIMINATIONS = (Care(400, 1), Care(24, 0), Care(0, 0))
+#: Longer solutions are not inserted, by their nodes.
+LONGEST_SOLUTION = 400
 
 Remaining = Finite | Pfaffian | Nonlinear
 
@@ -105,44 +95,47 @@ class Eliminator:
     positive: frozenset[Expr]
     potential: Expr
     reference: Mapping[Expr, Expr] | None
-    care: Care
 
     @raising_no_value
     def eliminated(
-        self, relations: Sequence[EliminatedRelation], names: Sequence[str], preferred: Sequence[str]
+        self,
+        relations: Sequence[EliminatedRelation],
+        names: Sequence[str],
+        preferred: Sequence[str],
+        roots: bool = True,
     ) -> Elimination:
         """As many relations as possible solved for some of ``names``; ``preferred`` ones go first.
 
-        Relations that need more than `care.roots` roots are all left.
+        One relation may be solved by a root; where more need one there are too many branches, and none is taken.
         """
-        elimination = self._attempt(relations, names, preferred, self.care.roots)
+        elimination = self._attempt(relations, names, preferred, roots)
         if elimination is None:
-            elimination = self._attempt(relations, names, preferred, 0) or Elimination()
+            elimination = self._attempt(relations, names, preferred, False) or Elimination()
             many = "Several relations are quadratic; they keep multipliers, so that the equations hold on every branch."
             elimination = replace(elimination, notes=(*elimination.notes, many))
         return elimination
 
     def _attempt(
-        self, relations: Sequence[EliminatedRelation], names: Sequence[str], preferred: Sequence[str], most: int
+        self, relations: Sequence[EliminatedRelation], names: Sequence[str], preferred: Sequence[str], roots: bool
     ) -> Elimination | None:
-        """An elimination by ``most`` roots; None where it would need more, unless that is 0."""
+        """An elimination by one root at most, or by none; None where it would need a second one."""
         solved: dict[str, Expr] = {}
         constants: set[Expr] = set()
         notes: list[str] = []
         remaining = list(relations)
-        roots = 0
+        has_root = False
         while remaining:
             check()
-            best = self._best(remaining, [n for n in names if n not in solved], preferred, most > 0)
+            best = self._best(remaining, [n for n in names if n not in solved], preferred, roots)
             if best is None:
                 break
             relation, candidate = best
-            if candidate.other is not None and roots == most:
+            if candidate.other is not None and has_root:
                 return None
             remaining.remove(relation)
             value = ordered(candidate.value)
             if candidate.other is not None:
-                roots += 1
+                has_root = True
                 value, why = self._chosen(candidate.name, value, ordered(candidate.other), solved)
                 notes.append(why)
             elif not _never_zero(candidate.over, self.positive):
@@ -152,16 +145,12 @@ class Eliminator:
             mapping = {ex.coordinate(candidate.name): value}
             try:
                 solved = {n: substitute(e, mapping) for n, e in solved.items()} | {candidate.name: value}
-                remaining = [relation_ for r in remaining for relation_ in self._remainders(r, mapping)]
+                remaining = [r._replace(expr=substitute(r.expr, mapping)) for r in remaining]
+                remaining = [r for r in remaining if not is_identically_zero(r.expr, self.positive)]
             except NoValueError:
                 break
             constants |= relation.constants
         return Elimination(solved, frozenset(constants), tuple(notes))
-
-    def _remainders(self, relation: EliminatedRelation, mapping: Mapping[Expr, Expr]) -> list[EliminatedRelation]:
-        """A relation after a substitution; nothing where it then holds identically."""
-        e = substitute(relation.expr, mapping)
-        return [] if is_identically_zero(e, self.positive) else [relation._replace(expr=e)]
 
     def _best(
         self, relations: Sequence[EliminatedRelation], names: Sequence[str], preferred: Sequence[str], roots: bool
@@ -208,7 +197,7 @@ class Eliminator:
         for value in (candidate.value, candidate.other):
             if value is None:
                 continue
-            if sum(1 for _ in ex.nodes(value)) > self.care.nodes:
+            if sum(1 for _ in ex.nodes(value)) > LONGEST_SOLUTION:
                 return False
             try:
                 inserted = substitute(relation.expr, {q: value})
@@ -294,8 +283,12 @@ def inserted(piece: Remaining, elimination: Elimination) -> Remaining:
 
 def vanishes(piece: Remaining, positive: frozenset[Expr]) -> bool:
     """Return whether a relation holds identically, proved in the canonical ring."""
-    expressions = [*piece.coefficients.values(), piece.dt] if isinstance(piece, Pfaffian) else [piece.expr]
-    return all(e.is_zero or is_identically_zero(e, positive) is True for e in expressions)
+    return all(e.is_zero or is_identically_zero(e, positive) is True for e in expressions_of(piece))
+
+
+def expressions_of(piece: Remaining) -> list[Expr]:
+    """Return the coefficients of a form, or the expression that is 0."""
+    return [*piece.coefficients.values(), piece.dt] if isinstance(piece, Pfaffian) else [piece.expr]
 
 
 # roots of squares

@@ -39,6 +39,12 @@ class Energy:
         """L = T - V."""
         return self.kinetic - self.potential
 
+    @property
+    def symbols(self) -> frozenset[Expr]:
+        """What all of it depends on."""
+        used = (self.kinetic, self.potential, self.dissipation, *self.forces.values())
+        return frozenset[Expr]().union(*(e.symbols for e in used))
+
 
 def energy_of(scene: Scene, drawing: Drawing) -> tuple[Energy, tuple[Fault, ...]]:
     """What `energies` gives, and what it leaves out from the masses and the forces; and what is at fault in these."""

@@ -23,14 +23,14 @@ from dofkit.expressions.text.names import Names
 from dofkit.expressions.text.printing import to_text
 from dofkit.expressions.tree import Expr
 from dofkit.motion.lagrange.derivation import SINGULAR, Derived, derive
-from dofkit.motion.lagrange.elimination import ELIMINATIONS, Care, Remaining
+from dofkit.motion.lagrange.elimination import Remaining
 from dofkit.motion.lagrange.energies import Energy, energy_of, missing
-from dofkit.motion.lagrange.joint_motion import joint_motion, written_length
+from dofkit.motion.lagrange.joint_motion import joint_motion
 from dofkit.motion.lagrange.model import LagrangeModel, NoEquationsError, modelled
 from dofkit.motion.lagrange.report import Conserved, Linearized, MotionReport
 from dofkit.motion.lagrange.small_motions import linearized
-from dofkit.motion.lagrange.tidying import Tidier
-from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian
+from dofkit.motion.lagrange.tidying import Tidier, length
+from dofkit.relations.normal.pieces import Nonlinear, Pfaffian
 from dofkit.scene.drawing import Drawing
 from dofkit.scene.lowering import survey, system_of
 from dofkit.scene.reading import SceneLike, load
@@ -41,14 +41,14 @@ __all__ = ["Conserved", "Linearized", "MotionReport", "NoEquationsError", "deriv
 
 #: Equations of longer Lagrangians than this are too long to be read, where much was eliminated.
 LONGEST = 500
-#: Seconds for each attempt with less eliminated than the one before.
+#: Seconds for the equations with all eliminated that can be.
 TRYING = 8.0
 #: Seconds for the equations of a tree in the angles of its joints, and the nodes of a Lagrangian that is tried.
 JOINTS_TRYING, MOST_WRITTEN = 20.0, 2000
 #: Seconds for sorting a Lagrangian, and the nodes of one that is too long for that.
 SORTING, MOST_NODES = 2.0, 1500
 #: Said where the elimination was cut short.
-LONG = "Further elimination would make the equations too long to read, so some constraints keep a multiplier."
+LONG = "Elimination would make the equations too long to read, so the constraints keep multipliers."
 
 #: Said where a tree is too large.
 TOO_LONG = (
@@ -114,29 +114,25 @@ def lagrange(scene: SceneLike, linearize: bool = False, budget: float | None = N
 def derived_of(scene: Scene) -> Derived:
     """The equations of motion as expressions.
 
-    Where they would be longer than a text of a scene may be, less is eliminated, and more multipliers are kept.
+    Where they would be longer than a text of a scene may be, nothing is eliminated, and all multipliers are kept.
     """
     source = read(scene)
     by_joints = _by_joints(source)
     if by_joints is not None:
         return by_joints
-    freest: LagrangeModel | None = None
-    for care in ELIMINATIONS[:-1]:
-        model = source.model(care)
-        if not model.elimination.solved:
-            return derive(model)
-        freest = freest or model
-        model = _sorted(model)
-        if _short(model.energy.lagrangian):
-            try:
-                with by_processor(min(TRYING, remaining_seconds())):
-                    derived = derive(model)
-            except OutOfTimeError:
-                check()
-                continue
+    model = source.model()
+    if not model.elimination.solved:
+        return derive(model)
+    model = _sorted(model)
+    if _short(model.energy.lagrangian):
+        try:
+            with by_processor(min(TRYING, remaining_seconds())):
+                derived = derive(model)
             if _readable(derived):
-                return _with_note(derived, freest)
-    return _with_note(derive(source.model(ELIMINATIONS[-1])), freest)
+                return derived
+        except OutOfTimeError:
+            check()
+    return _noted(derive(source.model(eliminates=False)), LONG)
 
 
 def _by_joints(source: MotionSource) -> Derived | None:
@@ -145,7 +141,7 @@ def _by_joints(source: MotionSource) -> Derived | None:
     if tree is None:
         return None
     energy, scene = tree.energy, load(tree.value)
-    terms = written_length(energy.lagrangian)
+    terms = length(energy.lagrangian)
     if terms > MOST_WRITTEN:
         raise NoEquationsError(TOO_LONG.format(len(scene.coordinates), terms, MOST_WRITTEN))
     surveyed = survey(scene)
@@ -156,17 +152,11 @@ def _by_joints(source: MotionSource) -> Derived | None:
     except OutOfTimeError:
         check()
         raise NoEquationsError(TOO_LONG.format(len(scene.coordinates), terms, "fewer")) from None
-    if _readable(derived):
-        return derived
-    return replace(derived, model=replace(derived.model, notes=(*derived.model.notes, LENGTHY)))
+    return derived if _readable(derived) else _noted(derived, LENGTHY)
 
 
-def _with_note(derived: Derived, freest: LagrangeModel | None) -> Derived:
-    """Says so where more could have been eliminated."""
-    model = derived.model
-    if freest is None or model.elimination.solved.keys() >= freest.elimination.solved.keys():
-        return derived
-    return replace(derived, model=replace(model, notes=(*model.notes, LONG)))
+def _noted(derived: Derived, note: str) -> Derived:
+    return replace(derived, model=replace(derived.model, notes=(*derived.model.notes, note)))
 
 
 def _short(lagrangian: Expr) -> bool:
@@ -208,11 +198,10 @@ class MotionSource:
         """What is known of the scene's constraints."""
         return examined(self.system, passes=GENERIC)
 
-    def model(self, care: Care = ELIMINATIONS[0]) -> LagrangeModel:
-        """Made ready, with as much eliminated as ``care`` allows. Raises SceneError for masses that are missing."""
-        model = modelled(self.study, self.energy, self.names, care)
-        used = frozenset().union(*(e.symbols for e in _energies(model)))
-        faults = missing(used, self.scene)
+    def model(self, eliminates: bool = True) -> LagrangeModel:
+        """Made ready, with all eliminated that can be, or nothing. Raises SceneError for masses that are missing."""
+        model = modelled(self.study, self.energy, self.names, eliminates)
+        faults = missing(model.energy.symbols, self.scene)
         if faults:
             raise SceneError(tuple(faults), self.scene.name)
         return model
@@ -242,11 +231,6 @@ def _tells_of_motion(scene: Scene) -> bool:
     return any(p.mass is not None for p in scene.particles) or any(b.mass is not None for b in scene.bodies)
 
 
-def _energies(model: LagrangeModel) -> list[Expr]:
-    e = model.energy
-    return [e.kinetic, e.potential, e.dissipation, *e.forces.values()]
-
-
 def _small(scene: Scene, derived: Derived) -> tuple[Linearized | None, tuple[str, ...]]:
     """Small motions, or why they are not given; what was eliminated may have no value at rest, and is then kept."""
     try:
@@ -256,7 +240,7 @@ def _small(scene: Scene, derived: Derived) -> tuple[Linearized | None, tuple[str
     if not derived.model.elimination.solved or derived.model.elimination.constants:
         return None, (why,)
     try:
-        return linearized(derive(read(scene).model(ELIMINATIONS[-1]))), ()
+        return linearized(derive(read(scene).model(eliminates=False))), ()
     except NoEquationsError:
         return None, (why,)
 
@@ -303,7 +287,7 @@ def conserved(derived: Derived) -> Iterator[Conserved]:
     """
     model = derived.model
     for name in model.names:
-        if _zero(derived, derived.forces[name]) and not any(_acts(c, name, derived) for c in model.constraints):
+        if _zero(derived, derived.forces[name]) and all(_zero(derived, row[name]) for row in model.slopes):
             quantity = to_text(derived.momenta[name])
             yield Conserved(name=f"p_{name}", quantity=quantity, reason=f"no generalized force acts along {name}.")
     energy = model.energy
@@ -333,14 +317,6 @@ def energy_function(derived: Derived) -> tuple[Expr, bool]:
 
 def _zero(derived: Derived, e: Expr) -> bool:
     return e.is_zero or is_identically_zero(e, derived.model.positive) is True
-
-
-def _acts(piece: Remaining, name: str, derived: Derived) -> bool:
-    """Return whether the constraint's force may have a component along a coordinate."""
-    if isinstance(piece, Pfaffian):
-        return name in piece.coefficients and not _zero(derived, piece.coefficients[name])
-    symbol = ex.coordinate(name) if isinstance(piece, Finite) else ex.velocity(name)
-    return not _zero(derived, diff(piece.expr, symbol))
 
 
 def _workless(piece: Remaining, derived: Derived) -> bool:

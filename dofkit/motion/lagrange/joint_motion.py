@@ -235,18 +235,3 @@ def _line_of(what: str, number: int, lines: Sequence[Vec]) -> tuple[Vec, bool]:
 def _axes_back(frame: Frame) -> tuple[Vec, ...]:
     """From directions of the reference configuration to the body's own axes."""
     return transposed(euler(*frame.initial))
-
-
-def written_length(e: Expr) -> int:
-    """How many nodes an expression has as it is written, shared ones counted as often as they stand there."""
-    lengths: dict[Expr, int] = {}
-    stack = [e]
-    while stack:
-        node = stack[-1]
-        below = [part for part in node.args if isinstance(part, Expr)]
-        waiting = [part for part in below if part not in lengths]
-        if waiting:
-            stack += waiting
-        else:
-            lengths[stack.pop()] = 1 + sum(lengths[part] for part in below)
-    return lengths[e]

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from contextlib import suppress
+from dataclasses import dataclass
 from functools import cached_property
 
 from dofkit.base.errors import DofkitError, Fault, NoValueError, SceneError, TextError
@@ -17,12 +18,11 @@ from dofkit.expressions.text import parse_relations
 from dofkit.expressions.text.names import Names, UnknownNameError
 from dofkit.expressions.tree import ZERO, Expr
 from dofkit.motion.lagrange.elimination import (
-    ELIMINATIONS,
-    Care,
     EliminatedRelation,
     Elimination,
     Eliminator,
     Remaining,
+    expressions_of,
     in_velocities,
     inserted,
     motions,
@@ -91,8 +91,8 @@ class LagrangeModel:
         return self.energy.forces.get(name, ZERO) - diff(self.energy.dissipation, ex.velocity(name))
 
 
-def modelled(study: Examined, energy: Energy, names: Names, care: Care = ELIMINATIONS[0]) -> LagrangeModel:
-    """The system with as much eliminated as is possible in closed form, and as ``care`` allows.
+def modelled(study: Examined, energy: Energy, names: Names, eliminates: bool = True) -> LagrangeModel:
+    """The system with as much eliminated as is possible in closed form, or with nothing eliminated.
 
     Integrals of differential constraints are used where their constants do not enter the motion. Raises
     NoEquationsError where the system is inconsistent or was not decided.
@@ -104,12 +104,13 @@ def modelled(study: Examined, energy: Energy, names: Names, care: Care = ELIMINA
     finite = [EliminatedRelation(r.piece.expr) for r in outcome.rows if isinstance(r.piece, Finite)]
     finite += [EliminatedRelation(g) for a in outcome.answers for g in a.hidden]
     integrals = list(_integrals(study, names))
-    eliminator = Eliminator(study.setting.positive, energy.potential, study.system.reference, care)
-    for relations in ([*finite, *integrals], finite, []):
+    eliminator = Eliminator(study.setting.positive, energy.potential, study.system.reference)
+    for relations in ([*finite, *integrals], finite, []) if eliminates else ([],):
         elimination = _agreeing(eliminator, relations, coordinates, free)
-        model = _built_or_none(study, energy, elimination, coordinates)
-        if model is not None:
-            return model
+        with suppress(NoValueError):  # an expression may have no value once coordinates are eliminated
+            model = _built(study, energy, elimination, coordinates)
+            if model is not None:
+                return model
     raise NoEquationsError(
         "it is undecided which of the constraints are independent, so no equations of motion are given"
     )
@@ -122,7 +123,7 @@ def _agreeing(
     dependent = [c for c in coordinates if c not in free]
     elimination = eliminator.eliminated(relations, coordinates, dependent)
     if elimination.solved.keys() != set(dependent) and len(elimination.solved) == len(dependent):
-        other = replace(eliminator, care=eliminator.care._replace(roots=0)).eliminated(relations, dependent, dependent)
+        other = eliminator.eliminated(relations, dependent, dependent, roots=False)
         if len(other.solved) == len(dependent):
             return other
     return elimination
@@ -142,16 +143,6 @@ def _possible(study: Examined) -> None:
     if report.consistent is None or report.dof is None or report.velocity_dof is None:
         why = "; ".join(dict.fromkeys(r for a in study.outcome.answers for r in a.reasons)) or "it was not decided"
         raise NoEquationsError(f"it is undecided how the system can move, so no equations of motion are given: {why}")
-
-
-def _built_or_none(
-    study: Examined, energy: Energy, elimination: Elimination, coordinates: Sequence[str]
-) -> LagrangeModel | None:
-    """Return the model after an elimination; None where an expression has no value once coordinates are eliminated."""
-    try:
-        return _built(study, energy, elimination, coordinates)
-    except NoValueError:
-        return None
 
 
 def _integrals(study: Examined, names: Names) -> Iterator[EliminatedRelation]:
@@ -192,7 +183,7 @@ def _built(
     pieces = [inserted(r.piece, elimination) for r in study.outcome.rows if isinstance(r.piece, Remaining)]
     pieces += [inserted(Finite(g), elimination) for a in study.outcome.answers for g in a.hidden]
     remaining = [p for p in pieces if not vanishes(p, study.setting.positive)]
-    if any(_symbols(p) & elimination.constants for p in remaining):
+    if any(e.symbols & elimination.constants for p in remaining for e in expressions_of(p)):
         return None
     chosen = independent(kept, remaining, study.setting)
     if chosen is None or len(elimination.solved) + len(chosen) != len(coordinates) - (study.report.velocity_dof or 0):
@@ -217,12 +208,6 @@ def _built(
         tuple(study.report.redundant or ()),
         tuple(notes),
     )
-
-
-def _symbols(piece: Remaining) -> frozenset[Expr]:
-    if isinstance(piece, Pfaffian):
-        return frozenset().union(*(e.symbols for e in (*piece.coefficients.values(), piece.dt)))
-    return piece.expr.symbols
 
 
 def _reduced(energy: Energy, elimination: Elimination, kept: Sequence[str], setting: Setting) -> Energy | None:
@@ -251,10 +236,7 @@ def _reduced(energy: Energy, elimination: Elimination, kept: Sequence[str], sett
                     forces[j] = forces.get(j, ZERO) + insert(force) * slope
     potential, notes = without_roots(potential, setting.positive, setting.reference)
     reduced = Energy(kinetic, potential, insert(energy.dissipation), forces, (*energy.notes, *notes))
-    used = (reduced.kinetic, reduced.potential, reduced.dissipation, *forces.values())
-    if any(e.symbols & elimination.constants for e in used):
-        return None
-    return reduced
+    return None if reduced.symbols & elimination.constants else reduced
 
 
 def independent(names: Sequence[str], pieces: Sequence[Remaining], setting: Setting) -> list[Remaining] | None:

@@ -155,9 +155,13 @@ def _factored_product(canon: Canon, poly: Poly) -> Expr:
 
 
 def length(e: Expr) -> int:
-    """How long an expression is to read."""
-    hidden = e.op == "mul" and any(p.op == "add" and any(s.args[0] in _RATES for s in p.symbols) for p in e.args)
-    return 1 + HIDDEN * hidden + sum(map(length, ex.children(e)))
+    """Return how long an expression is to read: nodes count as often as they are written."""
+    lengths: dict[Expr, int] = {}
+    for node in ex.nodes(e):
+        sums = [p for p in node.args if p.op == "add"] if node.op == "mul" else []
+        hidden = any(s.args[0] in _RATES for p in sums for s in p.symbols)
+        lengths[node] = 1 + HIDDEN * hidden + sum(lengths[child] for child in ex.children(node))
+    return lengths[e]
 
 
 _KINDS = {"parameter": 0, "time": 1, "coordinate": 2, "velocity": 4, "acceleration": 5}
