@@ -8,7 +8,7 @@ on that component [HermannNagano].
 from __future__ import annotations
 
 import random
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from flint import arb, ctx
 
@@ -44,6 +44,24 @@ def reference_points(forms: Codistribution, reference: Mapping[Expr, Expr]) -> l
     if len(drawn) < SAMPLES:
         return None
     return drawn if all(on_variety(forms.chart, point) for point in drawn) else []
+
+
+def has_rank_drop(forms: Codistribution, samples: Sequence[FieldPoint], reference: Mapping[Expr, Expr]) -> bool:
+    """Return whether the rows have a smaller rank at the reference configuration than at one of the samples.
+
+    Different leaves can then pass through the reference, so that the freedom at the samples is not that near it.
+    """
+    if "field" not in forms.chart.setting.engines:
+        return False
+    try:
+        drawn = (reference_points(forms, reference) or [])[:1]
+        return any(_rank(forms, here) < max(_rank(forms, point) for point in samples) for here in drawn if samples)
+    except NoValueError:
+        return False
+
+
+def _rank(forms: Codistribution, point: FieldPoint) -> int:
+    return rank_of(forms.rows.matrix(values(forms.chart.ring, point), point.number(ex.ZERO.args[0])), point.p)
 
 
 def regular_reference(

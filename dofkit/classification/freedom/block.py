@@ -29,7 +29,7 @@ from dofkit.integrability.pfaffian_system import (
     first_order_freedom,
     prolong,
 )
-from dofkit.integrability.regular_reference import reference_points, regular_reference
+from dofkit.integrability.regular_reference import has_rank_drop, reference_points, regular_reference
 from dofkit.integrability.row_labels import ball_labels, field_labels
 from dofkit.mobility.general_position import framework_answer
 from dofkit.relations.answer import Answer, Size
@@ -198,10 +198,12 @@ def _prolonged(block: Block, setting: Setting, result: Answer, relations: Sequen
 def _points(forms: Codistribution, setting: Setting) -> Variety:
     """Points to look at the forms: of the reference's part where one is given, else generic ones."""
     alike = is_irreducible(forms.chart) if setting.reference is None else is_graph(forms.chart)
+    undecided = Variety(None, None, "undecided", reasons=[IRREGULAR])
     if setting.reference is None or alike:
         result = find(forms.chart, setting.pose)
+        if setting.reference is not None and has_rank_drop(forms, result.samples, setting.reference):
+            return undecided
         return result if alike else replace(result, about="component")
-    undecided = Variety(None, None, "undecided", reasons=[IRREGULAR])
     points = reference_points(forms, setting.reference) if "field" in forms.chart.setting.engines else None
     if points is None:
         return undecided
