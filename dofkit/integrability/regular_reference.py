@@ -27,7 +27,7 @@ from dofkit.exact.zero import zero_and_verdict
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
-from dofkit.integrability.lie_algebra import AdmissibleCurve
+from dofkit.integrability.lie_algebra import AdmissibleCurve, SampledSpan, span_at
 from dofkit.integrability.pfaffian_system import Codistribution
 
 #: Coefficients along a curve in which a dependent row has to be dependent.
@@ -46,22 +46,24 @@ def reference_points(forms: Codistribution, reference: Mapping[Expr, Expr]) -> l
     return drawn if all(on_variety(forms.chart, point) for point in drawn) else []
 
 
-def has_rank_drop(forms: Codistribution, samples: Sequence[FieldPoint], reference: Mapping[Expr, Expr]) -> bool:
-    """Return whether the rows have a smaller rank at the reference configuration than at one of the samples.
-
-    Different leaves can then pass through the reference, so that the freedom at the samples is not that near it.
-    """
+def span_at_reference(forms: Codistribution, reference: Mapping[Expr, Expr]) -> tuple[FieldPoint, SampledSpan] | None:
+    """Return the reference configuration over GF(p) and the Lie algebra there; None where it has no such point."""
     if "field" not in forms.chart.setting.engines:
-        return False
-    try:
-        drawn = (reference_points(forms, reference) or [])[:1]
-        return any(_rank(forms, here) < max(_rank(forms, point) for point in samples) for here in drawn if samples)
-    except NoValueError:
-        return False
+        return None
+    for point in reference_points(forms, reference) or []:
+        sampled = span_at(forms, point, True)
+        return None if sampled is None else (point, sampled)
+    return None
 
 
-def _rank(forms: Codistribution, point: FieldPoint) -> int:
-    return rank_of(forms.rows.matrix(values(forms.chart.ring, point), point.number(ex.ZERO.args[0])), point.p)
+def is_exceptional(here: SampledSpan, samples: Sequence[SampledSpan]) -> bool:
+    """Return whether the rows or the Lie algebra are smaller at the reference configuration than at one of the samples.
+
+    Several leaves, or one of smaller dimension, can pass through such a configuration [HermannNagano].
+    """
+    return any(
+        len(here.frame.rows) < len(there.frame.rows) or here.span.dimension < there.span.dimension for there in samples
+    )
 
 
 def regular_reference(

@@ -130,7 +130,7 @@ def field_labels(
         result.verdict = weakest(result.verdict, "probable")
         result.reasons.append("the freedom differs between points; the generic value is given")
     _set_labels(forms_at_points, proof_of, result)
-    result.dependent = _integrable_names(forms_at_points)
+    result.dependent = integrable_names(forms, forms_at_points.point, forms_at_points.sampled.span)
 
 
 def _set_freedom(forms_at_points: SampledForms, result: Answer, setting: Setting) -> None:
@@ -227,13 +227,12 @@ def _modulo_the_others(place: int, sampled: SampledSpan, p: int) -> bool:
     return all(sum(map(mul, vector, pairings)) == 0 for vector in null_vectors(paired))
 
 
-def _integrable_names(forms_at_points: SampledForms) -> tuple[str, ...]:
-    """Dependent coordinates: pivots of the annihilator of the Lie algebra."""
-    chart, p, spanning = forms_at_points.forms.chart, forms_at_points.point.p, forms_at_points.sampled.span.vectors
-    if not spanning:
-        return tuple(str(s.args[1]) for s in chart.symbols if s != ex.TIME)
-    rows = null_vectors(residue_matrix([[int(v) for v in vector] for vector in spanning], p))
-    return dependent_names(sparse(rows), chart, p) if rows else ()
+def integrable_names(forms: Codistribution, point: FieldPoint, span: Span) -> tuple[str, ...]:
+    """Dependent coordinates: pivots of the annihilator of the Lie algebra at a point."""
+    if not span.vectors:
+        return tuple(str(s.args[1]) for s in forms.chart.symbols if s != ex.TIME)
+    rows = null_vectors(residue_matrix([[int(v) for v in vector] for vector in span.vectors], point.p))
+    return dependent_names(sparse(rows), forms.chart, point.p) if rows else ()
 
 
 def _gap(span: Span) -> float:

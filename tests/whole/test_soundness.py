@@ -87,9 +87,11 @@ def test_the_handle_of_an_umbrella(power: int) -> None:
     [
         (["x dx + y dy + z dz = 0"], 0),  # the sphere of radius 0
         (["x dy = y dx", "x dz = z dx"], 3),  # one ray after the other leads to every configuration
+        (["dz = z x dy"], 2),  # nothing leaves z = 0
+        (["xdot = ydot", "(x - y) zdot = 0"], 2),  # x = y stays, and z is free there
     ],
 )
-def test_forms_whose_rank_drops_at_the_reference(forms: list[str], dof: int) -> None:
+def test_forms_at_a_reference_that_is_exceptional(forms: list[str], dof: int) -> None:
     report = dofkit.classify(scene("x y z", *forms, configuration=dict.fromkeys("xyz", 0)))
     assert report.dof in (dof, None)
 
