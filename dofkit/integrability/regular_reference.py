@@ -2,7 +2,8 @@
 
 Where the set may have several components, the Lie algebra is taken at the reference configuration: its dimension along
 a generic admissible curve from there is that of the component of the reference, if the rows have the same rank near it
-on that component [HermannNagano].
+on that component [HermannNagano]. Elsewhere the answer is that of generic points, unless the reference is exceptional
+among them.
 """
 
 from __future__ import annotations
@@ -56,14 +57,17 @@ def span_at_reference(forms: Codistribution, reference: Mapping[Expr, Expr]) -> 
     return None
 
 
-def is_exceptional(here: SampledSpan, samples: Sequence[SampledSpan]) -> bool:
+def is_exceptional(
+    forms: Codistribution, reference: tuple[FieldPoint, SampledSpan], samples: Sequence[SampledSpan]
+) -> bool:
     """Return whether the rows or the Lie algebra are smaller at the reference configuration than at one of the samples.
 
-    Several leaves, or one of smaller dimension, can pass through such a configuration [HermannNagano].
+    Several leaves, or one of smaller dimension, can pass through such a configuration [HermannNagano]. Rows count by
+    what they say of velocities: where only the dt term remains no motion passes.
     """
-    return any(
-        len(here.frame.rows) < len(there.frame.rows) or here.span.dimension < there.span.dimension for there in samples
-    )
+    point, here = reference
+    rank = rank_of([row[: forms.n] for row in here.matrix], point.p)
+    return any(rank < len(there.frame.rows) or here.span.dimension < there.span.dimension for there in samples)
 
 
 def regular_reference(

@@ -239,7 +239,7 @@ def _with_spans(block: Block, forms: Codistribution, points: Variety, extra: lis
         good = _spans(forms, points)
         elsewhere = setting.reference is not None and points.about != "reference"
         here = span_at_reference(forms, setting.reference or {}) if elsewhere else None
-        if here is not None and is_exceptional(here[1], [sampled for _, sampled in good]):
+        if here is not None and is_exceptional(forms, here, [sampled for _, sampled in good]):
             return replace(result, consistent=None, verdict="undecided", reasons=[*points.reasons, IRREGULAR])
         if good:
             if points.about == "component" and points.real is not None and points.real.certified:
