@@ -127,7 +127,7 @@ def _of_block(block: Block, a: Answer, setting: Setting, rotations: Sequence[Rot
     turning = [r for r in rotations if r.chart == "gibbs" and not block_coordinates.isdisjoint(r.names)]
     of_joints = partial(_dependent_at_drawing, TurnedGroup(block, ()), setting, places_first=not a.answered_parts)
     dependent = set(a.dependent if a.answered_parts is None else of_joints())
-    direct = _regular_at_reference(block, a, setting) or [c for c in block.coordinates if c not in dependent]
+    direct = [c for c in block.coordinates if c not in dependent]
     if not turning and len(direct) == a.dof:
         chosen = _explicit(block, a.dof, setting)
         return direct if chosen is None or not _is_regular(block, a, chosen, setting) else chosen
@@ -195,19 +195,6 @@ def _is_regular(block: Block, a: Answer, chosen: Sequence[str], setting: Setting
     remaining = {k for k, name in enumerate(block.coordinates) if name not in chosen}
     rows = [{c: v for c, v in row.items() if c in remaining} for row in a.matrix]
     return rank_of_rows(rows, a.modulus) == len(remaining)
-
-
-def _regular_at_reference(block: Block, a: Answer, setting: Setting) -> list[str] | None:
-    """Of a block with forms, none of which integrates: those for which its finite relations solve at the reference.
-
-    None where there is no reference, or the relations are dependent there.
-    """
-    if setting.reference is None or not block.forms or "field" not in setting.engines:
-        return None
-    finite = Block(block.coordinates, block.finite, block.conditions)
-    dependent = _dependent_at_drawing(TurnedGroup(finite, tuple(a.hidden)), setting)
-    chosen = [c for c in block.coordinates if c not in dependent]
-    return chosen if len(chosen) == a.dof else None
 
 
 def _explicit(block: Block, dof: int, setting: Setting) -> list[str] | None:

@@ -2,13 +2,14 @@
 
 Where the set may have several components, the Lie algebra is taken at the reference configuration: its dimension along
 a generic admissible curve from there is that of the component of the reference, if the rows have the same rank near it
-on that component [HermannNagano].
+on that component [HermannNagano]. Elsewhere the answer is that of generic points, unless the reference is exceptional
+among them.
 """
 
 from __future__ import annotations
 
 import random
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from flint import arb, ctx
 
@@ -27,7 +28,7 @@ from dofkit.exact.zero import zero_and_verdict
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
-from dofkit.integrability.lie_algebra import AdmissibleCurve
+from dofkit.integrability.lie_algebra import AdmissibleCurve, SampledSpan, span_at
 from dofkit.integrability.pfaffian_system import Codistribution
 
 #: Coefficients along a curve in which a dependent row has to be dependent.
@@ -44,6 +45,29 @@ def reference_points(forms: Codistribution, reference: Mapping[Expr, Expr]) -> l
     if len(drawn) < SAMPLES:
         return None
     return drawn if all(on_variety(forms.chart, point) for point in drawn) else []
+
+
+def span_at_reference(forms: Codistribution, reference: Mapping[Expr, Expr]) -> tuple[FieldPoint, SampledSpan] | None:
+    """Return the reference configuration over GF(p) and the Lie algebra there; None where it has no such point."""
+    if "field" not in forms.chart.setting.engines:
+        return None
+    for point in reference_points(forms, reference) or []:
+        sampled = span_at(forms, point, True)
+        return None if sampled is None else (point, sampled)
+    return None
+
+
+def is_exceptional(
+    forms: Codistribution, reference: tuple[FieldPoint, SampledSpan], samples: Sequence[SampledSpan]
+) -> bool:
+    """Return whether the rows or the Lie algebra are smaller at the reference configuration than at one of the samples.
+
+    Several leaves, or one of smaller dimension, can pass through such a configuration [HermannNagano]. Rows count by
+    what they say of velocities: where only the dt term remains no motion passes.
+    """
+    point, here = reference
+    rank = rank_of([row[: forms.n] for row in here.matrix], point.p)
+    return any(rank < len(there.frame.rows) or here.span.dimension < there.span.dimension for there in samples)
 
 
 def regular_reference(

@@ -16,7 +16,7 @@ from flint import arb
 from dofkit.base.verdicts import Verdict, weakest
 from dofkit.configuration.at_reference import CLEAR
 from dofkit.configuration.finite_blocks import dependent_names
-from dofkit.configuration.variety import Variety, pose_point
+from dofkit.configuration.variety import Variety
 from dofkit.exact.matrices.certified import ball_part, dependencies
 from dofkit.exact.matrices.sparse import rank_of, sparse
 from dofkit.exact.points.field import FieldPoint
@@ -28,11 +28,11 @@ from dofkit.exact.ring.program import Scalar, values
 from dofkit.exact.zero import independent_on_set
 from dofkit.expressions import tree as ex
 from dofkit.integrability.growth_vector import derived_flag, spanning_curves
-from dofkit.integrability.lie_algebra import SampledSpan, Span, ball_span, span_at
+from dofkit.integrability.lie_algebra import SampledSpan, Span, ball_span
 from dofkit.integrability.pfaffian_system import Codistribution, is_nonzero, linear_rows
 from dofkit.integrability.traits import proof
 from dofkit.relations.answer import Answer, HolonomyLabel
-from dofkit.relations.blocks import Block, Chart
+from dofkit.relations.blocks import Block
 from dofkit.relations.normal.pieces import Finite, Pfaffian
 from dofkit.relations.setting import Setting
 
@@ -130,7 +130,7 @@ def field_labels(
         result.verdict = weakest(result.verdict, "probable")
         result.reasons.append("the freedom differs between points; the generic value is given")
     _set_labels(forms_at_points, proof_of, result)
-    result.dependent = _integrable_names(_at_reference(forms_at_points, setting), forms.chart)
+    result.dependent = integrable_names(forms, forms_at_points.point, forms_at_points.sampled.span)
 
 
 def _set_freedom(forms_at_points: SampledForms, result: Answer, setting: Setting) -> None:
@@ -227,22 +227,12 @@ def _modulo_the_others(place: int, sampled: SampledSpan, p: int) -> bool:
     return all(sum(map(mul, vector, pairings)) == 0 for vector in null_vectors(paired))
 
 
-def _at_reference(forms_at_points: SampledForms, setting: Setting) -> tuple[FieldPoint, SampledSpan]:
-    """Return the reference, if the Lie algebra is as large there as at the other points; else where it is largest."""
-    forms, largest = forms_at_points.forms, (forms_at_points.point, forms_at_points.sampled)
-    point = setting.reference and pose_point(forms.chart, {**setting.reference, ex.TIME: ex.ZERO}, 3)
-    here = span_at(forms, point, drawn=True) if point else None
-    same = here is not None and here.span.dimension == largest[1].span.dimension
-    return (point, here) if point and here and same else largest
-
-
-def _integrable_names(at_point: tuple[FieldPoint, SampledSpan], chart: Chart) -> tuple[str, ...]:
+def integrable_names(forms: Codistribution, point: FieldPoint, span: Span) -> tuple[str, ...]:
     """Dependent coordinates: pivots of the annihilator of the Lie algebra at a point."""
-    p, spanning = at_point[0].p, at_point[1].span.vectors
-    if not spanning:
-        return tuple(str(s.args[1]) for s in chart.symbols if s != ex.TIME)
-    rows = null_vectors(residue_matrix([[int(v) for v in vector] for vector in spanning], p))
-    return dependent_names(sparse(rows), chart, p) if rows else ()
+    if not span.vectors:
+        return tuple(str(s.args[1]) for s in forms.chart.symbols if s != ex.TIME)
+    rows = null_vectors(residue_matrix([[int(v) for v in vector] for vector in span.vectors], point.p))
+    return dependent_names(sparse(rows), forms.chart, point.p) if rows else ()
 
 
 def _gap(span: Span) -> float:

@@ -82,6 +82,20 @@ def test_the_handle_of_an_umbrella(power: int) -> None:
     assert (report.dof, report.velocity_dof, report.holonomic) in ((2, 2, True), (None, None, None))
 
 
+@pytest.mark.parametrize(
+    ("forms", "dof"),
+    [
+        (["x dx + y dy + z dz = 0"], 0),  # the sphere of radius 0
+        (["x dy = y dx", "x dz = z dx"], 3),  # one ray after the other leads to every configuration
+        (["dz = z x dy"], 2),  # nothing leaves z = 0
+        (["xdot = ydot", "(x - y) zdot = 0"], 2),  # x = y stays, and z is free there
+    ],
+)
+def test_forms_at_a_reference_that_is_exceptional(forms: list[str], dof: int) -> None:
+    report = dofkit.classify(scene("x y z", *forms, configuration=dict.fromkeys("xyz", 0)))
+    assert report.dof in (dof, None)
+
+
 def test_measured_links_with_a_relation_that_is_drawn_nowhere() -> None:
     """Nine links of K(3,3) on two lines move; decimals that are right to 10^-4 contradict nothing."""
     places = {"A0": (3, 0), "A1": (-6, 0), "A2": (5, 0), "B0": (0, -5), "B1": (0, -8), "B2": (0, -4)}

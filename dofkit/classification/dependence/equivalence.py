@@ -245,7 +245,10 @@ class Equivalence:
         return self._follow(moving, [*standing, *rates]) if answer else answer
 
     def leaves(self, constants: frozenset[str]) -> Leaves:
-        """Leaves of the forms: they vanish there, and as many velocities are free as the forms leave."""
+        """Leaves of the forms: they vanish there, and as many velocities are free as the forms leave.
+
+        Where there are other forms, one of several constants may be that of another integral: that is undecided.
+        """
         finite = _finite(self._answer)
         if not finite or len(finite) != len(self._answer):
             whole = all(isinstance(p, Finite) for n in self._answer for p in n.pieces)
@@ -253,10 +256,11 @@ class Equivalence:
         if not self._possible:
             return Leaves.NONE
         named = {str(s.args[1]) for g in finite for s in g.symbols if s.args[0] == "coordinate"}
-        moving = {q for n in self._all_wanted for p in n.pieces if isinstance(p, Pfaffian) for q in p.coefficients}
+        moving = {q for n in self._all_wanted for q in self._moved(n)}
         answer = self._follow(self._all_wanted, self._answer)
         if not answer:
-            return Leaves.NONE if answer is False else Leaves.OPEN
+            borrowed = len(named & constants) > 1 and any(self._moved(n) - constants for n in self._others)
+            return Leaves.NONE if answer is False and not borrowed else Leaves.OPEN
         mine, asked = self._with(self.submitted), self._with(self.wanted)
         if mine.velocity_dof is None or asked.velocity_dof is None:
             return Leaves.OPEN
@@ -265,6 +269,11 @@ class Equivalence:
         if len(moving) > 1 and len(named - constants) < 2:
             return Leaves.OPEN
         return Leaves.ALL if named & constants else Leaves.ONE
+
+    @staticmethod
+    def _moved(normal: Normal) -> set[str]:
+        """The coordinates whose differentials occur in the forms of a normal."""
+        return {q for p in normal.pieces if isinstance(p, Pfaffian) for q in p.coefficients}
 
     def _regularity(self) -> Sameness:
         """The same set: is the answer's gradient as good there, on every branch?"""

@@ -29,8 +29,13 @@ from dofkit.integrability.pfaffian_system import (
     first_order_freedom,
     prolong,
 )
-from dofkit.integrability.regular_reference import reference_points, regular_reference
-from dofkit.integrability.row_labels import ball_labels, field_labels
+from dofkit.integrability.regular_reference import (
+    is_exceptional,
+    reference_points,
+    regular_reference,
+    span_at_reference,
+)
+from dofkit.integrability.row_labels import ball_labels, field_labels, integrable_names
 from dofkit.mobility.general_position import framework_answer
 from dofkit.relations.answer import Answer, Size
 from dofkit.relations.blocks import Block, is_measured
@@ -232,6 +237,10 @@ def _with_spans(block: Block, forms: Codistribution, points: Variety, extra: lis
         return replace(result, consistent=None, verdict="undecided", reasons=[*points.reasons, IRREGULAR])
     if points.samples:
         good = _spans(forms, points)
+        elsewhere = setting.reference is not None and points.about != "reference"
+        here = span_at_reference(forms, setting.reference or {}) if elsewhere else None
+        if here is not None and is_exceptional(forms, here, [sampled for _, sampled in good]):
+            return replace(result, consistent=None, verdict="undecided", reasons=[*points.reasons, IRREGULAR])
         if good:
             if points.about == "component" and points.real is not None and points.real.certified:
                 largest = max((sampled for _, sampled in good), key=lambda sampled: sampled.span.dimension)
@@ -240,6 +249,8 @@ def _with_spans(block: Block, forms: Codistribution, points: Variety, extra: lis
                     return replace(result, consistent=None, verdict="undecided", reasons=[*points.reasons, APART])
                 points.real, result.witness = real, of_real_point(forms.chart, real)
             field_labels(block, forms, points, good, result, setting)
+            if here is not None and result.dof is not None:
+                result.dependent = integrable_names(forms, here[0], here[1].span)
             if block.nonlinear:
                 set_velocity_freedom(block, setting, result)
             return result
