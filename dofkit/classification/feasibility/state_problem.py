@@ -194,8 +194,8 @@ def certified_state(problem: StateProblem, positive: frozenset[Expr], fixed: boo
             continue
         if point is not None and point.solved == len(rows) and _is_solution(problem, ring, point, positive):
             at = point.point.symbols
-            known = {s: arb(at[s]) for s in (*free, *problem.constants) if s in at}
-            return {**dict.fromkeys(free, ex.ZERO), **known}
+            at_point = {s: arb(at[s]) for s in (*free, *problem.constants) if s in at}
+            return {**dict.fromkeys(free, ex.ZERO), **at_point}
     return None
 
 
