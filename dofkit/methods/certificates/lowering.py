@@ -74,7 +74,7 @@ def _checked(
 ) -> Report:
     """Return the report with ``checked`` in each verdict, and what is contradicted undecided, with a warning."""
 
-    def told(verdict: FieldVerdict, path: str) -> FieldVerdict:
+    def examined(verdict: FieldVerdict, path: str) -> FieldVerdict:
         if path in contradictions:
             return UNDECIDED
         lowered = strict and verdict.verdict == "proved" and path not in confirmed
@@ -82,7 +82,7 @@ def _checked(
         return verdict.model_copy(update=changes)
 
     def revised(model: Model, start: str) -> Model:
-        verdicts = {field: told(verdict, f"{start}/{field}") for field, verdict in model.verdicts.items()}
+        verdicts = {field: examined(verdict, f"{start}/{field}") for field, verdict in model.verdicts.items()}
         fields = {field: _OPEN.get(field) for field, verdict in verdicts.items() if verdict is UNDECIDED}
         whole = weakest(model.verdict, *(verdict.verdict for verdict in verdicts.values()))
         return model.model_copy(update={**fields, "verdict": whole, "verdicts": verdicts})
