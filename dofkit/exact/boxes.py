@@ -228,10 +228,6 @@ class BoxProgram:
             box = narrower
         return box
 
-    def is_defined(self, at: dict[Expr, Interval]) -> bool:
-        """Return whether every step has a value for all arguments in the box that ``at`` was found for."""
-        return all(_is_defined(node, at) for node in self.nodes)
-
 
 def _number(node: Expr) -> Interval:
     if node.op == "const":
@@ -302,25 +298,6 @@ def _narrow_parts(node: Expr, at: dict[Expr, Interval]) -> None:
         elif not (contains_zero(others) and contains_zero(at[node])):
             at[part] = _hull(_meet_or_none(old, mul(at[node], p)) for p in inverses(others))
         before = combine(before, old)
-
-
-def _is_defined(node: Expr, at: dict[Expr, Interval]) -> bool:
-    if node.op == "pow":
-        base, exponent = at[node.args[0]], node.args[1]
-        if exponent.op != "num":
-            return base[0] > 0.0
-        value = exponent.args[0]
-        return (base[0] >= 0.0 or value.denominator % 2 == 1) and (value > 0 or not contains_zero(base))
-    if node.op != "fn":
-        return True
-    name, u = node.args[0], at[node.args[1]]
-    if name in ("asin", "acos"):
-        return u[0] >= -1.0 and u[1] <= 1.0
-    if name == "atan2":
-        return not (contains_zero(u) and contains_zero(at[node.args[2]]))
-    if name in ("cot", "csc", "sec", "tan"):
-        return not contains_zero(function("sin" if name in ("cot", "csc") else "cos", u))
-    return bool(name != "log" or u[0] > 0.0)
 
 
 def _is_worth_another(old: Box, new: Box) -> bool:

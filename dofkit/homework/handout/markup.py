@@ -90,9 +90,9 @@ def _image(_: object, tokens: Sequence[Token], place: int, __: object, figures: 
     if figure is None:
         return escape(token.content)
     data = b64encode(figure.data).decode("ascii")
-    described = _DESCRIBED.search(figure.data) if figure.path.endswith(".svg") else None
-    alternative = escape(token.content) + (f": {described[1].decode()}" if described else "")
-    return f'<img src="data:{figure.kind};base64,{data}" alt="{alternative}">'
+    described = re.search(rb'<desc>([^<"]+)</desc>', figure.data)  # in an SVG; what has quotes can be no attribute
+    alternative = f": {described[1].decode()}" if described else ""
+    return f'<img src="data:{figure.kind};base64,{data}" alt="{escape(token.content)}{alternative}">'
 
 
 def _link(_: object, tokens: Sequence[Token], place: int, *__: object) -> str:
@@ -146,8 +146,6 @@ def page_of(
     return re.sub(rf"\{{\{{({'|'.join(fields)})\}}\}}", lambda place: fields[place[1]], page)
 
 
-#: What an SVG says of itself, which stands in no attribute: it may have quotes.
-_DESCRIBED = re.compile(rb"<desc>([^<\"]+)</desc>")
 #: Draws a scene, under a title, as SVG; None for a scene that has no places. Its report is known.
 Draw = Callable[[Scene, Report, str], str | None]
 #: Endings of files -> what they are called on a page.

@@ -57,15 +57,14 @@ def compared_regions(scene: Scene, asked: Sequence[Condition], answer: Sequence[
     """Compare two regions; ``scene`` has the other constraints, which hold in both."""
     beyond, point = _difference(scene, answer, asked)
     lacking, other = _difference(scene, asked, answer)
-    if lacking is False and not all(_has_values(c.e) for c in answer):
-        lacking = None
-    return RegionComparison(beyond, lacking, point if beyond else other)
+    sure = lacking is not False or all(_has_values(c.e) for c in answer)
+    return RegionComparison(beyond, lacking if sure else None, point if beyond else other)
 
 
 def _has_values(e: Expr) -> bool:
     """Return whether an expression is certain to have a value wherever its square roots have one."""
     total = {"abs", "sin", "cos", "exp", "atan", "tanh", "sinh", "cosh"}
-    whole = (n.op != "pow" or n in _roots(e) or (n.args[1].op == "num" and n.args[1].args[0] > 0) for n in ex.nodes(e))
+    whole = (n.op != "pow" or (n.args[1].op == "num" and n.args[1].args[0] > 0) for n in ex.nodes(e))
     return all(whole) and all(n.args[0] in total for n in ex.nodes(e) if n.op == "fn")
 
 
@@ -125,5 +124,4 @@ def _cases(condition: Condition) -> list[list[Condition]]:
 
 
 def _roots(e: Expr) -> list[Expr]:
-    half = ex.num(1) / ex.num(2)
-    return [n for n in ex.nodes(e) if n.op == "pow" and n.args[1] == half]
+    return [n for n in ex.nodes(e) if n.op == "pow" and n.args[1] == ex.HALF]

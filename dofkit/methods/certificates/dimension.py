@@ -196,7 +196,7 @@ def _of_set(context: Context, standing: Standing) -> Iterator[Told]:
     if not standing.dependent or standing.accounted:
         for tried in (order, given_in_order(finite, context.scenery, partial(_gives, context)), []):
             remaining = [name for name in finite if all(name != chosen for chosen, _ in tried)]
-            blocks, generic = _split(context, tried, remaining, symbols)
+            blocks, generic = _split(context, tried, remaining)
             if all(name in symbols for name in generic):
                 yield {
                     **claim,
@@ -264,9 +264,7 @@ def _gives(context: Context, name: str, q: str) -> bool:
         return False
 
 
-def _split(
-    context: Context, order: Order, remaining: list[str], own_symbols_of: dict[str, str]
-) -> tuple[list[str], list[str]]:
+def _split(context: Context, order: Order, remaining: list[str]) -> tuple[list[str], list[str]]:
     """What is left as single relations, and those that share coordinates."""
     evidence, dependencies = context.scenery.evidence, dict[str, frozenset[str]]()
     for name, q in order:
