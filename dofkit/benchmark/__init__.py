@@ -7,7 +7,7 @@ Types
 From trials to charts
     1. `trials` has the families: linkages, joints, forms, identities, near-singular poses, and the catalog. Scenes
        that follow no rule stand in tables, with their truth derived by hand.
-    2. `tasks` chooses some by name and lists what is to be run.
+    2. `tasks` chooses some by name and lists what is to be run, with sweeps of two settings.
     3. `runner` gives every task to a worker that can be killed, and compares the answer with the truth.
     4. `record` writes the lines as CSV, so that figures can be made again without running.
     5. `statistics` has scores and Pareto fronts; `sentences` states in words what they show and why a method fails;

@@ -38,18 +38,20 @@ def chart(options: ChartOptions) -> bool:
     if options.source is not None:
         finish(record.read(options.source), options.out)
         return True
-    work = options.tasks(FAMILIES)
+    work, swept = options.tasks(FAMILIES), options.sweeps(FAMILIES)
     started, data = time.monotonic(), Data(_provenance(options, sum(task.method == work[0].method for task in work)))
     try:
         with runner.bench_of(options.workers, options.seconds) as bench, _bar() as bar:
-            progress = bar.add_task("trials", total=len(work))
-            for line in runner.run(work, bench):
-                data.lines.append(line)
-                bar.update(progress, advance=1)
+            for name, members, lines in (("trials", work, data.lines), ("sweeps", swept, data.sweeps)):
+                progress = bar.add_task(name, total=len(members))
+                for line in runner.run(members, bench):
+                    lines.append(line)
+                    bar.update(progress, advance=1)
         complete = True
     except KeyboardInterrupt:
         complete = False
-        Console(stderr=True).print(f"interrupted after {len(data.lines)} of {len(work)} trials", highlight=False)
+        done, total = len(data.lines) + len(data.sweeps), len(work) + len(swept)
+        Console(stderr=True).print(f"interrupted after {done} of {total} trials", highlight=False)
         if not data.lines:
             return False
     ran = replace(data.ran, minutes=(time.monotonic() - started) / 60, complete=complete)
@@ -78,6 +80,7 @@ def finish(data: Data, out: Path) -> None:
     """Write the data, draw them where matplotlib is installed, and print what they show."""
     order = {key: i for i, key in enumerate(dict.fromkeys((line.family, line.question) for line in data.lines))}
     data.lines.sort(key=lambda line: (order[line.family, line.question], line.size, line.trial))
+    data.sweeps.sort(key=lambda line: (line.setting, line.family, line.trial, line.value))
     record.write(data, out)
     able = find_spec("matplotlib") is not None
     drawn = list(function_named(FIGURES)(data, out)) if able and data.ran.complete else []
@@ -124,7 +127,7 @@ def show(data: Data, out: Path, drawn: Sequence[Path]) -> None:
         console.print(table(data))
         for sentence in auto_sentences(data):
             console.print(sentence, soft_wrap=True)
-    console.print(f"data: {out}/ (trials.csv, run.json)", soft_wrap=True)
+    console.print(f"data: {out}/ (trials.csv, sweeps.csv, run.json)", soft_wrap=True)
     if drawn:
         names = ", ".join(path.stem for path in drawn)
         console.print(f"figures, as .png and .svg: {names}", soft_wrap=True)

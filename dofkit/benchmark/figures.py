@@ -11,6 +11,7 @@ from statistics import median
 from typing import Any, cast
 
 import matplotlib as mpl
+import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -22,6 +23,7 @@ from matplotlib.ticker import EngFormatter, LogLocator, NullLocator, ScalarForma
 from dofkit.benchmark.record import AUTO, OUTCOMES, Data, Outcome, TrialLine
 from dofkit.benchmark.sentences import caption, percent
 from dofkit.benchmark.statistics import Score, front, grouped, scores
+from dofkit.benchmark.tasks import SWEEPS, Sweep
 from dofkit.benchmark.trials import GLOSSES, HEADINGS
 
 # What the figures share: colours that the colour-blind distinguish, titles and captions
@@ -92,6 +94,16 @@ def sheet(width: float, height: float, title: str, text: str, keys: Sequence[Art
     style: dict[str, Any] = {"fontsize": 7.2, "color": "#444444", "va": "bottom", "linespacing": 1.2}
     figure.text(0.15 / width, 0.08 / total, "\n".join(lines), **style)
     return figure
+
+
+def outcome_keys() -> list[Artist]:
+    """Return the legend of outcomes."""
+    keys = [
+        Patch(facecolor=colour, edgecolor="#888888", hatch=OUTCOME_HATCHES.get(outcome), label=outcome)
+        for outcome, colour in OUTCOME_COLOURS.items()
+    ]
+    keys[-1].set_label("not applicable")
+    return [*keys]
 
 
 # Speed against accuracy
@@ -219,13 +231,8 @@ def matrix(data: Data) -> Figure | None:
     by_family = {ALL: data.lines} | grouped(data.lines, lambda line: line.family)
     rows, methods = row_labels(data.lines), list(scores(data.lines))
     title = "Where each method is right, wrong, undecided or too slow"
-    keys = [
-        Patch(facecolor=colour, edgecolor="#888888", hatch=OUTCOME_HATCHES.get(outcome), label=outcome)
-        for outcome, colour in OUTCOME_COLOURS.items()
-    ]
-    keys[-1].set_label("not applicable")
     size = NAMES + COLUMN * len(methods), ROW * (len(rows) + 2.2)
-    figure = sheet(*size, title, caption("matrix", data), keys)
+    figure = sheet(*size, title, caption("matrix", data), outcome_keys())
     axes = figure.subplots()
     axes.set_axis_off()
     axes.set_xlim(-NAMES / COLUMN, len(methods))
@@ -340,4 +347,54 @@ def _cost_curves(axes: Axes, lines: Sequence[TrialLine], by_method: Mapping[str,
         axes.plot(late[:1], [limit] * len(late[:1]), marker="x", markersize=7, **style)
 
 
-FIGURES: Mapping[str, Callable[[Data], Figure | None]] = {"fronts": fronts, "matrix": matrix, "cost": cost}
+# Stability: outcomes against a setting, a row for each distance from a special case
+
+#: The title, the label of the axis, and those of the rows, by setting.
+SWEPT: Mapping[str, tuple[str, str, str]] = {
+    "tolerance": ("numeric", "tolerance (share of the largest singular value)", "rounded to\n{} digits"),
+    "bits": ("balls", "precision (bits)", "a gap of\n$10^{{-{}}}$"),
+}
+
+
+def stability(data: Data) -> Figure | None:
+    """Draw a panel for each setting that was swept."""
+    drawn = [sweep for sweep in SWEEPS if any(line.setting == sweep.setting for line in data.sweeps)]
+    if not drawn:
+        return None
+    title = "Stability: which value of a setting gives right answers near special cases"
+    mark = Line2D([], [], marker="^", color="#000000", linestyle="none", label="value equal to the rounding or the gap")
+    figure = sheet(6.4 * len(drawn), 3.6, title, caption("stability", data), [*outcome_keys(), mark])
+    for axes, sweep in zip(figure.subplots(1, len(drawn), squeeze=False).ravel(), drawn, strict=True):
+        _sweep_panel(axes, sweep, [line for line in data.sweeps if line.setting == sweep.setting])
+    return figure
+
+
+def _sweep_panel(axes: Axes, sweep: Sweep, lines: Sequence[TrialLine]) -> None:
+    """Draw for each distance and value a bar of the shares of outcomes, and a mark where value and distance agree."""
+    values = sorted({line.value or 0.0 for line in lines})
+    rows = sweep.by_digits(lines, lambda line: line.trial)
+    title, axis, label = SWEPT[sweep.setting]
+    for y, (digits, members) in enumerate(rows.items()):
+        cells = [scores(line for line in members if line.value == value)[sweep.method] for value in values]
+        bottoms = np.full(len(cells), y - 0.4)
+        for outcome in OUTCOMES:
+            heights = [0.8 * cell.share(outcome) for cell in cells]
+            style: dict[str, Any] = {"color": OUTCOME_COLOURS[outcome], "hatch": OUTCOME_HATCHES.get(outcome)}
+            axes.bar(range(len(cells)), heights, 0.92, bottoms, edgecolor="#FFFFFF", linewidth=0, **style)
+            bottoms += heights
+        equal = digits * math.log2(10) if sweep.setting == "bits" else 10.0**-digits
+        axes.plot(np.interp(math.log(equal), np.log(values), range(len(values))), y - 0.46, "k^", clip_on=False)
+    axes.set_title(f"{title}: {len({line.trial for line in lines})} trials at each value")
+    axes.set_xlabel(axis)
+    axes.set_ylabel("share of trials (a bar is 0 to 100 %)")
+    names = [f"{value:g}" if value >= 1 else f"$10^{{{math.log10(value):.0f}}}$" for value in values]
+    step = math.ceil(len(values) / 12)
+    axes.set_xticks(range(0, len(values), step), names[::step])
+    axes.set_yticks(range(len(rows)), [label.format(digits) for digits in rows])
+    axes.tick_params(length=0)
+    axes.grid(visible=False)
+    axes.spines[:].set_visible(False)
+
+
+_DRAWING: tuple[Callable[[Data], Figure | None], ...] = (fronts, matrix, cost, stability)
+FIGURES: Mapping[str, Callable[[Data], Figure | None]] = {draw.__name__: draw for draw in _DRAWING}

@@ -20,10 +20,10 @@ AUTO = "auto"
 
 @dataclass(frozen=True)
 class TrialLine:
-    """A trial answered by a method: a line of ``trials.csv``.
+    """A trial answered by a method: a line of ``trials.csv``, or of ``sweeps.csv``.
 
     ``answer`` is None where there was none; ``seconds`` of processor time, of what was cut short the limit; ``why``
-    says in a sentence why it is not right.
+    says in a sentence why it is not right. In sweeps, ``setting`` of the method had this ``value``.
     """
 
     family: str
@@ -36,6 +36,8 @@ class TrialLine:
     outcome: Outcome
     seconds: float
     why: str = ""
+    setting: str = ""
+    value: float | None = None
 
 
 @dataclass(frozen=True)
@@ -66,14 +68,19 @@ class Data:
 
     ran: Ran
     lines: list[TrialLine] = field(default_factory=list)
+    sweeps: list[TrialLine] = field(default_factory=list)
 
 
 # Files
 
-TRIALS, RAN = "trials.csv", "run.json"
+TRIALS, SWEEPS, RAN = "trials.csv", "sweeps.csv", "run.json"
 #: Columns that hold JSON, and those that hold numbers; the others are plain text.
 _JSON = ("truth", "answer")
-_NUMBERS: dict[str, Callable[[str], Any]] = {"size": int, "seconds": float}
+_NUMBERS: dict[str, Callable[[str], Any]] = {
+    "size": int,
+    "seconds": float,
+    "value": lambda text: float(text) if text else None,
+}
 _COLUMNS = [column.name for column in fields(TrialLine)]
 
 
@@ -83,10 +90,11 @@ class ChartError(DofkitError):
 
 def write(data: Data, out: Path) -> None:
     """Write all data of a run into an existing folder. Raises OSError."""
-    with (out / TRIALS).open("w", encoding="utf-8", newline="") as file:
-        table = csv.writer(file, lineterminator="\n")
-        table.writerow(_COLUMNS)
-        table.writerows(map(_cells, data.lines))
+    for name, lines in ((TRIALS, data.lines), (SWEEPS, data.sweeps)):
+        with (out / name).open("w", encoding="utf-8", newline="") as file:
+            table = csv.writer(file, lineterminator="\n")
+            table.writerow(_COLUMNS)
+            table.writerows(map(_cells, lines))
     (out / RAN).write_text(json.dumps(asdict(data.ran), indent=1) + "\n", encoding="utf-8")
 
 
@@ -94,13 +102,13 @@ def read(folder: Path) -> Data:
     """Return the data of a run. Raises ChartError where they are missing or incomplete."""
     try:
         ran = Ran(**json.loads((folder / RAN).read_text(encoding="utf-8")))
-        lines = list(_read_lines(folder / TRIALS))
+        lines, sweeps = (list(_read_lines(folder / name)) for name in (TRIALS, SWEEPS))
     except OSError as error:
         raise ChartError(f"there is no run in {folder}: {error.strerror} ({error.filename})") from None
     except (ValueError, KeyError, TypeError) as error:
         first = str(error).splitlines()[0]
         raise ChartError(f"the files in {folder} are not those of a run of this version: {first}") from None
-    return Data(ran, lines)
+    return Data(ran, lines, sweeps)
 
 
 def _cells(line: TrialLine) -> list[Any]:

@@ -1,12 +1,12 @@
-"""The options of the command, and what they ask for: trials by name, each by each method."""
+"""The options of the command, and what they ask for: trials by name, each by each method, and sweeps of settings."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import get_args
+from typing import NamedTuple, TypeVar, get_args
 
 from dofkit.benchmark.record import ChartError
 from dofkit.benchmark.statistics import grouped
@@ -16,7 +16,36 @@ from dofkit.scene.fields import suggestion
 
 #: Trials of each family and question, at most.
 MOST = 32
+T = TypeVar("T")
 Families = Mapping[str, Callable[[], Iterator[Trial]]]
+
+
+class Sweep(NamedTuple):
+    """A setting of a method and its values, on trials of families that come near to a special case.
+
+    ``near`` finds in the name of such a trial how near, as the number of decimal digits.
+    """
+
+    method: str
+    setting: str
+    values: tuple[float, ...]
+    families: tuple[str, ...]
+    near: str
+
+    def by_digits(self, members: Iterable[T], name: Callable[[T], str]) -> dict[int, list[T]]:
+        """Return trials, or lines of them, by how near they are, as their name says; without those that are not."""
+        matches = [(re.search(self.near, name(member)), member) for member in members]
+        near = grouped([(int(match[1]), member) for match, member in matches if match], lambda pair: pair[0])
+        return {digits: [member for _, member in near[digits]] for digits in sorted(near)}
+
+
+TOLERANCES, BITS = tuple(10.0**-k for k in range(16, 0, -1)), (16, 23, 32, 45, 64, 91, 128, 181, 256, 362, 512)
+SWEEPS = (
+    Sweep("numeric", "tolerance", TOLERANCES, ("rounded, with tolerance",), r"(\d+) digits"),
+    Sweep("balls", "bits", BITS, ("linear rows", "touching surfaces", "tiny steps"), r"by 1e-([1-9]\d*)"),
+)
+#: Of the values, in a quick run every so many are taken.
+STRIDE_QUICK = 3
 
 
 #: Seconds of processor time for a trial, and in a quick run.
@@ -25,17 +54,19 @@ LIMIT, LIMIT_QUICK = 2.0, 0.5
 
 @dataclass(frozen=True)
 class TrialTask:
-    """A trial for a method."""
+    """A trial for a method; in a sweep with the value of a setting."""
 
     trial: Trial
     method: str
+    setting: str = ""
+    value: float | None = None
 
     @property
     def ladder(self) -> tuple[str, ...]:
         """What is the same in trials of which only the size differs: in a name that has it, n stands for it."""
         t = self.trial
         member, count = re.subn(rf"\b{t.size} by {t.size}\b|\b{t.size}\b", "n", t.name, count=1)
-        return (t.family, t.question, member if count else "", self.method)
+        return (t.family, t.question, member if count else "", self.method, repr(self.value))
 
 
 @dataclass(frozen=True)
@@ -64,15 +95,33 @@ class ChartOptions:
 
         Raises ChartError where there are none, and with the nearest name for one that is none.
         """
-        questions = _names(self.questions, get_args(Question), "question", "questions")
         methods = _names(self.methods, list(METHODS), "method", "methods")
-        trials: list[Trial] = []
-        for family in _names(self.families, list(families), "family", "families"):
-            asked = [trial for trial in families[family]() if trial.question in questions]
-            trials += few(asked) if self.quick else _thinned(asked)
+        trials = [trial for asked in self._asked(families).values() for trial in self._some(asked)]
         if not trials:
             raise ChartError("no trial of these families asks such a question")
         return [TrialTask(trial, method) for trial in trials for method in methods]
+
+    def sweeps(self, families: Families) -> list[TrialTask]:
+        """Return the trials near to special cases among those that are asked for, at each value of a setting."""
+        methods = _names(self.methods, list(METHODS), "method", "methods")
+        asked = self._asked(families)
+        swept: list[TrialTask] = []
+        for sweep in (sweep for sweep in SWEEPS if sweep.method in methods):
+            values = sweep.values[:: STRIDE_QUICK if self.quick else 1]
+            trials = [trial for family in sweep.families for trial in asked.get(family, ())]
+            for same in sweep.by_digits(trials, lambda trial: trial.name).values():
+                tasks = (TrialTask(trial, sweep.method, sweep.setting) for trial in self._some(same))
+                swept += [replace(task, value=value) for task in tasks for value in values]
+        return swept
+
+    def _asked(self, families: Families) -> dict[str, list[Trial]]:
+        """Return the trials of the families and questions that are asked for. Raises ChartError."""
+        questions = _names(self.questions, get_args(Question), "question", "questions")
+        names = _names(self.families, list(families), "family", "families")
+        return {name: [trial for trial in families[name]() if trial.question in questions] for name in names}
+
+    def _some(self, trials: Sequence[Trial]) -> Iterator[Trial]:
+        return few(trials) if self.quick else _thinned(trials)
 
     def command(self) -> str:
         """Return the command that makes the same data again, wherever it is written."""

@@ -10,7 +10,7 @@ from flint import arb, ctx, fmpq_mat
 
 from dofkit.base.errors import NoValueError
 from dofkit.base.verdicts import Verdict
-from dofkit.exact.points.balls import random_ball_point
+from dofkit.exact.points.balls import fixed_bits, random_ball_point
 from dofkit.exact.points.field import MOST_REDUCED, field_point
 from dofkit.exact.ring.canonical import Canon, divided
 from dofkit.exact.ring.program import Var, values
@@ -79,7 +79,8 @@ def zero_and_verdict(e: Expr, positive: frozenset[Expr], engines: Engines = BOTH
 
 def _balls(ring: Ring, node: int, positive: frozenset[Expr], precisions: Sequence[int] = PRECISIONS) -> Iterator[arb]:
     """Yield the value of a node at random real points, at one precision after another."""
-    for precision in precisions:
+    bits = fixed_bits()
+    for precision in precisions if bits is None else (bits,):
         for seed in range(STARTS):
             with ctx.workprec(precision), suppress(NoValueError):
                 yield values(ring, random_ball_point(ring, positive, seed))[node]

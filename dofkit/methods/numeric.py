@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
 from typing import Any
 
 import numpy as np
@@ -32,13 +34,24 @@ from dofkit.system import System
 STARTS, POINTS = 10, 5
 #: Singular values and differences below this share of the largest count as 0.
 TOLERANCE = 1e-9
+_tolerance: ContextVar[float] = ContextVar("numeric_tolerance", default=TOLERANCE)
 #: A singular value is clearly not 0 above the first share of the largest, and no more than rounding below the second.
 SIGNAL, ROUNDING = 1e-6, 1e-13
 NOWHERE = "Newton's method found no configuration from {} starts"
 
 
+@contextmanager
+def tolerance_of(share: float) -> Iterator[None]:
+    """Take what is below this share of the largest for 0 within, instead of `TOLERANCE`."""
+    token = _tolerance.set(share)
+    try:
+        yield
+    finally:
+        _tolerance.reset(token)
+
+
 class Floats:
-    """The numbers of this method: what is below `TOLERANCE` of the largest is 0."""
+    """The numbers of this method: what is below the tolerance, a share of the largest, is 0."""
 
     zero = 0.0
 
@@ -48,7 +61,7 @@ class Floats:
         return self._rank(singular_values(matrix))
 
     def _rank(self, singular: np.ndarray) -> int:
-        return int(np.sum(singular > TOLERANCE * float(singular.max(initial=0.0))))
+        return int(np.sum(singular > _tolerance.get() * float(singular.max(initial=0.0))))
 
     def kernel(self, matrix: Matrix, columns: int) -> Matrix:
         """An orthonormal basis of what the rows vanish on."""
@@ -58,7 +71,7 @@ class Floats:
         return [list(row) for row in right[self._rank(singular) :]]
 
     def vanishes(self, value: Scalar, scale: Sequence[Scalar]) -> bool:
-        return bool(abs(value) <= TOLERANCE * max(map(abs, scale), default=1.0))
+        return bool(abs(value) <= _tolerance.get() * max(map(abs, scale), default=1.0))
 
     def points(self, written: Written, rows: WrittenRows, drawn: bool) -> list[FloatPoint]:
         if drawn:

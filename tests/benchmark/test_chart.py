@@ -20,6 +20,7 @@ from dofkit.benchmark.runner import outcome_of
 from dofkit.benchmark.sentences import caption
 from dofkit.benchmark.statistics import Score
 from dofkit.benchmark.tasks import ChartOptions
+from dofkit.benchmark.trials import FAMILIES
 from dofkit.benchmark.trials.construction import Trial
 from dofkit.interface.cli import app
 
@@ -131,6 +132,19 @@ def test_of_many_trials_some_are_taken_from_the_smallest_to_the_largest() -> Non
     assert command == "dofkit chart --question dof --methods auto,field --quick"
 
 
+@pytest.mark.sweep
+def test_sweeps_set_what_the_method_computes_with() -> None:
+    families = {"rounded, with tolerance": FAMILIES["rounded, with tolerance"]}
+    found = ChartOptions(Path(), methods=["numeric,balls"]).sweeps(families)
+    assert {task.method for task in found} == {"numeric"}
+    assert {task.value for task in found} == set(tasks.TOLERANCES)
+    drawn = [task for task in found if task.trial.name.startswith("two bars in line, 6 digits")]
+    with Pool(1) as pool:
+        lines = list(runner.run(drawn, runner.Bench(pool, 2.0, runner.ANSWERING)))
+    # the joint 1e-6 off the line: the smaller singular value is some 1e-6 of the larger, and rigid is right
+    assert {line.value: line.answer for line in lines if line.value in (1e-8, 1e-4)} == {1e-8: 0, 1e-4: 1}
+
+
 # -- what the lines say ----------------------------------------------------------------------------
 
 
@@ -169,7 +183,11 @@ LINES = [
     line("b4", "count", "undecided", 0.0001),
     line("b8", "count", "cannot", 0.0001),
 ]
-DATA = Data(RAN, LINES)
+SWEPT = [
+    replace(line(f"b, {digits} digits", "numeric", outcome, 0.1), setting="tolerance", value=value)
+    for digits, outcome, value in ((3, "right", 1e-9), (3, "wrong", 0.1), (9, "undecided", 0.1), (9, "right", 1e-9))
+]
+DATA = Data(RAN, LINES, SWEPT)
 
 
 def test_scores_and_auto_against_the_fastest() -> None:
@@ -199,7 +217,7 @@ def test_what_is_written_is_read_back(tmp_path: Path) -> None:
     back = record.read(tmp_path)
     assert back == DATA
     header, first = (tmp_path / "trials.csv").read_text(encoding="utf-8").splitlines()[:2]
-    assert header.startswith("family,trial,question,method,size,truth,answer,outcome,seconds,why")
+    assert header.startswith("family,trial,question,method,size,truth,answer,outcome,seconds,why,setting,value")
     assert first.startswith("boxes,b1,dof,auto,1,2,2,right,0.002,")
     (tmp_path / record.RAN).write_text(json.dumps({"ran": 1}))
     with pytest.raises(record.ChartError, match="are not those of a run"):
@@ -211,7 +229,7 @@ def test_what_is_written_is_read_back(tmp_path: Path) -> None:
 @pytest.mark.sweep
 def test_every_figure_is_drawn(tmp_path: Path) -> None:
     lines = [replace(row, family=family) for row in LINES for family in ("trailers", "boxes")]
-    drawn = [path.stem for path in figures.write(Data(RAN, lines), tmp_path)]
+    drawn = [path.stem for path in figures.write(Data(RAN, lines, SWEPT), tmp_path)]
     assert drawn == list(figures.FIGURES)
     assert all((tmp_path / f"{name}.{end}").stat().st_size > 5000 for name in drawn for end in ("png", "svg"))
     assert figures.FIGURES["cost"](Data(RAN, LINES[:1])) is None

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import re
 from functools import cache
+from math import log2
 from pathlib import Path
 
 from dofkit.benchmark import record
 from dofkit.benchmark.figures import FIGURES
 from dofkit.benchmark.record import AUTO, Data
 from dofkit.benchmark.sentences import caption, sentences
-from dofkit.benchmark.statistics import against
+from dofkit.benchmark.statistics import against, scores
+from dofkit.benchmark.tasks import SWEEPS
 from dofkit.benchmark.trials import FAMILIES
 from dofkit.methods.table import METHODS
 
@@ -53,6 +55,22 @@ def test_auto_is_on_the_front_and_hardly_slower_than_what_is_sound() -> None:
         assert all(right[AUTO] >= 0.99 * right[m] for m in METHODS if m not in wrong)
     sound = [row for row in against(lines) if row.sound_ratio is not None]
     assert sum(row.sound_ratio is not None and row.sound_ratio <= TWICE for row in sound) >= 0.9 * len(sound)
+
+
+def test_no_tolerance_is_safe_and_enough_bits_are() -> None:
+    """As the page says: a gap of 10^-d needs d log2(10) bits."""
+    for sweep in SWEEPS:
+        rows = sweep.by_digits([line for line in data().sweeps if line.method == sweep.method], lambda line: line.trial)
+        wrong = {
+            (digits, value): scores(line for line in lines if line.value == value)[sweep.method].share("wrong")
+            for digits, lines in rows.items()
+            for value in sweep.values
+        }
+        if sweep.setting == "tolerance":
+            assert min(wrong.values()) > 1 / 3
+        else:
+            assert not any(share for (digits, bits), share in wrong.items() if bits > 1.5 * digits * log2(10))
+            assert all(share for (digits, bits), share in wrong.items() if bits < digits * log2(10))
 
 
 def test_every_sentence_about_a_chart_is_worked_out_from_its_data() -> None:

@@ -12,7 +12,9 @@ import dofkit
 import dofkit.methods
 from dofkit.base.verdicts import VERDICTS
 from dofkit.benchmark.sentences import explained
+from dofkit.exact.points.balls import balls_of
 from dofkit.methods.ask import answered
+from dofkit.methods.numeric import tolerance_of
 from dofkit.methods.table import METHODS, QUESTIONS, MethodName, Question, function_of
 from dofkit.report import Report
 
@@ -151,6 +153,16 @@ def test_a_method_answers_what_its_row_says(method: MethodName) -> None:
 def test_what_is_small_is_taken_for_zero() -> None:
     given = scene("x = 0", "x + y/10^10 = 0", coordinates=("x", "y"))
     assert [answered(given, "dof", method).value for method in ("numeric", "auto")] == [1, 0]
+    with tolerance_of(1e-12):
+        assert answered(given, "dof", "numeric").value == 0
+
+
+def test_balls_of_few_bits_do_not_tell_a_small_number_from_zero() -> None:
+    """e^(pi sqrt 163) is 262537412640768744 but for 7.5e-13, which 100 bits do not show beside it and 128 do."""
+    given = scene("dz + (exp(pi*sqrt(163)) - 262537412640768744) y dx = 0")
+    for bits, holonomic in ((53, None), (128, False)):
+        with balls_of(bits):
+            assert answered(given, "integrability", "balls").value == {"c1": holonomic}
 
 
 def test_a_question_alone_is_answered_as_the_report_answers_it() -> None:

@@ -75,12 +75,28 @@ def smooth_function(name: str, arguments: int, seed: int) -> SmoothFunction:
 PRECISION, SHORT = 256, 64
 #: Whole numbers up to this need no rounding.
 WHOLE = 1 << 16
+_bits: ContextVar[int | None] = ContextVar("ball_bits", default=None)
 _more: ContextVar[int] = ContextVar("ball_bits_more", default=0)
+
+
+@contextmanager
+def balls_of(bits: float) -> Iterator[None]:
+    """Compute with balls of so many bits within, whatever is needed: what few bits tell can be measured."""
+    token = _bits.set(round(bits))
+    try:
+        yield
+    finally:
+        _bits.reset(token)
+
+
+def fixed_bits() -> int | None:
+    """Return the bits that were asked for; None where they may be raised."""
+    return _bits.get()
 
 
 def precision() -> int:
     """Return the bits of a ball."""
-    return PRECISION + _more.get()
+    return _bits.get() or PRECISION + _more.get()
 
 
 @contextmanager
