@@ -129,7 +129,7 @@ def test_a_worker_answers_the_same() -> None:
 
 
 #: Forms that integrate or do not, with others or alone.
-FORMS = ("charts/mixed forms", "charts/chained forms", "charts/forms together")
+FORMS = ("charts/chained forms", "charts/forms together")
 
 
 def short() -> list[Any]:

@@ -20,6 +20,7 @@ NAMED = frozenset({"Symbol", "Dummy", "Function", "symbols", "ReferenceFrame", "
 ALLOWED = {
     ("base/display.py", "import_module"): "the package's own module that draws, by a fixed name",
     ("base/libraries.py", "import_module"): "numpy and networkx, by a fixed name, when they are first used",
+    ("interface/jobs.py", "import_module"): "the package's own module that answers, by a fixed name",
     ("models/mujoco_model.py", "spec.compile"): "MuJoCo's compiler of a model, which runs no text",
     ("models/formats.py", "import_module"): "the reader of a format, by the table of formats",
     ("methods/table.py", "import_module"): "a method's own module, by the name of its row in the table",
