@@ -2,12 +2,14 @@
 
 Two equations state the same where one is a number times the other. What is no polynomial in coordinates, parameters,
 sines, cosines and exponentials is not compared so: a root or a quotient may have no value where its multiple has one.
+a sqrt(P) + b = 0 is one branch of b^2 = a^2 P, on which a b <= 0; where the other constraints state that, the root
+loses nothing.
 """
 
 from __future__ import annotations
 
 import random
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import chain
 from itertools import product as cartesian
@@ -26,8 +28,9 @@ from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.program import POW, values
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero import is_proved_zero
-from dofkit.expressions.calculus import diff, in_velocities
-from dofkit.expressions.tree import ZERO, Expr
+from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff, in_velocities, replace_nodes, substitute
+from dofkit.expressions.tree import HALF, MINUS_ONE, ZERO, Expr
 from dofkit.relations.blocks import Block, Row, make_chart, split
 from dofkit.relations.normal.normal_form import velocities_of
 from dofkit.relations.normal.pieces import Finite, Inequality, Normal, Pfaffian, Piece, Reduced
@@ -245,8 +248,45 @@ def _point(ring: Ring, nodes: Sequence[int], symbols: Sequence[Expr], setting: S
     return BallPoint({s: drawn(s) for s in symbols}, seed)
 
 
+_ROOT = ex.parameter("value of a root")
+
+
 def bounds(wanted: Sequence[Normal], others: Sequence[Reduced]) -> list[Inequality]:
     """The inequalities of others about coordinates of what is wanted."""
     symbols = {s for n in wanted for p in n.pieces if isinstance(p, Finite) for s in p.expr.symbols}
     moving = {s for s in symbols if s.args[0] == "coordinate"}
     return [q for r in others for q in r.inequalities if moving & q.expr.symbols]
+
+
+def unsound(submitted: Sequence[Reduced], sound: Sequence[bool | None]) -> list[Expr]:
+    """The equations as written that do not follow; none where they are not one for each relation."""
+    written = [relation.expr for r in submitted for relation in r.constraint.relations]
+    return [e for e, s in zip(written, sound, strict=True) if not s] if len(written) == len(sound) else []
+
+
+def loses_nothing(
+    e: Expr, wanted: Sequence[Normal], others: Sequence[Normal], sides: Iterable[Inequality], setting: Setting
+) -> bool:
+    """Return whether e = 0, with one root, is all that is ``wanted`` within the inequalities; False says nothing."""
+    rooted = _by_root(e)
+    if rooted is None:
+        return False
+    a, b, under = rooted
+    squared = Normal(((Finite(b * b - a * a * under),),))
+    if follows(squared, [*others, *wanted], setting) is not True:
+        return False
+    allowed = Inequality(ex.mul(MINUS_ONE, a, b))
+    return any(same_side(allowed, side, others, setting) for side in sides)
+
+
+def _by_root(e: Expr) -> tuple[Expr, Expr, Expr] | None:
+    """(a, b, P) where e is a sqrt(P) + b, with no other root."""
+    roots = {n for n in ex.nodes(e) if n.op == "pow" and n.args[1] == HALF}
+    if len(roots) != 1:
+        return None
+    (root,) = roots
+    named = replace_nodes(e, {root: _ROOT})
+    slope = diff(named, _ROOT)
+    if _ROOT in slope.symbols or slope.is_zero:
+        return None
+    return slope, substitute(named, {_ROOT: ZERO}), root.args[0]

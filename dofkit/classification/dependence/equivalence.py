@@ -16,8 +16,10 @@ from dofkit.base.deadline import part, unless_late
 from dofkit.classification.dependence.comparison import (
     Regularity,
     bounds,
+    loses_nothing,
     same_side,
     same_up_to_numbers,
+    unsound,
 )
 from dofkit.classification.dependence.implication import follows
 from dofkit.classification.freedom.branches import Outcome, solve
@@ -205,8 +207,10 @@ class Equivalence:
             return Sameness.SAME
         if _turned(self.submitted, self._answer):
             return Sameness.UNDECIDED
-        # beside an inequality the branch that an answer loses may be forbidden anyway
-        return Sameness.UNDECIDED if bounds(self._all_wanted, self.context) else Sameness.BRANCH
+        sides = bounds(self._all_wanted, self.context)
+        lost = unsound(self.submitted, self._sound) if sides else []
+        whole = [loses_nothing(e, self._all_wanted, self._others, sides, self.setting) for e in lost]
+        return Sameness.BRANCH if not sides else Sameness.SAME if whole and all(whole) else Sameness.UNDECIDED
 
     # differentials
 
