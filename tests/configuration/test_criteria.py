@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import pytest
 from flint import ctx
 from shared.germs import on_plane, through
+from shared.known_scenes import spread
 
 import dofkit
 from dofkit.classification.arguments import arguments
@@ -97,7 +98,7 @@ def test_balls_alone_are_no_surer_and_never_wrong(key: str, case: Case) -> None:
     assert told.verdict == ("numeric" if told.dimension is not None else "undecided")
 
 
-@pytest.mark.parametrize(("key", "scene", "dof"), SCENES)
+@pytest.mark.parametrize(("key", "scene", "dof"), spread(SCENES, several=True))
 def test_a_row_decides_in_a_scene(key: str, scene: str, dof: int, monkeypatch: pytest.MonkeyPatch) -> None:
     asked: list[str | None] = []
 

@@ -230,7 +230,7 @@ def test_no_method_alone_contradicts_what_is_expected(path: Path) -> None:
         assert METHODS[method].cannot in report.method
 
 
-@pytest.mark.parametrize("path", few("questions", VARIED[1::2], 12), ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", few("questions", VARIED[1::2], 24), ids=lambda path: path.stem)
 def test_a_question_alone_has_the_answer_of_the_report(path: Path) -> None:
     """One of the questions for each scene, dealt out."""
     told, given = report_of(path), scene_of(path)

@@ -17,7 +17,7 @@ from adversary.disguises import DISGUISES
 from adversary.judgement import judged, overall
 from adversary.registry import FOUND, KINDS, OPEN, Trial, made
 from adversary.running import Answer, answered, answered_apart, faults, outcome
-from shared.known_scenes import swept
+from shared.known_scenes import spread, swept
 
 import dofkit
 from dofkit.base.runs import Pool
@@ -79,7 +79,7 @@ SIMPLE = KnownScene(
 DRAWN = replace(registry.drawn("hinges/planar-loop", 1, 0), elsewhere={})
 
 
-@pytest.mark.parametrize("disguise", DISGUISES)
+@pytest.mark.parametrize("disguise", spread(DISGUISES))
 def test_a_disguise_keeps_what_is_true(disguise: str) -> None:
     """Of a simple system, whose answers are right in any disguise."""
     case = DRAWN if disguise == "turned" else SIMPLE

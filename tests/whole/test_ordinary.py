@@ -90,6 +90,7 @@ def arm(*more: str) -> dict[str, Any]:
     return {"bodies": bodies, "constraints": joints}
 
 
+@pytest.mark.sweep
 def test_pick_and_place() -> None:
     assert told(arm()) == moves(9, 9)
     assert told(arm("block")) == moves(15, 15)
@@ -170,7 +171,7 @@ def test_half_lines_of_velocities_are_no_lines(text: str) -> None:
     assert report.constraints[0].holonomic is not True
 
 
-@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("seed", spread(range(6)))
 def test_an_open_tree_has_the_freedom_of_its_joints(seed: int) -> None:
     scene, dof = tree_with_loops(12, 0, seed)
     report = dofkit.classify(dofkit.load(scene))
