@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from typing import Any, TypeVar
 
 from dofkit.base.verdicts import weakest
@@ -54,6 +54,15 @@ def with_certificate(scene: Scene, report: Report, strict: bool = False) -> Repo
     confirmed -= {path.removeprefix("/verdicts").removesuffix("/about") for path in certificate["uncovered"]}
     checked = _checked(report, confirmed, making.contradictions, strict)
     return checked.model_copy(update={"certificate": certificate})
+
+
+def told_fields(report: Report) -> Iterator[tuple[str, Any, FieldVerdict]]:
+    """Every field with a verdict: its path, its value and how sure it is."""
+    for field, verdict in report.verdicts.items():
+        yield f"/{field}", getattr(report, field), verdict
+    for entry in report.constraints:
+        for field, verdict in entry.verdicts.items():
+            yield f"{_entry_path(entry)}/{field}", getattr(entry, field), verdict
 
 
 def _entry_path(entry: ConstraintEntry) -> str:
