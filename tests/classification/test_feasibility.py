@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from fractions import Fraction
 from typing import Any
 
 import pytest
@@ -156,6 +157,11 @@ def test_the_point_is_on_the_constraints() -> None:
     assert at is not None
     assert value("r", at) == pytest.approx(1)
     assert 1 / 3 < value("y", at) < 1 / 2
+    at = classified("x + y >= 1; x - 2 y <= 3; y > -x/7").feasible_at
+    assert at is not None
+    x, y = (Fraction(at[name]) for name in "xy")
+    assert x + y > 1 and x - 2 * y < 3 and y > -x / 7
+    assert max(x.denominator, y.denominator) < 100, "linear: no decimals of a ball"
 
 
 def test_a_pendulum_of_links_on_a_table() -> None:

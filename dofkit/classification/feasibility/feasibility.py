@@ -16,7 +16,7 @@ from flint import arb
 from dofkit.base.deadline import limited, unless_late
 from dofkit.base.verdicts import ArgumentKey, Claim, Verdict, weakest
 from dofkit.classification.dependence.minimal_sets import minimal_set
-from dofkit.classification.feasibility.sign_claims import contradictory, refuted
+from dofkit.classification.feasibility.sign_claims import contradictory, point_of_linear, refuted
 from dofkit.classification.feasibility.state_problem import Part, StateProblem, Values, certified_state, parts_of
 from dofkit.classification.freedom.preparation import copies
 from dofkit.classification.study import Study
@@ -152,8 +152,14 @@ def _state(study: Study, part: Part, problem: StateProblem, fixed: bool) -> Valu
     reference, positive = setting.reference, setting.positive
     if reference is not None and problem.still and study.outcome.consistent and _is_met(problem, reference, positive):
         return {s: reference[s] for s in problem.places}
-    turned = any(_turns_over(r.constraint.facts, setting.dimension) for r in part.reduced)
-    return None if turned else certified_state(problem, positive, fixed)
+    if any(_turns_over(r.constraint.facts, setting.dimension) for r in part.reduced):
+        return None
+    if problem.still and not problem.constants:
+        inner = point_of_linear([c if c.sense == "=" else c._replace(sense=">") for c in problem.claims])
+        at = dict.fromkeys(problem.places, ex.ZERO) | dict(inner or {})
+        if inner is not None and _is_met(problem, at, positive):
+            return at
+    return certified_state(problem, positive, fixed)
 
 
 def _is_met(problem: StateProblem, configuration: Mapping[Expr, Expr], positive: frozenset[Expr]) -> bool:

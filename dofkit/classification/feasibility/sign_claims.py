@@ -73,6 +73,15 @@ def contradictory(claims: Sequence[SignClaim], positive: frozenset[Expr]) -> boo
     return solution([_linear_condition(c, order) for c in facts]) is False
 
 
+def point_of_linear(claims: Sequence[SignClaim]) -> Mapping[Expr, Expr] | None:
+    """Return exact values of the symbols at which all claims hold; None where there are none or not all is linear."""
+    order = sorted({u for c in claims for u in _terms(c.expr)} - {ex.ONE}, key=repr)
+    if any(u.op != "sym" for u in order):
+        return None
+    point = solution([_linear_condition(c, order) for c in claims])
+    return {u: ex.num(Fraction(int(v.p), int(v.q))) for u, v in zip(order, point, strict=True)} if point else None
+
+
 def _linear_condition(claim: SignClaim, order: Sequence[Expr]) -> LinearCondition:
     """Return a claim as a linear condition on the terms in ``order``."""
     terms = _terms(claim.expr)
