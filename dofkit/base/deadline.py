@@ -112,7 +112,7 @@ def check() -> None:
 
 @contextmanager
 def checked_calls() -> Iterator[None]:
-    """Let the calls and returns within ask `check`, one in `CALLS`: for a library whose loops do not."""
+    """Run `check` at every `CALLS`-th call or return in the block: for a library whose loops never run it."""
     before, asked = sys.getprofile(), 0
 
     def count(*_event: object) -> None:

@@ -244,7 +244,9 @@ def generalized_coordinates(evidence: CheckedEvidence, claim: Told, verified: To
 
 
 def growth(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[int]:
-    """Words span each step of the growth from below; from above fields and their brackets, or the dimension of all.
+    """Check that each entry is spanned from below and bounded from above; return the growth vector.
+
+    From below by words; from above by fields and their brackets, or by the dimension of all.
 
     Directions are those of (q, t) where a constraint was verified to be rheonomic or not catastatic.
     """
@@ -300,7 +302,7 @@ def everywhere(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     if gram["forms"]:
         _independent_everywhere(evidence, gram, [f"{q}dot" for _, q in order])
     minor = evidence.accounts(evidence.minor(claim["minor"], names), names) if "minor" in claim else None
-    free, rank = _free(evidence, order, minor and minor.point), len(minor.rows if minor else names)
+    free, rank = _checked_order(evidence, order, minor and minor.point), len(minor.rows if minor else names)
     groups = [free_coordinates(evidence, name, free) for name in blocks]
     groups.append(frozenset().union(*(free_coordinates(evidence, name, free) for name in generic)))
     refuse(sum(map(len, groups)) != len(frozenset().union(*groups)), "two blocks share a coordinate")
@@ -346,8 +348,10 @@ def _is_analytic(evidence: CheckedEvidence, name: str, graphic: bool) -> bool:
     return evidence.has_value_everywhere(checked.tree, quotient) and not checked.tree.applied
 
 
-def _free(evidence: CheckedEvidence, order: list[list[str]], point: CheckedPoint | None) -> dict[str, frozenset[str]]:
-    """On which coordinates those that are given depend."""
+def _checked_order(
+    evidence: CheckedEvidence, order: list[list[str]], point: CheckedPoint | None
+) -> dict[str, frozenset[str]]:
+    """Refuse what does not give its coordinate; return what each given coordinate depends on."""
     later, dependencies = [q for _, q in order], dict[str, frozenset[str]]()
     refuse(len({*later}) < len(later) or not {*later} <= {*evidence.variables}, "one coordinate for each relation")
     for i, (name, q) in enumerate(order):

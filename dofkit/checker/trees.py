@@ -278,6 +278,7 @@ def homogeneous_degree(tree: Tree, names: Collection[str]) -> Fraction | None:
     """The degree in symbols in which every term of a tree is homogeneous; None where there is none."""
 
     def degree(node: Tree, below: tuple[Fraction | None, ...]) -> Fraction | None:
+        """Return the degree of a node from those of its parts; None where terms differ in degree."""
         if not below:
             return Fraction(node.head == "symbol" and node.value in names)
         degrees, exponent = [degree_below for degree_below in below if degree_below is not None], node.below[-1].value

@@ -45,8 +45,8 @@ class ExpressionShape(NamedTuple):
     occurring: Occurring
 
     @property
-    def order(self) -> tuple[int | str, ...]:
-        """The numbers sorted by their names, among the names that are kept.
+    def name_order(self) -> tuple[int | str, ...]:
+        """The numbers of the names in alphabetical order of the names, kept names standing for themselves.
 
         Of expressions with one skeleton and one order, whatever looks at names only to sort them makes the same.
         """

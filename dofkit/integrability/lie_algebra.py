@@ -116,7 +116,7 @@ class AdmissibleCurve:
         self.matrices.append(self.numbers.matrix(len(self.frame_rows), len(columns), entries))
         if order == 1:
             self._pivots()
-        self._velocity(order - 1)
+        self._extend_path(order - 1)
 
     def evaluate(self, order: int) -> None:
         """The program's values along the path to ``order``."""
@@ -135,8 +135,8 @@ class AdmissibleCurve:
         affordable(size, 2 * size)
         self.inverse = some_columns(first, self.frame.dependent, self.numbers).inv() if size else first
 
-    def _velocity(self, k: int) -> None:
-        """The k-th coefficient of q', one more random coefficient of the controls given: A_d v_d = -A_f u."""
+    def _extend_path(self, k: int) -> None:
+        """Append coefficient k of the controls and of q', and k + 1 of the path; q' solves A_d v_d = -A_f u."""
         for u in self.controls:
             u.append(self.base.number(self.base.rng.randrange(1, 1 << 12)))
         controls = [self.numbers.matrix(len(self.frame.free), 1, [u[j] for u in self.controls]) for j in range(k + 1)]

@@ -292,12 +292,12 @@ def label_modulo_others(
     if label.holonomic and all(x.holonomic for x in labels):
         label = replace(label, verdict=weakest(*(x.verdict for x in labels)))
     elif label.holonomic is False:
-        label = replace(label, reason=_why(slot, blocks, answers))
+        label = replace(label, reason=_why_not_holonomic(slot, blocks, answers))
     return label, together
 
 
-def _why(slot: RewrittenRow, blocks: Sequence[Block], answers: Sequence[Answer]) -> str:
-    """Why a relation that reads otherwise beside the others is none of positions."""
+def _why_not_holonomic(slot: RewrittenRow, blocks: Sequence[Block], answers: Sequence[Answer]) -> str:
+    """Return why a relation rewritten with the help of others is not holonomic."""
     if not slot.rows:
         return (
             "It is implied by the other constraints, which are not integrable, and is not a consequence of "

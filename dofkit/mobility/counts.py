@@ -77,7 +77,7 @@ def freedom_of_body(system: System) -> int:
 def kutzbach_count(
     system: System, equations: Sequence[int], others: int, freedom: int | None, drawn: Drawing
 ) -> Mobility | None:
-    """The count beside the ``freedom``; ``others`` are the equations that are no inequality's, joints' included."""
+    """Return the count beside the velocity freedom; ``others``: equations of joints and finite ones, all counted."""
     joints = joints_of(system, equations)
     if not joints:
         return None

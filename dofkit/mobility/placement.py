@@ -338,8 +338,8 @@ class RowsAtReference:
     def _turned_by_euler(self) -> frozenset[str]:
         return frozenset(r.body for r in self.system.rotations if r.chart == "euler")
 
-    def of(self, constraints: Iterable[int]) -> NamedRows | None:
-        """Return the rows of constraints by the names of coordinates, or None if not all of them are such joints."""
+    def rows_of_joints(self, constraints: Iterable[int]) -> NamedRows | None:
+        """Return rows mod p at the reference; None if any constraint is not a plain joint drawn there."""
         if self._placement is None:
             return None
         names = [q.name for q in self.system.coordinates]

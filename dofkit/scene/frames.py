@@ -142,7 +142,7 @@ class Frame:
         return a if self.turn is None else apply(self.turn, a)
 
     def point(self, a: Vec, label: str = "") -> Placed:
-        """Return the material point that stands at ``a`` in the reference configuration."""
+        """Return X = (w p + w R (a - start)) / w, now, of the point that is at ``a`` in the reference."""
         if self.fixed:
             return Placed(a, ONE, a, self.name, label)
         arm = minus(a, self.start)

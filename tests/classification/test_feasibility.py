@@ -160,7 +160,9 @@ def test_the_point_is_on_the_constraints() -> None:
     at = classified("x + y >= 1; x - 2 y <= 3; y > -x/7").feasible_at
     assert at is not None
     x, y = (Fraction(at[name]) for name in "xy")
-    assert x + y > 1 and x - 2 * y < 3 and y > -x / 7
+    assert x + y > 1
+    assert x - 2 * y < 3
+    assert y > -x / 7
     assert max(x.denominator, y.denominator) < 100, "linear: no decimals of a ball"
 
 

@@ -39,8 +39,8 @@ class FrameworkPose:
         dof, instantaneous = self.row["beside" if step else "there"]
         return dof, instantaneous
 
-    def at(self, step: Fraction) -> Framework:
-        """Return the framework at a step from its singular pose."""
+    def framework_at(self, step: Fraction) -> Framework:
+        """Return the framework with its ``moved`` points displaced by ``step`` times the vector ``by``."""
         row = self.row
         joints, ground = dict(row["joints"]), list(row.get("ground", ()))
         for end in row["moved"]:
@@ -54,7 +54,7 @@ class FrameworkPose:
 
     def placed(self, name: str, step: Fraction, move: Move, **more: Any) -> KnownScene:
         """Return the scene at a step, with all positions moved."""
-        return self.scene(name, self.at(step).moved(move), self.freedom(step), **more)
+        return self.scene(name, self.framework_at(step).moved(move), self.freedom(step), **more)
 
 
 class HingedPose(FrameworkPose):
@@ -133,7 +133,7 @@ def rounded_poses() -> Iterator[KnownScene]:
     """
     for digits in DIGITS:
         for pose in NEAR:
-            drawn = pose.at(ZERO).moved(turned).moved(rounded(digits))
+            drawn = pose.framework_at(ZERO).moved(turned).moved(rounded(digits))
             first = drawn.by_rank()
             regular = drawn.coordinates - first == len(drawn.bars)
             name = f"{pose.name}, {digits} digits"
@@ -144,7 +144,7 @@ def measured_poses() -> Iterator[KnownScene]:
     """Rounded drawings with a tolerance: true is what was rounded."""
     for digits in DIGITS:
         for pose in NEAR:
-            drawn = pose.at(ZERO).moved(turned).moved(rounded(digits))
+            drawn = pose.framework_at(ZERO).moved(turned).moved(rounded(digits))
             name = f"{pose.name}, {digits} digits with tolerance"
             yield pose.scene(name, drawn, pose.freedom(ZERO), tolerance=f"1e-{digits}")
 

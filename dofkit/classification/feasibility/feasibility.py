@@ -74,7 +74,9 @@ def feasibility(study: Study) -> Feasibility:
 
 
 def _minimal(study: Study, feasibility: Feasibility) -> Feasibility:
-    """A set that cannot be met, none of which can be left out (a deletion filter, the last written first).
+    """Return the feasibility with a minimal infeasible set, and a reason where that it is minimal is not shown.
+
+    A deletion filter, the last written first.
 
     What is left out leaves a set that is proved not to be met; what is kept is needed, where a point shows that the
     others can be met without it: then fewer of them can be as well.

@@ -69,7 +69,7 @@ def prepared(system: System, reductions: Reductions = ALL) -> tuple[list[Reduced
         arms=system.arms,
         tilts=frozenset(r.names[1] for r in system.rotations if r.chart == "euler"),
         bridges=apart,
-        joint_rows=RowsAtReference(system, positive).of if apart else None,
+        joint_rows=RowsAtReference(system, positive).rows_of_joints if apart else None,
     )
     return reduced, setting
 
@@ -125,7 +125,7 @@ class _Normals:
         if not written:
             return without_instants(normalise(e, self._positive, written), self._positive)
         shape = shape_of(e)
-        key = (shape.skeleton, shape.order)
+        key = (shape.skeleton, shape.name_order)
         if key in self._normals:
             earlier, names = self._normals[key]
             return in_names(earlier, Renaming(dict(zip(names, shape.names, strict=True))))

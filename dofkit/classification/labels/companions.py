@@ -97,6 +97,7 @@ class Companionship:
         return first_integrals.is_first_integral(forms, f.expr)
 
     def _holonomic(self, constraint: int, rows: Sequence[Row], block: Block) -> bool:
+        """Return whether the forms of a constraint are holonomic beside ``rows`` alone; False where undecided."""
         for part in split(block.coordinates, rows)[0]:
             linear = [
                 i for i, r in enumerate(part.rows) if r.constraint == constraint and isinstance(r.piece, Pfaffian)

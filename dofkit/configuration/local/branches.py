@@ -61,7 +61,7 @@ def largest_branch(ball: Manifold, forms: Sequence[Form], wanted: int) -> int | 
 
 
 def _tangents(here: Neighbourhood, forms: Sequence[Form]) -> list[list[float]]:
-    """Unit tangents of M at the point on which all forms are 0, from random ones by Gauss-Newton."""
+    """Return unit tangents, at the point, of the manifold of independent rows, on which all forms are 0."""
     ball = here.ball
     _, j = here.floats([0.0] * len(here.place), ball.rows)
     scales = [ball.scales[c] for c in ball.frame.free]

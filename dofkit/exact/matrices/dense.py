@@ -145,7 +145,7 @@ def pivoted(matrix: Matrix, least: float = 0.0, most: int | None = None) -> Pivo
 
 
 def _array_pivoted(residual: np.ndarray, least: float, most: int) -> Pivoting:
-    """Return the same for an array of numpy, which is overwritten."""
+    """Do what `pivoted` does, by numpy: pivoted Gram-Schmidt of the rows of ``residual``, which is overwritten."""
     order, sizes, basis = list[int](), list[float](), np.empty((most, residual.shape[1]))
     for k in range(most):
         lengths = np.linalg.norm(residual, axis=1)

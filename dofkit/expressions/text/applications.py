@@ -140,8 +140,8 @@ def fraction(parser: Parser, token: Token) -> Expr:
 # Unknown functions
 
 
-def unknown(parser: Parser, token: Token) -> Expr:
-    """Read `h(s)`, `h'(s)`, `h` alone, and its derivatives by time `hdot`, `dh`."""
+def declared_function(parser: Parser, token: Token) -> Expr:
+    """Read a use of a function that the scene declares: `h(s)`, `h'(s)`, `h`, `hdot`, `dh`."""
     name = token.name
     primes = parser.take() if parser.next.kind == "prime" and parser.next.start == token.end else None
     ahead = [t.kind for t in parser.tokens[parser.at : parser.at + 3]]
@@ -260,7 +260,7 @@ def _by_arguments(parser: Parser, token: Token, e: Expr, steps: list[Expr]) -> E
 
 APPLICATIONS: dict[str, Callable[[Parser, Token], Expr]] = {
     "function": function,
-    "call": unknown,
+    "call": declared_function,
     "operator": derivative_call,
     "root": root,
     "frac": fraction,

@@ -143,7 +143,7 @@ _HINT = "the labels are holonomic or non-holonomic, scleronomic or rheonomic, bi
 
 
 def read_labels(answer: Given) -> Labels:
-    """The labels that an answer tells.
+    """Return, of each label in an answer, whether it is said to hold; both values if it contradicts itself.
 
     A negation before a label, joined to it or not, turns it round; what else a sentence says is read over. Raises
     TextError where there is no label, or a word that may be one and cannot be read; DoubtError for questions.

@@ -65,16 +65,16 @@ def _judgement(reading: AnswerReading, key: Key, name: str) -> Judgement:
 
 
 def _with_constants(reading: AnswerReading, key: Key) -> Read:
-    """A bare expression is constant: `x y` is x y = C."""
-    constants = set(reading.undeclared)
+    """Return the answer with each bare expression set equal to a new constant: `x y` is x y = C."""
+    constants = set[str]()
     relations = []
     for c, bare in zip(reading.relations, reading.bare, strict=True):
-        if bare and not constants:
-            fresh = next(n for n in _FRESH if key.names.lookup.meaning(n) is None)
+        if bare and not reading.undeclared:
+            fresh = next(n for n in _FRESH if n not in constants and key.names.lookup.meaning(n) is None)
             constants.add(fresh)
             c = Comparison(c.left, "=", parameter(fresh), c.column)
         relations.append(c)
-    return reading._replace(relations=tuple(relations)).read(frozenset(constants))
+    return reading._replace(relations=tuple(relations)).read(frozenset(constants) | frozenset(reading.undeclared))
 
 
 def _leaves(key: Key, read: Read, name: str) -> Leaves:

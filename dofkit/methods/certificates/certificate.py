@@ -41,8 +41,8 @@ LABELS: dict[str, Callable[[Context, ConstraintEntry, str], Iterator[Told]]] = {
     "holonomic_alone": labels.holonomic,
     "exact": labels.exact,
     "integral": labels.integral,
-    "scleronomic": labels.scleronomic,
-    "catastatic": labels.scleronomic,
+    "scleronomic": labels.time_evidence,
+    "catastatic": labels.time_evidence,
     "independent": freedom.independent,
     "circuit": freedom.circuit,
 }

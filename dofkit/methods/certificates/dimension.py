@@ -124,7 +124,7 @@ def _of_forms(context: Context) -> Iterator[Told]:
     if standing is None or not standing.accounted:
         return
     claim = {"rule": "everywhere", "about": "everywhere", "minor": context.minor(standing)}
-    order, unordered = graph_order(context, _needed(standing, evidence.equations))
+    order, unordered = solving_order(context, _needed(standing, evidence.equations))
     moving = _needed(standing, evidence.moving)
     if not unordered:
         yield {**claim, "order": order}
@@ -132,7 +132,7 @@ def _of_forms(context: Context) -> Iterator[Told]:
     if {*unordered} <= {*moving} and (gram := _gram(context, unordered)):
         yield {**claim, "order": order, "gram": gram}
     if len(moving) == 1:
-        order, unordered = graph_order(context, _needed(standing, evidence.finite))
+        order, unordered = solving_order(context, _needed(standing, evidence.finite))
         if not unordered:
             yield {**claim, "order": order, "blocks": moving}
 
@@ -184,7 +184,7 @@ def _of_set(context: Context, standing: Standing) -> Iterator[Told]:
     """What the geometric equations define."""
     evidence = context.scenery.evidence
     finite = _needed(standing, evidence.finite)
-    order, unordered = graph_order(context, finite, columns=["t"])
+    order, unordered = solving_order(context, finite, columns=["t"])
     claim: Told = {"rule": "everywhere", "about": "everywhere"}
     if not unordered:
         yield {**claim, "order": order}
@@ -208,10 +208,10 @@ def _of_set(context: Context, standing: Standing) -> Iterator[Told]:
         yield {**claim, "generic": [[name, symbols[name]] for name in evidence.finite], **backed}
 
 
-def graph_order(
+def solving_order(
     context: Context, names: Sequence[str] | None = None, columns: Sequence[str] = ()
 ) -> tuple[Order, list[str]]:
-    """Relations with a coordinate that each alone gives, once those after it are taken away; and those left over.
+    """Return [relation, coordinate that it gives] in an order of solving, and the relations left over.
 
     ``names``: the finite ones where it is left out; ``columns``: what may be given besides coordinates.
     """

@@ -58,8 +58,8 @@ def moving_rows(context: Context) -> list[str]:
     return rows
 
 
-def follows_from_integrals(context: Context, name: str, steps: Sequence[str], alone: bool = False) -> bool:
-    """Whether a step was found by which a form follows from integrals, and finite relations if not ``alone``."""
+def add_step_from_integrals(context: Context, name: str, steps: Sequence[str], alone: bool = False) -> bool:
+    """Add the step by which a form follows from integrals, and finite relations if not ``alone``; return whether."""
     step = f"{context.scenery.label}{name} from {' and '.join(steps) if alone else 'integrals'}"
     if context.scenery.has_step(step):
         return True
@@ -72,7 +72,7 @@ def integral_alone(context: Context, entry: ConstraintEntry, name: str) -> str |
     """Return the step of the integral that is claimed of a form, where each follows from the other alone."""
     function = integral_text(entry)
     step = combined_integral(context, function, name) if function and form_or_none(context, name) is not None else None
-    return step if step and follows_from_integrals(context, name, [step], alone=True) else None
+    return step if step and add_step_from_integrals(context, name, [step], alone=True) else None
 
 
 def _combined(context: Context, step: Told, target: Components, sources: Sequence[str]) -> bool:
@@ -257,7 +257,7 @@ def integral(context: Context, entry: ConstraintEntry, field: str) -> Iterator[T
     others = list(dict.fromkeys(others))
     standing = context.standing_of([*context.scenery.evidence.finite, *others, names[0]])
     if (
-        follows_from_integrals(context, names[0], [step, *others])
+        add_step_from_integrals(context, names[0], [step, *others])
         and standing is not None
         and names[0] in standing.rows
     ):
@@ -280,8 +280,8 @@ def exact(context: Context, entry: ConstraintEntry, field: str) -> Iterator[Told
             yield {"rule": "not exact", "at": point.name, "pair": pair, **which}
 
 
-def scleronomic(context: Context, entry: ConstraintEntry, field: str) -> Iterator[Told]:
-    """Time does not occur, or matters at a point."""
+def time_evidence(context: Context, entry: ConstraintEntry, field: str) -> Iterator[Told]:
+    """Yield evidence that time does not occur, or of a point at which it matters."""
     if getattr(entry, field):
         yield {"rule": "timeless"}
         return

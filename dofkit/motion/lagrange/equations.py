@@ -26,7 +26,7 @@ from dofkit.motion.lagrange.derivation import SINGULAR, Derived, derive
 from dofkit.motion.lagrange.elimination import Remaining
 from dofkit.motion.lagrange.energies import Energy, energy_of, missing
 from dofkit.motion.lagrange.joint_motion import joint_motion
-from dofkit.motion.lagrange.model import LagrangeModel, NoEquationsError, modelled
+from dofkit.motion.lagrange.model import LagrangeModel, NoEquationsError, lagrange_model
 from dofkit.motion.lagrange.report import Conserved, Linearized, MotionReport
 from dofkit.motion.lagrange.small_motions import linearized
 from dofkit.motion.lagrange.tidying import Tidier, length
@@ -199,8 +199,11 @@ class MotionSource:
         return examined(self.system, passes=GENERIC)
 
     def model(self, eliminates: bool = True) -> LagrangeModel:
-        """Made ready, with all eliminated that can be, or nothing. Raises SceneError for masses that are missing."""
-        model = modelled(self.study, self.energy, self.names, eliminates)
+        """Return energies and constraints, with coordinates eliminated where possible if ``eliminates``.
+
+        Raises SceneError for masses that are missing.
+        """
+        model = lagrange_model(self.study, self.energy, self.names, eliminates)
         faults = missing(model.energy.symbols, self.scene)
         if faults:
             raise SceneError(tuple(faults), self.scene.name)

@@ -91,7 +91,7 @@ class LagrangeModel:
         return self.energy.forces.get(name, ZERO) - diff(self.energy.dissipation, ex.velocity(name))
 
 
-def modelled(study: Examined, energy: Energy, names: Names, eliminates: bool = True) -> LagrangeModel:
+def lagrange_model(study: Examined, energy: Energy, names: Names, eliminates: bool = True) -> LagrangeModel:
     """The system with as much eliminated as is possible in closed form, or with nothing eliminated.
 
     Integrals of differential constraints are used where their constants do not enter the motion. Raises

@@ -195,6 +195,7 @@ def _finite_branches(branches: Sequence[Conjunction], *notes: str) -> Normal:
 
 
 def _finite(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
+    """Return what e = 0 says of positions: branches of its real zero set if ``written``, else e itself."""
     if not written:
         return Normal(((Finite(e),),))
     folded = with_absolute_values(e, positive)
