@@ -96,12 +96,13 @@ class Instructions(ABC):
     """A program and its generators: ``code`` holds (operation, payload), each written once.
 
     ``vars`` are the generators, ``var_expr`` what they are as expressions, ``var_node`` their instructions.
-    ``positive`` symbols are their own absolute value.
+    ``positive`` symbols are their own absolute value. ``varies``: whether an instruction depends on any symbol.
     """
 
     def __init__(self, positive: frozenset[Expr] = frozenset()) -> None:
         self.positive = positive
         self.code: list[tuple[int, Any]] = []
+        self.varies: list[bool] = []
         self.vars: list[Var] = []
         self.var_expr: list[Expr] = []
         self.var_node: list[int] = []
@@ -125,7 +126,13 @@ class Instructions(ABC):
         if number is None:
             number = self._interned[key] = len(self.code)
             self.code.append(key)
+            self.varies.append(self._varies(op, payload))
         return number
+
+    def _varies(self, op: int, payload: Any) -> bool:
+        if op == VAR:
+            return self.vars[payload].kind == "symbol" or any(self.varies[i] for i in self.vars[payload].args)
+        return op != NUM and any(self.varies[i] for i in (payload[:1] if op == POW else payload))
 
     def order(self, roots: tuple[int, ...]) -> list[int]:
         """Every instruction that the roots depend on, the last first: worked out once, for gradients at many points."""
@@ -310,6 +317,7 @@ def gradient(
     """Return the gradient of ``sum seed * value(node)`` by every symbol: ``{generator index: value}``."""
     check()
     adjoint: dict[int, Scalar] = {}
+    varies = ring.varies
     for node, seed in seeds:
         adjoint[node] = adjoint[node] + seed if node in adjoint else seed
     slopes: dict[int, Scalar] = {}
@@ -320,9 +328,16 @@ def gradient(
         op, payload = ring.code[node]
         if op == ADD:
             for i in payload:
-                adjoint[i] = adjoint[i] + bar if i in adjoint else bar
+                if varies[i]:
+                    adjoint[i] = adjoint[i] + bar if i in adjoint else bar
         elif op == MUL:
-            _product_rule(payload, at, bar, adjoint)
+            for place, i in enumerate(payload):
+                if varies[i]:
+                    part = bar
+                    for other, j in enumerate(payload):
+                        if other != place:
+                            part = part * at[j]
+                    adjoint[i] = adjoint[i] + part if i in adjoint else part
         elif op == POW:
             base, n = payload
             part = bar * n * (integer_power(at[base], n - 1) if n > 1 else at[node] / at[base])
@@ -336,11 +351,3 @@ def gradient(
                 adjoint[i] = adjoint[i] + part if i in adjoint else part
     return slopes
 
-
-def _product_rule(payload: tuple[int, ...], at: Sequence[Scalar], bar: Scalar, adjoint: dict[int, Scalar]) -> None:
-    for place, i in enumerate(payload):
-        part = bar
-        for other, j in enumerate(payload):
-            if other != place:
-                part = part * at[j]
-        adjoint[i] = adjoint[i] + part if i in adjoint else part
