@@ -15,6 +15,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Hashable, Iterator, Mapping, Sequence
 from fractions import Fraction
+from typing import NamedTuple
 
 from dofkit.base.libraries import nx
 from dofkit.system import GROUND, Connection, Constraint, System
@@ -96,14 +97,26 @@ def _first_of_each(rows: list[dict[str, Fraction]]) -> set[str]:
 Node = Hashable
 
 
-def bridges(system: System) -> frozenset[int]:
+class Bridges(NamedTuple):
+    """The ``joints`` that close no loop, and the constraints that hold ``afloat``: without these joints nothing ties
+    them to the ground, so that they hold after any motion of all their bodies as one.
+    """
+
+    joints: frozenset[int] = frozenset()
+    afloat: frozenset[int] = frozenset()
+
+
+def bridges(system: System) -> Bridges:
     """Return the joints that close no loop, of those of a drawing in fractions, by numbers; none without a drawing."""
     if system.dimension == 1:
-        return frozenset()
+        return Bridges()
     joints = {c.constraint: c.members for c in system.joints if _is_drawn(c, system)}
     graph = _graph(system, joints)
     ends = _ends_of_bridges(graph)
-    return frozenset(i for i in joints if ends[i] == len(graph.adj[i]))
+    apart = frozenset(i for i in joints if ends[i] == len(graph.adj[i]))
+    graph.remove_nodes_from(apart)
+    grounded = nx.node_connected_component(graph, GROUND) if GROUND in graph else set()
+    return Bridges(apart, frozenset(i for i in graph if isinstance(i, int)) - grounded)
 
 
 def _graph(system: System, joints: Mapping[int, Sequence[Node]]) -> nx.Graph[Node]:

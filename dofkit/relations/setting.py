@@ -54,8 +54,8 @@ class Setting:
     ``geometric``: those that are no texts, whose numbers are measured where there is a ``tolerance``; then ``arms`` are
     the vectors from the bodies' origins to their material points at the scene's centre. ``tilts``: the second of the
     Euler angles of bodies whose angles texts name; where its sine is 0 the other two turn alike. ``bridges``: the
-    joints that close no loop. ``joint_rows``: of constraints at the drawing, where the geometry of joints alone tells
-    them.
+    joints that close no loop; ``afloat``: the constraints that nothing else ties to the ground. ``joint_rows``: of
+    constraints at the drawing, where the geometry of joints alone tells them.
     """
 
     positive: frozenset[Expr]
@@ -76,4 +76,5 @@ class Setting:
     arms: Mapping[str, tuple[Expr, ...]] = field(default_factory=dict)
     tilts: frozenset[str] = frozenset()
     bridges: frozenset[int] = frozenset()
+    afloat: frozenset[int] = frozenset()
     joint_rows: Callable[[Iterable[int]], NamedRows | None] | None = None

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from dofkit.base.verdicts import VERDICTS, weakest
-from dofkit.configuration.variety import of_reference
+from dofkit.configuration.variety import field_jacobian, of_reference, pose_point
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import substitute
 from dofkit.relations.answer import Answer, AnsweredPart, FollowedClasses, Size
-from dofkit.relations.blocks import Block, Row, split, uses_time
-from dofkit.relations.normal.pieces import JointEquation
+from dofkit.relations.blocks import Block, Row, coordinates_of, make_chart, split, uses_time
+from dofkit.relations.normal.pieces import Finite, JointEquation
 from dofkit.relations.setting import Setting
 
 #: A block of so few coordinates, all of whose equations are written out, is answered as soon as a whole.
@@ -30,12 +32,49 @@ def bridged_answer(block: Block, setting: Setting, solve: Callable[[Block, Setti
         return None
     rows = [row for row in block.rows if row.constraint not in setting.bridges]
     cores, loose = split(block.coordinates, rows)
-    answered = [AnsweredPart(core, solve(core, setting)) for core in cores]
-    if any(p.answer.consistent is not True or p.answer.about != "reference" for p in answered):
+    answered = [AnsweredPart(core, _answer_afloat(core, setting, solve) or solve(core, setting)) for core in cores]
+    if not all(map(_is_satisfied, answered)):
         return None
     result = _together(block, setting, answered, len(loose) - len(joints))
     moves = result.dof if setting.reference is None else result.instantaneous
     return replace(result, looked=_looked(block, answered)) if moves else None
+
+
+def _is_satisfied(part: AnsweredPart) -> bool:
+    return part.answer.consistent is True and part.answer.about == "reference"
+
+
+def _answer_afloat(core: Block, setting: Setting, solve: Callable[[Block, Setting], Answer]) -> Answer | None:
+    """Return the answer of a part that nothing ties to the ground, seen from the body of most rows; else None.
+
+    Its set is that of the body's own coordinates times what is left where they are as drawn: all moves along with it.
+    """
+    host = _host(core, setting)
+    if not host or setting.reference is None:
+        return None
+    drawn = {s: setting.reference[s] for s in map(ex.coordinate, host)}
+    rows = [
+        r._replace(piece=Finite(substitute(r.piece.expr, drawn))) for r in core.finite if isinstance(r.piece, Finite)
+    ]
+    blocks, loose = split([name for name in core.coordinates if name not in host], rows)
+    answered = [AnsweredPart(block, solve(block, setting)) for block in blocks]
+    chart = make_chart(core, setting)
+    point = pose_point(chart, {**setting.reference, ex.TIME: ex.ZERO}, 3)
+    if point is None or not all(map(_is_satisfied, answered)):
+        return None
+    result = _together(core, setting, answered, len(loose) + len(host))
+    looked, matrix = _looked(core, answered), field_jacobian(chart, point)
+    return replace(result, looked=looked, answered_parts=None, matrix=matrix, modulus=point.p)
+
+
+def _host(core: Block, setting: Setting) -> tuple[str, ...]:
+    """Return the coordinates of the body of most rows; none where something ties the part to the ground."""
+    owners = {c.name: c.owner for c in setting.roles if c.name in core.coordinates}
+    if not (setting.tilts.isdisjoint(owners) and setting.afloat.issuperset(row.constraint for row in core.rows)):
+        return ()
+    counted = Counter(owner for row in core.rows for owner in {owners[q] for q in coordinates_of(row.piece)})
+    coordinates = tuple(q for q, owner in owners.items() if owner == counted.most_common(1)[0][0])
+    return coordinates if len(coordinates) == setting.dimension * (setting.dimension + 1) // 2 else ()
 
 
 def _is_eligible(block: Block, joints: Sequence[Row], setting: Setting) -> bool:

@@ -19,7 +19,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.renaming import Renaming, Unwritten, kinds_in, shape_of
 from dofkit.expressions.tree import Expr
-from dofkit.mobility.joint_tree import bridges
+from dofkit.mobility.joint_tree import Bridges, bridges
 from dofkit.mobility.placement import RowsAtReference
 from dofkit.relations.blocks import Block, Row, coordinates_of, make_chart
 from dofkit.relations.normal.domain import DomainCondition, arguments_of, holds_at
@@ -51,8 +51,8 @@ def prepared(system: System, reductions: Reductions = ALL) -> tuple[list[Reduced
     generic = tuple([ex.parameter(p) for p in system.generic])
     positive |= frozenset([p for p in generic if p.args[1].startswith("_L")])
     exact = system.joints and system.tolerance is None
-    apart = bridges(system) if "bridges" in reductions and exact else frozenset[int]()
-    reduced = reduce_all(system, positive, apart)
+    apart = bridges(system) if "bridges" in reductions and exact else Bridges()
+    reduced = reduce_all(system, positive, apart.joints)
     setting = Setting(
         positive,
         generic,
@@ -68,8 +68,9 @@ def prepared(system: System, reductions: Reductions = ALL) -> tuple[list[Reduced
         geometric=frozenset(i for i, c in enumerate(system.constraints) if not c.facts.written or c.facts.contact),
         arms=system.arms,
         tilts=frozenset(r.names[1] for r in system.rotations if r.chart == "euler"),
-        bridges=apart,
-        joint_rows=RowsAtReference(system, positive).rows_of_joints if apart else None,
+        bridges=apart.joints,
+        afloat=apart.afloat,
+        joint_rows=RowsAtReference(system, positive).rows_of_joints if apart.joints else None,
     )
     return reduced, setting
 

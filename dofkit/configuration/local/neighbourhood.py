@@ -252,22 +252,21 @@ def _walk(here: Neighbourhood, direction: Sequence[float], reach: float) -> list
             return None
         moved = plus(u, reach / STEPS, tangent)
         corrected = _back(here, moved)
-        if corrected is None or length(plus(corrected, -1.0, moved)) > (1 - STRAIGHT) * reach / STEPS:
+        if corrected is None or length(plus(corrected[0], -1.0, moved)) > (1 - STRAIGHT) * reach / STEPS:
             return None
-        u, ahead = corrected, tangent
-        _, j = here.floats(u, ball.rows)
+        (u, j), ahead = corrected, tangent
     return u
 
 
-def _back(here: Neighbourhood, u: Vector) -> list[float] | None:
-    """Newton's method with minimal steps in floating point."""
+def _back(here: Neighbourhood, u: Vector) -> tuple[list[float], list[list[float]]] | None:
+    """Return the point of M near ``u`` and its rows there, by Newton's method with minimal steps in floating point."""
     moved = list(u)
     for _ in range(8):
         f, j = here.floats(moved, here.ball.rows)
         change = step(j, f)
         moved = plus(moved, 1.0, change)
         if largest(change) < 1e-12:
-            return moved
+            return moved, j
     return None
 
 

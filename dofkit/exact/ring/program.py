@@ -331,13 +331,7 @@ def gradient(
                 if varies[i]:
                     adjoint[i] = adjoint[i] + bar if i in adjoint else bar
         elif op == MUL:
-            for place, i in enumerate(payload):
-                if varies[i]:
-                    part = bar
-                    for other, j in enumerate(payload):
-                        if other != place:
-                            part = part * at[j]
-                    adjoint[i] = adjoint[i] + part if i in adjoint else part
+            _product_rule(payload, at, bar, adjoint, varies)
         elif op == POW:
             base, n = payload
             part = bar * n * (integer_power(at[base], n - 1) if n > 1 else at[node] / at[base])
@@ -351,3 +345,14 @@ def gradient(
                 adjoint[i] = adjoint[i] + part if i in adjoint else part
     return slopes
 
+
+def _product_rule(
+    payload: tuple[int, ...], at: Sequence[Scalar], bar: Scalar, adjoint: dict[int, Scalar], varies: Sequence[bool]
+) -> None:
+    for place, i in enumerate(payload):
+        if varies[i]:
+            part = bar
+            for other, j in enumerate(payload):
+                if other != place:
+                    part = part * at[j]
+            adjoint[i] = adjoint[i] + part if i in adjoint else part
