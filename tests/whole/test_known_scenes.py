@@ -92,7 +92,7 @@ def test_the_velocities_by_hand_are_those_of_the_matrix(pose: FrameworkPose) -> 
     """The rank over the rationals, at the singular pose and beside it."""
     for step in (Fraction(0), Fraction(1, 1000)):
         dof, first = pose.freedom(step)
-        assert pose.at(step).by_rank() == first
+        assert pose.framework_at(step).by_rank() == first
         assert dof is None or dof <= first
 
 
