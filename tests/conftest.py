@@ -4,8 +4,8 @@ All tests of one scene run in one process, which works its report out once, and 
 have in common is made once, and groups without end cost pytest-xdist a twentieth of the time. Garbage is looked for
 seldom, and never among what was there before the first test: that took a sixth of the time.
 
-`--share 1/3` runs a third of the tests that are selected, the same on every run; which third is said by `--turn TEXT`,
-such as a commit's hash.
+Of the tests in `spread.yaml` one case in so many is run, the others are swept. `--share 1/3` runs a third of the tests
+that are selected, the same on every run; which third is said by `--turn TEXT`, such as a commit's hash.
 
 The time allowed for a scene is processor time of this process here: what else the machine does is of no account.
 
@@ -19,18 +19,25 @@ import os
 import sys
 import threading
 import time
+from collections import Counter
 from fractions import Fraction
 from pathlib import Path
 from types import SimpleNamespace
 from zlib import crc32
 
 import pytest
+import yaml
 from hypothesis import settings
 
 from dofkit.base import deadline, runs, workers
 
 settings.register_profile("steady", derandomize=True, deadline=None, print_blob=True)
 settings.load_profile("steady")
+
+
+#: Of how many cases of a test one is run, by module; how many cases of each have been collected.
+SPREAD = yaml.safe_load((Path(__file__).parent / "spread.yaml").read_text(encoding="utf-8"))
+COUNTED: Counter[tuple[str, str]] = Counter()
 
 
 def can_fork() -> bool:
@@ -50,6 +57,16 @@ os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption("--share", type=Fraction, default=Fraction(1), help="this part of the tests, by their names")
     parser.addoption("--turn", default="", help="a text that says which part it is")
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_itemcollected(item: pytest.Item) -> None:
+    module, test = item.nodeid.split("[")[0].removeprefix("tests/").split(".py::")
+    of = SPREAD.get(module, {}).get(test)
+    if of is not None and item.get_closest_marker("sweep") is None:
+        if COUNTED[module, test] % of:
+            item.add_marker(pytest.mark.sweep)
+        COUNTED[module, test] += 1
 
 
 @pytest.hookimpl(trylast=True)

@@ -10,9 +10,11 @@ import re
 import tomllib
 from collections import defaultdict
 from collections.abc import Iterator
+from pathlib import Path
 from typing import NamedTuple, TypeVar
 
 import pytest
+import yaml
 from shared.sources import PACKAGE, SOURCES, nodes_of, one_process, tree_of, trees
 
 from dofkit.scene.constraints import TYPES
@@ -273,3 +275,9 @@ def test_rule(rule: str) -> None:
 def test_exceptions_are_few_and_have_reasons() -> None:
     assert len(EXEMPTIONS) <= MOST_EXEMPTIONS
     assert all(e.reason and e.rule in RULES for e in EXEMPTIONS)
+
+
+def test_every_test_that_is_spread_exists() -> None:
+    tests = Path(__file__).parent
+    spread = {f"{m}.py": names for m, names in yaml.safe_load((tests / "spread.yaml").read_text()).items()}
+    assert [(m, t) for m, names in spread.items() for t in names if f"def {t}(" not in (tests / m).read_text()] == []
