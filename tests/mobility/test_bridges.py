@@ -50,13 +50,23 @@ CASES: dict[str, tuple[list[Any], set[str]]] = {
 
 def names(constraints: list[Any], **more: Any) -> set[str]:
     system = lower(dofkit.load({"bodies": ["a", "b", "c"], "constraints": constraints, **more}))
-    return {system.constraints[i].name for i in bridges(system)}
+    return {system.constraints[i].name for i in bridges(system).joints}
 
 
 @pytest.mark.parametrize("case", CASES)
 def test_what_is_all_that_holds_bodies_to_the_rest(case: str) -> None:
     beside, wanted = CASES[case]
     assert names([*ARM, *beside]) == wanted
+
+
+def test_what_nothing_but_such_joints_ties_to_the_ground_is_afloat() -> None:
+    """A second hinge and a text on one body: the text knows places, whatever else is said of the body."""
+    again = hinge("again", "b", "c", [2, 0, 5])
+    system = lower(dofkit.load({"bodies": ["a", "b", "c"], "constraints": [*ARM, again]}))
+    assert bridges(system).afloat == {2, 3}
+    system = lower(dofkit.load({"bodies": ["a", "b", "c"], "constraints": [ELBOW, WRIST, again, "x_b = 0"]}))
+    assert bridges(system).joints == {0}
+    assert bridges(system).afloat == set()
 
 
 def test_in_the_plane_too_and_a_gear_knows_the_ground() -> None:
