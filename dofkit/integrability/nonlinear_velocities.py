@@ -95,14 +95,13 @@ def set_velocity_freedom(block: Block, setting: Setting, result: Answer) -> None
     elif not (bends := _bends(states, real.point)) and moving < len(block.coordinates):
         _undecided(result, FLAT)
     else:
-        result.curved, result.argument = bends, "states of motion"
+        result.curved, result.argument = bends, "states of motion" if bends else "line field"
         result.velocity_dof = len(block.coordinates) - moving
-        if not bends:  # all velocities are determined: a field of lines
-            result.dof, result.argument = 0, "line field"
-            result.labels = {i: HolonomyLabel(True, label.verdict, "line") for i, label in result.labels.items()}
-            result.about = "component" if len(block.nonlinear) > 1 else result.about
         full = ball_part(states.by_velocity(real.point, states.moving)).rank == len(block.rows)
         result.verdict = weakest(result.verdict, "numeric" if point is None else "proved" if full else "probable")
+        if not bends:
+            result.dof, result.about = 0, "component" if len(block.nonlinear) > 1 else result.about
+            result.labels = dict.fromkeys(result.labels, HolonomyLabel(True, result.verdict, "line"))
 
 
 def first_order_beside_bends(block: Block, setting: Setting, result: Answer) -> tuple[int | None, bool]:
