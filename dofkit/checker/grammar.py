@@ -228,6 +228,8 @@ class _Reader:
         tree = self.primary()
         if self.accepted("^").kind:
             tree = _power(tree, self.factor())
+            of_time = self.next.kind == "(" and self.next.touching and self.tokens[self.at + 1].tree == _TIME
+            refuse(of_time, "it may be a power or a factor")
         self.depth -= 1
         return negative(tree) if minus else tree
 

@@ -8,7 +8,7 @@ from functools import cached_property, partial
 from typing import Any, NamedTuple
 
 from dofkit.base.deadline import part, unless_late
-from dofkit.base.verdicts import OPEN, VERDICTS, Claim, together
+from dofkit.base.verdicts import OPEN, VERDICTS, Claim, least, together
 from dofkit.base.wording import many, verb
 from dofkit.classification.dependence import redundancy
 from dofkit.classification.dependence.implied_constraints import Conflict, conflict
@@ -225,10 +225,17 @@ def redundancies(study: Study) -> Decided:
 
 
 def _of_dependence(study: Study, some: bool) -> Claim:
-    """Of what depends on what: nothing does where the count says so."""
+    """Of what depends on what: nothing does where the count says so.
+
+    That nothing can be dropped though equations depend on each other is not told of the component alone on which they
+    were counted: each constraint is needed at a state of its own.
+    """
     if not some and study.redundant_equations == 0:
         return counted(study.free)
-    return together(study.free, *(r.claim for r in study.dependence.dependent if r.redundant or r.groups))
+    claims = [r.claim for r in study.dependence.dependent if r.redundant or r.groups]
+    claim = together(study.free, *claims)
+    anywhere = not some and claims and study.free.about == "component"
+    return replace(claim, about=least(*(c.about for c in claims))) if anywhere else claim
 
 
 def joint_coordinates(study: Study) -> list[str] | None:

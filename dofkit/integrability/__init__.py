@@ -17,7 +17,7 @@ Mechanisms, in the order in which they are tried
     4. `row_labels` labels every row of a block with either engine, at a `regular_reference` configuration if there is
        one.
     5. `nonlinear_velocities`: what is not linear in the velocities restricts them where the fibres are curved at a
-       certified state; the others may make it linear.
+       certified state; the others may make it linear, or leave a field of lines.
     6. `integrals` has the potential and the integrating factor of one form, `first_integrals` those of several forms
        together; every result is proved by differentiation.
 """

@@ -67,7 +67,10 @@ FLAT = "the admissible velocities form linear subspaces, which were not written 
 
 
 def set_velocity_freedom(block: Block, setting: Setting, result: Answer) -> None:
-    """The velocity freedom: a Jacobian's rank by the velocities, at states of motion."""
+    """The velocity freedom: a Jacobian's rank by the velocities, at states of motion.
+
+    Constraints that determine all velocities integrate: one equation on a line of others, or several on a component.
+    """
     if not block.nonlinear or result.velocity_dof is None:
         return
     states = States(block.coordinates, block.rows, result.hidden, setting)
@@ -89,13 +92,16 @@ def set_velocity_freedom(block: Block, setting: Setting, result: Answer) -> None
         _undecided(result, PARTS)
     elif whole - moving != finite:
         _undecided(result, HIDDEN)
-    elif not _bends(states, real.point):
+    elif not (bends := _bends(states, real.point)) and moving < len(block.coordinates):
         _undecided(result, FLAT)
     else:
-        result.curved, result.argument = True, "states of motion"
+        result.curved, result.argument = bends, "states of motion" if bends else "line field"
         result.velocity_dof = len(block.coordinates) - moving
         full = ball_part(states.by_velocity(real.point, states.moving)).rank == len(block.rows)
         result.verdict = weakest(result.verdict, "numeric" if point is None else "proved" if full else "probable")
+        if not bends:
+            result.dof, result.about = 0, "component" if len(block.nonlinear) > 1 else result.about
+            result.labels = dict.fromkeys(result.labels, HolonomyLabel(True, result.verdict, "line"))
 
 
 def first_order_beside_bends(block: Block, setting: Setting, result: Answer) -> tuple[int | None, bool]:

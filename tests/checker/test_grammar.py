@@ -190,8 +190,8 @@ MISTAKEN = (
 )
 #: What no contract names, so that it need not be read: other signs, names of other forms, derivatives by time.
 FOREIGN = (
-    *("$x$", "δx", "δ x", r"\mathbf{x}", "\theta", "x = 1, y = 2", "x = const"),
-    *("½ x", "x⁻¹", "x₁", "x_1", "|x|", "√x", "x_{1}", "x(t)", "x (t)", "x'(t)", "xddot", "x''", "ẍ", "d^2x/dt^2"),
+    *("$x$", "δx", "δ x", r"\mathbf{x}", "\theta", "x = 1, y = 2", "x = const", "x (t)"),
+    *("½ x", "x⁻¹", "x₁", "x_1", "|x|", "√x", "x_{1}", "x(t)", "x^2(t)", "x'(t)", "xddot", "x''", "ẍ", "d^2x/dt^2"),
     *("dh", "dh/dt", "hdot", "diff(w(x, t), t)", "diff(x^2, t)", "sin 2 x", "sin2x", "log sin x", "sqrt3"),
 )
 HOSTILE = (

@@ -97,3 +97,10 @@ def test_a_proof_by_counting_needs_no_warning() -> None:
     links = [{"type": "link", "between": [*pair]} for pair in ("AB", "BC")]
     report = dofkit.classify({"dimension": 1, "particles": [*"ABC"], "constraints": links})
     assert (report.verdict, report.warnings) == ("proved", [])
+
+
+def test_that_nothing_can_be_dropped_is_told_of_all_components() -> None:
+    """Without the first r may be negative, without another x or y has either sign; near a point one of them follows."""
+    texts = ["r = sqrt(x^2 + y^2)", "x = r*cos(theta)", "y = r*sin(theta)"]
+    report = dofkit.classify({"coordinates": ["x", "y", "r", "theta"], "constraints": texts})
+    assert (report.redundant, report.verdicts["redundant"].about) == ([], "everywhere")

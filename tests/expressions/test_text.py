@@ -194,6 +194,7 @@ READ: dict[str, Expr] = {
     "diff(x, t, 2)": xddot,
     "diff(x(t), t)": xdot,
     "x(t)": x,
+    "x^2(t)": x**2,
     "x (t)": x,
     "x'(t)": xdot,
     "xdot(t)^2": xdot**2,

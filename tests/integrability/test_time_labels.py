@@ -44,7 +44,7 @@ TABLE: list[tuple[str, list[str], bool | None, bool | None, str]] = [
     ("x", ["dx - t dt = 0"], False, False, "x - t^2/2 = C"),
     ("x y", ["xdot = y", "ydot = 0"], False, False, "x - y t = C with y = C1"),
     ("x y", ["xdot = y", "y = 0"], True, False, "x = C"),
-    ("x y", ["xdot = y", "ydot = 1"], False, False, "x - y t + t^2/2 = C with y = t + C1"),
+    ("x y", ["xdot = y", "ydot = 1"], None, False, "x - y t + t^2/2 = C with y = t + C1, or x - y^2/2 = C"),
     ("x y", ["xdot = y", "ydot = -x"], False, False, "x = C cos(t + C1)"),
     ("x y", ["xdot = y", "y = t"], None, False, "x - t^2/2 = C, which may be written as x - y^2/2 = C"),
     ("x y", ["x = 0", "xdot = y"], True, None, "a wall"),

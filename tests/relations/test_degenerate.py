@@ -137,8 +137,8 @@ ONE_RATE: list[Row] = [
     ("x y", ["exp(xdot) = 2", "xdot = 1"], "log 2 is not 1", {"consistent": False, "conflicting": ["c1", "c2"]}),
     ("x y", ["exp(xdot) = E", "xdot = 1"], "the same", rate(1, 1, True, redundant=["c2"])),
     ("x y z", ["(zdot - y xdot)^3 = 8"], "dz - y dx - 2 dt", rate(3, 2, False, scleronomic=True)),
-    ("x y", ["sin(xdot) = 0"], "xdot = k pi, one branch for every k", rate(None, None, None)),
-    ("x y", ["exp(xdot) + xdot = 2"], "one root without a formula", rate(None, None, None)),
+    ("x y", ["sin(xdot) = 0"], "xdot = k pi, one branch for every k", rate(1, 1, True)),
+    ("x y", ["exp(xdot) + xdot = 2"], "one root without a formula", rate(1, 1, True)),
 ]
 
 #: Equations of which every answer may be undecided, and none may be wrong.

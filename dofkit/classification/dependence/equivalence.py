@@ -29,6 +29,7 @@ from dofkit.exact.zero import BOTH, Engines
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
+from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.pieces import UNDONE_NOTE, Finite, Normal, Pfaffian, Reduced
 from dofkit.relations.setting import Setting
 from dofkit.system import System
@@ -289,7 +290,10 @@ class Equivalence:
 
     def _unilateral(self) -> Compared:
         """Inequalities are the same where they leave the same side of the same boundary."""
-        if self._answer or self._all_wanted:
+        if equations := [*self._answer, *self._all_wanted]:
+            region = any(b and all(isinstance(p, DomainCondition) for p in b) for n in equations for b in n.branches)
+            if region:  # abs(x) = x is x >= 0
+                return Compared(Sameness.UNDECIDED)
             return Compared(Sameness.DIFFERENT, tuple(False for _ in self.wanted))
         submitted = [q for r in self.submitted for q in r.inequalities]
         asked = [q for r in self.wanted for q in r.inequalities]

@@ -24,7 +24,7 @@ from itertools import groupby
 from typing import NamedTuple
 
 from dofkit.base.deadline import OutOfTimeError, check, limited, unless_late
-from dofkit.base.verdicts import Claim, Verdict, weakest
+from dofkit.base.verdicts import About, Claim, Verdict, weakest
 from dofkit.classification.dependence.implication import Everywhere, NearDrawing, is_drawn
 from dofkit.classification.dependence.implied_constraints import LEAVING_SECONDS
 from dofkit.classification.dependence.minimal_sets import SufficientSets, largest_redundant_set, minimal_set
@@ -50,10 +50,10 @@ def by_removal(block: Block, setting: Setting, a: Answer, nullity: int, numbered
     nullity = max(nullity, sum(o in largest.members for o in owners))
     groups = [(nullity, sorted(order))] if largest.members else []
     undecided = tuple(largest.undecided)
-    answer = Redundancies({}, largest.members, groups, circuits, undecided, claim=_claim(removal.verdict))
+    answer = Redundancies({}, largest.members, groups, circuits, undecided, claim=_claim(removal.verdict, a.about))
     count = counted(block, setting, a, numbered) if is_drawn(block, a, setting) else None
     if count is not None:
-        claim = _claim(weakest(removal.verdict, "numeric" if count.seen else "probable"))
+        claim = _claim(weakest(removal.verdict, "numeric" if count.seen else "probable"), a.about)
         counts = replace(answer, independent=count.independent, equations=count.equations, seen=count.seen)
         return replace(counts, groups=groups or count.groups, claim=claim)
     independent = {o: 0 for o, circuit in circuits.items() if circuit and max(circuit) < o}
@@ -63,8 +63,8 @@ def by_removal(block: Block, setting: Setting, a: Answer, nullity: int, numbered
     return replace(answer, independent=independent, uncounted=uncounted)
 
 
-def _claim(verdict: Verdict) -> Claim:
-    return Claim(verdict, "implication", BITS, GAP)
+def _claim(verdict: Verdict, about: About) -> Claim:
+    return Claim(verdict, "implication", BITS, GAP, about)
 
 
 def _circuits(removal: Removal, order: Sequence[int], redundant: Sequence[int]) -> dict[int, list[int]]:

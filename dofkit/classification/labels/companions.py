@@ -57,8 +57,22 @@ class Companionship:
         companions = tuple(f"'{self.names[o]}'" for o in kept if o != constraint)
         if integral is None:
             return Others(companions, identically=False, timed=_advances(constraint, block, a))
-        timed = _timed(integral, constraint, block, a)
+        timed = self._timed(integral, constraint, block, a)
         return Others(companions, equation(integral, block), integral.identically, timed)
+
+    def _timed(self, f: FirstIntegral, constraint: int, block: Block, a: Answer) -> bool | None:
+        """Return whether t occurs in what a form with a dt term integrates to; None: as it is written.
+
+        That is so if other constraints hold t, and may hold it so that the dt term is 0; and if one of them integrates
+        with t by itself: with x = t + C the equation zdot = x gives x^2 - 2 z = C, as well as 2 z = t^2 + 2 C t + C1.
+        """
+        others = Block(block.coordinates, tuple(r for r in block.rows if r.constraint != constraint))
+        timed = TIME in f.expr.symbols
+        if not uses_time(others):
+            return timed
+        moving = {r.constraint for r in others.rows if isinstance(r.piece, Pfaffian) and not r.piece.dt.is_zero}
+        advances = not timed and any(self._holonomic(o, others.rows, block) for o in moving)
+        return None if others.finite or a.hidden or advances else True
 
     def modulo(self, constraint: int, block: Block, a: Answer) -> Others:
         """For a constraint that is not: a finite relation that it says in the presence of all the others."""
@@ -146,17 +160,6 @@ class Companionship:
         shift = forms.finite - len(part.finite)
         by_row = first_integrals.integral_by_row(forms, integrals)
         return CompanionIntegrals({numbers[row - shift]: f for row, f in by_row.items()}, integrals)
-
-
-def _timed(f: FirstIntegral, constraint: int, block: Block, a: Answer) -> bool | None:
-    """Return whether t occurs in what a form with a dt term integrates to; None if that depends on how it is written.
-
-    That is so if other constraints hold t, and may hold it so that the dt term is 0.
-    """
-    others = Block(block.coordinates, tuple(r for r in block.rows if r.constraint != constraint))
-    if not uses_time(others):
-        return TIME in f.expr.symbols
-    return None if others.finite or a.hidden else True
 
 
 def _advances(constraint: int, block: Block, a: Answer) -> bool | None:

@@ -76,7 +76,8 @@ def entry(reduced: Reduced, evidence: Evidence, setting: Setting, consistent: bo
     forms = _integrable_forms(normals, evidence.rows)
     proofs = _proofs(form, forms, evidence.by_itself, setting)
     labels = _labels_of(reduced, evidence, form, proofs, forms, consistent)
-    integral, others = _integral_of(form, labels, proofs, evidence, bool(consistent))
+    own_integral = _own_integral(normals, proofs)
+    integral, others = _integral_of(form, labels, own_integral, evidence, bool(consistent))
     of_pieces = _traits_of(pieces, normals, evidence)
     of_pieces += branches_of_time(reduced, bool(consistent), setting.positive)
     single = evidence.rows[0] if len(evidence.rows) == len(pieces) == 1 else None
@@ -218,16 +219,31 @@ def _claims(
     return claims
 
 
+def _own_integral(normals: Sequence[Normal], proofs: Sequence[Integrability]) -> str | None:
+    """Return what forms integrate to on their own: all of several, each with a constant, or one of several branches.
+
+    None where a branch has several forms.
+    """
+    branches = [len(_forms([b])) for n in normals for b in n.branches if len(n.branches) > 1]
+    if len(proofs) < 2 or not branches:
+        return joined([_numbered(p.integral, k if len(proofs) > 1 else 0) for k, p in enumerate(proofs, 1)])
+    return joined([p.integral for p in proofs], " or ") if max(branches) == 1 and len(normals) == 1 else None
+
+
+def _numbered(integral: str | None, number: int) -> str | None:
+    """Return `f = C` with the constant C1, C2, ..."""
+    return f"{integral}{number}" if integral and number and integral.endswith("= C") else integral
+
+
 def _integral_of(
-    form: Form, labels: EntryLabels, proofs: Sequence[Integrability], evidence: Evidence, consistent: bool
+    form: Form, labels: EntryLabels, own_integral: str | None, evidence: Evidence, consistent: bool
 ) -> tuple[str | None, Others]:
     """Return the finite relation that a constraint integrates to, and what the others do for it."""
-    own_integral = joined([p.integral for p in proofs])
     others = Others()
     if form == "pfaffian" and labels.in_system is not None and consistent and not (labels.alone and own_integral):
         others = evidence.companions_of(labels.in_system)
     if labels.alone and own_integral is not None:
-        return own_integral, others
+        return own_integral, Others(integral=own_integral)
     return others.integral if labels.alone or labels.in_system else None, others
 
 
@@ -258,7 +274,8 @@ def _label_of_row(t: LabelledRow, integrable: Sequence[Pfaffian]) -> TraitAnswer
     if isinstance(t.row.piece, Finite) or t.row.piece in integrable:
         return True, "proved"
     if isinstance(t.row.piece, Nonlinear) and not t.reduced:
-        return (False, "proved") if t.answer.curved else (None, "undecided")
+        line = t.answer.dof == 0 and not t.answer.curved
+        return (False, "proved") if t.answer.curved else (True, t.answer.verdict) if line else (None, "undecided")
     return (None, "undecided") if t.label is None else (t.label.holonomic, t.label.verdict)
 
 

@@ -56,10 +56,10 @@ class EntryLabels(NamedTuple):
     with_others: str = ""
 
 
-def joined(texts: Sequence[str | None]) -> str | None:
+def joined(texts: Sequence[str | None], word: str = "; ") -> str | None:
     """The parts in one text; None unless every one is there."""
     result = [p for p in texts if p is not None]
-    return "; ".join(result) if result and len(result) == len(texts) else None
+    return word.join(result) if result and len(result) == len(texts) else None
 
 
 def reason_of(
@@ -124,9 +124,8 @@ def _pfaffian(labels: EntryLabels, proofs: Sequence[Integrability], others: Othe
 
 
 def _integrable(proofs: Sequence[Integrability], others: Others) -> str:
-    result = joined([p.integral for p in proofs]) or (others.integral and others.text)
-    if result:
-        return f"It integrates to {result}: holonomic; {_INITIAL}."
+    if others.integral:
+        return f"It integrates to {others.text}: holonomic; {_INITIAL}."
     how = next((p.reason for p in proofs if p.reason), "d(omega) ^ omega = 0")
     return f"It is integrable ({how}), though no integral was found in closed form: holonomic; {_INITIAL}."
 
@@ -327,7 +326,8 @@ def reason_of_time(traits: EntryTraits) -> str:
         return ""
     if traits.scleronomic:
         return " It is not homogeneous in the velocities: acatastatic."
-    return " Time occurs in the relation that it integrates to: rheonomic."
+    together = " together with the others" if traits.by == "holonomic" else ""
+    return f" Time occurs in what it integrates to{together}: rheonomic."
 
 
 #: The argument for a label that was found by itself, by the form of a constraint.
@@ -356,7 +356,7 @@ class Ground(NamedTuple):
         """Return the argument by which the constraint is holonomic, or is not."""
         if on_their_own and value:
             return "form by itself"
-        if self.form in BY_FORM:
+        if self.form in BY_FORM and not (self.form == "nonlinear" and value):
             return BY_FORM[self.form]
         if value is False:
             return "outside the integrable part"

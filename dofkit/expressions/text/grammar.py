@@ -230,20 +230,25 @@ class Parser(TextReader):
         return mul(MINUS_ONE, e) if negative else e
 
     def power(self) -> Expr:
-        """Return a primary, perhaps raised to a power; `x^y^z` is x^(y^z)."""
+        """Return a primary, perhaps raised to a power; `x^y^z` is x^(y^z), `x^2(t)` is x(t)^2."""
         base = self.primary()
         token = self.tokens[self.at]
         if token.kind == "superscript":
             self.at += 1
             if self.next.kind in ("^", "superscript"):
                 self.fail("a power is raised to another power here", self.next, "write parentheses")
-            return self.raise_to(base, num(token.amount), token)
-        if token.kind != "^":
+            exponent = num(token.amount)
+        elif token.kind == "^":
+            self.at += 1
+            self.deeper(token)
+            exponent = self.factor()
+            self.depth -= 1
+        else:
             return base
-        self.at += 1
-        self.deeper(token)
-        exponent = self.factor()
-        self.depth -= 1
+        ahead = self.tokens[self.at : self.at + 3]
+        moves = base.op == "sym" and base.args[0] not in ("parameter", "time")
+        if moves and [t.kind for t in ahead] == ["(", "value", ")"] and ahead[0].start == self.last.end:
+            self.at += 3 if ahead[1].expr == TIME else 0
         return self.raise_to(base, exponent, token)
 
     def raise_to(self, base: Expr, exponent: Expr, token: Token) -> Expr:

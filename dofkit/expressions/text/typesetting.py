@@ -29,7 +29,7 @@ from dofkit.expressions.text.tokens import TOKEN
 
 _RATE = re.compile(rf"(?P<base>.+?)(?:(?P<two>ddot|{TWO_DOTS})|(?P<one>dot|{DOT}))(?P<below>_\w+)?")
 _INDEXED = re.compile(rf"(?P<letter>[A-Za-z]+?|[{GREEK_LETTERS}])_?(?P<below>\d[A-Za-z0-9_]*|(?<=_)[A-Za-z0-9_]+)?")
-_RELATIONS = {"and": r"\text{ and }", "<=": r"\le", ">=": r"\ge", "==": "="}
+_RELATIONS = {"and": r"\text{ and }", "or": r"\text{ or }", "<=": r"\le", ">=": r"\ge", "==": "="}
 _LATEX_FUNCTIONS = frozenset(["sin", "cos", "tan", "cot", "sec", "csc", "sinh", "cosh", "tanh", "exp", "log"])
 _INVERSE = {"asin": "arcsin", "acos": "arccos", "atan": "arctan"}
 #: What may stand right after a factor as the next one.
@@ -85,7 +85,7 @@ def _pieces(text: str) -> list[_Piece]:
         if match is None:
             raise _NoFormulaError
         group = match.lastgroup or ""
-        kind = "relation" if match["word"] == "and" else match[group] if group == "sign" else group
+        kind = "relation" if match["word"] in ("and", "or") else match[group] if group == "sign" else group
         pieces.append(_Piece(kind, match[group], match.start(group) == position))
         if kind == "end":
             return pieces

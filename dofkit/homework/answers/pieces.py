@@ -78,7 +78,7 @@ _RESULT = re.compile(
 _NAME = re.compile(rf"(?<![\w\\]){_ENERGY}(?!\w)")
 _SYMBOL = r"\\?[A-Za-zα-ωΑ-Ω][A-Za-z0-9α-ωΑ-Ω_{}]{0,7}"
 _FUNCTION = re.compile(
-    rf"\A\s*(?:\\?[A-Za-zα-ωΑ-Ω]\w{{0,3}}\s*\(\s*{_SYMBOL}(?:\s*,\s*{_SYMBOL})+\s*\)"
+    rf"\A\s*(?:(?!(?:min|max|mod|gcd)\b)\\?[A-Za-zα-ωΑ-Ω]\w{{0,3}}\s*\(\s*{_SYMBOL}(?:\s*,\s*{_SYMBOL})+\s*\)"
     rf"|(?:[fghFGH]|phi|Phi|φ|Φ|\\phi|\\Phi|\\varphi)(?:_?\{{?\w{{0,2}}\}}?)?(?:\s*\(\s*{_SYMBOL}\s*\))?)\s*=(?!=)\s*"
 )
 _CALLED = re.compile(r"\A\s*\\?([A-Za-zα-ωΑ-Ω]\w*)\s*\(\s*\\?(?:var)?([A-Za-zα-ωΑ-Ω]\w*)\s*\)\s*=(?!=)")
@@ -286,7 +286,7 @@ def _without_function(script: Script, names: Names) -> Script:
     """Without `f(x, y) =` before an expression or an equation; `const.` is the name of a constant."""
     script = script.replaced(_CONSTANTS, "const")
     lead = _FUNCTION.match(script.text)
-    if lead is None or lead.end() == len(script.text):
+    if lead is None or not re.search(r"[^\W\d]", script.text[lead.end() :]):
         return script
     if "(" not in lead[0] and not re.match(r"\s*[fgh]", lead[0]) and "=" not in script.text[lead.end() :]:
         return script

@@ -16,6 +16,7 @@ from dofkit.exact.ring.ring import Ring
 from dofkit.exact.triangular import TriangularSolver
 from dofkit.exact.zero import zero_and_verdict
 from dofkit.expressions import tree as ex
+from dofkit.expressions.terms import linear_terms
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.semidefinite import Signs, fraction, semidefinite, sum_of_even
 
@@ -32,64 +33,58 @@ def apart(canon: Canon, factors: Factors, variables: frozenset[Expr]) -> tuple[l
 
     ``variables`` are coordinates and time; an angle with a velocity or an unknown function in it is left as it is.
     """
-    result: dict[int, set[int]] = {}
+    result: dict[Expr, set[int]] = {}
     branches: list[tuple[Expr, ...]] = []
     others: Factors = []
     for factor, multiplicity in factors:
-        extremes = _extremes(canon, factor, variables)
+        extremes = extremes_of(canon.to_expr(factor), variables)
         if extremes is None:
             others.append((factor, multiplicity))
         elif len(extremes) == 1:
-            index, value = extremes[0]
-            result.setdefault(index, set()).add(value)
+            function, value = extremes[0]
+            result.setdefault(function, set()).add(value)
         else:
-            branches.append(tuple(_regular(canon, index, value) for index, value in extremes))
-    for index, extreme in result.items():
+            branches.append(tuple(regular(function, value) for function, value in extremes))
+    for function, extreme in result.items():
         both = len(extreme) == 2
-        branches.append((_partner(canon, index) if both else _regular(canon, index, next(iter(extreme))),))
+        branches.append((_partner(function) if both else regular(function, next(iter(extreme))),))
     return branches, others
 
 
-def _extremes(canon: Canon, poly: Any, variables: frozenset[Expr]) -> Sequence[tuple[int, int]] | None:
-    """(generator, its value 1 or -1) for c + sum a_i g_i with |c| = sum |a_i|; None for anything else."""
-    n = len(canon.ring.vars)
-    constant, weights = Fraction(0), dict[int, Fraction]()
-    for exponents, coefficient in poly.to_dict().items():
-        present = [n - 1 - i for i, k in enumerate(exponents) if k]
-        value = Fraction(int(coefficient.p), int(coefficient.q))
-        if not present:
-            constant = value
-        elif sum(exponents) == 1 and _plain(canon, present[0], variables):
-            weights[present[0]] = value
-        else:
-            return None
+def extremes_of(e: Expr, variables: frozenset[Expr]) -> Sequence[tuple[Expr, int]] | None:
+    """(f_i, its value 1 or -1) for c + sum a_i f_i with |c| = sum |a_i|, sines and cosines f_i; else None."""
+    if e.functions.isdisjoint(("sin", "cos")):
+        return None
+    weights = dict(linear_terms(e))
+    constant = weights.pop(ex.ONE, Fraction(0))
     if not weights or abs(constant) != sum(map(abs, weights.values())):
         return None
-    return [(index, -1 if (weight > 0) == (constant > 0) else 1) for index, weight in weights.items()]
+    extremes = [(f, -1 if (weight > 0) == (constant > 0) else 1) for f, weight in weights.items()]
+    return extremes if all(_plain(f, variables) for f in weights) else None
 
 
-def _plain(canon: Canon, index: int, variables: frozenset[Expr]) -> bool:
+def _plain(function: Expr, variables: frozenset[Expr]) -> bool:
     """A sine or cosine of a known expression in the variables."""
-    if canon.ring.vars[index].kind not in ("cos", "sin"):
+    if function.op != "fn" or function.args[0] not in ("cos", "sin"):
         return False
-    argument = canon.ring.var_expr[index].args[1]
+    argument = function.args[1]
     moving = argument.symbols & variables
     declared = all(s.args[0] in ("coordinate", "time", "parameter") for s in argument.symbols)
     return bool(moving) and declared and all(node.op != "call" for node in ex.nodes(argument))
 
 
-def _regular(canon: Canon, index: int, value: int) -> Expr:
-    """What is 0 where the generator has the value."""
-    half = ex.HALF * canon.ring.var_expr[index].args[1]
+def regular(function: Expr, value: int) -> Expr:
+    """What is 0 where a sine or cosine has the value."""
+    half = ex.HALF * function.args[1]
     sin, cos = ex.fn("sin", half), ex.fn("cos", half)
-    if canon.ring.vars[index].kind == "cos":
+    if function.args[0] == "cos":
         return sin if value == 1 else cos
     return sin - cos if value == 1 else sin + cos
 
 
-def _partner(canon: Canon, index: int) -> Expr:
+def _partner(function: Expr) -> Expr:
     """The sine where the cosine is 1 or -1, and the other way round."""
-    return canon.ring.var_expr[canon.ring.vars[index].partner]
+    return ex.fn("sin" if function.args[0] == "cos" else "cos", function.args[1])
 
 
 #: More branches than this are not told apart: the expression is then kept as it is.

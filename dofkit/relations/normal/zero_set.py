@@ -15,6 +15,7 @@ from dofkit.exact.ring.ring import Ring
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.polynomial_zeros import (
     EMPTY_NOTE,
+    EXTREME_NOTE,
     FACTOR_NOTE,
     POWER_NOTE,
     SQUARES_NOTE,
@@ -24,7 +25,9 @@ from dofkit.relations.normal.polynomial_zeros import (
     TooManyBranchesError,
     Zeros,
     branches_of,
+    extremes_of,
     products_of,
+    regular,
     vanishes,
 )
 
@@ -79,6 +82,8 @@ class _WrittenZeros:
                 return (), (FACTOR_NOTE,)
             inner = self.of(e.args[0])
             return inner[0], (*inner[1], POWER_NOTE)
+        if e.op == "add" and (extremes := extremes_of(e, self.variables)):  # before a sum in an angle is expanded
+            return (tuple(regular(function, value) for function, value in extremes),), (EXTREME_NOTE,)
         if e.op == "add":
             return self._even_sum(e)
         return None
