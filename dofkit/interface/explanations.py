@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 from pydantic import BaseModel
 
+from dofkit.base.documents import package_table
 from dofkit.base.errors import Fault, SceneError
 from dofkit.base.wording import closest, nearest, series
 from dofkit.classification.arguments import arguments
@@ -19,39 +20,12 @@ from dofkit.interface.show.assurance import VERDICT_MEANS
 from dofkit.report import ConstraintEntry, Report
 from dofkit.scene.constraints import TYPES, ConstraintBase
 from dofkit.scene.hints import LINES, SECTIONS
-from dofkit.scene.picture import SHAPES, ShapeKeys
+from dofkit.scene.picture import ShapeKeys, shape_kinds
 from dofkit.scene.scene import Scene
 from dofkit.scene.synonyms import synonyms
 
 _THEOREM = re.compile(r"^\| `(?P<key>\w+)` \| (?P<author>[^|]+) \| (?P<year>[^|]+) \| (?P<says>[^|]+) \|", re.MULTILINE)
 _WIDTH = 88
-#: Terms of mechanics that are no field.
-_WORDS = {
-    "non-holonomic": "Said of a constraint on velocities that is not integrable: no equation between coordinates and "
-    "time implies it. It restricts the velocities, not the configurations that can be reached.",
-    "rheonomic": "Time occurs explicitly (Greenwood's definition), in the constraint or in the equation that it "
-    "integrates to: a support that is moved, a length that changes, `xdot = v` with x = v t + C. A constraint that "
-    "does not hold t and is not integrable, such as `xdot^2 + ydot^2 = v^2`, is scleronomic.",
-    "acatastatic": "A Pfaffian form with a term in dt, or a nonlinear constraint that is not homogeneous in the "
-    "velocities, such as a prescribed speed. See catastatic.",
-    "unilateral": "An inequality: it restricts the motion on one side, and does not reduce the number of degrees of "
-    "freedom.",
-    "pfaffian": "Linear in the velocities: a_1 dx_1 + ... + a_n dx_n + b dt = 0.",
-    "nonlinear": "Not linear in the velocities: a square or a product of velocities, a prescribed speed.",
-    "finite": "A configuration-level (geometric) constraint: it relates coordinates and time, without velocities.",
-    "inequality": "A relation with <= or >=. It does not reduce the number of degrees of freedom.",
-    "redundant": "Implied by the other constraints: without it the motion is the same.",
-    "degrees of freedom": "The dimension of the configuration space (`dof`). The number of independent admissible "
-    "velocities is `velocity_dof`.",
-    "reference configuration": "The configuration that a scene gives by `at`, `axis` and `configuration`.",
-    "general position": "Positions and directions without anything special: none parallel, concurrent or collinear.",
-    "generic": "In general position; true of almost all configurations.",
-    "growth vector": "See growth_vector.",
-    "certificate": "The evidence for what is proved; `dofkit verify` checks it with an independent program.",
-    "reference": "In `about`: the claim is about the configurations near the reference configuration.",
-    "component": "In `about`: the claim is about the component of the configuration space that contains the `witness`.",
-    "everywhere": "In `about`: the claim is about all configurations.",
-}
 
 
 class Explanation(NamedTuple):
@@ -109,10 +83,10 @@ def all_explanations() -> tuple[Explanation, ...]:
         *_fields("field of a report", Report),
         *_fields("field of a constraint", ConstraintEntry),
         *(Explanation(name, "verdict", _sentence(meaning)) for name, meaning in VERDICT_MEANS.items()),
-        *(Explanation(word, "term", meaning) for word, meaning in _WORDS.items()),
+        *(Explanation(word, "term", meaning) for word, meaning in package_table(__package__, "terms.yaml").items()),
         *(_section(name) for name in SECTIONS),
         *(_type(name, cls) for name, cls in TYPES.items()),
-        *(_shape(name, row) for name, row in SHAPES.items()),
+        *(_shape(name, row) for name, row in shape_kinds().items()),
         *(Explanation(word, "synonym", f"In a scene it means `{kind}`.") for word, kind in synonyms().items()),
         *_arguments(),
         *_theorems(),

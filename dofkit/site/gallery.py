@@ -1,12 +1,9 @@
-"""The catalog as a gallery: scenes with their pictures and answers, which are kept from one build to the next."""
+"""The catalog as a gallery: scenes with their pictures and answers."""
 
 from __future__ import annotations
 
-import hashlib
-import json
 import re
 from collections.abc import Iterator, Sequence
-from functools import cache
 from html import escape
 from itertools import groupby
 from operator import attrgetter
@@ -19,7 +16,7 @@ from dofkit.pictures.files import svg_of
 from dofkit.pictures.layout import page_of
 from dofkit.pictures.still import draw, without_text
 from dofkit.report import Report
-from dofkit.scene.catalog import catalog_folder, catalog_text
+from dofkit.scene.catalog import catalog_files, catalog_folder, catalog_text
 from dofkit.scene.constraints.base import Equation
 from dofkit.scene.reading import loads
 from dofkit.scene.scene import Scene
@@ -28,7 +25,6 @@ from dofkit.site.markdown import SitePage, bench_link, code, fence, folded, page
 FOLDER = "gallery"
 #: The width of a picture and of a report: pixels, columns.
 PIXELS, COLUMNS = 440.0, 88
-PACKAGE = Path(__file__).parents[1]
 
 
 class ShownScene(NamedTuple):
@@ -54,33 +50,10 @@ def folders() -> dict[str, str]:
     return {name: source.strip()[:1].upper() + source.strip()[1:] for name, source in rows}
 
 
-def catalog_scenes(kept: Path) -> Iterator[ShownScene]:
-    """Yield every scene of the catalog by folder and name; ``kept``: the folder with those of earlier builds."""
-    kept.mkdir(parents=True, exist_ok=True)
-    for folder in sorted((entry for entry in catalog_folder().iterdir() if entry.is_dir()), key=lambda e: e.name):
-        for file in sorted(folder.iterdir(), key=lambda entry: entry.name):
-            if file.name.endswith(".yaml"):
-                name = file.name.removesuffix(".yaml")
-                yield _kept_or_shown(name, folder.name, catalog_text(name), kept)
-
-
-def _kept_or_shown(name: str, folder: str, written: str, kept: Path) -> ShownScene:
-    file = kept / f"{hashlib.sha256((_engine() + written).encode()).hexdigest()}.json"
-    if file.exists():
-        fields = json.loads(file.read_text(encoding="utf-8"))
-        return ShownScene(**{**fields, "types": tuple(fields["types"])})
-    scene = shown_scene(name, folder, written)
-    file.write_text(json.dumps(scene._asdict()), encoding="utf-8")
-    return scene
-
-
-@cache
-def _engine() -> str:
-    """Return a digest of the package: what was kept by another version is not used."""
-    digest = hashlib.sha256()
-    for path in sorted(PACKAGE.rglob("*.py")):
-        digest.update(path.read_bytes())
-    return digest.hexdigest()
+def catalog_scenes() -> Iterator[ShownScene]:
+    """Yield every scene of the catalog, folder by folder."""
+    for name, file in catalog_files().items():
+        yield shown_scene(name, Path(str(file)).parent.name, catalog_text(name))
 
 
 def shown_scene(name: str, folder: str, written: str) -> ShownScene:
@@ -179,4 +152,4 @@ def _card(scene: ShownScene) -> str:
 
 
 def _html(text: str) -> str:
-    return text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
+    return escape(text, quote=False)
