@@ -11,7 +11,7 @@ from bisect import bisect_right
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from decimal import Decimal
-from functools import cached_property
+from functools import cache, cached_property
 from importlib.resources import files
 from typing import Any
 
@@ -90,8 +90,9 @@ def read_document(data: bytes | str, name: str) -> Document:
     return _document(name, text, composed.value, composed.faults, lambda: composed.places)
 
 
+@cache
 def package_table(package: str, file: str) -> Any:
-    """Return the value of a YAML file of a package."""
+    """Return the value of a YAML file of a package, which nobody changes."""
     return read_document(files(package).joinpath(file).read_bytes(), file).value
 
 
