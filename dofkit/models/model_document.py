@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 from dofkit.expressions.text import valid_name
 from dofkit.models.joint_relations import DECIMALS, OVER, JointSum, bounds, whole_turns
-from dofkit.system import BINDING
+from dofkit.system import BINDING, GROUND
 
 #: The tolerance lies between these; a file in which no number has so many decimals is taken at its word.
 FINEST, COARSEST, FEW = 1e-9, 1e-3, 3
@@ -169,6 +169,11 @@ def number(value: float) -> float | int:
 def vector(values: Iterable[float]) -> list[float | int]:
     """Return numbers as a person would write them."""
     return [number(v) for v in values]
+
+
+def point_of(body: str, at: Iterable[float]) -> Any:
+    """Return a point of a body, or of the ground, as a scene writes it."""
+    return vector(at) if body == GROUND else {"on": body, "at": vector(at)}
 
 
 def measurable(axis: Sequence[float | int]) -> list[float | int | Decimal]:

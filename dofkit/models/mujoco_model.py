@@ -237,7 +237,7 @@ def _tendons(compiled: Compiled) -> Iterator[dict[str, Any]]:
             end = [int(model.site_bodyid[of]), _list(data.site_xpos[of])] if kind == "site" else None
             path.append({"kind": kind, "of": of, "factor": float(model.wrap_prm[k]), "end": end})
         yield {
-            "name": _name(model, "TENDON", i),
+            "name": _name(model, "TENDON", i) or f"tendon_{i}",
             "path": path,
             "length": float(data.ten_length[i]),
             "zero": float(model.tendon_length0[i]),

@@ -90,9 +90,9 @@ def scene_of(cls: type[ConstraintBase]) -> str:
     constraints:
     - {type: coincident, between: [A, B]}
     """
-    spaces = [d for d in cls.examples if d] or [d for d in cls.dimensions if d > 1]
+    spaces = [int(d) for d in cls.words().examples if d != "0"] or [d for d in cls.dimensions if d > 1]
     dimension = 2 if 2 in spaces else max(spaces)
-    lines = (cls.example(dimension), *cls.example_joints.get(dimension, ()))
+    lines = (cls.example(dimension), *cls.words().joints.get(str(dimension), ()))
     words = {word for line in lines for word in re.findall(r"[A-Za-z]+", line)}
     sections = {key: [name for name in names if name in words] for key, names in DECLARED.items()}
     if sections["particles"] or sections["bodies"]:
@@ -138,8 +138,8 @@ def _other_words(cls: type[ConstraintBase]) -> Iterator[str]:
     if cls.synonyms:
         sentences.append(f"{', '.join(map(code, cls.synonyms))} can be written instead of `{cls.kind()}`.")
     sentences += [f"{code(word)} can be written instead of {code(key)}." for word, key in cls.other_keys.items()]
-    if cls.understood:
-        sentences.append(f"For {', '.join(map(code, cls.understood))} the error message suggests this type.")
+    if understood := cls.words().understood:
+        sentences.append(f"For {', '.join(map(code, understood))} the error message suggests this type.")
     if sentences:
         yield "## Synonyms"
         yield " ".join(sentences)
