@@ -15,16 +15,7 @@ from dofkit.scene.constraints.base import ConstraintBase, Equation, On
 from dofkit.scene.constraints.contacts import Cam, Gear, Roll
 from dofkit.scene.constraints.coupling import Coupling
 from dofkit.scene.constraints.distances import Link, Rigid, String
-from dofkit.scene.constraints.joints import (
-    Cylindrical,
-    Planar,
-    Prismatic,
-    Revolute,
-    Screw,
-    Spherical,
-    Universal,
-    Weld,
-)
+from dofkit.scene.constraints.joints import Cylindrical, Planar, Prismatic, Revolute, Screw, Spherical, Universal, Weld
 from dofkit.scene.constraints.places import Coincident, Fixed, Slot
 
 __all__ = ["TYPES", "AnyConstraint", "ConstraintBase"]

@@ -13,14 +13,7 @@ from dofkit.expressions.renaming import Unwritten
 from dofkit.expressions.tree import fn
 from dofkit.expressions.vectors import Vec, dot, length, plus, scaled
 from dofkit.scene.constraints.base import ConstraintBase
-from dofkit.scene.constraints.joint_parts import (
-    ANGLE,
-    DISPLACEMENT,
-    Holds,
-    JointGeometry,
-    Measure,
-    longest_of,
-)
+from dofkit.scene.constraints.joint_parts import ANGLE, DISPLACEMENT, Holds, JointGeometry, Measure, longest_of
 from dofkit.scene.fields import Text, Value, Vector, as_written
 from dofkit.scene.frames import Frame
 from dofkit.scene.ledger import LAW
