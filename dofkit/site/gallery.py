@@ -20,7 +20,7 @@ from dofkit.scene.catalog import catalog_files, catalog_folder, catalog_text
 from dofkit.scene.constraints.base import Equation
 from dofkit.scene.reading import loads
 from dofkit.scene.scene import Scene
-from dofkit.site.markdown import SitePage, bench_link, code, fence, folded, page, picture, prose
+from dofkit.site.markdown import SitePage, rendered
 
 FOLDER = "gallery"
 #: The width of a picture and of a report: pixels, columns.
@@ -81,7 +81,8 @@ def _formulas(scene: Scene, report: Report) -> Iterator[str]:
     for constraint, entry in zip(scene.constraints, report.constraints, strict=True):
         latex = typeset(entry.text) if isinstance(constraint, Equation) else None
         if latex is not None:
-            yield f'<li>{_html(entry.name)}: <math aria-label="{escape(entry.text)}">{mathml(latex)}</math></li>'
+            name = escape(entry.name, quote=False)
+            yield f'<li>{name}: <math aria-label="{escape(entry.text)}">{mathml(latex)}</math></li>'
 
 
 def in_a_line(report: Report) -> str:
@@ -106,50 +107,13 @@ def gallery_pages(
     catalog: Sequence[ShownScene], sources: dict[str, str], has_bench: bool = False
 ) -> Iterator[SitePage]:
     """Yield the pages and pictures; ``sources``: what each folder of the catalog was taken from."""
-    blocks = []
-    for folder, scenes in groupby(catalog, key=attrgetter("folder")):
-        members = list(scenes)
-        source = sources.get(folder, folder)
-        cards = "\n".join(_card(scene) for scene in members)
-        blocks += [
-            f"## {prose(source)}",
-            f"[{len(members)} scenes]({folder}.md)",
-            f'<div class="gallery">\n{cards}\n</div>',
-        ]
-        yield SitePage(f"{FOLDER}/{folder}.md", page(source, *(_entry(scene, has_bench) for scene in members)))
-        yield from (SitePage(f"{FOLDER}/{scene.name}.svg", scene.svg) for scene in members)
-        yield from (SitePage(f"{FOLDER}/{scene.name}-small.svg", scene.thumbnail) for scene in members)
-    yield SitePage(
-        f"{FOLDER}/index.md",
-        page(
-            "Gallery",
-            f"The {len(catalog)} scenes of the catalog, with their answers: f is the number of degrees of freedom. The "
-            "name of a scene can be used wherever a file is expected: `dofkit classify NAME`. Click on a picture to "
-            "see the text of the scene and the full report.",
-            *blocks,
-        ),
-    )
-
-
-def _entry(scene: ShownScene, has_bench: bool) -> str:
-    return "\n\n".join(
-        (
-            f"## {prose(scene.title)} {{#{scene.name}}}",
-            f"{code(scene.name)}: {prose(scene.answer)}",
-            picture(f"{scene.name}.svg", scene.alternative),
-            *([f'<ul class="equation">{scene.formulas}</ul>'] if scene.formulas else []),
-            *([bench_link("../bench", f"#example={scene.name}")] if has_bench else []),
-            folded("The scene", fence("yaml", scene.written)),
-            folded("The report", fence("text", scene.report)),
-        )
-    )
-
-
-def _card(scene: ShownScene) -> str:
-    drawn = picture(f"{scene.name}-small.svg", scene.alternative)
-    value = f"<strong>{_html(scene.title)}</strong><br>{_html(scene.answer)}"
-    return f'<a class="card" href="{scene.folder}.html#{scene.name}">{drawn}<span>{value}</span></a>'
-
-
-def _html(text: str) -> str:
-    return escape(text, quote=False)
+    shelves = [
+        (folder, sources.get(folder, folder), list(scenes))
+        for folder, scenes in groupby(catalog, key=attrgetter("folder"))
+    ]
+    for folder, source, scenes in shelves:
+        text = rendered("folder.md", source=source, scenes=scenes, has_bench=has_bench)
+        yield SitePage(f"{FOLDER}/{folder}.md", text)
+        yield from (SitePage(f"{FOLDER}/{scene.name}.svg", scene.svg) for scene in scenes)
+        yield from (SitePage(f"{FOLDER}/{scene.name}-small.svg", scene.thumbnail) for scene in scenes)
+    yield SitePage(f"{FOLDER}/index.md", rendered("gallery.md", number=len(catalog), folders=shelves))
