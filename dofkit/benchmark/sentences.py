@@ -13,9 +13,9 @@ TWICE = 2
 
 def caption(figure: str, data: Data) -> str:
     """Return what a figure shows, what was run on what, and by which command."""
-    ran, shown = data.ran, package_table(__package__, "captions.yaml")[figure]
+    ran, words = data.ran, package_table(__package__, "captions.yaml")[figure]
     return (
-        f"{shown} {ran.trials} trials whose answers are known by construction, at most {ran.limit:g} s of "
+        f"{words} {ran.trials} trials whose answers are known by construction, at most {ran.limit:g} s of "
         f"processor time each; dofkit {ran.version}, Python {ran.python}, {ran.machine}, {ran.cores} cores, "
         f"{ran.date[:10]}. Made by: {ran.command}"
     )

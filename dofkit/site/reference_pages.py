@@ -58,7 +58,7 @@ def _pages_of(kind: str, cls: type[ConstraintBase], scenes: Sequence[ShownScene]
         equations=equations_of(scene.written),
         fields=_constraint_fields(cls),
         synonyms=list(_other_words(cls)),
-        shown=list(dict.fromkeys([*nearest, *scenes]))[:MOST_NAMED],
+        examples=list(dict.fromkeys([*nearest, *scenes]))[:MOST_NAMED],
     )
     yield SitePage(f"{FOLDER}/{kind}.md", text)
 
