@@ -5,11 +5,11 @@ from __future__ import annotations
 import json
 import math
 import sys
-from collections.abc import Callable, Generator, Mapping
+from collections.abc import Generator, Mapping
 from contextlib import closing
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, TypeVar, cast
+from typing import TYPE_CHECKING, Annotated, cast
 
 import typer
 
@@ -24,8 +24,6 @@ from dofkit.interface.output import FAILURES, INTERRUPTED, UNREADABLE, Output, f
 if TYPE_CHECKING:
     from dofkit.interface.jobs import Printed
     from dofkit.methods.table import MethodName
-
-Handler = TypeVar("Handler", bound=Callable[..., Any])
 
 #: The heading of the commands after the five that most people need.
 MORE = "More commands"

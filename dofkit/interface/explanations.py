@@ -16,7 +16,7 @@ from dofkit.base.errors import Fault, SceneError
 from dofkit.base.wording import closest, nearest, series
 from dofkit.classification.arguments import arguments
 from dofkit.homework.sentences import meanings
-from dofkit.interface.show.assurance import VERDICT_MEANS
+from dofkit.interface.show.assurance import assurance
 from dofkit.report import ConstraintEntry, Report
 from dofkit.scene.constraints import TYPES, ConstraintBase
 from dofkit.scene.hints import LINES, SECTIONS
@@ -82,7 +82,7 @@ def all_explanations() -> tuple[Explanation, ...]:
         *(Explanation(code, "feedback code", meaning) for code, meaning in meanings().items()),
         *_fields("field of a report", Report),
         *_fields("field of a constraint", ConstraintEntry),
-        *(Explanation(name, "verdict", _sentence(meaning)) for name, meaning in VERDICT_MEANS.items()),
+        *(Explanation(name, "verdict", _sentence(meaning)) for name, meaning in assurance("verdicts").items()),
         *(Explanation(word, "term", meaning) for word, meaning in package_table(__package__, "terms.yaml").items()),
         *(_section(name) for name in SECTIONS),
         *(_type(name, cls) for name, cls in TYPES.items()),

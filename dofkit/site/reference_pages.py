@@ -18,7 +18,7 @@ from dofkit.expressions.text.printing import to_text
 from dofkit.homework.sentences import meanings
 from dofkit.interface.cli import app
 from dofkit.interface.explanations import all_explanations
-from dofkit.interface.show.assurance import VERDICT_MEANS
+from dofkit.interface.show.assurance import assurance
 from dofkit.report import ConstraintEntry, Report
 from dofkit.scene.constraints import TYPES, ConstraintBase
 from dofkit.scene.lowering import lower
@@ -181,7 +181,7 @@ def _tables() -> str:
         terms=[(prose(word), prose(meaning)) for word, meaning in words],
         report=_rows((name, field.description or "") for name, field in Report.model_fields.items()),
         constraint=_rows((name, field.description or "") for name, field in ConstraintEntry.model_fields.items()),
-        verdicts=_rows(VERDICT_MEANS.items()),
+        verdicts=_rows(assurance("verdicts").items()),
         arguments=_arguments(),
         codes=_rows(meanings().items()),
     ).rstrip("\n")
