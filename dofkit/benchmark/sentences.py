@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dofkit.base.documents import package_table
+from dofkit.base.wording import sentence
 from dofkit.benchmark.record import AUTO, Data
 from dofkit.benchmark.statistics import against, scores
 from dofkit.methods.table import methods
@@ -76,9 +77,5 @@ def explained(method: str, question: str, outcome: str, reason: str = "") -> str
     cannot = f"{method} does not answer this" if row is None else row.cannot
     uses = row.uses.items() if row is not None and outcome == "timed out" else ()
     return " ".join(
-        [_sentence(reason or cannot), *(f"Its cost: {use.costs}." for asked, use in uses if asked == question)]
+        [sentence(reason or cannot), *(f"Its cost: {use.costs}." for asked, use in uses if asked == question)]
     )
-
-
-def _sentence(text: str) -> str:
-    return f"{text[:1].upper()}{text[1:]}{'' if text.endswith('.') else '.'}"

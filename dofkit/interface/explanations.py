@@ -13,13 +13,13 @@ from pydantic import BaseModel
 
 from dofkit.base.documents import package_table
 from dofkit.base.errors import Fault, SceneError
-from dofkit.base.wording import closest, nearest, series
+from dofkit.base.wording import closest, nearest, sentence, series
 from dofkit.classification.arguments import arguments
 from dofkit.homework.sentences import meanings
 from dofkit.interface.show.assurance import assurance
 from dofkit.report import ConstraintEntry, Report
 from dofkit.scene.constraints import TYPES, ConstraintBase
-from dofkit.scene.hints import LINES, SECTIONS
+from dofkit.scene.hints import section_lines
 from dofkit.scene.picture import ShapeKeys, shape_kinds
 from dofkit.scene.scene import Scene
 from dofkit.scene.synonyms import synonyms
@@ -82,9 +82,9 @@ def all_explanations() -> tuple[Explanation, ...]:
         *(Explanation(code, "feedback code", meaning) for code, meaning in meanings().items()),
         *_fields("field of a report", Report),
         *_fields("field of a constraint", ConstraintEntry),
-        *(Explanation(name, "verdict", _sentence(meaning)) for name, meaning in assurance("verdicts").items()),
+        *(Explanation(name, "verdict", sentence(meaning)) for name, meaning in assurance("verdicts").items()),
         *(Explanation(word, "term", meaning) for word, meaning in package_table(__package__, "terms.yaml").items()),
-        *(_section(name) for name in SECTIONS),
+        *(_section(name, line) for name, line in section_lines().items()),
         *(_type(name, cls) for name, cls in TYPES.items()),
         *(_shape(name, row) for name, row in shape_kinds().items()),
         *(Explanation(word, "synonym", f"In a scene it means `{kind}`.") for word, kind in synonyms().items()),
@@ -95,17 +95,12 @@ def all_explanations() -> tuple[Explanation, ...]:
 
 def _fields(kind: str, model: type[BaseModel]) -> Iterator[Explanation]:
     for name, field in model.model_fields.items():
-        yield Explanation(name, kind, _sentence(field.description or ""))
+        yield Explanation(name, kind, sentence(field.description or ""))
 
 
-def _section(name: str) -> Explanation:
-    line = LINES[name]
-    about = f"{_sentence(Scene.model_fields[name].description or '')} For example `{line}`."
+def _section(name: str, line: str) -> Explanation:
+    about = f"{sentence(Scene.model_fields[name].description or '')} For example `{line}`."
     return Explanation(name, "section of a scene", about)
-
-
-def _sentence(text: str) -> str:
-    return text[:1].upper() + text[1:] + ("" if text.endswith((".", "?")) else ".")
 
 
 def _type(name: str, cls: type[ConstraintBase]) -> Explanation:
@@ -120,7 +115,7 @@ def _type(name: str, cls: type[ConstraintBase]) -> Explanation:
 
 def _shape(name: str, row: ShapeKeys) -> Explanation:
     keys = ", ".join([*row.needs, *(f"{key} (optional)" for key in row.may)])
-    text = f"{_sentence(row.meaning)} Keys: {keys}. For example `{row.example}`."
+    text = f"{sentence(row.meaning)} Keys: {keys}. For example `{row.example}`."
     return Explanation(name, "shape of a picture", text)
 
 

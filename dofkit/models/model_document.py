@@ -10,6 +10,7 @@ from decimal import Decimal
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from dofkit.base.wording import first_of
 from dofkit.expressions.text import valid_name
 from dofkit.models.joint_relations import DECIMALS, OVER, JointSum, bounds, whole_turns
 from dofkit.system import BINDING, GROUND
@@ -257,6 +258,4 @@ def tolerance_of(texts: Iterable[str], size: float) -> float:
 
 def listed(names: Iterable[str]) -> str:
     """Return the first of several names, and how many more there are."""
-    every = [*names]
-    more = len(every) - MOST_NAMED
-    return ", ".join(every[:MOST_NAMED]) + (f" and {more} more" if more > 0 else "")
+    return first_of(names, MOST_NAMED)

@@ -12,7 +12,7 @@ import dofkit
 from dofkit.base.errors import Fault, SceneError
 from dofkit.interface.explanations import explanations_of
 from dofkit.scene.constraints import TYPES
-from dofkit.scene.hints import LINES, SECTIONS
+from dofkit.scene.hints import lines, section_lines
 from dofkit.scene.synonyms import standard_words, synonyms
 
 PLANE = {"name": "s", "dimension": 2}
@@ -202,8 +202,8 @@ def test_a_hint_shows_one_line_that_would_work(name: str) -> None:
 
 
 def test_every_section_is_explained() -> None:
-    assert set(SECTIONS) < set(dofkit.Scene.model_fields)
-    for word in (*SECTIONS, *TYPES):
+    assert section_lines().keys() < set(dofkit.Scene.model_fields)
+    for word in (*section_lines(), *TYPES):
         assert explanations_of(word)
 
 
@@ -226,5 +226,5 @@ def test_the_example_of_a_type_is_a_scene(kind: str) -> None:
 
 def test_the_line_of_a_key_is_a_scene() -> None:
     for key in ("coordinates", "particles", "bodies", "parameters", "functions", "dimension", "tolerance", "expect"):
-        assert dofkit.loads(LINES[key]).name == "scene"
-    assert dofkit.loads(f"coordinates: [theta]\n{LINES['configuration']}").configuration == {"theta": 0}
+        assert dofkit.loads(lines()[key]).name == "scene"
+    assert dofkit.loads(f"coordinates: [theta]\n{lines()['configuration']}").configuration == {"theta": 0}
