@@ -11,13 +11,14 @@ from bisect import bisect_right
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from decimal import Decimal
-from functools import cached_property
+from functools import cache, cached_property
+from importlib.resources import files
 from typing import Any
 
 from dofkit.base.errors import Fault
 from dofkit.base.yaml_events import DEEPEST, Path, Places, compose
 
-__all__ = ["DEEPEST", "MOST_BYTES", "Document", "Path", "on_one_line", "read_document", "yaml_text"]
+__all__ = ["DEEPEST", "MOST_BYTES", "Document", "Path", "on_one_line", "package_table", "read_document", "yaml_text"]
 
 #: A longer input is refused.
 MOST_BYTES = 64_000_000
@@ -87,6 +88,12 @@ def read_document(data: bytes | str, name: str) -> Document:
         return _document(name, text, None, [fault], dict)
     composed = compose(text)
     return _document(name, text, composed.value, composed.faults, lambda: composed.places)
+
+
+@cache
+def package_table(package: str, file: str) -> Any:
+    """Return the value of a YAML file of a package, which nobody changes."""
+    return read_document(files(package).joinpath(file).read_bytes(), file).value
 
 
 def _document(

@@ -57,6 +57,25 @@ def series(words: Sequence[str]) -> str:
     return " and ".join([part for part in (", ".join(words[:-1]), *words[-1:]) if part])
 
 
+def sentence(text: str) -> str:
+    """Return a text with a capital letter, and with a full stop unless it has an end.
+
+    >>> sentence("it moves"), sentence("Does it move?")
+    ('It moves.', 'Does it move?')
+    """
+    return f"{text[:1].upper()}{text[1:]}{'' if text.endswith(('.', ':', '?')) else '.'}"
+
+
+def first_of(names: Iterable[str], most: int) -> str:
+    """Return the first of some names, and how many more there are.
+
+    >>> first_of(["a", "b", "c"], 2)
+    'a, b and 1 more'
+    """
+    listed = list(names)
+    return ", ".join(listed[:most]) + (f" and {len(listed) - most} more" if len(listed) > most else "")
+
+
 def gap_in_words(gap: float, what: str) -> str:
     """Return a sentence about the ratio that separates the numbers that are kept from those that are taken as zero.
 

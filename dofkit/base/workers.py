@@ -19,7 +19,6 @@ scripts without a guard run twice, and its import takes a sixth of the time in w
 from __future__ import annotations
 
 import json
-import math
 import os
 import pickle
 import signal
@@ -27,19 +26,14 @@ import subprocess
 import sys
 import threading
 import time
-import traceback
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
-from importlib import import_module
 from pathlib import Path
 from queue import Empty, SimpleQueue
 from typing import Any, BinaryIO, Literal, TypeAlias
 
-from dofkit.base.process_limits import allow, has_grown, set_limit
-
-if sys.platform != "win32":
-    import resource
+from dofkit.base.worker_process import serve
 
 #: Bytes of address space that a worker may take.
 MEMORY = 4 << 30
@@ -49,7 +43,6 @@ STARTING = 60.0
 _ENDING = 2.0
 #: The folder that holds the package.
 _ROOT = str(Path(__file__).resolve().parents[2])
-_THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS", "VECLIB_MAXIMUM_THREADS")
 #: What the system sends a process whose clock, or processor time, has run out.
 _LIMITS = {number for name in ("SIGALRM", "SIGPROF", "SIGXCPU") if (number := getattr(signal, name, None)) is not None}
 
@@ -61,78 +54,6 @@ _Process: TypeAlias = Any
 #: ``done``; ``failed``: it raised; ``overrun``: killed at its limit; ``memory``: it wanted more than it may take;
 #: ``died``: its process ended; ``absent``: none could be started.
 Ended = Literal["done", "failed", "overrun", "memory", "died", "absent"]
-
-
-# The worker's side
-
-
-def serve(down: int, up: int, memory: int, modules: Sequence[str]) -> None:
-    """Import ``modules``, then do the jobs that come ``down`` until the parent closes that pipe.
-
-    The address space is bounded in bytes, there is no core file, and linear algebra has one thread: workers with a
-    thread for each core would only wait for each other, and every thread takes address space.
-    """
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    if hasattr(signal, "SIGALRM"):
-        signal.signal(signal.SIGALRM, signal.SIG_DFL)
-    os.environ.update(dict.fromkeys(_THREADS, "1"))
-    if sys.platform != "win32":
-        set_limit(resource.RLIMIT_CORE, 0)
-        set_limit(resource.RLIMIT_AS, memory)
-    for module in modules:
-        import_module(module)
-    jobs: SimpleQueue[bytes] = SimpleQueue()
-    threading.Thread(target=_listen, args=(down, jobs), daemon=True).start()
-    _send(up, "ready", None)
-    while True:
-        _do(jobs.get(), up, memory)
-
-
-def _listen(down: int, jobs: SimpleQueue[bytes]) -> None:
-    """Pass the jobs on; end this process with its parent, even in the middle of a job."""
-    with open(down, "rb") as source:
-        try:
-            while True:
-                jobs.put(pickle.load(source))
-        except Exception:
-            os._exit(0)
-
-
-def _do(request: bytes, up: int, memory: int) -> None:
-    """Do one job: send a ``value`` for everything that it returns or yields, then how it ended."""
-    try:
-        name, payload, (first, seconds) = pickle.loads(request)
-        allow(first)
-        returned = function_named(name)(payload)
-        for value in returned if isinstance(returned, Iterator) else (returned,):
-            _send(up, "value", value)
-            allow(seconds)
-        ended: tuple[str, Any] = "done", has_grown(memory)
-    except MemoryError:
-        ended = "memory", None
-    except Exception as error:
-        trace = "".join(traceback.format_exception(error))
-        ended = "failed", {"type": type(error).__name__, "message": str(error), "trace": trace}
-    allow(math.inf)
-    _send(up, *ended)
-
-
-def function_named(name: str) -> Any:
-    """Return the function that is called ``module:function``."""
-    module, _, path = name.partition(":")
-    value: Any = import_module(module)
-    for attribute in path.split("."):
-        value = getattr(value, attribute)
-    return value
-
-
-def _send(up: int, kind: str, value: Any) -> None:
-    message = memoryview(json.dumps([kind, value]).encode() + b"\n")
-    while message:
-        message = message[os.write(up, message) :]
-
-
-# The parent's side
 
 
 @dataclass(frozen=True)
@@ -193,7 +114,6 @@ class Worker:
     """
 
     def __init__(self, memory: int = MEMORY, modules: Sequence[str] = ()) -> None:
-        """``memory``: the limit of its address space in bytes; ``modules``: what it imports before its first job."""
         self.memory = memory
         self.modules = tuple(modules)
         self._forget()
@@ -307,7 +227,7 @@ class Worker:
         """Return a new process. A fresh Python shares two pipes with this process."""
         paths = [os.path.abspath(place) for place in sys.path if place]  # never the working folder
         return subprocess.Popen(
-            [sys.executable, "-P", "-m", "dofkit.base.workers", str(self.memory), *self.modules],
+            [sys.executable, "-P", "-m", "dofkit.base.worker_process", str(self.memory), *self.modules],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,
@@ -377,16 +297,3 @@ def _reason_of_end(process: _Process) -> str:
         return f"ended with exit status {status}"
     names = {number.value: number.name for number in signal.Signals}
     return f"was ended by {names.get(-status, f'signal {-status}')}"
-
-
-def main() -> None:
-    """Serve over standard input and output: ``python -m dofkit.base.workers MEMORY MODULE...``."""
-    down, up = os.dup(0), os.dup(1)
-    nowhere = os.open(os.devnull, os.O_RDWR)
-    for standard in (0, 1):
-        os.dup2(nowhere, standard)
-    serve(down, up, int(sys.argv[1]), sys.argv[2:])
-
-
-if __name__ == "__main__":
-    main()

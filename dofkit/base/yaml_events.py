@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 from decimal import Decimal
+from functools import cache
+from importlib.resources import files
 from typing import Any, NamedTuple, NoReturn, TypeAlias
 
 import yaml
@@ -258,7 +260,7 @@ def compose(text: str) -> ComposedText:
 
 
 class _SyntaxError(NamedTuple):
-    """A pattern of PyYAML's words for a syntax error, and the message and the hint for the author of the file."""
+    """A row of `syntax_faults.yaml`."""
 
     pattern: str
     message: str
@@ -266,42 +268,12 @@ class _SyntaxError(NamedTuple):
     at_context: bool = False
 
 
-_QUOTE = "put the text in double quotes"
-_SYNTAX = (
-    _SyntaxError(r"found character '\\t'", "there is a tab where YAML allows none",
-                 "use spaces to indent and to separate"),
-    _SyntaxError(r"expected (?:chomping or )?indentation indicator", "in YAML '|' and '>' begin a block of lines",
-                 "put a text that begins with one in quotes: `- \"|x - y| = 3\"`", True),
-    _SyntaxError(r"found character '(?P<char>.)'", "a plain text cannot begin with {char}", _QUOTE),
-    _SyntaxError(r"mapping values are not allowed", "there is a ':' where no key can be",
-                 "check the indentation; put a text that contains ': ' in double quotes"),
-    _SyntaxError(r"sequence entries are not allowed", "there is a list entry '- ' where none can be",
-                 "put the list on the lines below its key"),
-    _SyntaxError(r"found unexpected end of stream", "a quoted text is never closed", "close the quotes", True),
-    _SyntaxError(r"expected ',' or '(?P<char>.)', but got '(?P<got>.*)'",
-                 "line {line}'s bracket needs a ',' or '{char}' before {got}",
-                 "close the bracket, or put in quotes a text that contains one of , : [ ] {{ }}"),
-    _SyntaxError(r"expected the node content, but found '(?P<got>.*)'", "a value is needed before {got}",
-                 "write the value, or delete the extra comma"),
-    _SyntaxError(r"expected <block end>, but found '(?:\?|<block mapping start>|<scalar>)'",
-                 "this line does not align with the lines before it", "align it with the entries that it belongs to"),
-    _SyntaxError(r"expected <block end>, but found '-'", "this list entry does not align with the lines before it",
-                 "align the '-' with those of its list"),
-    _SyntaxError(r"expected <block end>, but found '(?P<got>[\]},])'", "one {got} too many", "delete it"),
-    _SyntaxError(r"expected <block end>", "there is text after a complete value", _QUOTE),
-    _SyntaxError(r"could not find expected ':'", "a ':' is missing after a key", "write 'key: value'"),
-    _SyntaxError(r"found unknown escape character '(?P<char>.*)'",
-                 "'\\{char}' means nothing in a double-quoted text", "write two backslashes, or use single quotes"),
-    _SyntaxError(r"expected escape sequence", "an escape in a double-quoted text is not complete",
-                 "write two backslashes, or use single quotes"),
-    _SyntaxError(r"while scanning (?:an alias|an anchor)", "in YAML a text cannot begin with '*' or '&'", _QUOTE),
-    _SyntaxError(r"YAML document \(version", "this version of YAML is not read", "delete the %YAML line"),
-    _SyntaxError(r"undefined tag handle|scanning a tag|parsing a tag", "custom tags are not read",
-                 "delete the tag; put a text that begins with '!' in double quotes"),
-    _SyntaxError(r"expected '<document start>'", "there is text after the end of the scene",
-                 "a file contains one scene"),
-    _SyntaxError(r"", "this cannot be read as YAML", "check quotes, brackets and indentation"),
-)  # fmt: skip
+@cache
+def _syntax_errors() -> list[_SyntaxError]:
+    rows = yaml.safe_load(files(__package__).joinpath("syntax_faults.yaml").read_bytes())
+    return [_SyntaxError(**row) for row in rows]
+
+
 _NAMES = {"<stream end>": "the end of the file", "?": "the next key", ":": "':'", "<scalar>": "a text"}
 
 
@@ -310,9 +282,9 @@ def syntax_fault(error: yaml.YAMLError) -> tuple[int, Fault]:
     if isinstance(error, ReaderError):
         return error.position, Fault("a character that YAML does not allow", hint="delete it")
     if not isinstance(error, yaml.MarkedYAMLError):
-        return 0, Fault(_SYNTAX[-1].message, hint=_SYNTAX[-1].hint)
+        return 0, Fault(_syntax_errors()[-1].message, hint=_syntax_errors()[-1].hint)
     words = f"{error.problem} {error.context or ''}"
-    row, match = next((row, match) for row in _SYNTAX if (match := re.search(row.pattern, words)))
+    row, match = next((row, match) for row in _syntax_errors() if (match := re.search(row.pattern, words)))
     named = {
         name: _NAMES.get(part or "", f"'{part}'" if name == "got" else part) for name, part in match.groupdict().items()
     }

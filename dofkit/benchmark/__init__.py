@@ -11,7 +11,7 @@ From trials to charts
     3. `runner` gives every task to a worker that can be killed, and compares the answer with the truth.
     4. `record` writes the lines as CSV, so that figures can be made again without running.
     5. `statistics` has scores and Pareto fronts; `sentences` states in words what they show and why a method fails;
-       `figures` draws it with matplotlib.
+       `figures` draws it with matplotlib in the style of `figure_style`.
 
 `command` is ``dofkit chart``.
 """

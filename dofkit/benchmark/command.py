@@ -19,7 +19,7 @@ from rich.table import Table
 
 from dofkit.base import __version__
 from dofkit.base.runs import cores
-from dofkit.base.workers import function_named
+from dofkit.base.worker_process import function_named
 from dofkit.benchmark import record, runner
 from dofkit.benchmark.record import AUTO, OUTCOMES, ChartError, Data, Ran
 from dofkit.benchmark.sentences import TWICE, sentences

@@ -5,105 +5,38 @@ from __future__ import annotations
 import math
 import re
 import textwrap
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from importlib.resources import as_file, files
 from pathlib import Path
 from statistics import median
-from typing import Any, cast
+from typing import Any
 
 import matplotlib as mpl
 import numpy as np
-from matplotlib.artist import Artist
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
 from matplotlib.ticker import EngFormatter, LogLocator, NullLocator, ScalarFormatter
 
-from dofkit.benchmark.record import AUTO, OUTCOMES, Data, Outcome, TrialLine
+from dofkit.benchmark.figure_style import GREY, OUTCOME_COLOURS, OUTCOME_HATCHES, WRONG, colours, outcome_keys, sheet
+from dofkit.benchmark.record import AUTO, OUTCOMES, Data, TrialLine
 from dofkit.benchmark.sentences import caption, percent
 from dofkit.benchmark.statistics import Score, front, grouped, scores
 from dofkit.benchmark.tasks import SWEEPS, Sweep
 from dofkit.benchmark.trials import GLOSSES, HEADINGS
 
-# What the figures share: colours that the colour-blind distinguish, titles and captions
-
-#: The colour of words about wrong answers, and of what is not important.
-WRONG, GREY = "#B23A00", "#6E6E6E"
-#: The palette of Okabe and Ito; with a hatch and words wherever it matters.
-OUTCOME_COLOURS: Mapping[Outcome, str] = {
-    "right": "#0072B2",
-    "wrong": "#D55E00",
-    "undecided": "#C9C9C9",
-    "timed out": "#F0E442",
-    "cannot": "#FFFFFF",
-}
-OUTCOME_HATCHES: Mapping[str, str] = {"wrong": "////", "timed out": "...."}
-_COLOURS = ("#E69F00", "#56B4E9", "#009E73", "#CC79A7", "#D55E00", "#0072B2", "#7A7A00", "#8C564B")
-#: Inches that a character of a caption takes, and a line of it.
-_CHARACTER, _LINE = 0.0515, 0.145
-#: The settings of all figures; the same data give the same files.
-_SETTINGS: Mapping[str, Any] = {
-    "font.size": 9,
-    "axes.titlesize": 10,
-    "axes.titleweight": "bold",
-    "axes.titlelocation": "left",
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "axes.axisbelow": True,
-    "axes.grid": True,
-    "grid.color": "#E4E4E4",
-    "grid.linewidth": 0.6,
-    "hatch.linewidth": 0.7,
-    "svg.hashsalt": "dofkit",
-    "svg.fonttype": "path",
-}
-
 
 def write(data: Data, out: Path) -> Iterator[Path]:
     """Draw all figures into a folder, each as SVG and PNG. Raises OSError."""
-    for name, draw in FIGURES.items():
-        with mpl.rc_context(cast(Any, _SETTINGS)):
-            figure = draw(data)
-            if figure is None:
-                continue
-            figure.savefig(out / f"{name}.svg", metadata={"Date": None})
-            figure.savefig(out / f"{name}.png", dpi=144, metadata={"Software": None})
-        yield out / f"{name}.png"
-
-
-def colours(lines: Iterable[TrialLine]) -> dict[str, str]:
-    """Return the colour of each method: black for ``auto``."""
-    methods = [method for method in dict.fromkeys(line.method for line in lines) if method != AUTO]
-    return {AUTO: "#000000"} | {method: _COLOURS[i % len(_COLOURS)] for i, method in enumerate(methods)}
-
-
-def sheet(width: float, height: float, title: str, text: str, keys: Sequence[Artist] = ()) -> Figure:
-    """Return a figure of so many inches with its title and legend on top and its caption at the bottom."""
-    lines = textwrap.wrap(text, max(40, int((width - 0.3) / _CHARACTER)))
-    below, above = 0.14 + _LINE * len(lines), 0.66 if keys else 0.42
-    total = height + below + above
-    figure = Figure(figsize=(width, total), layout="constrained")
-    FigureCanvasAgg(figure)
-    engine: Any = figure.get_layout_engine()
-    engine.set(rect=(0.005, below / total, 0.99, height / total), w_pad=0.06, h_pad=0.06)
-    figure.text(0.15 / width, 1 - 0.12 / total, title, fontsize=12.5, fontweight="bold", va="top")
-    if keys:
-        place: dict[str, Any] = {"loc": "upper left", "bbox_to_anchor": (0.08 / width, 1 - 0.36 / total)}
-        figure.legend(handles=keys, ncols=len(keys), frameon=False, fontsize=8.5, borderpad=0.2, **place)
-    style: dict[str, Any] = {"fontsize": 7.2, "color": "#444444", "va": "bottom", "linespacing": 1.2}
-    figure.text(0.15 / width, 0.08 / total, "\n".join(lines), **style)
-    return figure
-
-
-def outcome_keys() -> list[Artist]:
-    """Return the legend of outcomes."""
-    keys = [
-        Patch(facecolor=colour, edgecolor="#888888", hatch=OUTCOME_HATCHES.get(outcome), label=outcome)
-        for outcome, colour in OUTCOME_COLOURS.items()
-    ]
-    keys[-1].set_label("not applicable")
-    return [*keys]
+    with as_file(files(__package__).joinpath("chart.mplstyle")) as style:
+        for name, draw in FIGURES.items():
+            with mpl.rc_context(fname=style):
+                figure = draw(data)
+                if figure is None:
+                    continue
+                figure.savefig(out / f"{name}.svg", metadata={"Date": None})
+                figure.savefig(out / f"{name}.png", dpi=144, metadata={"Software": None})
+            yield out / f"{name}.png"
 
 
 # Speed against accuracy

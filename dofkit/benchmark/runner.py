@@ -17,7 +17,8 @@ from typing import Any
 
 from dofkit.base.process_limits import LateError, interrupting
 from dofkit.base.runs import Pool, StoppedError
-from dofkit.base.workers import MEMORY, Job, Json, function_named
+from dofkit.base.worker_process import function_named
+from dofkit.base.workers import MEMORY, Job, Json
 from dofkit.base.workers import JobOutcome as Ended
 from dofkit.benchmark.record import Outcome, TrialLine
 from dofkit.benchmark.sentences import explained

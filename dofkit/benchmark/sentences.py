@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from importlib import resources
-
-import yaml
-
+from dofkit.base.documents import package_table
+from dofkit.base.wording import sentence
 from dofkit.benchmark.record import AUTO, Data
 from dofkit.benchmark.statistics import against, scores
-from dofkit.methods.table import METHODS
+from dofkit.methods.table import methods
 
 #: `auto` should take no more than so many times the fastest method that is right.
 TWICE = 2
@@ -16,10 +14,9 @@ TWICE = 2
 
 def caption(figure: str, data: Data) -> str:
     """Return what a figure shows, what was run on what, and by which command."""
-    captions = yaml.safe_load((resources.files(__package__) / "captions.yaml").read_text(encoding="utf-8"))
-    ran = data.ran
+    ran, words = data.ran, package_table(__package__, "captions.yaml")[figure]
     return (
-        f"{captions[figure]} {ran.trials} trials whose answers are known by construction, at most {ran.limit:g} s of "
+        f"{words} {ran.trials} trials whose answers are known by construction, at most {ran.limit:g} s of "
         f"processor time each; dofkit {ran.version}, Python {ran.python}, {ran.machine}, {ran.cores} cores, "
         f"{ran.date[:10]}. Made by: {ran.command}"
     )
@@ -76,13 +73,9 @@ def explained(method: str, question: str, outcome: str, reason: str = "") -> str
 
     ``outcome``: ``wrong``, ``undecided``, ``cannot`` or ``timed out``, where the cost is told.
     """
-    row = next((row for name, row in METHODS.items() if name == method), None)
+    row = next((row for name, row in methods().items() if name == method), None)
     cannot = f"{method} does not answer this" if row is None else row.cannot
     uses = row.uses.items() if row is not None and outcome == "timed out" else ()
     return " ".join(
-        [_sentence(reason or cannot), *(f"Its cost: {use.costs}." for asked, use in uses if asked == question)]
+        [sentence(reason or cannot), *(f"Its cost: {use.costs}." for asked, use in uses if asked == question)]
     )
-
-
-def _sentence(text: str) -> str:
-    return f"{text[:1].upper()}{text[1:]}{'' if text.endswith('.') else '.'}"

@@ -95,7 +95,7 @@ class ChartOptions:
 
         Raises ChartError where there are none, and with the nearest name for one that is none.
         """
-        methods = _names(self.methods, list(METHODS), "method", "methods")
+        methods = _names(self.methods, METHODS, "method", "methods")
         trials = [trial for asked in self._asked(families).values() for trial in self._some(asked)]
         if not trials:
             raise ChartError("no trial of these families asks such a question")
@@ -103,7 +103,7 @@ class ChartOptions:
 
     def sweeps(self, families: Families) -> list[TrialTask]:
         """Return the trials near to special cases among those that are asked for, at each value of a setting."""
-        methods = _names(self.methods, list(METHODS), "method", "methods")
+        methods = _names(self.methods, METHODS, "method", "methods")
         asked = self._asked(families)
         swept: list[TrialTask] = []
         for sweep in (sweep for sweep in SWEEPS if sweep.method in methods):

@@ -7,10 +7,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cache
-from importlib.resources import files
 from typing import NamedTuple
 
-from dofkit.base.documents import read_document
+from dofkit.base.documents import package_table
 from dofkit.base.verdicts import ArgumentKey
 
 
@@ -29,5 +28,4 @@ class Argument(NamedTuple):
 @cache
 def arguments() -> Mapping[ArgumentKey, Argument]:
     """Return the arguments by their keys."""
-    written = read_document(files(__package__).joinpath("arguments.yaml").read_bytes(), "arguments.yaml").value
-    return {key: Argument(**row) for key, row in written.items()}
+    return {key: Argument(**row) for key, row in package_table(__package__, "arguments.yaml").items()}

@@ -24,7 +24,7 @@ from dofkit.interface.show.faults import complaint
 from dofkit.interface.show.motion import sheet_of_motion
 from dofkit.interface.show.report import changed, sheet_of_report, unexpected
 from dofkit.interface.show.sheet import SheetSection
-from dofkit.interface.show.terminal import as_text, brief_line, outcome_of, selected_line, selection_of
+from dofkit.interface.show.terminal import as_text, brief_line, outcome_of, selected_line
 from dofkit.methods.stages import classified, lowered, stages
 from dofkit.report import Report
 from dofkit.scene.catalog import FoundFile, find
@@ -106,7 +106,7 @@ def _report_text(report: Report, scene: Scene, request: Request, sections: Seque
     output = request.output
     if output.as_json:
         fields = report.model_dump(mode="json")
-        return _line(selection_of(fields, output.only) if output.only else fields, request)
+        return _line({name: fields[name] for name in ("scene", *output.only)} if output.only else fields, request)
     if output.only:
         return selected_line(report, output.only) + "\n"
     if output.brief:

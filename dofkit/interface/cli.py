@@ -5,11 +5,11 @@ from __future__ import annotations
 import json
 import math
 import sys
-from collections.abc import Callable, Generator, Mapping
+from collections.abc import Generator, Mapping
 from contextlib import closing
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, TypeVar, cast
+from typing import TYPE_CHECKING, Annotated, cast
 
 import typer
 
@@ -19,13 +19,11 @@ from dofkit.base.errors import ArgumentError
 from dofkit.base.wording import format_of_path, is_folder_path
 from dofkit.interface import options
 from dofkit.interface.assignment_commands import assignment_app, export_app
-from dofkit.interface.output import INTERRUPTED, UNREADABLE, Output, failures_of, print_json
+from dofkit.interface.output import FAILURES, INTERRUPTED, UNREADABLE, Output, failures_of, print_json
 
 if TYPE_CHECKING:
     from dofkit.interface.jobs import Printed
     from dofkit.methods.table import MethodName
-
-Handler = TypeVar("Handler", bound=Callable[..., Any])
 
 #: The heading of the commands after the five that most people need.
 MORE = "More commands"
@@ -93,7 +91,7 @@ def classify(
     output = output._replace(only=options.fields(only), name_width=longest_name(files))
     request = Request("", output, budget, cast("MethodName", method), options.listed(without), limits)
     request = replace(request, certificate=certificate, strict=strict)
-    run = Run(options.failures(fail_on), workers, scheduler, out)
+    run = Run(options.names_among(options.listed(fail_on), FAILURES, "failure", "--fail-on"), workers, scheduler, out)
     with failures_of("classify"):
         status = classify_files(files, request, run)
     raise typer.Exit(status)

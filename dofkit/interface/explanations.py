@@ -11,47 +11,21 @@ from typing import NamedTuple
 
 from pydantic import BaseModel
 
+from dofkit.base.documents import package_table
 from dofkit.base.errors import Fault, SceneError
-from dofkit.base.wording import closest, nearest, series
+from dofkit.base.wording import closest, nearest, sentence, series
 from dofkit.classification.arguments import arguments
 from dofkit.homework.sentences import meanings
-from dofkit.interface.show.assurance import VERDICT_MEANS
+from dofkit.interface.show.assurance import assurance
 from dofkit.report import ConstraintEntry, Report
 from dofkit.scene.constraints import TYPES, ConstraintBase
-from dofkit.scene.hints import LINES, SECTIONS
-from dofkit.scene.picture import SHAPES, ShapeKeys
+from dofkit.scene.hints import section_lines
+from dofkit.scene.picture import ShapeKeys, shape_kinds
 from dofkit.scene.scene import Scene
 from dofkit.scene.synonyms import synonyms
 
 _THEOREM = re.compile(r"^\| `(?P<key>\w+)` \| (?P<author>[^|]+) \| (?P<year>[^|]+) \| (?P<says>[^|]+) \|", re.MULTILINE)
 _WIDTH = 88
-#: Terms of mechanics that are no field.
-_WORDS = {
-    "non-holonomic": "Said of a constraint on velocities that is not integrable: no equation between coordinates and "
-    "time implies it. It restricts the velocities, not the configurations that can be reached.",
-    "rheonomic": "Time occurs explicitly (Greenwood's definition), in the constraint or in the equation that it "
-    "integrates to: a support that is moved, a length that changes, `xdot = v` with x = v t + C. A constraint that "
-    "does not hold t and is not integrable, such as `xdot^2 + ydot^2 = v^2`, is scleronomic.",
-    "acatastatic": "A Pfaffian form with a term in dt, or a nonlinear constraint that is not homogeneous in the "
-    "velocities, such as a prescribed speed. See catastatic.",
-    "unilateral": "An inequality: it restricts the motion on one side, and does not reduce the number of degrees of "
-    "freedom.",
-    "pfaffian": "Linear in the velocities: a_1 dx_1 + ... + a_n dx_n + b dt = 0.",
-    "nonlinear": "Not linear in the velocities: a square or a product of velocities, a prescribed speed.",
-    "finite": "A configuration-level (geometric) constraint: it relates coordinates and time, without velocities.",
-    "inequality": "A relation with <= or >=. It does not reduce the number of degrees of freedom.",
-    "redundant": "Implied by the other constraints: without it the motion is the same.",
-    "degrees of freedom": "The dimension of the configuration space (`dof`). The number of independent admissible "
-    "velocities is `velocity_dof`.",
-    "reference configuration": "The configuration that a scene gives by `at`, `axis` and `configuration`.",
-    "general position": "Positions and directions without anything special: none parallel, concurrent or collinear.",
-    "generic": "In general position; true of almost all configurations.",
-    "growth vector": "See growth_vector.",
-    "certificate": "The evidence for what is proved; `dofkit verify` checks it with an independent program.",
-    "reference": "In `about`: the claim is about the configurations near the reference configuration.",
-    "component": "In `about`: the claim is about the component of the configuration space that contains the `witness`.",
-    "everywhere": "In `about`: the claim is about all configurations.",
-}
 
 
 class Explanation(NamedTuple):
@@ -108,11 +82,11 @@ def all_explanations() -> tuple[Explanation, ...]:
         *(Explanation(code, "feedback code", meaning) for code, meaning in meanings().items()),
         *_fields("field of a report", Report),
         *_fields("field of a constraint", ConstraintEntry),
-        *(Explanation(name, "verdict", _sentence(meaning)) for name, meaning in VERDICT_MEANS.items()),
-        *(Explanation(word, "term", meaning) for word, meaning in _WORDS.items()),
-        *(_section(name) for name in SECTIONS),
+        *(Explanation(name, "verdict", sentence(meaning)) for name, meaning in assurance("verdicts").items()),
+        *(Explanation(word, "term", meaning) for word, meaning in package_table(__package__, "terms.yaml").items()),
+        *(_section(name, line) for name, line in section_lines().items()),
         *(_type(name, cls) for name, cls in TYPES.items()),
-        *(_shape(name, row) for name, row in SHAPES.items()),
+        *(_shape(name, row) for name, row in shape_kinds().items()),
         *(Explanation(word, "synonym", f"In a scene it means `{kind}`.") for word, kind in synonyms().items()),
         *_arguments(),
         *_theorems(),
@@ -121,17 +95,12 @@ def all_explanations() -> tuple[Explanation, ...]:
 
 def _fields(kind: str, model: type[BaseModel]) -> Iterator[Explanation]:
     for name, field in model.model_fields.items():
-        yield Explanation(name, kind, _sentence(field.description or ""))
+        yield Explanation(name, kind, sentence(field.description or ""))
 
 
-def _section(name: str) -> Explanation:
-    line = LINES[name]
-    about = f"{_sentence(Scene.model_fields[name].description or '')} For example `{line}`."
+def _section(name: str, line: str) -> Explanation:
+    about = f"{sentence(Scene.model_fields[name].description or '')} For example `{line}`."
     return Explanation(name, "section of a scene", about)
-
-
-def _sentence(text: str) -> str:
-    return text[:1].upper() + text[1:] + ("" if text.endswith((".", "?")) else ".")
 
 
 def _type(name: str, cls: type[ConstraintBase]) -> Explanation:
@@ -146,7 +115,7 @@ def _type(name: str, cls: type[ConstraintBase]) -> Explanation:
 
 def _shape(name: str, row: ShapeKeys) -> Explanation:
     keys = ", ".join([*row.needs, *(f"{key} (optional)" for key in row.may)])
-    text = f"{_sentence(row.meaning)} Keys: {keys}. For example `{row.example}`."
+    text = f"{sentence(row.meaning)} Keys: {keys}. For example `{row.example}`."
     return Explanation(name, "shape of a picture", text)
 
 

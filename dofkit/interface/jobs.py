@@ -19,12 +19,12 @@ from dataclasses import dataclass, replace
 from functools import partial
 from importlib import import_module
 from pathlib import Path
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple
 
 from dofkit.base.deadline import DEFAULT_SECONDS, limit
 from dofkit.base.documents import MOST_BYTES
 from dofkit.base.runs import Cluster, Journal, Pool, in_order, shared
-from dofkit.base.workers import MEMORY, Job, JobOutcome
+from dofkit.base.workers import MEMORY, Job
 from dofkit.interface.output import Output
 from dofkit.methods.table import MethodName
 
@@ -119,13 +119,6 @@ class Printed(NamedTuple):
     outcome: Mapping[str, Any] | None = None
 
 
-class Runner(Protocol):
-    """A pool of workers."""
-
-    def run(self, job: Job) -> JobOutcome:
-        """Do one job."""
-
-
 def replies(
     function: str, files: Sequence[str], request: Request, run: Run = ONE_BY_ONE, journal: Journal | None = None
 ) -> Generator[Printed]:
@@ -180,16 +173,16 @@ def distinct_names(files: Sequence[str]) -> list[str]:
     return names
 
 
-def reply(runner: Runner, function: str, request: Request) -> Printed:
+def reply(pool: Pool, function: str, request: Request) -> Printed:
     """Return what is printed about one file, whatever happens to the worker."""
     share = SHARE if request.certificate or request.strict or request.picture else 1
     reading = limit(max(request.budget, DEFAULT_SECONDS)) if function == "report_lines" else None
-    outcome = runner.run(Job(f"{ANSWERS}:{function}", request, share * limit(request.budget), reading))
+    outcome = pool.run(Job(f"{ANSWERS}:{function}", request, share * limit(request.budget), reading))
     if outcome.finished:
         return Printed(**outcome.value)
     if function == "report_lines":
         cut = Cut(request, outcome.value is not None, outcome.reason)
-        shortened = runner.run(Job(f"{ANSWERS}:cut_lines", cut, TELLING_SECONDS))
+        shortened = pool.run(Job(f"{ANSWERS}:cut_lines", cut, TELLING_SECONDS))
         if shortened.finished:
             return Printed(**shortened.value)
     return _without_worker(request.name, outcome.reason, request.output.as_json)

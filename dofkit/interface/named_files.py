@@ -33,17 +33,12 @@ def named_files(arguments: Iterable[str]) -> list[str]:
 
 
 def _named(argument: str) -> list[str]:
-    if os.path.isdir(argument) and not _is_catalogued(argument):
+    if os.path.isdir(argument) and argument not in catalog_names():  # a folder here may have the name of a scene
         return list(_below(argument)) or [argument]
     if glob.has_magic(argument) and not os.path.exists(argument):
         matched = sorted(glob.iglob(argument, recursive=True))
         return [file for path in matched for file in (_below(path) if os.path.isdir(path) else [path])] or [argument]
     return [argument]
-
-
-def _is_catalogued(name: str) -> bool:
-    """Return whether a name is that of a scene of the catalog; a folder here may have the same one."""
-    return name in catalog_names()
 
 
 def _below(folder: str) -> Iterator[str]:
@@ -82,8 +77,11 @@ constraints:
 """
 
 
-def converted(file: str, limits: bool = False) -> str:
-    """Return the scene of a model as YAML. Raises DofkitError for a file that is not a model or has faults."""
+def write_converted(file: str, out: Path | None, limits: bool) -> str:
+    """Write the scene of a model to a path, or return its text where there is none; return what to print.
+
+    Raises DofkitError for a file that is not a model or has faults.
+    """
     file_data = find(file)
     if not is_model(file_data.data):
         raise DofkitError(f"'{file}' is not a model: only MJCF, URDF and SolveSpace files are converted")
@@ -96,12 +94,7 @@ def converted(file: str, limits: bool = False) -> str:
     remarks = [f"Made from {Path(file).name} by dofkit {__version__}."]
     if model.tolerance is not None and "tolerance" not in model.value:
         remarks.append(f"The joints form a tree. If you close a loop, add `tolerance: {model.tolerance:g}`.")
-    return yaml_text({"name": file_data.name, **model.value}, SECTIONS, tuple(remarks))
-
-
-def write_converted(file: str, out: Path | None, limits: bool) -> str:
-    """Write the scene of a model to a path, or return its text where there is none; return what to print."""
-    return _written(converted(file, limits), out)
+    return _written(yaml_text({"name": file_data.name, **model.value}, SECTIONS, tuple(remarks)), out)
 
 
 def write_new(out: Path | None) -> str:

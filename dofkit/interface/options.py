@@ -95,15 +95,11 @@ def fields(only: list[str] | None) -> tuple[str, ...]:
         return ()
     from dofkit.report import Report  # which imports pydantic
 
-    return _names_among(listed(only), Report.model_fields, "field", "--only")
+    return names_among(listed(only), Report.model_fields, "field", "--only")
 
 
-def failures(fail_on: list[str] | None) -> tuple[str, ...]:
-    """Return the findings that a command fails on."""
-    return _names_among(listed(fail_on), FAILURES, "failure", "--fail-on")
-
-
-def _names_among(names: tuple[str, ...], allowed: Iterable[str], what: str, option: str) -> tuple[str, ...]:
+def names_among(names: tuple[str, ...], allowed: Iterable[str], what: str, option: str) -> tuple[str, ...]:
+    """Return the names of an option, of which each has to be known."""
     for name in names:
         if name not in allowed:
             raise BadParameter(no_such(name, allowed, what), param_hint=option)

@@ -25,13 +25,14 @@ from dofkit.exact.points.balls import precise_for, precision
 from dofkit.exact.zero import BOTH, Engines
 from dofkit.methods.table import (
     CONTRADICTORY,
-    METHODS,
+    ENGINES,
     QUESTIONS,
     MethodName,
     Question,
     Reply,
     cannot,
     function_of,
+    methods,
 )
 from dofkit.mobility.general_position import unprescribed_links
 from dofkit.mobility.graph.linkage import linkage
@@ -235,13 +236,13 @@ def answered(
     ``answer``: for ``equivalence``, ``{"constraint": NAME, "text": TEXT}``. Where the method cannot or does not
     answer, ``value`` is None and ``reason`` says why. Raises SceneError where the scene cannot be read.
     """
-    row = METHODS[method]
+    row = methods()[method]
     if question not in row.uses:
         return cannot(f"{method} has no way to answer this: {row.cannot}")
     read = scene if isinstance(scene, Scene) else load(scene)
     try:
-        if row.engines:
-            return _by_engines(row.engines, read, question, answer)
+        if method in ENGINES:
+            return _by_engines(ENGINES[method], read, question, answer)
         work = function_of(method, question)
         return work(read, answer) if question == "equivalence" else work(read)
     except OverflowError as error:

@@ -19,7 +19,7 @@ from dofkit.classification.undecided import open_entry, open_report, sketch, why
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
-from dofkit.methods.table import METHODS, MethodName, Question, Reply, function_of
+from dofkit.methods.table import ENGINES, MethodName, Question, Reply, function_of, methods
 from dofkit.relations.answer import BITS, GAP, Answer
 from dofkit.relations.blocks import Block
 from dofkit.report import ConstraintEntry, Count, FieldVerdict, ForceEntry, Report
@@ -63,9 +63,9 @@ def lowered(scene: Scene | System, seconds: float) -> System | Report:
 
 
 def _classified(system: System, seconds: float, method: MethodName) -> Report:
-    engines = METHODS[method].engines
+    engines = ENGINES.get(method)
     try:
-        if not engines:
+        if engines is None:
             with limited(seconds):
                 return report_of_method(system, method)
         study = examined(system, seconds, engines, passes=PASSES if method == "auto" else PLAIN)
@@ -115,7 +115,7 @@ PROVED = "It is holonomic by this method's own argument."
 def report_of_method(system: System, method: MethodName) -> Report:
     """Return the report of a method that is no engine of dofkit. Raises OutOfTimeError."""
     base = sketch(system, f"{method} on its own does not decide")
-    replies = {question: _reply(system, method, question) for question in ASKED if question in METHODS[method].uses}
+    replies = {question: _reply(system, method, question) for question in ASKED if question in methods()[method].uses}
     dof, redundancy, labels = (replies.get(q, Reply(None)) for q in ("dof", "redundancy", "integrability"))
     fields: dict[str, Any] = {}
     if dof.verdict != "undecided":
@@ -125,7 +125,7 @@ def report_of_method(system: System, method: MethodName) -> Report:
     names = [c.name for c in system.constraints]
     holonomic = {n for n in names if labels.verdict != "undecided" and (labels.value or {}).get(n)}
     entries = [
-        _entry(c, e, labels.verdict if c.name in holonomic else None, METHODS[method].best)
+        _entry(c, e, labels.verdict if c.name in holonomic else None, methods()[method].best)
         for c, e in zip(system.constraints, base.constraints, strict=True)
     ]
     whole = {name: _all_of([getattr(e, name) for e in entries]) for name in ("holonomic", "scleronomic")}
@@ -138,7 +138,7 @@ def report_of_method(system: System, method: MethodName) -> Report:
     changes = {
         "constraints": entries,
         "verdict": weakest(*(e.verdict for e in entries), dof.verdict),
-        "method": f"{method} alone: {METHODS[method].cannot}",
+        "method": f"{method} alone: {methods()[method].cannot}",
         "modelled": "the equations as they are written",
         "warnings": [*system.warnings, *(w for q, r in replies.items() if (w := _warning(method, q, r)))],
         "verdicts": verdicts,
@@ -162,7 +162,7 @@ def _warning(method: MethodName, question: Question, reply: Reply) -> str:
         return ""
     if reply.value is None:
         return f"{method} on its own does not answer {ASKED[question]}: {reply.reason}."
-    sound = METHODS[method].uses[question].sound
+    sound = methods()[method].uses[question].sound
     return f"{method} on its own gives {_in_words(question, reply.value)}; it is sound only for: {sound}."
 
 
@@ -235,7 +235,7 @@ def _without_time(e: Expr) -> bool:
 
 def report_of_engine(report: Report, outcome: Outcome, method: MethodName) -> Report:
     """Return the report of one engine on its own: no surer than the engine is, and undecided where it cannot know."""
-    row = METHODS[method]
+    row = methods()[method]
     entries = [e.model_copy(update={"verdict": weakest(e.verdict, row.best)}) for e in report.constraints]
     changes: dict[str, Any] = {
         "constraints": entries,

@@ -8,7 +8,7 @@ What MuJoCo welds to the world is the ground.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -26,6 +26,7 @@ from dofkit.models.model_document import (
     inertia_of,
     listed,
     number,
+    point_of,
     tolerance_of,
     vector,
 )
@@ -141,16 +142,15 @@ class _MjcfScene:
         if not entry["active"]:
             self.draft.leave_out(f"the equality {name}: it is switched off")
         elif kind in ("connect", "weld"):
-            ends = [(self.carriers[body], vector(at)) for body, at in entry["ends"]]
-            if ends[0][0] == ends[1][0]:
-                self.draft.leave_out(f"the equality {name}: both of its ends belong to {ends[0][0]}")
+            first, second = bodies = [self.carriers[body] for body, _ in entry["ends"]]
+            if first == second:
+                self.draft.leave_out(f"the equality {name}: both of its ends belong to {first}")
                 return
             self.loops = True
             if entry["turning"]:
-                self.draft.constraint(name, "weld", line, between=[body for body, _ in ends])
+                self.draft.constraint(name, "weld", line, between=bodies)
             else:
-                points = [at if body == GROUND else {"on": body, "at": at} for body, at in ends]
-                self.draft.constraint(name, "coincident", line, between=points)
+                self.draft.constraint(name, "coincident", line, between=self._points(entry["ends"]))
         elif kind in ("joint", "tendon"):
             self._coupling(name, kind, entry, line)
         else:
@@ -185,37 +185,39 @@ class _MjcfScene:
         tendon = self.content["tendons"][index]
         if any(step["kind"] != "site" for step in tendon["path"]):
             return False
-        ends = [(self.carriers[step["end"][0]], vector(step["end"][1])) for step in tendon["path"]]
-        along = [at if body == GROUND else {"on": body, "at": at} for body, at in ends]
         self.loops = True
         fields = {} if not more else {"length": number(tendon["zero"] + more)}
+        along = self._points([step["end"] for step in tendon["path"]])
         self.draft.constraint(name, "string", line, along=along, **fields)
         return True
+
+    def _points(self, ends: Iterable[Sequence[Any]]) -> list[Any]:
+        """Return points that MuJoCo gives by the numbers of their bodies and their places."""
+        return [point_of(self.carriers[body], at) for body, at in ends]
 
     def _ranges(self) -> None:
         """Add ranges of joints and tendons: as inequalities where they are asked for, else as left out."""
         joints = [(name, self.content["joints"][i]) for i, name in self.names.items()]
-        ranged = [(name, j) for name, j in joints if j["range"] and not (self.limits and j["kind"] == "ball")]
-        lines = [self.line.get(("joint", j["name"])) for _, j in ranged]
         self.draft.ranges(
             [
-                JointRange(name, j["kind"] == "hinge", j["drawn"], j["range"], line)
-                for (name, j), line in zip(ranged, lines, strict=True)
+                JointRange(name, j["kind"] == "hinge", j["drawn"], j["range"], self.line.get(("joint", j["name"])))
+                for name, j in joints
+                if j["range"] and not (self.limits and j["kind"] == "ball")
             ],
             self.limits,
         )
         if self.limits and (balls := [name for name, j in joints if j["range"] and j["kind"] == "ball"]):
             self.draft.leave_out(f"the ranges of {listed(balls)}: of ball joints")
-        tendons = [(i, t["name"] or f"tendon_{i}", t) for i, t in enumerate(self.content["tendons"]) if t["range"]]
+        tendons = [(i, t) for i, t in enumerate(self.content["tendons"]) if t["range"]]
         if tendons and not self.limits:
-            self.draft.leave_out(f"the ranges of tendons ({listed(name for _, name, _ in tendons)})")
-        for i, name, tendon in tendons if self.limits else ():
+            self.draft.leave_out(f"the ranges of tendons ({listed(t['name'] for _, t in tendons)})")
+        for i, tendon in tendons if self.limits else ():
             total = self._fixed_tendon(i)
             if total is None:
-                self.draft.leave_out(f"the range of the tendon {name}: it runs through space")
+                self.draft.leave_out(f"the range of the tendon {tendon['name']}: it runs through space")
             else:
                 fields = bounds(JointSum(total.terms, tendon["length"]), tendon["range"])
-                self.draft.constraint(f"{name} range", "coupling", None, **fields)
+                self.draft.constraint(f"{tendon['name']} range", "coupling", None, **fields)
 
     def _remarks(self) -> None:
         """Add what enters the motion without being a constraint, and what was changed in the model."""
@@ -234,7 +236,8 @@ class _MjcfScene:
         ):
             if entry[key]:
                 self.draft.leave_out(what)
-        around = [t["name"] or f"tendon_{i}" for i, t in enumerate(entry["tendons"]) if _runs_around(t)]
+        straight = {"joint", "site"}
+        around = [t["name"] for t in entry["tendons"] if not {step["kind"] for step in t["path"]} <= straight]
         if around:
             what = "wrap around shapes or pulleys: their length there is defined by MuJoCo only"
             self.draft.leave_out(f"the tendons {listed(around)}, which {what}; without an equality they only pull")
@@ -252,11 +255,6 @@ class _MjcfScene:
         places = [*(j["anchor"] for j in self.content["joints"]), *(b["centre"] for b in self.content["bodies"][1:])]
         size = max((max(c) - min(c) for c in zip(*places, strict=True)), default=1.0)
         return tolerance_of(written, size)
-
-
-def _runs_around(tendon: Mapping[str, Any]) -> bool:
-    """Return whether the length of a tendon is neither a sum of joints nor that of straight pieces."""
-    return any(step["kind"] not in ("joint", "site") for step in tendon["path"])
 
 
 class CompiledModel(NamedTuple):

@@ -10,9 +10,10 @@ from decimal import Decimal
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from dofkit.base.wording import first_of
 from dofkit.expressions.text import valid_name
 from dofkit.models.joint_relations import DECIMALS, OVER, JointSum, bounds, whole_turns
-from dofkit.system import BINDING
+from dofkit.system import BINDING, GROUND
 
 #: The tolerance lies between these; a file in which no number has so many decimals is taken at its word.
 FINEST, COARSEST, FEW = 1e-9, 1e-3, 3
@@ -171,6 +172,11 @@ def vector(values: Iterable[float]) -> list[float | int]:
     return [number(v) for v in values]
 
 
+def point_of(body: str, at: Iterable[float]) -> Any:
+    """Return a point of a body, or of the ground, as a scene writes it."""
+    return vector(at) if body == GROUND else {"on": body, "at": vector(at)}
+
+
 def measurable(axis: Sequence[float | int]) -> list[float | int | Decimal]:
     """Return a direction along the axis, right to within 1e-9, whose length is a fraction.
 
@@ -252,6 +258,4 @@ def tolerance_of(texts: Iterable[str], size: float) -> float:
 
 def listed(names: Iterable[str]) -> str:
     """Return the first of several names, and how many more there are."""
-    every = [*names]
-    more = len(every) - MOST_NAMED
-    return ", ".join(every[:MOST_NAMED]) + (f" and {more} more" if more > 0 else "")
+    return first_of(names, MOST_NAMED)

@@ -12,6 +12,8 @@ from typing import Any, NamedTuple
 import mujoco
 import numpy as np
 
+from dofkit.base.wording import first_of
+
 #: Elements of a model that change nothing about how it moves, and may name files that are missing.
 _SHOWN = ("textures", "skins", "sensors", "keys")
 #: A mass where a body has none that could be read.
@@ -82,9 +84,7 @@ def _without_files(spec: Any, folder: str) -> Iterator[str]:
     for geom in list(spec.geoms):
         if geom.meshname in lost or geom.hfieldname in lost:
             spec.delete(geom)
-    names = [*lost.values()]
-    listed = ", ".join(names[:4]) + (f" and {len(names) - 4} more" if len(names) > 4 else "")
-    yield f"the shapes of {listed}: their files are missing, so their masses are unknown"
+    yield f"the shapes of {first_of(lost.values(), 4)}: their files are missing, so their masses are unknown"
 
 
 def _without_looks(spec: Any) -> None:
@@ -237,7 +237,7 @@ def _tendons(compiled: Compiled) -> Iterator[dict[str, Any]]:
             end = [int(model.site_bodyid[of]), _list(data.site_xpos[of])] if kind == "site" else None
             path.append({"kind": kind, "of": of, "factor": float(model.wrap_prm[k]), "end": end})
         yield {
-            "name": _name(model, "TENDON", i),
+            "name": _name(model, "TENDON", i) or f"tendon_{i}",
             "path": path,
             "length": float(data.ten_length[i]),
             "zero": float(model.tendon_length0[i]),

@@ -23,6 +23,7 @@ from dofkit.models.model_document import (
     inertia_of,
     listed,
     number,
+    point_of,
     tolerance_of,
     vector,
 )
@@ -119,32 +120,21 @@ class _UrdfScene:
             self.draft.leave_out(f"the support of {name}, the root link: it is taken to be fixed")
 
     def _joint(self, joint: RobotJoint, frame: Transform) -> None:
-        kind = _KINDS.get(joint.kind)
-        if kind is None:
-            return
-        fields: dict[str, Any] = {"between": [self.stands[joint.parent], self.stands[joint.child]]}
-        if joint.kind != FIXED:
-            fields["at"] = vector(frame.at)
-        if joint.kind in WITH_AXIS:
-            fields["axis"] = vector(frame.turn @ np.array(joint.axis))
-        self.names[joint.name] = self.draft.constraint(joint.name, kind, joint.line, **fields)
+        if joint.kind in _KINDS:
+            between = [self.stands[joint.parent], self.stands[joint.child]]
+            fields = {"between": between, **_geometry(joint, frame)}
+            self.names[joint.name] = self.draft.constraint(joint.name, _KINDS[joint.kind], joint.line, **fields)
 
     def _loop(self, loop: LoopJoint, pose: Mapping[str, Transform]) -> None:
         """Add a joint that closes a loop, its place by the first link, its point by both."""
-        (first_link, first), (other, second) = loop.ends
-        frames = [pose[link].after(at) for link, at in ((first_link, first), (other, second))]
-        ends = [{"on": self.stands[link], "at": vector(f.at)} for (link, _), f in zip(loop.ends, frames, strict=True)]
-        points = [end["at"] if end["on"] == GROUND else end for end in ends]
-        kind = _KINDS[loop.kind]
-        if loop.kind in ("ball", "spherical"):
+        frames = [pose[link].after(at) for link, at in loop.ends]
+        bodies = [self.stands[link] for link, _ in loop.ends]
+        if loop.kind in _BALLS:
+            points = [point_of(body, frame.at) for body, frame in zip(bodies, frames, strict=True)]
             self.draft.constraint(loop.name, "coincident", loop.line, between=points)
-            return
-        fields: dict[str, Any] = {"between": [end["on"] for end in ends]}
-        if loop.kind != FIXED:
-            fields["at"] = vector(frames[0].at)
-        if loop.kind in WITH_AXIS:
-            fields["axis"] = vector(frames[0].turn @ np.array(loop.axis))
-        self.draft.constraint(loop.name, kind, loop.line, **fields)
+        else:
+            fields = {"between": bodies, **_geometry(loop, frames[0])}
+            self.draft.constraint(loop.name, _KINDS[loop.kind], loop.line, **fields)
 
     def _mimics(self) -> None:
         """Add what joints mimic; a leader that does not move leaves nothing free."""
@@ -172,6 +162,12 @@ class _UrdfScene:
             self.draft.forces.append({"type": "gravity", "acceleration": [0, 0, -9.81]})
         for remark in self.robot.unread:
             self.draft.leave_out(remark)
+
+
+def _geometry(joint: RobotJoint | LoopJoint, frame: Transform) -> dict[str, Any]:
+    """Return the place and the axis of a joint in the world, as far as its kind has them."""
+    place = {} if joint.kind == FIXED else {"at": vector(frame.at)}
+    return place | ({"axis": vector(frame.turn @ np.array(joint.axis))} if joint.kind in WITH_AXIS else {})
 
 
 def _written(robot: Robot) -> Iterator[str]:

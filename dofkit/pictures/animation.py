@@ -8,14 +8,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from dofkit.pictures.files import (
-    DrawnSketch,
-    ExtraMissingError,
-    Writer,
-    draw_marks,
-    figure_of,
-    require_matplotlib,
-)
+from dofkit.pictures.files import DrawnSketch, ExtraMissingError, Writer, draw_marks, figure_of, require_matplotlib
 from dofkit.pictures.joints import with_long_guides
 from dofkit.pictures.layout import Standpoint, page_of, standpoint_of
 from dofkit.pictures.loop_clips import loop_clips, loop_notes, traces

@@ -18,18 +18,7 @@ from dofkit.expressions.tree import ZERO, Expr, coordinate, fn, num
 from dofkit.expressions.vectors import Vec
 from dofkit.motion.poses import about
 from dofkit.pictures.evaluation import Values, evaluated
-from dofkit.pictures.shapes import (
-    SQUARE,
-    Array,
-    Displacement,
-    Kind,
-    Role,
-    Shape,
-    Vertex,
-    circle,
-    fixed,
-    place,
-)
+from dofkit.pictures.shapes import SQUARE, Array, Displacement, Kind, Role, Shape, Vertex, circle, fixed, place
 from dofkit.scene.picture import PlacedPicture, PlacedShape
 from dofkit.system import GROUND, System
 

@@ -1,16 +1,14 @@
-"""What a picture is made of before it is put on paper: shapes carried by bodies and particles, and how they look.
-
-The colours are those that the colour-blind can tell apart (Okabe and Ito's, and a deep red beside their orange), with a
-pattern for each meaning.
-"""
+"""What a picture is made of before it is put on paper: shapes carried by bodies and particles, and their looks."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from importlib.resources import files
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
+import yaml
 
 from dofkit.expressions.tree import Expr
 from dofkit.system import GROUND
@@ -162,17 +160,7 @@ def quaternion(turn: Array) -> Array:
 
 # Looks
 
-SKY, GREEN, BLUE, VERMILLION, PURPLE = "#56B4E9", "#009E73", "#0072B2", "#D55E00", "#CC79A7"
-AMBER, RED = "#B87A00", "#A31621"
-GREY, WHITE, INK = "#6E6E6E", "#FFFFFF", "#222222"
-#: Each colour as it is on dark paper; on light paper it is as named.
-ON_DARK: Mapping[str, str] = {
-    WHITE: "#151B23", "#F1F1F1": "#1E2630", "#EFEFEF": "#2A333D", "#A8A8A8": "#7D8792",
-    "#8A8A8A": "#78828D", GREY: "#97A1AC", "#555555": "#A9B3BD", "#444444": "#C3CBD3", "#333333": "#CBD3DB",
-    INK: "#E6EDF3", BLUE: "#6CB6F0", SKY: "#56B4E9", GREEN: "#2FC99E", "#8CCDB9": "#3E8A75",
-    "#7A5C2E": "#CBA56A", AMBER: "#E8AC3C", "#FBE3B5": "#4B3B17", "#8A5A00": "#EDB44E",
-    VERMILLION: "#FF8B45", "#F3C9CE": "#4E2029", RED: "#EE4F6B", PURPLE: "#E3A0C5",
-}  # fmt: skip
+SKY, BLUE, GREY, INK = "#56B4E9", "#0072B2", "#6E6E6E", "#222222"
 
 
 class Ink(NamedTuple):
@@ -187,47 +175,18 @@ class Ink(NamedTuple):
     layer: int = 3
 
 
-_PLAIN: Mapping[Role, Ink] = {
-    "body": Ink("#555555", 1.0, fill="#A8A8A8", dense=0.45, hatch=True, layer=1),
-    "joint": Ink(INK, 1.3, fill=WHITE, layer=6),
-    "guide": Ink("#555555", 1.0, layer=4),
-    "bar": Ink("#333333", 2.6, layer=3),
-    "rope": Ink("#7A5C2E", 1.5, layer=3),
-    "ground": Ink(INK, 1.3, fill="#EFEFEF", layer=2),
-    "hatch": Ink(INK, 0.8, layer=2),
-    "axis": Ink(GREY, 0.9, layer=2),
-    "locus": Ink(GREEN, 1.8, layer=2),
-    "surface": Ink("#8CCDB9", 0.7, layer=1),
-    "mesh": Ink("#8CCDB9", 0.7, layer=1),
-    "ghost": Ink("#8A8A8A", 0.9, (3.0, 2.0), layer=1),
-    "arrow": Ink(VERMILLION, 1.6, layer=8),
-    "plane": Ink("#8A8A8A", 0.8, fill="#F1F1F1", layer=0),
-    "node": Ink(INK, 0.8, fill="#333333", layer=7),
-    "trace": Ink(PURPLE, 1.1, layer=2),
-    "tie": Ink(GREY, 1.0, (5.0, 2.0, 1.0, 2.0), layer=2),
-    "force": Ink(GREY, 1.1, layer=2),
-    "point": Ink(INK, 0.8, fill="#333333", layer=7),
-    "name": Ink(INK, layer=9),
-    "field": Ink(BLUE, 0.8, fill=SKY, dense=0.3, layer=3),
-    "bracket": Ink(VERMILLION, 2.0, (5.0, 2.0), layer=5),
-    "further": Ink(PURPLE, 2.0, (1.5, 1.5), layer=5),
-}
-_LOUD: Mapping[State, Ink] = {
-    "redundant": Ink(AMBER, 2.2, (5.0, 2.5), fill="#FBE3B5", layer=6),
-    "conflicting": Ink(RED, 3.2, (2.2, 1.4), fill="#F3C9CE", layer=6),
-}
-_LOUD_NAMES = {"redundant": "#8A5A00", "conflicting": RED}
+def _ink(row: Mapping[str, Any]) -> Ink:
+    return Ink(**{**row, "dash": tuple(row.get("dash", ()))})
+
+
+_LOOKS: Mapping[str, Any] = yaml.safe_load(files(__package__).joinpath("looks.yaml").read_bytes())
+_PLAIN: Mapping[Role, Ink] = {role: _ink(row) for role, row in _LOOKS["roles"].items()}
+_LOUD: Mapping[State, Ink] = {state: _ink(row) for state, row in _LOOKS["states"].items()}
+#: Each colour as it is on dark paper; on light paper it is as named.
+ON_DARK: Mapping[str, str] = _LOOKS["dark"]
 #: The roles that show the state of a constraint, and those of them with thin lines.
 _OF_CONSTRAINTS = ("joint", "guide", "bar", "rope", "locus", "tie", "surface")
 _THIN = ("guide", "joint", "surface")
-#: What the legend says of roles in their plain state.
-_ROLES: Mapping[Role, str] = {
-    "bracket": "bracket",
-    "locus": "set of an equation or inequality",
-    "surface": "set of an equation or inequality",
-    "tie": "related by an equation",
-    "force": "spring or damper (no constraint)",
-}
 
 
 def ink_of(shape: Shape) -> Ink:
@@ -244,7 +203,7 @@ def ink_of(shape: Shape) -> Ink:
         width = 1.9 if shape.role in _THIN else loud.width
         return loud._replace(fill=loud.fill if plain.fill else None, layer=plain.layer, width=width)
     if shape.state in _LOUD and shape.role == "name":
-        return plain._replace(line=_LOUD_NAMES[shape.state])
+        return plain._replace(line=_LOOKS["names"][shape.state])
     return plain
 
 
@@ -262,6 +221,6 @@ def keys_of(shapes: Iterable[Shape], meanings: Mapping[State, str] | None) -> li
                 )
         elif shape.state in meanings and shape.state in _LOUD and ink.dash == _LOUD[shape.state].dash:
             keys.setdefault(meanings[shape.state], ink._replace(fill=None, width=2.4))
-        elif shape.role in _ROLES and (shape.state == "plain" or shape.role in ("bracket", "force")):
-            keys.setdefault(_ROLES[shape.role], _PLAIN["locus"] if shape.role == "surface" else ink)
+        elif shape.role in _LOOKS["legend"] and (shape.state == "plain" or shape.role in ("bracket", "force")):
+            keys.setdefault(_LOOKS["legend"][shape.role], _PLAIN["locus"] if shape.role == "surface" else ink)
     return [(ink, text) for text, ink in keys.items()]

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 
-from dofkit.base.wording import many, verb
+from dofkit.base.wording import first_of, many, verb
 from dofkit.pictures.shapes import State
 from dofkit.report import Report
 from dofkit.scene.scene import Scene
@@ -58,10 +58,10 @@ def answer(report: Report) -> str:
     '1 degree of freedom (proved)'
     """
     if report.consistent is False:
-        names = _names(report.conflicting)
+        names = first_of(report.conflicting, MOST)
         text = f"no motion: {names} contradict each other" if report.conflicting else "no motion"
     elif report.feasible is False:
-        text = f"no motion: {_names(report.infeasible)} cannot be satisfied together"
+        text = f"no motion: {first_of(report.infeasible, MOST)} cannot be satisfied together"
     else:
         text = ", ".join(_freedom(report))
     return text if text == UNDECIDED else f"{text} ({report.verdict})"
@@ -87,10 +87,10 @@ def alternative(scene: Scene, report: Report) -> str:
     how = sure(report, "redundant")
     wholly = report.redundant or []
     if wholly:
-        sentences.append(f"Redundant{how}: {_names(wholly)}.")
+        sentences.append(f"Redundant{how}: {first_of(wholly, MOST)}.")
     in_part = [entry.name for entry in report.constraints if entry.redundant_equations and entry.name not in wholly]
     if in_part:
-        sentences.append(f"Partly redundant{how}: {_names(in_part)}.")
+        sentences.append(f"Partly redundant{how}: {first_of(in_part, MOST)}.")
     if report.growth_vector:
         vector = ", ".join(map(str, report.growth_vector))
         sentences.append(f"Growth vector ({vector}){sure(report, 'growth_vector')}.")
@@ -103,9 +103,3 @@ def contents(scene: Scene, title: str) -> str:
     counts = [(scene.bodies, "body"), (scene.particles, "particle"), (scene.coordinates, f"{further}coordinate")]
     listed = [many(len(items), what) for items, what in (*counts, (scene.constraints, "constraint")) if items]
     return f"{title}: {', '.join(listed) or 'nothing is declared'}"
-
-
-def _names(names: Iterable[str]) -> str:
-    listed = list(names)
-    more = f" and {len(listed) - MOST} more" if len(listed) > MOST else ""
-    return ", ".join(listed[:MOST]) + more

@@ -35,7 +35,7 @@ def catalog_names() -> list[str]:
     >>> "four-bar-linkage" in dofkit.catalog_names()
     True
     """
-    return list(_files())
+    return list(catalog_files())
 
 
 def catalog_text(name: str) -> str:
@@ -57,7 +57,7 @@ def catalog_text(name: str) -> str:
     >>> dofkit.loads(dofkit.catalog_text("four-bar-linkage")).dimension
     2
     """
-    file = _files().get(name)
+    file = catalog_files().get(name)
     if file is None:
         raise SceneError((Fault(f"there is no scene '{name}' in the catalog", hint=nearest_hint(name)),), name)
     return file.read_text(encoding="utf-8")
@@ -65,7 +65,7 @@ def catalog_text(name: str) -> str:
 
 def catalog_titles() -> dict[str, str]:
     """Return the title of every scene, by name."""
-    return {name: _title(file.read_text(encoding="utf-8")) for name, file in _files().items()}
+    return {name: _title(file.read_text(encoding="utf-8")) for name, file in catalog_files().items()}
 
 
 def catalog_search(words: Sequence[str]) -> dict[str, str]:
@@ -78,7 +78,7 @@ def catalog_search(words: Sequence[str]) -> dict[str, str]:
     """
     titles, wanted = catalog_titles(), [word.casefold() for word in words]
     in_title = [n for n, title in titles.items() if all(w in f"{n} {title}".casefold() for w in wanted)]
-    in_text = [n for n, f in _files().items() if all(w in f.read_text(encoding="utf-8").casefold() for w in wanted)]
+    in_text = [n for n in titles if all(w in catalog_text(n).casefold() for w in wanted)]
     matching = {name: titles[name] for name in (*in_title, *in_text)}
     if not matching:
         text = " ".join(words)
@@ -93,7 +93,8 @@ def nearest_hint(name: str) -> str:
 
 
 @cache
-def _files() -> dict[str, Traversable]:
+def catalog_files() -> dict[str, Traversable]:
+    """Return the file of every scene by its name, folder by folder."""
     files: dict[str, Traversable] = {}
     root = catalog_folder()
     folders = sorted((entry for entry in root.iterdir() if entry.is_dir()), key=lambda entry: entry.name)

@@ -31,35 +31,13 @@ from pydantic import (
 )
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
+from dofkit.base.documents import package_table
 from dofkit.base.errors import Fault
 from dofkit.base.wording import many, nearest, verb
 from dofkit.base.yaml_events import LARGEST_EXPONENT, LONGEST_NUMBER
 
 _LITERAL = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,6})?)(?:\s*/\s*(\d+))?", re.ASCII)
 _OURS = "dofkit"
-#: Words that people write for a key of a scene or of a constraint; the first key that is known there is suggested.
-_KEYS_MEANT: dict[str, tuple[str, ...]] = {
-    "parameters": ("params", "constants", "consts", "constant"),
-    "coordinates": ("variables", "unknowns", "dofs", "generalized_coordinates", "q"),
-    "particles": ("points", "masses", "nodes"),
-    "bodies": ("rigid_bodies",),
-    "constraints": ("joint", "equations", "relations", "conditions"),
-    "configuration": ("initial", "initial_conditions", "reference", "state", "pose"),
-    "energies": ("energy", "lagrangian"),
-    "dimension": ("dim", "dimensions"),
-    "between": ("members", "points", "bodies", "ends", "particles", "joins", "nodes"),
-    "members": ("between", "points", "particles", "point", "particle", "nodes"),
-    "along": ("over", "through", "via", "points", "members", "particles"),
-    "point": ("member", "members", "particle", "particles", "points"),
-    "body": ("bodies", "wheel", "disc", "sphere"),
-    "carrier": ("arm", "carried_by"),
-    "surface": ("text",),
-    "text": ("expression", "formula"),
-    "at": ("position", "place", "pos", "location", "point"),
-    "length": ("l", "len"),
-    "radius": ("r",),
-    "joints": ("members",),
-}
 
 
 @lru_cache(maxsize=4096)
@@ -69,7 +47,8 @@ def meant_key(word: object, keys: tuple[str, ...]) -> str | None:
     >>> meant_key("members", ("type", "between")), meant_key("lenght", ("between", "length"))
     ('between', 'length')
     """
-    return next((key for key in keys if word in _KEYS_MEANT.get(key, ())), None) or nearest(word, keys)
+    words = package_table(__package__, "keys_meant.yaml")
+    return next((key for key in keys if word in words.get(key, ())), None) or nearest(word, keys)
 
 
 def suggestion(word: object, candidates: Sequence[str], what: str) -> str:

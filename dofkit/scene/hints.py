@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import Any
 
+from dofkit.base.documents import package_table
 from dofkit.base.errors import Fault
 from dofkit.base.wording import nearest
 from dofkit.expressions.text.characters import LETTERS_OF_NAMES
@@ -17,14 +18,6 @@ from dofkit.scene.synonyms import Path, dimension_of, other_keys
 
 UNKNOWN_KEY = "unknown key"
 UNKNOWN_TYPE = "there is no constraint type"
-_HINTS = (
-    (r"^a list is needed", "write it in square brackets"),
-    (r"^a mapping is needed", "write it as `key: value`, or in braces"),
-    (r"^a text is needed", "put it in double quotes"),
-    (r"is 1, 2 or 3", "write 1, 2 or 3"),
-    (r"number", "write a number such as 2, 0.5 or 1e-3"),
-    (r"^at (?:least|most) \d+ entr", "add or delete entries"),
-)
 #: Hints that show what to write already, or need no line.
 _ENOUGH = re.compile(
     r"`|'[^']*[:=]|column|"
@@ -35,23 +28,19 @@ _RATE = re.compile(rf"d((?:[a-zA-Z]|{'|'.join(LETTERS_OF_NAMES)})(?:_\w+)?)|(\w+
 SUGGESTED = re.compile(r"did you mean '(\w+)'\?")
 _MEANT_NAME = re.compile(r"did you mean `(.+)`\?")
 _FORCES = ("spring", "damper", "force", "gravity")
-#: A line by the section of a scene, or the key of what is declared in one, that it gives.
-LINES: dict[str, str] = {
-    "coordinates": "coordinates: [x, y]", "particles": "particles: [A, B]", "bodies": "bodies: [crank]",
-    "parameters": "parameters: {l: positive, b: 3/2}", "functions": "functions: {f: [t]}",
-    "configuration": "configuration: {theta: 0}", "dimension": "dimension: 2", "tolerance": "tolerance: 1e-6",
-    "constraints": 'constraints: ["x^2 + y^2 = 4"]', "forces": "forces: [{type: spring, between: [A, B]}]",
-    "energies": 'energies: {kinetic: "1/2 m xdot^2", potential: "m g x"}', "expect": "expect: {dof: 1}",
-    "picture": "picture: [{rod: l, from: [0, 0], to: [x, y]}, {ball: m, at: [x, y], radius: 1/10}]",
-    "mass": "mass: m", "inertia": "inertia: J", "name": "name: pendulum", "title": 'title: "A pendulum"',
-}  # fmt: skip
 #: So many names are listed in a line that declares them.
 MOST_DECLARED = 12
-#: The sections of a scene that `dofkit explain` knows.
-SECTIONS = (
-    "dimension", "parameters", "functions", "particles", "bodies", "coordinates", "constraints", "forces", "energies",
-    "tolerance", "configuration", "picture", "expect",
-)  # fmt: skip
+
+
+def section_lines() -> dict[str, str]:
+    """Return a line of a scene by its section, in the order in which `dofkit explain` lists them."""
+    lines: dict[str, str] = package_table(__package__, "hints.yaml")["sections"]
+    return lines
+
+
+def lines() -> dict[str, str]:
+    """Return a line of a scene by the section, or the key of what is declared in one, that it gives."""
+    return {**section_lines(), **package_table(__package__, "hints.yaml")["keys"]}
 
 
 def without_echoes(faults: Iterable[Fault], value: Mapping[str, Any]) -> list[Fault]:
@@ -143,7 +132,7 @@ def _required(cls: type[ConstraintBase]) -> set[str]:
 
 def meant_type(word: object, entry: Mapping[str, Any]) -> str | None:
     """Return the constraint type that a word most likely means, by the keys with it; None if there is none."""
-    words = {kind: (kind, *cls.synonyms, *cls.understood) for kind, cls in TYPES.items()}
+    words = {kind: (kind, *cls.synonyms, *cls.words().understood) for kind, cls in TYPES.items()}
     every_word = {name for names in words.values() for name in names}
     text = word.lower() if isinstance(word, str) else ""
     near = next((part for part in re.split(r"\W+", text) if part in every_word), None) or nearest(text, every_word)
@@ -178,12 +167,13 @@ def _see(fault: Fault, value: Mapping[str, Any]) -> str | None:
         kind = Equation.kind() if isinstance(entry, str) else kind
         return kind if kind in TYPES else None
     section = suggested[1] if suggested and len(where) == 1 else next(iter(where), None)
-    return section if section in SECTIONS else None
+    return section if section in section_lines() else None
 
 
 def _hint(fault: Fault, value: Mapping[str, Any]) -> str:
+    hints = package_table(__package__, "hints.yaml")["hints"].items()
     hint = _said_twice(fault, value) or _direction(fault, value) or fault.hint
-    hint = hint or next((hint for pattern, hint in _HINTS if re.search(pattern, fault.message)), None)
+    hint = hint or next((hint for pattern, hint in hints if re.search(pattern, fault.message)), None)
     undeclared = re.match(r"`(\w+)` is not declared(, and numbers)?", fault.message)
     name = undeclared[1] if undeclared else ""
     if undeclared and undeclared[2]:
@@ -233,8 +223,8 @@ def _line(fault: Fault, hint: str, value: Mapping[str, Any]) -> str | None:
     unknown = len(where) == 1 and fault.message.startswith(UNKNOWN_KEY) and not suggested
     if unknown or (hint and where[:1] == ("picture",)):
         return None
-    keys = [suggested[1]] if suggested else [key for key in reversed(where) if key in LINES]
-    return LINES.get(str(next(iter(keys), "")))
+    keys = [suggested[1]] if suggested else [key for key in reversed(where) if key in lines()]
+    return lines().get(str(next(iter(keys), "")))
 
 
 def _entry_at(value: Mapping[str, Any], index: object) -> Any:

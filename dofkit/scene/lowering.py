@@ -24,16 +24,7 @@ from dofkit.expressions.vectors import Vec
 from dofkit.report import Companion, Report
 from dofkit.scene.constraints import ConstraintBase
 from dofkit.scene.constraints.base import LETTERS
-from dofkit.scene.drawing import (
-    Drawing,
-    centre_of,
-    drawing_of,
-    drawn_bodies,
-    pose_of,
-    reference_of,
-    size_of,
-    undrawn,
-)
+from dofkit.scene.drawing import Drawing, centre_of, drawing_of, drawn_bodies, pose_of, reference_of, size_of, undrawn
 from dofkit.scene.fields import suggestion
 from dofkit.scene.ledger import MOVING, Texts, symbols_of
 from dofkit.scene.names import Vocabulary, name_faults, names_by_position, owner_kinds, vocabulary_of, within_member

@@ -8,11 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from functools import cache
 from typing import Annotated, Any, NamedTuple
 
 from pydantic import BeforeValidator, ConfigDict, Field, ValidationError, model_serializer, model_validator
 from pydantic_core import InitErrorDetails
 
+from dofkit.base.documents import package_table
 from dofkit.base.errors import Fault
 from dofkit.expressions.tree import ONE, ZERO, Expr, parameter
 from dofkit.expressions.vectors import Vec
@@ -31,35 +33,15 @@ class ShapeKeys(NamedTuple):
     meaning: str
 
 
-_ROUND = ("axis", "heading", "turn")
-#: The shapes that a picture may have.
-SHAPES: Mapping[str, ShapeKeys] = {
-    "disc": ShapeKeys(("at", "radius"), _ROUND, "{disc: coin, at: [x, y, R], heading: theta, turn: phi, radius: R}",
-                      "a disc with a mark on its rim; in space `axis` is across it, or `heading` where it rolls to"),
-    "wheel": ShapeKeys(("at", "radius"), _ROUND, "{wheel: w, at: [x, 1], turn: phi, radius: 1}",
-                       "a disc with spokes"),
-    "ball": ShapeKeys(("at", "radius"), (), '{ball: m, at: [l sin(theta), -l cos(theta)], radius: "l/10"}',
-                      "a ball; `radius` is that on paper"),
-    "rod": ShapeKeys(("from", "to"), (), "{rod: l, from: [0, 0], to: [l sin(theta), -l cos(theta)]}",
-                     "a straight bar"),
-    "string": ShapeKeys(("through",), (), "{string: s, through: [[-R, -x1], [-R, 0], [R, 0], [R, -x2]]}",
-                        "a string through several places"),
-    "spring": ShapeKeys(("from", "to"), ("radius",), "{spring: k, from: [-2, 0], to: [x, 0]}", "a spring"),
-    "box": ShapeKeys(("at", "size"), ("heading",), "{box: M, at: [x, 0], size: [1, 1/2]}",
-                     "a box about its centre: a block, a cart"),
-    "blade": ShapeKeys(("at", "heading"), ("size",), "{blade: skate, at: [x, y], heading: theta}",
-                       "a skate or knife edge"),
-    "point": ShapeKeys(("at",), (), "{point: P, at: [x, y]}", "a dot"),
-    "curve": ShapeKeys(("at", "range"), (), "{curve: wire, at: [u, u^2], range: {u: [-2, 2]}}",
-                       "a curve in a parameter of its own"),
-    "surface": ShapeKeys(("at", "range"), (), "{surface: saddle, at: [u, v, u v], range: {u: [-1, 1], v: [-1, 1]}}",
-                         "a surface in two parameters of its own"),
-    "plane": ShapeKeys(("at",), ("axis", "size"), "{plane: floor, at: [0, 0], axis: [0, 1], size: 6}",
-                       "the ground: a plane, or a line in the plane, across `axis` (upwards where it is left out)"),
-    "arrow": ShapeKeys(("from", "to"), (), "{arrow: F, from: [x, 0], to: [x + 1, 0]}", "an arrow"),
-    "axes": ShapeKeys((), ("at", "size"), "{axes: O, size: 2}", "the directions x, y (and z)"),
-    "text": ShapeKeys(("at",), (), "{text: fixed wall, at: [0, 2]}", "a text"),
-}  # fmt: skip
+@cache
+def shape_kinds() -> Mapping[str, ShapeKeys]:
+    """Return the shapes that a picture may have, by their names."""
+    return {
+        kind: ShapeKeys(tuple(row["needs"]), tuple(row.get("may", ())), row["example"], row["meaning"])
+        for kind, row in package_table(__package__, "shapes.yaml").items()
+    }
+
+
 _KEYS = ("at", "from", "to", "through", "heading", "axis", "turn", "radius", "size", "range", "show")
 _LETTERS = {"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1)}
 QUOTED = 'at: ["atan2(y, x)", 0]'
@@ -101,13 +83,13 @@ class PictureShape(WrittenModel):
     def _with_kind(cls, value: Any) -> Any:
         """Return ``{SHAPE: NAME, ...}`` with its shape and name under keys of their own."""
         if not isinstance(value, Mapping):
-            raise fault_error("a shape is a mapping such as " + SHAPES["point"].example)
-        kinds = [key for key in value if key in SHAPES]
+            raise fault_error("a shape is a mapping such as " + shape_kinds()["point"].example)
+        kinds = [key for key in value if key in shape_kinds()]
         if not kinds:
             other = next((key for key in value if key not in _KEYS), None)
-            hint = suggestion(other, list(SHAPES), "shapes")
+            hint = suggestion(other, list(shape_kinds()), "shapes")
             if other is None:
-                raise fault_error("a shape begins with its kind, as in " + SHAPES["point"].example, hint)
+                raise fault_error("a shape begins with its kind, as in " + shape_kinds()["point"].example, hint)
             raise fault_at((other,), f"unknown key '{other}' in a shape", hint)
         if len(kinds) > 1:
             hint = "write each as an entry of its own"
@@ -138,7 +120,7 @@ def _plain(value: Any) -> Any:
 
 def _key_faults(kind: str, keys: Sequence[str], hidden: bool) -> list[InitErrorDetails]:
     """Return a fault for each key that a shape does not have, and for each that it needs and lacks."""
-    row = SHAPES[kind]
+    row = shape_kinds()[kind]
     allowed = [*row.needs, *row.may, "show"]
     faults = [
         (fault_error(f"unknown key '{key}' in a {kind}", suggestion(key, allowed, "keys")), (key,))

@@ -8,7 +8,7 @@ from typing import Any
 from pydantic import TypeAdapter
 
 from dofkit.scene.constraints import TYPES
-from dofkit.scene.picture import SHAPES, PictureShape
+from dofkit.scene.picture import PictureShape, shape_kinds
 from dofkit.scene.scene import Scene
 from dofkit.scene.synonyms import other_keys, synonyms
 
@@ -40,13 +40,13 @@ def _any_shape(schema: Mapping[str, Any]) -> dict[str, Any]:
     properties = {key: part for key, part in schema["properties"].items() if key not in ("shape", "name")}
     properties["axis"] = _with_letters(properties["axis"])
     by_shape: list[dict[str, Any]] = []
-    for kind, row in SHAPES.items():
+    for kind, row in shape_kinds().items():
         properties[kind] = {"type": [_TEXT["type"], "number", "null"], "description": row.meaning}
         by_shape += [
             {"if": {"required": [kind]}, "then": {"propertyNames": {"enum": [kind, *row.needs, *row.may, "show"]}}},
             {"if": {"required": [kind], "not": {"required": ["show"]}}, "then": {"required": list(row.needs)}},
         ]
-    no_shape = {"if": {"propertyNames": {"not": {"enum": list(SHAPES)}}}, "then": False}
+    no_shape = {"if": {"propertyNames": {"not": {"enum": list(shape_kinds())}}}, "then": False}
     return {**schema, "properties": properties, "required": [], "allOf": [no_shape, *by_shape]}
 
 

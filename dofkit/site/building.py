@@ -35,15 +35,15 @@ class SiteError(DofkitError):
     """The site could not be built."""
 
 
-def build(out: Path, kept: Path | None = None) -> str | None:
-    """Build the site into ``out``; ``kept``: answers of earlier builds.
+def build(out: Path) -> str | None:
+    """Build the site into ``out``; return why it has no bench, or None.
 
-    Returns why it has no bench, or None. Raises SiteError where MkDocs is missing, or finds a broken link.
+    Raises SiteError where MkDocs is missing, or finds a broken link.
     """
     if not all(map(importlib.util.find_spec, ("material", "mkdocstrings"))):
         raise SiteError("mkdocs-material or mkdocstrings is missing: run pip install '.[docs]' in a clone")
     sources_folder = out.parent / f"{out.name}-sources"
-    catalog = list(catalog_scenes(kept or out.parent / f"{out.name}-answers"))
+    catalog = list(catalog_scenes())
     bench = out.parent / f"{out.name}-bench"
     missing = _without_bench(bench, catalog)
     sources(sources_folder, catalog, has_bench=missing is None)

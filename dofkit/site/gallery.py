@@ -1,12 +1,9 @@
-"""The catalog as a gallery: scenes with their pictures and answers, which are kept from one build to the next."""
+"""The catalog as a gallery: scenes with their pictures and answers."""
 
 from __future__ import annotations
 
-import hashlib
-import json
 import re
 from collections.abc import Iterator, Sequence
-from functools import cache
 from html import escape
 from itertools import groupby
 from operator import attrgetter
@@ -19,16 +16,15 @@ from dofkit.pictures.files import svg_of
 from dofkit.pictures.layout import page_of
 from dofkit.pictures.still import draw, without_text
 from dofkit.report import Report
-from dofkit.scene.catalog import catalog_folder, catalog_text
+from dofkit.scene.catalog import catalog_files, catalog_folder, catalog_text
 from dofkit.scene.constraints.base import Equation
 from dofkit.scene.reading import loads
 from dofkit.scene.scene import Scene
-from dofkit.site.markdown import SitePage, bench_link, code, fence, folded, page, picture, prose
+from dofkit.site.markdown import SitePage, rendered
 
 FOLDER = "gallery"
 #: The width of a picture and of a report: pixels, columns.
 PIXELS, COLUMNS = 440.0, 88
-PACKAGE = Path(__file__).parents[1]
 
 
 class ShownScene(NamedTuple):
@@ -54,33 +50,10 @@ def folders() -> dict[str, str]:
     return {name: source.strip()[:1].upper() + source.strip()[1:] for name, source in rows}
 
 
-def catalog_scenes(kept: Path) -> Iterator[ShownScene]:
-    """Yield every scene of the catalog by folder and name; ``kept``: the folder with those of earlier builds."""
-    kept.mkdir(parents=True, exist_ok=True)
-    for folder in sorted((entry for entry in catalog_folder().iterdir() if entry.is_dir()), key=lambda e: e.name):
-        for file in sorted(folder.iterdir(), key=lambda entry: entry.name):
-            if file.name.endswith(".yaml"):
-                name = file.name.removesuffix(".yaml")
-                yield _kept_or_shown(name, folder.name, catalog_text(name), kept)
-
-
-def _kept_or_shown(name: str, folder: str, written: str, kept: Path) -> ShownScene:
-    file = kept / f"{hashlib.sha256((_engine() + written).encode()).hexdigest()}.json"
-    if file.exists():
-        fields = json.loads(file.read_text(encoding="utf-8"))
-        return ShownScene(**{**fields, "types": tuple(fields["types"])})
-    scene = shown_scene(name, folder, written)
-    file.write_text(json.dumps(scene._asdict()), encoding="utf-8")
-    return scene
-
-
-@cache
-def _engine() -> str:
-    """Return a digest of the package: what was kept by another version is not used."""
-    digest = hashlib.sha256()
-    for path in sorted(PACKAGE.rglob("*.py")):
-        digest.update(path.read_bytes())
-    return digest.hexdigest()
+def catalog_scenes() -> Iterator[ShownScene]:
+    """Yield every scene of the catalog, folder by folder."""
+    for name, file in catalog_files().items():
+        yield shown_scene(name, Path(str(file)).parent.name, catalog_text(name))
 
 
 def shown_scene(name: str, folder: str, written: str) -> ShownScene:
@@ -108,7 +81,8 @@ def _formulas(scene: Scene, report: Report) -> Iterator[str]:
     for constraint, entry in zip(scene.constraints, report.constraints, strict=True):
         latex = typeset(entry.text) if isinstance(constraint, Equation) else None
         if latex is not None:
-            yield f'<li>{_html(entry.name)}: <math aria-label="{escape(entry.text)}">{mathml(latex)}</math></li>'
+            name = escape(entry.name, quote=False)
+            yield f'<li>{name}: <math aria-label="{escape(entry.text)}">{mathml(latex)}</math></li>'
 
 
 def in_a_line(report: Report) -> str:
@@ -133,50 +107,13 @@ def gallery_pages(
     catalog: Sequence[ShownScene], sources: dict[str, str], has_bench: bool = False
 ) -> Iterator[SitePage]:
     """Yield the pages and pictures; ``sources``: what each folder of the catalog was taken from."""
-    blocks = []
-    for folder, scenes in groupby(catalog, key=attrgetter("folder")):
-        members = list(scenes)
-        source = sources.get(folder, folder)
-        cards = "\n".join(_card(scene) for scene in members)
-        blocks += [
-            f"## {prose(source)}",
-            f"[{len(members)} scenes]({folder}.md)",
-            f'<div class="gallery">\n{cards}\n</div>',
-        ]
-        yield SitePage(f"{FOLDER}/{folder}.md", page(source, *(_entry(scene, has_bench) for scene in members)))
-        yield from (SitePage(f"{FOLDER}/{scene.name}.svg", scene.svg) for scene in members)
-        yield from (SitePage(f"{FOLDER}/{scene.name}-small.svg", scene.thumbnail) for scene in members)
-    yield SitePage(
-        f"{FOLDER}/index.md",
-        page(
-            "Gallery",
-            f"The {len(catalog)} scenes of the catalog, with their answers: f is the number of degrees of freedom. The "
-            "name of a scene can be used wherever a file is expected: `dofkit classify NAME`. Click on a picture to "
-            "see the text of the scene and the full report.",
-            *blocks,
-        ),
-    )
-
-
-def _entry(scene: ShownScene, has_bench: bool) -> str:
-    return "\n\n".join(
-        (
-            f"## {prose(scene.title)} {{#{scene.name}}}",
-            f"{code(scene.name)}: {prose(scene.answer)}",
-            picture(f"{scene.name}.svg", scene.alternative),
-            *([f'<ul class="equation">{scene.formulas}</ul>'] if scene.formulas else []),
-            *([bench_link("../bench", f"#example={scene.name}")] if has_bench else []),
-            folded("The scene", fence("yaml", scene.written)),
-            folded("The report", fence("text", scene.report)),
-        )
-    )
-
-
-def _card(scene: ShownScene) -> str:
-    drawn = picture(f"{scene.name}-small.svg", scene.alternative)
-    value = f"<strong>{_html(scene.title)}</strong><br>{_html(scene.answer)}"
-    return f'<a class="card" href="{scene.folder}.html#{scene.name}">{drawn}<span>{value}</span></a>'
-
-
-def _html(text: str) -> str:
-    return text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
+    shelves = [
+        (folder, sources.get(folder, folder), list(scenes))
+        for folder, scenes in groupby(catalog, key=attrgetter("folder"))
+    ]
+    for folder, source, scenes in shelves:
+        text = rendered("folder.md", source=source, scenes=scenes, has_bench=has_bench)
+        yield SitePage(f"{FOLDER}/{folder}.md", text)
+        yield from (SitePage(f"{FOLDER}/{scene.name}.svg", scene.svg) for scene in scenes)
+        yield from (SitePage(f"{FOLDER}/{scene.name}-small.svg", scene.thumbnail) for scene in scenes)
+    yield SitePage(f"{FOLDER}/index.md", rendered("gallery.md", number=len(catalog), folders=shelves))

@@ -1,4 +1,4 @@
-"""Pieces of Markdown: prose with nothing in it taken for markup, tables, code, folds, and the page itself."""
+"""Pieces of Markdown: prose with nothing in it taken for markup, tables, code, folds; and the templates of pages."""
 
 from __future__ import annotations
 
@@ -6,8 +6,12 @@ import base64
 import re
 import zlib
 from collections.abc import Iterable, Sequence
+from functools import cache, partial
 from html import escape
-from typing import NamedTuple
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
 _SPECIAL = re.compile(r"([\\*_\[\]|#])")
 _CODE = re.compile(r"(`+[^`]+`+)")
@@ -102,6 +106,17 @@ def anchor(text: str) -> str:
     return re.sub(r"[^a-z0-9]+", "-", text.lower()).strip("-")
 
 
-def page(title: str, *pieces: str) -> str:
-    """A page of a title and blocks."""
-    return "\n\n".join([f"# {title}", *(part for part in pieces if part)]) + "\n"
+@cache
+def _environment() -> Environment:
+    templates = FileSystemLoader(Path(__file__).parent / "templates")
+    environment = Environment(
+        loader=templates, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True, keep_trailing_newline=True
+    )
+    environment.filters.update(prose=prose, code=code, html=partial(escape, quote=False))
+    environment.globals.update(fence=fence, folded=folded, picture=picture, table=table, bench_link=bench_link)
+    return environment
+
+
+def rendered(template: str, **values: Any) -> str:
+    """Return a page or a part of one, as its template has it."""
+    return _environment().get_template(template).render(**values)

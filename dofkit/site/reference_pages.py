@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from importlib import resources
 from inspect import cleandoc
 from pathlib import Path
 from typing import Any
 
 import typer.main
-from pydantic import BaseModel
 
 from dofkit.base.wording import series
 from dofkit.classification.arguments import arguments
@@ -19,13 +18,13 @@ from dofkit.expressions.text.printing import to_text
 from dofkit.homework.sentences import meanings
 from dofkit.interface.cli import app
 from dofkit.interface.explanations import all_explanations
-from dofkit.interface.show.assurance import VERDICT_MEANS
+from dofkit.interface.show.assurance import assurance
 from dofkit.report import ConstraintEntry, Report
 from dofkit.scene.constraints import TYPES, ConstraintBase
 from dofkit.scene.lowering import lower
 from dofkit.scene.reading import loads
 from dofkit.site.gallery import ShownScene, shown_scene
-from dofkit.site.markdown import SitePage, anchor, code, fence, folded, page, picture, prose, table
+from dofkit.site.markdown import SitePage, anchor, code, prose, rendered
 
 FOLDER = "reference/types"
 #: The names that an example may mention, by the section that declares them.
@@ -39,46 +38,29 @@ SPACES = {1: "on a line", 2: "in the plane", 3: "in space"}
 
 def constraint_pages(catalog: Sequence[ShownScene]) -> Iterator[SitePage]:
     """A page for every type, with its pictures, and one that lists them."""
-    rows = []
     for kind, cls in TYPES.items():
-        rows.append((f"[{code(kind)}]({kind}.md)", prose(_meaning(cls)), _spaces(cls)))
         yield from _pages_of(kind, cls, [scene for scene in catalog if kind in scene.types])
-    yield SitePage(
-        f"{FOLDER}/index.md",
-        page(
-            "Constraint types",
-            "A plain text is an equation. Any other constraint is a mapping with a `type`, an optional `name`, and the "
-            "fields of its type. Each page shows the equations, the fields, and a complete scene.",
-            table(("type", "meaning", "defined"), rows),
-        ),
-    )
+    rows = [(f"[{code(kind)}]({kind}.md)", prose(_meaning(cls)), _spaces(cls)) for kind, cls in TYPES.items()]
+    yield SitePage(f"{FOLDER}/index.md", rendered("types.md", rows=rows))
 
 
 def _pages_of(kind: str, cls: type[ConstraintBase], scenes: Sequence[ShownScene]) -> Iterator[SitePage]:
-    written = scene_of(cls)
-    scene = shown_scene(kind, FOLDER, written)
+    scene = shown_scene(kind, FOLDER, scene_of(cls))
     yield SitePage(f"{FOLDER}/{kind}.svg", scene.svg)
-    first, *paragraphs = re.split(r"\n\s*\n", cleandoc(cls.__doc__ or ""))
-    yield SitePage(
-        f"{FOLDER}/{kind}.md",
-        page(
-            kind,
-            f"{prose(_sentence(_meaning(cls)))}. It is defined {_spaces(cls)}.",
-            "## Equations",
-            f"{prose(first)}\n{{ .equation }}",
-            *(prose(part) for part in paragraphs),
-            "## A scene",
-            fence("yaml", written, f"{kind}.yaml"),
-            picture(f"{kind}.svg", scene.alternative),
-            f"Answer: {prose(scene.answer)}.",
-            folded("The full report", fence("text", scene.report)),
-            folded("Its scalar equations", fence("text", "\n".join(equations_of(written)))),
-            "## Fields",
-            table(("field", "required", "meaning"), _constraint_fields(cls)),
-            *_other_words(cls),
-            *_in_the_catalog(scenes),
-        ),
+    nearest = sorted(scenes, key=lambda scene: (len(scene.types), len(scene.written)))[:1]
+    text = rendered(
+        "type.md",
+        kind=kind,
+        meaning=_sentence(_meaning(cls)),
+        spaces=_spaces(cls),
+        paragraphs=re.split(r"\n\s*\n", cleandoc(cls.__doc__ or "")),
+        scene=scene,
+        equations=equations_of(scene.written),
+        fields=_constraint_fields(cls),
+        synonyms=list(_other_words(cls)),
+        examples=list(dict.fromkeys([*nearest, *scenes]))[:MOST_NAMED],
     )
+    yield SitePage(f"{FOLDER}/{kind}.md", text)
 
 
 def scene_of(cls: type[ConstraintBase]) -> str:
@@ -90,9 +72,9 @@ def scene_of(cls: type[ConstraintBase]) -> str:
     constraints:
     - {type: coincident, between: [A, B]}
     """
-    spaces = [d for d in cls.examples if d] or [d for d in cls.dimensions if d > 1]
+    spaces = [int(d) for d in cls.words().examples if d != "0"] or [d for d in cls.dimensions if d > 1]
     dimension = 2 if 2 in spaces else max(spaces)
-    lines = (cls.example(dimension), *cls.example_joints.get(dimension, ()))
+    lines = (cls.example(dimension), *cls.words().joints.get(str(dimension), ()))
     words = {word for line in lines for word in re.findall(r"[A-Za-z]+", line)}
     sections = {key: [name for name in names if name in words] for key, names in DECLARED.items()}
     if sections["particles"] or sections["bodies"]:
@@ -134,25 +116,11 @@ def _constraint_fields(cls: type[ConstraintBase]) -> Iterator[tuple[str, str, st
 
 
 def _other_words(cls: type[ConstraintBase]) -> Iterator[str]:
-    sentences = []
     if cls.synonyms:
-        sentences.append(f"{', '.join(map(code, cls.synonyms))} can be written instead of `{cls.kind()}`.")
-    sentences += [f"{code(word)} can be written instead of {code(key)}." for word, key in cls.other_keys.items()]
-    if cls.understood:
-        sentences.append(f"For {', '.join(map(code, cls.understood))} the error message suggests this type.")
-    if sentences:
-        yield "## Synonyms"
-        yield " ".join(sentences)
-
-
-def _in_the_catalog(scenes: Sequence[ShownScene]) -> Iterator[str]:
-    if not scenes:
-        return
-    yield "## In the catalog"
-    nearest = min(scenes, key=lambda scene: (len(scene.types), len(scene.written)))
-    yield picture(f"../../gallery/{nearest.name}.svg", nearest.alternative)
-    links = [f"[{prose(s.title)}](../../gallery/{s.folder}.md#{s.name})" for s in (nearest, *scenes)]
-    yield "\n".join(f"* {link}" for link in list(dict.fromkeys(links))[:MOST_NAMED])
+        yield f"{', '.join(map(code, cls.synonyms))} can be written instead of `{cls.kind()}`."
+    yield from (f"{code(word)} can be written instead of {code(key)}." for word, key in cls.other_keys.items())
+    if understood := cls.words().understood:
+        yield f"For {', '.join(map(code, understood))} the error message suggests this type."
 
 
 THEOREMS, GLOSSARY, ROOMS = "about/theorems.md", "reference/glossary.md", "about/rooms.md"
@@ -192,56 +160,41 @@ def readme_page(readme: str, has_bench: bool = False) -> SitePage:
 
 def rooms_page() -> SitePage:
     """Return the page of the packages: the question of each, its types and its mechanisms, from its docstring."""
-    blocks = []
+    rooms = []
     for path in sorted(PACKAGE.glob("*/__init__.py")):
         docstring = ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))) or ""
-        question, _, mechanisms = docstring.partition("\n")
-        blocks += [f"## {path.parent.name}", prose(question), fence("text", mechanisms)]
-    lead = "Each package says at its beginning which question it answers, with which types, and by which mechanisms."
-    return SitePage(
-        ROOMS, page("The packages", f"{lead} The [architecture](architecture.md) shows how they relate.", *blocks)
-    )
+        rooms.append((path.parent.name, *docstring.partition("\n")[::2]))
+    return SitePage(ROOMS, rendered("rooms.md", rooms=rooms))
 
 
 def report_pages(written: str) -> Iterator[SitePage]:
     """Return the glossary, which completes its ``written`` part by the package's own tables, and the theorems."""
     before, after = written.split(TABLES_HERE)
-    yield SitePage(GLOSSARY, before + "\n\n".join(_tables()) + after)
+    yield SitePage(GLOSSARY, before + _tables() + after)
     yield SitePage(THEOREMS, theorems((resources.files("dofkit") / "THEOREMS.md").read_text(encoding="utf-8")))
 
 
-def _tables() -> Iterator[str]:
-    yield "## Terms"
+def _tables() -> str:
     words = sorted(((w.word, w.meaning) for w in all_explanations() if w.kind == "term"), key=lambda row: row[0])
-    yield table(("term", "meaning"), [(prose(word), prose(meaning)) for word, meaning in words])
-    yield "## Fields of a report"
-    yield "`report.NAME` in Python, the keys of `dofkit classify --json`, and what `dofkit explain NAME` prints."
-    yield _fields(Report)
-    yield "## Fields of a constraint"
-    yield "Each entry of `constraints` in a report has these fields."
-    yield _fields(ConstraintEntry)
-    yield "## Verdicts"
-    yield "From the most to the least certain; the verdict of a report is the weakest in it."
-    yield table(("verdict", "meaning"), [(code(name), prose(meaning)) for name, meaning in VERDICT_MEANS.items()])
-    yield "## Arguments"
-    yield "Every answer that is not undecided names the argument that it rests on (`verdicts.FIELD.argument`)."
-    yield _arguments()
-    yield "## Feedback codes"
-    yield "Every mistake in homework that dofkit recognizes has a code, so that it can be counted over a class."
-    yield table(("code", "meaning"), [(code(name), prose(meaning)) for name, meaning in meanings().items()])
+    return rendered(
+        "glossary.md",
+        terms=[(prose(word), prose(meaning)) for word, meaning in words],
+        report=_rows((name, field.description or "") for name, field in Report.model_fields.items()),
+        constraint=_rows((name, field.description or "") for name, field in ConstraintEntry.model_fields.items()),
+        verdicts=_rows(assurance("verdicts").items()),
+        arguments=_arguments(),
+        codes=_rows(meanings().items()),
+    ).rstrip("\n")
 
 
-def _fields(model: type[BaseModel]) -> str:
-    rows = [(code(name), prose(field.description or "")) for name, field in model.model_fields.items()]
-    return table(("field", "meaning"), rows)
+def _rows(meant: Iterable[tuple[str, str]]) -> list[tuple[str, str]]:
+    return [(code(name), prose(meaning)) for name, meaning in meant]
 
 
-def _arguments() -> str:
-    rows = []
+def _arguments() -> Iterator[tuple[str, ...]]:
     for key, row in arguments().items():
         theorem = f"[{row.theorem}](../{THEOREMS}#{anchor(row.theorem)})" if row.theorem else ""
-        rows.append((prose(key), prose(row.claims), prose(row.hypotheses), theorem))
-    return table(("argument", "what it shows", "hypotheses", "theorem"), rows)
+        yield prose(key), prose(row.claims), prose(row.hypotheses), theorem
 
 
 def theorems(text: str) -> str:
@@ -265,9 +218,8 @@ def _theorem(row: re.Match[str]) -> str:
 
 def command_pages() -> Iterator[SitePage]:
     """Yield one page with every command, its arguments and its options."""
-    blocks = [block for path, command in commands() for block in _command(path, command)]
-    lead = "Every command has the option `--help`. The [guide](../guide/commands.md) shows examples."
-    yield SitePage("reference/commands.md", page("Commands", lead, *blocks))
+    blocks = [_command(path, command) for path, command in commands()]
+    yield SitePage("reference/commands.md", rendered("commands.md", commands=blocks))
 
 
 def commands() -> Iterator[tuple[str, Any]]:
@@ -282,17 +234,14 @@ def _below(path: str, command: Any) -> Iterator[tuple[str, Any]]:
         yield from _below(f"{path} {name}", inner)
 
 
-def _command(path: str, command: Any) -> Iterator[str]:
+def _command(path: str, command: Any) -> tuple[str, str, str, list[tuple[str, str]]]:
+    """Return the words of a command, its help, a line that shows its usage, and a row for each argument and option."""
     arguments = [p for p in command.params if p.param_type_name == "argument"]
     choices = [p for p in command.params if p.param_type_name == "option"]
     usage = " ".join([path, *(metavar_of(p) for p in arguments), *(["[OPTIONS]"] if choices else [])])
-    yield f"## {path}"
-    yield prose(command.help or "")
-    yield f"`{usage}`"
     rows = [(code(metavar_of(p)), prose(p.help or "")) for p in arguments]
     rows += [(_option(p), prose(p.help or "") + _default(p)) for p in choices]
-    if rows:
-        yield table(("argument or option", "meaning"), rows)
+    return path, command.help or "", usage, rows
 
 
 def _option(parameter: Any) -> str:

@@ -26,49 +26,20 @@ from collections.abc import Iterable, Sequence
 from importlib.metadata import version
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Any
+
+import yaml
 
 from dofkit.base.errors import DofkitError
 
 SOURCES = Path(__file__).parent / "bench"
 PACKAGE = Path(__file__).parents[1]
-#: The compiled packages, and the platform and the Python of Pyodide.
-COMPILED = ("python-flint", "pydantic-core")
-PLATFORM = ("--platform", "pyemscripten_2026_0_wasm32", "--python-version", "3.14", "--abi", "cp314")
-#: Modules of FLINT that neither dofkit nor SymPy uses.
-UNUSED_MODULES = (
-    "_gr", "acb_series", "arb_series", "fmpq_series", "fmpz_mod_mpoly", "fmpz_series", "fq_default", "fq_default_poly",
-    "nmod_mpoly", "nmod_series", "showgood",
-)  # fmt: skip
-#: The packages of each archive: what a report needs, and what is loaded after it for homework and equations of motion.
-CORE = (
-    "annotated_types",
-    "latex2mathml",
-    "lazy_loader",
-    "pydantic",
-    "typing_extensions",
-    "typing_inspection",
-    "yaml",
-)
-EXTRAS = ("networkx",)
-SHEETS = ("markdown_it", "mdit_py_plugins", "mdurl")
-SYMBOLS = ("mpmath", "sympy")
-#: Folders of dofkit that no report needs; of its site only what the worker calls.
-LEFT_OUT = ("benchmark", "checker", "homework", "methods/certificates", "motion", "pictures", "site", "_catalog")
-#: Files that tests, typists and users of older versions of a package need.
-UNUSED = ("tests", "test", "__pycache__", "testing", "v1", "mypy.py")
+#: What it is made of, and what is left out of it.
+CONTENTS: dict[str, Any] = yaml.safe_load((SOURCES / "contents.yaml").read_text(encoding="utf-8"))
 #: What Pyodide needs at run time, beside its compiled runtime and the standard library.
 PYODIDE = ("pyodide.mjs", "pyodide.asm.mjs")
 #: Where the packages of Pyodide's distribution are, and the only one that is ever asked for.
 LOCK, DISTRIBUTED = "pyodide-lock.json", "numpy"
-#: Modules of the standard library that no report of the catalog imports, the larger ones.
-SELDOM = (
-    "_ast_unparse", "_pydatetime", "_pyio", "_pyrepl", "_strptime", "argparse", "bdb", "calendar", "cmd",
-    "compileall", "configparser", "cProfile", "csv", "ctypes", "doctest", "filecmp", "fileinput", "ftplib", "gettext",
-    "imaplib", "mailbox", "mimetypes", "modulefinder", "multiprocessing", "optparse", "pdb", "pickle",
-    "pickletools", "platform", "plistlib", "poplib", "pprint", "profile", "pstats", "pyclbr", "pydoc", "runpy",
-    "shelve", "shlex", "smtplib", "socketserver", "sqlite3", "statistics", "stringprep", "symtable", "tabnanny",
-    "tarfile", "timeit", "tomllib", "trace", "tracemalloc", "unittest", "wave", "wsgiref", "xmlrpc", "zipapp",
-)  # fmt: skip
 
 
 class BenchError(DofkitError):
@@ -90,14 +61,12 @@ def build_runtime(out: Path) -> None:
         _copy(modules / "pyodide" / "pyodide.asm.wasm", packages / "library" / "pyodide.asm.wasm")
         _stage_library(modules / "pyodide" / "python_stdlib.zip", packages)
         _stage_compiled(packages / "core")
-        _stage_packages(CORE, packages / "core")
         _stage_dofkit(packages / "core")
-        _stage_packages(EXTRAS, packages / "extras")
-        for name in ("motion", "pictures"):
-            _stage_folder(PACKAGE / name, packages / "extras" / "dofkit" / name)
-        _stage_packages(SHEETS, packages / "sheets")
-        _stage_folder(PACKAGE / "homework", packages / "sheets" / "dofkit" / "homework")
-        _stage_packages(SYMBOLS, packages / "symbols")
+        for archive, names in CONTENTS["packages"].items():
+            _stage_packages(names, packages / archive)
+        for archive, names in CONTENTS["rooms"].items():
+            for name in names:
+                _stage_folder(PACKAGE / name, packages / archive / "dofkit" / name)
         run(["node", "compile.mjs", str(packages), str(out.resolve())], "the compilation to bytecode")
 
 
@@ -119,22 +88,22 @@ def _stage_library(file: Path, packages: Path) -> None:
     """Unpack the standard library, and apart from it what is seldom used."""
     with zipfile.ZipFile(file) as archive:
         for name in archive.namelist():
-            is_seldom = name.partition("/")[0].removesuffix(".py") in SELDOM
+            is_seldom = name.partition("/")[0].removesuffix(".py") in CONTENTS["seldom"]
             archive.extract(name, packages / ("extras" if is_seldom else "library"))
 
 
 def _stage_compiled(target: Path) -> None:
     """Unpack the wheels for the browser, in the versions that are installed, without the modules that are not used."""
     with TemporaryDirectory() as folder:
-        pins = [f"{name}=={version(name)}" for name in COMPILED]
-        command = [sys.executable, "-m", "pip", "download", "-q", "--only-binary=:all:", "--no-deps", *PLATFORM]
-        run([*command, "-d", folder, *pins], "the download of wheels for the browser")
+        pins = [f"{name}=={version(name)}" for name in CONTENTS["compiled"]]
+        command = [sys.executable, "-m", "pip", "download", "-q", "--only-binary=:all:", "--no-deps"]
+        run([*command, *CONTENTS["platform"], "-d", folder, *pins], "the download of wheels for the browser")
         for wheel in sorted(Path(folder).glob("*.whl")):
             with zipfile.ZipFile(wheel) as archive:
-                for name in archive.namelist():
-                    path = Path(name)
-                    if _is_used(path) and ".dist-info/" not in name and path.name.split(".")[0] not in UNUSED_MODULES:
-                        archive.extract(name, target)
+                for path in map(Path, archive.namelist()):
+                    is_metadata = path.parts[0].endswith(".dist-info")
+                    if _is_used(path) and not is_metadata and path.name.split(".")[0] not in CONTENTS["unused_modules"]:
+                        archive.extract(path.as_posix(), target)
     types = target / "flint" / "__init__.py"
     types.write_text(without_unused(types.read_text(encoding="utf-8")), encoding="utf-8")
 
@@ -145,7 +114,7 @@ def without_unused(text: str) -> str:
     >>> without_unused("from .types.arb import arb\\nfrom .types.nmod_series import nmod_series\\n")
     'from .types.arb import arb\\n'
     """
-    imports = re.compile(rf"^from \.\w+\.(?:{'|'.join(UNUSED_MODULES)}) import .*\n", re.MULTILINE)
+    imports = re.compile(rf"^from \.\w+\.(?:{'|'.join(CONTENTS['unused_modules'])}) import .*\n", re.MULTILINE)
     return imports.sub("", text)
 
 
@@ -166,7 +135,7 @@ def _stage_packages(names: Iterable[str], target: Path) -> None:
 
 
 def _stage_dofkit(target: Path) -> None:
-    _stage_folder(PACKAGE, target / "dofkit", LEFT_OUT)
+    _stage_folder(PACKAGE, target / "dofkit", CONTENTS["left_out"])
     _copy(PACKAGE / "site" / "__init__.py", target / "dofkit" / "site" / "__init__.py")
     _stage_folder(PACKAGE / "site" / "browser", target / "dofkit" / "site" / "browser")
 
@@ -180,7 +149,7 @@ def _stage_folder(source: Path, target: Path, left_out: Sequence[str] = ()) -> N
 
 
 def _is_used(path: Path) -> bool:
-    return path.suffix not in (".pyi", ".pyd", ".pyx", ".c", ".typed") and not set(path.parts) & set(UNUSED)
+    return path.suffix not in CONTENTS["unused_endings"] and set(CONTENTS["unused"]).isdisjoint(path.parts)
 
 
 def _copy(source: Path, target: Path) -> Path:

@@ -14,7 +14,6 @@ from typing import Any
 
 import pytest
 from shared.browsed import seen
-from shared.documented import ROOT
 from shared.served import PageHandler, PageServer, Served
 
 from dofkit.homework.assignment import load_assignment
@@ -56,7 +55,7 @@ def served(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
     folder = Path(os.environ.get("DOFKIT_BENCH") or tmp_path_factory.mktemp("pages"))
     if not (folder / "bench").exists():
         try:
-            build_bench(folder / "bench", list(catalog_scenes(ROOT / "build" / "site-answers")))
+            build_bench(folder / "bench", list(catalog_scenes()))
         except BenchError as error:
             pytest.skip(f"the bench cannot be built: {error}")
     (folder / "screenshots").mkdir(exist_ok=True)

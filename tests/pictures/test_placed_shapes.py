@@ -11,7 +11,7 @@ import dofkit
 from dofkit.expressions.tree import coordinate
 from dofkit.pictures.shapes import AT_REST, Displacement, Shape
 from dofkit.pictures.stage import stage_of
-from dofkit.scene.picture import SHAPES
+from dofkit.scene.picture import shape_kinds
 
 COIN = {
     "coordinates": ["x", "y", "theta", "phi"],
@@ -21,11 +21,11 @@ COIN = {
 }
 
 
-@pytest.mark.parametrize("kind", SHAPES)
+@pytest.mark.parametrize("kind", shape_kinds())
 def test_each_shape_is_drawn_and_described(kind: str) -> None:
     scene = dofkit.loads(
         "coordinates: [x, y, theta, phi, x1, x2]\nparameters: {R: positive, l: positive}\n"
-        f"picture:\n- {SHAPES[kind].example}\n"
+        f"picture:\n- {shape_kinds()[kind].example}\n"
     )
     picture = dofkit.draw(scene)
     assert any(mark.ink for mark in picture.page.marks)

@@ -20,7 +20,7 @@ from dofkit.pictures.files import ExtraMissingError
 from dofkit.pictures.layout import page_of
 from dofkit.pictures.mechanism import FREE_PLACES
 from dofkit.pictures.paper import FLAT, HIGH, Page, outline, width_of
-from dofkit.pictures.shapes import ON_DARK, WHITE, Role, Shape, State, ink_of, keys_of
+from dofkit.pictures.shapes import ON_DARK, Role, Shape, State, ink_of, keys_of
 from dofkit.pictures.stage import POINT
 from dofkit.pictures.still import Picture
 from dofkit.report import FieldVerdict
@@ -95,8 +95,8 @@ def test_every_line_and_name_is_as_clear_on_dark_paper() -> None:
     """A ratio of 3 is enough for what is drawn, and 4.5 for what is read."""
     for role, state in product(get_args(Role), get_args(State)):
         ink = ink_of(Shape("line", (), role, state))
-        wanted = 4.5 if role == "name" else min(3.0, contrast(ink.line, WHITE))
-        assert contrast(ON_DARK[ink.line], ON_DARK[WHITE]) >= wanted, role
+        wanted = 4.5 if role == "name" else min(3.0, contrast(ink.line, "#FFFFFF"))
+        assert contrast(ON_DARK[ink.line], ON_DARK["#FFFFFF"]) >= wanted, role
         assert ink.fill is None or ink.fill in ON_DARK
 
 

@@ -11,16 +11,16 @@ import dofkit
 from dofkit.base.errors import SceneError
 from dofkit.base.yaml_events import compose
 from dofkit.scene.names import vocabulary_of
-from dofkit.scene.picture import SHAPES, picture_of
+from dofkit.scene.picture import picture_of, shape_kinds
 from dofkit.scene.schema import scene_schema
 
 HEAD = "coordinates: [x, y, theta, phi, x1, x2]\nparameters: {R: positive, l: positive}\npicture:\n"
 VALID = Draft202012Validator(scene_schema())
 
 
-@pytest.mark.parametrize("kind", SHAPES)
+@pytest.mark.parametrize("kind", shape_kinds())
 def test_the_example_of_each_shape_is_read(kind: str) -> None:
-    text = f"{HEAD}- {SHAPES[kind].example}\n"
+    text = f"{HEAD}- {shape_kinds()[kind].example}\n"
     scene = dofkit.loads(text)
     faults: list[Any] = []
     picture = picture_of(scene, vocabulary_of(scene), faults)

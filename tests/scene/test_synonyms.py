@@ -12,7 +12,7 @@ import dofkit
 from dofkit.base.errors import Fault, SceneError
 from dofkit.interface.explanations import explanations_of
 from dofkit.scene.constraints import TYPES
-from dofkit.scene.hints import LINES, SECTIONS
+from dofkit.scene.hints import lines, section_lines
 from dofkit.scene.synonyms import standard_words, synonyms
 
 PLANE = {"name": "s", "dimension": 2}
@@ -202,8 +202,8 @@ def test_a_hint_shows_one_line_that_would_work(name: str) -> None:
 
 
 def test_every_section_is_explained() -> None:
-    assert set(SECTIONS) < set(dofkit.Scene.model_fields)
-    for word in (*SECTIONS, *TYPES):
+    assert section_lines().keys() < set(dofkit.Scene.model_fields)
+    for word in (*section_lines(), *TYPES):
         assert explanations_of(word)
 
 
@@ -218,12 +218,13 @@ def test_the_example_of_a_type_is_a_scene(kind: str) -> None:
         line = TYPES[kind].example(d)
         scene = dofkit.loads(
             f"dimension: {d}\nbodies: [crank, rod, wheel]\nparticles: [A, B, C]\ncoordinates: [x, y]\n"
-            f"constraints:\n- {line}\n" + "".join(f"- {other}\n" for other in TYPES[kind].example_joints.get(d, ()))
+            f"constraints:\n- {line}\n"
+            + "".join(f"- {joint}\n" for joint in TYPES[kind].words().joints.get(str(d), ()))
         )
         assert scene.constraints[0].kind() == kind
 
 
 def test_the_line_of_a_key_is_a_scene() -> None:
     for key in ("coordinates", "particles", "bodies", "parameters", "functions", "dimension", "tolerance", "expect"):
-        assert dofkit.loads(LINES[key]).name == "scene"
-    assert dofkit.loads(f"coordinates: [theta]\n{LINES['configuration']}").configuration == {"theta": 0}
+        assert dofkit.loads(lines()[key]).name == "scene"
+    assert dofkit.loads(f"coordinates: [theta]\n{lines()['configuration']}").configuration == {"theta": 0}

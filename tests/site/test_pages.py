@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 import tomllib
-from pathlib import Path
 
 import pytest
 import yaml
@@ -15,9 +14,8 @@ from dofkit.classification.arguments import arguments
 from dofkit.interface.explanations import all_explanations
 from dofkit.report import ConstraintEntry, Report
 from dofkit.scene.constraints import TYPES
-from dofkit.site import gallery as room
 from dofkit.site.building import SETTINGS, settings
-from dofkit.site.gallery import ShownScene, catalog_scenes, folders, gallery_pages, in_a_line, shown_scene
+from dofkit.site.gallery import ShownScene, folders, gallery_pages, in_a_line, shown_scene
 from dofkit.site.markdown import prose
 from dofkit.site.reference_pages import (
     FOLDER,
@@ -55,7 +53,7 @@ def types(disc: ShownScene) -> dict[str, str]:
 def test_every_type_has_its_page_with_equations_a_picture_and_a_scene(types: dict[str, str], kind: str) -> None:
     page, cls = types[f"{FOLDER}/{kind}.md"], TYPES[kind]
     assert (cls.__doc__ or "").strip(), "its docstring says its equations"
-    assert cls.examples, "an example is its scene"
+    assert cls.words().examples, "an example is its scene"
     assert prose((cls.__doc__ or "").split("\n")[0])[:40] in page
     assert types[f"{FOLDER}/{kind}.svg"].startswith("<svg")
     assert scene_of(cls) in page
@@ -117,17 +115,6 @@ def test_the_gallery_shows_a_scene_with_its_answer(disc: ShownScene) -> None:
     assert "f = 4, velocity freedom 2, non-holonomic, scleronomic (proved)" in pages["gallery/l6.md"]
     assert 'href="l6.html#disc"' in pages["gallery/index.md"]
     assert "Lecture 6" in pages["gallery/index.md"]
-
-
-def test_what_was_shown_once_is_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    (tmp_path / "catalog" / "l6").mkdir(parents=True)
-    (tmp_path / "catalog" / "l6" / "disc.yaml").write_text(DISC, encoding="utf-8")
-    monkeypatch.setattr(room, "catalog_folder", lambda: tmp_path / "catalog")
-    monkeypatch.setattr(room, "catalog_text", lambda name: DISC)
-    first = list(catalog_scenes(tmp_path / "kept"))
-    monkeypatch.setattr(room, "shown_scene", None)
-    assert list(catalog_scenes(tmp_path / "kept")) == first
-    assert first[0].types == ("equation",)
 
 
 def test_the_navigation_holds_every_written_page_and_every_type(disc: ShownScene) -> None:

@@ -11,13 +11,13 @@ from shared.known_scenes import swept
 
 import dofkit
 from dofkit.benchmark.trials.frameworks import Framework, RandomBodies, dependent, graph, loop, tree
-from dofkit.methods.table import METHODS, MethodName
+from dofkit.methods.table import ENGINES, MethodName
 from dofkit.report import Report
 
 DIMENSIONS = (1, 2, 3)
 Draw = Callable[[random.Random, int, int], RandomBodies]
 #: dofkit's own engines, together and alone.
-BY_ENGINES = tuple(name for name, method in METHODS.items() if method.engines)
+BY_ENGINES = tuple(ENGINES)
 #: How many are drawn, and in the sweep.
 FEW, MANY = 8, 60
 every_dimension = pytest.mark.parametrize(

@@ -10,15 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from types import ModuleType
 
-from dofkit.benchmark.trials import (
-    bodies,
-    equations,
-    forms,
-    graphs,
-    identities,
-    lectures,
-    poses,
-)
+from dofkit.benchmark.trials import bodies, equations, forms, graphs, identities, lectures, poses
 from dofkit.benchmark.trials.construction import KnownScene, Trial
 
 Family = Callable[[], Iterator[Trial]]

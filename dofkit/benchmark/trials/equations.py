@@ -5,6 +5,7 @@ from __future__ import annotations
 import random
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
+from itertools import product
 
 from dofkit.benchmark.trials.construction import KnownScene, known_scene, labels, numbered, scene_of, tables
 
@@ -130,47 +131,21 @@ LARGEST = 32
 def high_powers() -> Iterator[KnownScene]:
     """Powers of an equation have its zeros, and no gradient there; x^k with y^k are curves, points or nothing."""
     because = "a power is 0 where its base is; real even powers are not negative"
-    for k in POWERS:
-        even = k % 2 == 0
-        curve = "x^2 + y^2 - 1"
-        # (name, coordinates, rows, dof, redundant: None where it is not asked)
-        rows: list[tuple[str, list[str], list[str], int, list[str] | None]] = [
-            ("a circle to the power", ["x", "y"], [f"({curve})^{k} = 0"], 1, []),
-            ("a plane and its power", ["x", "y", "z"], ["x + y = z", f"(x + y - z)^{k} = 0"], 2, ["c2"]),
-            ("a power of x - y and x = 2 y", ["x", "y"], [f"(x - y)^{k} = 0", "x = 2 y"], 0, []),
-            ("x^k + y^k = 1", ["x", "y"], [f"x^{k} + y^{k} = 1"], 1, []),
-            ("x^k + y^k = 0", ["x", "y"], [f"x^{k} + y^{k} = 0"], 0 if even else 1, []),
-            ("x^k = -1", ["x", "y"], [f"x^{k} = -1"], -1 if even else 1, None if even else []),
-            ("x^k = y^k", ["x", "y"], [f"x^{k} = y^{k}"], 1, []),
-            ("x = y and x^k = y^k", ["x", "y"], ["x = y", f"x^{k} = y^{k}"], 1, ["c2"]),
-        ]
-        for name, coordinates, texts, dof, over in rows:
-            if k > LARGEST and "(" in "".join(texts):
-                continue
-            about = f"{name}, k = {k}", scene_of(coordinates, *texts), because, k
-            yield known_scene(*about, dof=dof, redundancy=over)
+    for k, row in product(POWERS, TABLES["powers"]):
+        if k <= LARGEST or "(" not in "".join(row["rows"]):
+            scene = scene_of(row["coordinates"], *(text.format(k=k) for text in row["rows"]))
+            dof = row["dof"][k % 2 == 0]
+            over = None if dof < 0 else row.get("redundant", [])
+            yield known_scene(f"{row['name']}, k = {k}", scene, because, k, dof=dof, redundancy=over)
 
 
 def power_forms() -> Iterator[KnownScene]:
     """Forms with powers in them, and powers of forms."""
-    for k in POWERS:
-        # (name, text, integrates?, because)
-        rows = [
-            ("d(x^k y) + z", f"{k}*x^{k - 1}*y dx + x^{k} dy + dz = 0", True, "the differential of x^k y + z"),
-            ("d(x^k y) and z dx", f"({k}*x^{k - 1}*y + z) dx + x^{k} dy = 0", False, "d of it is dz dx: x^k dy dz dx"),
-            ("dz - y^k dx", f"dz - y^{k} dx = 0", False, "a contact form in y^k"),
-            ("dz - x^k dx", f"dz - x^{k} dx = 0", True, "z - x^(k+1)/(k+1)"),
-            ("a factor to the power", f"(1 + x^2 + y^2)^{k}*(dz + 2 y dy) = 0", True, "z + y^2"),
-            ("a contact form, with it", f"(1 + x^2 + y^2)^{k}*(dz + y dx) = 0", False, "a contact form"),
-            ("the power of an exact form", f"(zdot + 2 y ydot)^{k} = 0", True, "z + y^2"),
-            ("the power of a contact form", f"(zdot + y xdot)^{k} = 0", False, "a contact form"),
-        ]
-        for name, text, integrates, because in rows:
-            if k > LARGEST and text.startswith("("):
-                continue
-            about = f"{name}, k = {k}", scene_of("x y z", text), because, k
-            label, dof = {"c1": integrates}, 2 if integrates else 3
-            yield known_scene(*about, dof=dof, integrability=label)
+    for k, row in product(POWERS, TABLES["power forms"]):
+        text = row["text"].format(k=k, j=k - 1)
+        if k <= LARGEST or not text.startswith("("):
+            about = f"{row['name']}, k = {k}", scene_of("x y z", text), row["because"], k
+            yield known_scene(*about, dof=2 if row["integrates"] else 3, integrability={"c1": row["integrates"]})
 
 
 def sums_of_squares() -> Iterator[KnownScene]:

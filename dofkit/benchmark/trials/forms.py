@@ -5,16 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from dofkit.benchmark.trials.construction import (
-    KnownScene,
-    Row,
-    every,
-    known_scene,
-    numbered,
-    scene_of,
-    tabled,
-    tables,
-)
+from dofkit.benchmark.trials.construction import KnownScene, Row, every, known_scene, numbered, scene_of, tabled, tables
 
 
 def together() -> Iterator[KnownScene]:

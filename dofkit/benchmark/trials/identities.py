@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from dofkit.benchmark.trials.construction import KnownScene, known_scene, labels, scene_of, tables
+from dofkit.benchmark.trials.construction import KnownScene, Row, known_scene, labels, scene_of, tables
 
 TABLES = tables("identities.yaml")
 
@@ -63,37 +63,11 @@ NOT_ZERO = [Trap(row["name"], row["zero"], None, row["names"], "^" not in row["z
 
 #: A scene with T, and what is true of it where T is zero or is not; None where T cannot stand there.
 Context = Callable[[Trap, str, bool], KnownScene | None]
-#: (rows with {T}, the truth where T is zero, the truth where it is not). Numbers are added to n.
-TEXTS: tuple[tuple[Sequence[str], Mapping[str, Any], Mapping[str, Any]], ...] = (
-    # closed where T = 0, else d(omega) ^ omega = T dy dx dz is not 0
-    (["dz + ({T})*y*dx = 0"],
-     {"dof": -1, "velocity_dof": -1, "consistent": True, "c1.holonomic": True, "c1.holonomic_alone": True},
-     {"dof": 0, "velocity_dof": -1, "consistent": True, "c1.holonomic": False, "c1.holonomic_alone": False}),
-    # d(x y) + 10^-12 T x dz: its wedge with its differential is 10^-12 T x dx dy dz, up to the sign
-    (["y dx + x dy + 1e-12*({T})*x*dz = 0"],
-     {"dof": -1, "velocity_dof": -1, "c1.holonomic": True}, {"dof": 0, "velocity_dof": -1, "c1.holonomic": False}),
-    # dx = 0 where T = 0, else a contact form
-    (["dx + 1e9*({T})*(dz - y dx) = 0"],
-     {"dof": -1, "velocity_dof": -1, "c1.holonomic": True}, {"dof": 0, "velocity_dof": -1, "c1.holonomic": False}),
-    # a contact form alone where T = 0, else dx = dz = 0
-    (["dx - y dz = 0", "({T})*dz = 0"],
-     {"dof": 0, "velocity_dof": -1, "redundant": ["c2"], "c1.holonomic": False},
-     {"dof": -2, "velocity_dof": -2, "redundant": [], "c1.holonomic": True}),
-    # the second is implied by the first where T = 0; else x = 0 too, or a zero of T
-    (["z = 0", "z + ({T})*x = 0"],
-     {"dof": -1, "consistent": True, "redundant": ["c2"]}, {"dof": -2, "consistent": True, "redundant": []}),
-    # they contradict each other where T has no zero
-    (["z = 0", "z + ({T}) = 0"],
-     {"consistent": True, "dof": -1, "redundant": ["c2"]}, {"consistent": False, "dof": None}),
-    # it states nothing where T = 0
-    (["({T})*(x - 1) = 0"], {"dof": 0, "consistent": True}, {"dof": -1, "consistent": True}),
-    (["({T})*(dz - y dx) = 0"], {"dof": 0, "velocity_dof": 0}, {"dof": 0, "velocity_dof": -1}),
-)  # fmt: skip
 
 
-def _in_text(rows: Sequence[str], zero_truth: Mapping[str, Any], other_truth: Mapping[str, Any]) -> Context:
-    contradictory = other_truth.get("consistent") is False
-    finite = not any("dz" in row for row in rows)
+def _in_text(row: Row) -> Context:
+    contradictory = row["other"].get("consistent") is False
+    finite = not any("dz" in text for text in row["rows"])
 
     def context(trap: Trap, t: str, zero: bool) -> KnownScene | None:
         if contradictory and not zero and not trap.never:
@@ -101,11 +75,11 @@ def _in_text(rows: Sequence[str], zero_truth: Mapping[str, Any], other_truth: Ma
         n = 3 + len(trap.coordinates)
         truth = {
             key: n + value if isinstance(value, int) and not isinstance(value, bool) else value
-            for key, value in (zero_truth if zero else other_truth).items()
+            for key, value in row["zero" if zero else "other"].items()
         }
         if finite and not trap.everywhere:  # the equation also states that T has a value
             truth.pop("redundant", None)
-        return _scene_of_trap(trap, t, [row.replace("{T}", t) for row in rows], truth)
+        return _scene_of_trap(trap, t, [text.replace("{T}", t) for text in row["rows"]], truth)
 
     return context
 
@@ -138,7 +112,7 @@ def triangle(trap: Trap, t: str, zero: bool) -> KnownScene | None:
     return KnownScene(scene, truth, name=f"a triangle of height {t}", group=trap.name)
 
 
-CONTEXTS: tuple[Context, ...] = (*(_in_text(*row) for row in TEXTS), with_time, triangle)
+CONTEXTS: tuple[Context, ...] = (*map(_in_text, TABLES["contexts"]), with_time, triangle)
 
 
 # Tiny steps

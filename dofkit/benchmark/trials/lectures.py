@@ -6,14 +6,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from dofkit.base.documents import read_document
-from dofkit.benchmark.trials.construction import (
-    KnownScene,
-    Row,
-    constraint_names,
-    known_scene,
-    scene_of,
-    tables,
-)
+from dofkit.benchmark.trials.construction import KnownScene, Row, constraint_names, known_scene, scene_of, tables
 from dofkit.scene.catalog import catalog_names, catalog_text
 
 

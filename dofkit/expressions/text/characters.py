@@ -14,6 +14,7 @@ import unicodedata
 from collections.abc import Sequence
 from typing import NamedTuple
 
+from dofkit.base.documents import package_table
 from dofkit.base.errors import TextError
 
 # The bounds of a text: what is beyond them is refused before anything is computed with it.
@@ -70,22 +71,12 @@ _LOOKALIKES: dict[str, str] = {
     **dict(zip("АВСЕНІЈКМОРЅТХУ", "ABCEHIJKMOPSTXY", strict=True)),
     **dict(zip("ΑΒΕΖΗΙΚΜΝΟΡΤΥΧο", "ABEZHIKMNOPTYXo", strict=True)),
 }
-_REFUSED: dict[str, tuple[str, str]] = {
-    "≠": ("`≠` is not a constraint that can be read", "write `=`, `<=`, `>=`, `<` or `>`"),
-    "≈": ("`≈` does not state an exact relation", "write `=`"),
-    "≡": ("`≡` is not read", "write `=`"),
-    "±": ("`±` stands for two relations", "write each of the two as a text of its own"),
-    "∓": ("`∓` stands for two relations", "write each of the two as a text of its own"),
-    "∞": ("infinity is not a number", "leave that bound out"),
-    "∂": ("`∂` is not read", "write a derivative as `diff(h(s), s)`"),
-    "∛": ("`∛` is not read", "write `x^(1/3)`"),
-    "∈": ("`∈` is not a relation that can be read", "write `0 <= x <= L` for an interval"),
-    "ⁿ": ("a superscript letter is not read", "write `^n`"),
-    "˙": ("a dot without a letter is not read", "write the velocity of `x` as `xdot`"),
-    "¨": ("two dots without a letter are not read", "write the acceleration of `x` as `xddot`"),
-    "∫": ("an integral is not read", "write the relation without the integral"),
-    "∑": ("a sum sign is not read", "write out the terms"),
-}
+
+
+def refusals(kind: str) -> dict[str, tuple[str, str]]:
+    """Return what is not read of a kind of `refusals.yaml`: why, and what to write instead."""
+    refused: dict[str, tuple[str, str]] = package_table(__package__, "refusals.yaml")[kind]
+    return refused
 
 
 class Folded(NamedTuple):
@@ -120,15 +111,14 @@ def _plain(char: str, column: int) -> str:
     for table in (_SIGNS, LETTERS, _SPACES, _MARKS):
         if char in table:
             return table[char]
-    if char not in _LOOKALIKES and char not in _REFUSED:
-        codes = unicodedata.decomposition(char).split()
-        if len(codes) == 2 and (codes[0] == "<font>" or codes[0] in _BASES):
-            plain = _composed(char, codes)
-            if plain is not None:
-                return plain
-        if len(codes) == 1 and codes[0][0] != "<":  # one character with two codes, such as the sign for ohm
-            single = chr(int(codes[0], 16))
-            return single if single.isascii() else _plain(single, column)
+    codes = unicodedata.decomposition(char).split()
+    if len(codes) == 2 and (codes[0] == "<font>" or codes[0] in _BASES):
+        plain = _composed(char, codes)
+        if plain is not None:
+            return plain
+    if len(codes) == 1 and codes[0][0] != "<":  # one character with two codes, such as the sign for ohm
+        single = chr(int(codes[0], 16))
+        return single if single.isascii() else _plain(single, column)
     raise _refusal(char, column)
 
 
@@ -146,8 +136,8 @@ _BASES = frozenset(f"{ord(c):04X}" for c in "abcdefghijklmnopqrstuvwxyzABCDEFGHI
 
 
 def _refusal(char: str, column: int) -> TextError:
-    if char in _REFUSED:
-        message, hint = _REFUSED[char]
+    if char in refusals("characters"):
+        message, hint = refusals("characters")[char]
         return TextError(message, column, hint)
     name = unicodedata.name(char, "unnamed character")
     quoted = f"`{char}` " if char.isprintable() and not unicodedata.combining(char) else ""
@@ -177,7 +167,7 @@ def check_name_characters(name: str) -> str | None:
         plain = LETTERS.get(char, char)
         if plain in GREEK or (plain.isascii() and (plain.isalnum() or plain == "_")):
             continue
-        if not char.isascii() and (char in _LOOKALIKES or char in _REFUSED):
+        if not char.isascii() and (char in _LOOKALIKES or char in refusals("characters")):
             return _refusal(char, 1).message
         return f"the name holds the character {char!r}, and names are made of Latin and Greek letters, digits and `_`"
     return None
@@ -232,11 +222,6 @@ _PLAIN: dict[str, str] = {
 #: Commands for the type face of a name; `\mathrm{d}` belongs to the name after it.
 _TYPE_FACES = ("mathrm", "text", "operatorname", "mathit", "textrm", "rm", "mathbf", "boldsymbol", "bm", "textbf")
 _PLAIN_HINT = "write plain text, such as `2*x*cos(theta)`"
-_SEVERAL = ("several equations stand in one text", r"give each line its own text, without `&` and `\\`")
-_REFUSED_COMMANDS: dict[str, tuple[str, str]] = {
-    "ne": _REFUSED["≠"], "neq": _REFUSED["≠"], "pm": _REFUSED["±"], "mp": _REFUSED["∓"], "infty": _REFUSED["∞"],
-    "partial": _REFUSED["∂"], **dict.fromkeys(("begin", "end", "\\", "newline"), _SEVERAL),
-}  # fmt: skip
 
 
 def unlatex(folded: Folded) -> Folded:
@@ -293,7 +278,7 @@ def _command(name: str, text: str, start: int, end: int, column: int) -> tuple[s
         raise TextError("a root with an index is not read", column, "write it as a power, such as `x^(1/3)`")
     plain = _PLAIN.get(name)
     if plain is None:
-        message, hint = _REFUSED_COMMANDS.get(name, (f"the LaTeX command `\\{name}` is not read", _PLAIN_HINT))
+        message, hint = refusals("commands").get(name, (f"the LaTeX command `\\{name}` is not read", _PLAIN_HINT))
         raise TextError(message, column, hint)
     if len(plain) == 1 and plain in GREEK_LETTERS and text[start - 1 : start] == "_":
         raise TextError("a Greek letter as a subscript is not read", column, f"write `_{name}` without the backslash")

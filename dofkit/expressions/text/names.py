@@ -12,14 +12,7 @@ from typing import Any, Literal, NamedTuple
 from dofkit.base.errors import TextError
 from dofkit.base.wording import closest
 from dofkit.expressions.renaming import MOVING
-from dofkit.expressions.text.characters import (
-    DOT,
-    GREEK,
-    LETTERS,
-    MAX_NAME,
-    TWO_DOTS,
-    check_name_characters,
-)
+from dofkit.expressions.text.characters import DOT, GREEK, LETTERS, MAX_NAME, TWO_DOTS, check_name_characters
 from dofkit.expressions.tree import DT, FUNCTIONS, PI, TIME, E, Expr, coordinate, differential, sym, velocity
 
 

@@ -28,6 +28,7 @@ from dofkit.expressions.text.characters import (
     TWO_DOTS,
     Folded,
     fold,
+    refusals,
     unlatex,
 )
 from dofkit.expressions.text.names import (
@@ -89,35 +90,6 @@ _SPACED_VARIATION = re.compile(rf"{VARIATION}[ \t]+(?P<name>{WORD})", re.ASCII)
 _PARTS = re.compile(r"(\d*)\.?(\d*)(?:[eE]([+-]?\d+))?", re.ASCII)
 _DEGREES = frozenset({"deg", "degree", "degrees"})
 _ALIKE = {"**": "^", "==": "=", "[": "(", "{": "(", "]": ")", "}": ")", FRACTION_MARK: "frac", "√": "root"}
-
-_STRANGE: dict[str, tuple[str, str]] = {
-    ";": ("a text holds one relation, and `;` would begin another", "give each relation its own text"),
-    **dict.fromkeys(
-        "\n\r", ("a text holds one relation, and a new line would begin another", "give each line its own text")
-    ),
-    "#": ("a comment cannot stand inside a text", "delete `#` and what follows it"),
-    "!": ("factorials are not read", "write the number"),
-    "%": ("`%` is not read", "write a quotient with `/`"),
-    ".": ("a point is read only inside a number", "write a product with `*`"),
-    ":": ("`:` is not read", "write a quotient with `/`, an equation with `=`"),
-    **dict.fromkeys('"`', ("quotes cannot stand in a text", "delete them")),
-    "$": ("this `$` is not read", "write `$` around the whole text, or leave it out"),
-    "&": ("`&` is not read", "give each relation its own text"),
-    "~": ("`~` is not read", "write `=`"),
-    "@": ("`@` is not read", "write a product with `*`"),
-    "?": ("`?` is not read", "write an equation or an inequality"),
-    "_": ("a name cannot begin with `_`", "begin it with a letter; a subscript stands right after its letter: `x_1`"),
-    DOT: ("this dot stands above no letter", "put it right after the letter, or write `xdot`"),
-    TWO_DOTS: ("these two dots stand above no letter", "put them right after the letter, or write `xddot`"),
-}
-_WRONG: dict[str, tuple[str, str]] = {
-    "!=": ("`!=` is not a constraint that can be read", "write `=`, `<=`, `>=`, `<` or `>`"),
-    "=>": ("`=>` is not read", "did you mean `>=`?"),
-    "=<": ("`=<` is not read", "did you mean `<=`?"),
-    "<>": ("`<>` is not a constraint that can be read", "write `=`, `<=`, `>=`, `<` or `>`"),
-    "//": ("`//` is not read", "write a quotient with `/`"),
-    ":=": ("`:=` is not read", "write `=`"),
-}
 
 
 def tokenize(text: str, lookup: Lookup) -> Tokens:
@@ -248,7 +220,7 @@ def _other(match: re.Match[str], columns: Sequence[int], text: str, lookup: Look
             )
         return Token(kind, start, end, num(int(digits)), written, int(digits))
     if kind == "wrong":
-        message, hint = _WRONG.get(
+        message, hint = refusals("wrong").get(
             written, (f"`{written}` is not read", "write `=`, `<=`, `>=`, `<`, `>` or arithmetic")
         )
         raise TextError(message, column, hint)
@@ -292,8 +264,8 @@ def _stop(text: str, position: int, columns: Sequence[int]) -> NoReturn:
     char, column = text[position], columns[position]
     if text.startswith("..", position):
         raise TextError("an ellipsis is not read", column, "write out what the dots stand for")
-    if char in _STRANGE:
-        message, hint = _STRANGE[char]
+    if char in refusals("strange"):
+        message, hint = refusals("strange")[char]
         raise TextError(message, column, hint)
     quoted = f"`{char}`" if char.isprintable() else f"the control character U+{ord(char):04X}"
     raise TextError(f"{quoted} has no meaning here", column, "write arithmetic with names, numbers and `+ - * / ^`")

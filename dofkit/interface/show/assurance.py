@@ -5,74 +5,45 @@ from __future__ import annotations
 from collections.abc import Iterator
 from math import inf, log10
 
+from dofkit.base.documents import package_table
 from dofkit.base.verdicts import ArgumentKey
 from dofkit.base.wording import gap_in_words
 from dofkit.interface.show.sheet import Remark
 from dofkit.report import FieldVerdict, Report
 
-#: The meaning of each verdict.
-VERDICT_MEANS = {
-    "proved": "derived by exact arithmetic that leaves no doubt",
-    "probable": "exact arithmetic at random points; the chance of an error is bounded and tiny",
-    "numeric": "measured or rounded numbers, separated by a gap that is stated",
-    "undecided": "not decided; the reason says why",
-}
-#: The names of methods, and what they mean. The first that fits is taken, so longer ones stand first.
-_WAYS = (
-    (
-        "rank over GF(p) and balls",
-        "the rank of the equations, computed twice: modulo a large prime, which bounds it from below, and with "
-        "certified intervals about a real point, which prove that a minor is not zero",
-    ),
-    (
-        "rank over GF(p) at the given configuration",
-        "the rank of the equations at the reference configuration, modulo a large prime",
-    ),
-    ("rank over GF(p)", "the rank of the equations, modulo a large prime"),
-    (
-        "Lie algebra along a curve over GF(p)",
-        "the admissible velocities and their Lie brackets (Frobenius), modulo a large prime",
-    ),
-    (
-        "special cases by the zeros of minors and of curvature",
-        "special cases, where minors or Frobenius conditions of the equations vanish",
-    ),
-    ("graph of rigid links", "the rigidity matroid of the links as a graph"),
-)
-#: The model's note on relations without velocities, and its meaning.
-_NO_TEST = (
-    "no integrability test where all equations are geometric (d(dg) = 0)",
-    "all equations are geometric, so integrability need not be tested",
-)
 #: Hypotheses shorter than this name other arguments only.
 _TERSE = 14
 #: The number of undecided fields that are named in one line.
 _MOST_FIELDS = 6
-_FIELDS = {
-    "dof": "degrees of freedom",
-    "velocity_dof": "velocity freedom",
-    "instantaneous_dof": "instantaneous freedom",
-    "redundant_equations": "number of redundant equations",
-    "redundancies": "groups of dependent constraints",
-    "generalized_coordinates": "generalized coordinates",
-    "growth_vector": "growth vector",
-    "integrable_part": "integrable part",
-}
-
-
 #: Of which points an answer speaks that is not about all of them.
 _NEAR = {"component": ", near the witness", "reference": ", near the reference configuration"}
 #: Stands before each part of a model that its scene leaves out.
 LEFT_OUT = "; left out: "
 
 
+def assurance(what: str) -> dict[str, str]:
+    """Return the words for verdicts, models, methods or fields (`assurance.yaml`)."""
+    words: dict[str, str] = package_table(__package__, "assurance.yaml")[what]
+    return words
+
+
+def _field(name: str) -> str:
+    return assurance("fields").get(name, name.replace("_", " "))
+
+
+def _in_words(text: str, what: str) -> str:
+    for words, meaning in assurance(what).items():
+        text = text.replace(words, meaning)
+    return text
+
+
 def how_sure(report: Report) -> list[Remark]:
     """Return the model, the method, the meaning of the verdicts and the argument behind each answer."""
-    model, *lacks = report.modelled.replace(*_NO_TEST).split(LEFT_OUT)
+    model, *lacks = _in_words(report.modelled, "models").split(LEFT_OUT)
     remarks = [Remark(label, text) for label, text in (("model", model), ("method", method_in_words(report))) if text]
     remarks += [Remark("not modelled", text) for text in lacks]
     used = {report.verdict, *(e.verdict for e in report.constraints), *(case.verdict for case in report.special_cases)}
-    remarks += [Remark(verdict, meaning) for verdict, meaning in VERDICT_MEANS.items() if verdict in used]
+    remarks += [Remark(verdict, meaning) for verdict, meaning in assurance("verdicts").items() if verdict in used]
     return [*remarks, *_arguments(report)]
 
 
@@ -94,7 +65,7 @@ def reservation(report: Report) -> str:
     if report.verdict == "numeric" and bounds:
         return f"{_gap(min(bounds, key=float), report.method)} (details: --how)"
     if report.verdict == "undecided":
-        names = [_FIELDS.get(name, name.replace("_", " ")) for name, _ in weakest]
+        names = [_field(name) for name, _ in weakest]
         names += [entry.name for entry in report.constraints if entry.verdict == "undecided"]
         listed = ", ".join(names[:_MOST_FIELDS]) + (", ..." if len(names) > _MOST_FIELDS else "")
         return f"{listed} (details: --how)" if listed else ""
@@ -112,10 +83,7 @@ def method_in_words(report: Report) -> str:
     """Return the method in words."""
     if report.method == "count":
         return "counting: each equation is evidently independent of the others"
-    said = report.method
-    for name, meaning in _WAYS:
-        said = said.replace(name, meaning)
-    return said.replace("over GF(p)", "modulo a large prime")
+    return _in_words(report.method, "methods").replace("over GF(p)", "modulo a large prime")
 
 
 def _arguments(report: Report) -> Iterator[Remark]:
@@ -123,7 +91,7 @@ def _arguments(report: Report) -> Iterator[Remark]:
     together: dict[ArgumentKey, list[str]] = {}
     for name, entry in report.verdicts.items():
         if entry.argument is not None:
-            together.setdefault(entry.argument, []).append(_FIELDS.get(name, name.replace("_", " ")))
+            together.setdefault(entry.argument, []).append(_field(name))
     if not together:
         return
     from dofkit.classification.arguments import arguments
@@ -141,7 +109,8 @@ def not_proved(report: Report) -> list[Remark]:
     together: dict[str, list[str]] = {}
     for name, entry in report.verdicts.items():
         if entry.verdict != "proved":
-            together.setdefault(f"{entry.verdict}{_because(entry, report.method)}", []).append(_FIELDS.get(name, name))
+            same = together.setdefault(f"{entry.verdict}{_because(entry, report.method)}", [])
+            same.append(assurance("fields").get(name, name))
     return [Remark(", ".join(names), said) for said, names in together.items()]
 
 

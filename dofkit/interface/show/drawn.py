@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from functools import partial
 from typing import Any, TypeVar
 
@@ -17,10 +17,9 @@ from dofkit.interface.show.faults import panel_of
 from dofkit.interface.show.motion import sheet_of_motion
 from dofkit.interface.show.page import as_html
 from dofkit.interface.show.report import MOST_ROWS, names_of, sheet_of_entry, sheet_of_report
-from dofkit.interface.show.sheet import TONES, Column, Content, Fact, Formula, Grid, Remark, Sheet, SheetSection, Tone
+from dofkit.interface.show.sheet import TONES, Column, Fact, Formula, Grid, Remark, Sheet, SheetSection, Tone
 from dofkit.interface.show.terminal import as_text
 from dofkit.mobility.graph.linkage import Linkage
-from dofkit.mobility.graph.links import Link
 from dofkit.motion.lagrange.report import MotionReport
 from dofkit.report import Companion, ConstraintEntry, Report
 from dofkit.scene.constraints.base import Equation
@@ -35,7 +34,8 @@ def sheet_of_scene(scene: Scene) -> Sheet:
     sections = []
     if scene.constraints:
         names = [c.name or f"c{i}" for i, c in enumerate(scene.constraints, 1)]
-        rows = [(n, _words(c), c.kind()) for n, c in zip(names, scene.constraints, strict=True)]
+        texts = [Formula(c.text) if isinstance(c, Equation) else c.in_words for c in scene.constraints]
+        rows = [(n, text, c.kind()) for n, text, c in zip(names, texts, scene.constraints, strict=True)]
         sections.append(SheetSection("Constraints", [Grid(_CONSTRAINT_COLUMNS, rows[:MOST_ROWS])], _more(len(rows))))
     if scene.forces:
         named = [(f.name or f"f{i}", f.type) for i, f in enumerate(scene.forces, 1)]
@@ -43,11 +43,6 @@ def sheet_of_scene(scene: Scene) -> Sheet:
     if scene.energies is not None:
         sections.append(SheetSection("Energies", list(_energies(scene))))
     return Sheet(scene.name, scene.title or "", facts=tuple(_facts(scene)), sections=sections)
-
-
-def _words(constraint: object) -> Content:
-    words: str = getattr(constraint, "in_words", "")
-    return Formula(words) if isinstance(constraint, Equation) else words
 
 
 def _more(rows: int) -> str:
@@ -92,25 +87,15 @@ def _energies(scene: Scene) -> Iterator[Remark]:
 
 def sheet_of_linkage(linkage: Linkage) -> Sheet:
     """Return the sheet of a graph of links: its count, and what is redundant."""
+    inner = f"{linkage.inner_freedom} internal, beyond the motions as one rigid body"
     facts = [
         Fact("joints", str(len(linkage.joints)), f"in {many(linkage.dimension, 'dimension')}, in general position"),
         Fact("links", str(len(linkage.links)), f"of which {linkage.rank} are independent"),
-        Fact("freedom", str(linkage.freedom), _inner(linkage)),
+        Fact("freedom", str(linkage.freedom), "one rigid body" if linkage.rigid else inner),
         Fact("verdict", linkage.verdict, tone=TONES[linkage.verdict]),
     ]
-    redundant = linkage.redundant
-    remarks = [Remark("redundant", _links(redundant))] if redundant else []
+    remarks = [Remark("redundant", names_of([f"{a}-{b}" for a, b in linkage.redundant]))] if linkage.redundant else []
     return Sheet("linkage", facts=facts, sections=[SheetSection("Redundancy", remarks)] if remarks else [])
-
-
-def _inner(linkage: Linkage) -> str:
-    if linkage.rigid:
-        return "one rigid body"
-    return f"{linkage.inner_freedom} internal, beyond the motions as one rigid body"
-
-
-def _links(links: Iterable[Link]) -> str:
-    return names_of([f"{a}-{b}" for a, b in links])
 
 
 __all__ = ["html_of", "latex_of", "panel_of", "text_of"]

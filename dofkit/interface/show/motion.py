@@ -44,7 +44,8 @@ def _sections(report: MotionReport) -> Iterator[SheetSection]:
     yield SheetSection("Constraints with a multiplier", [Remark(_formula(m), _formula(c)) for m, c in pairs])
     momenta = (f"p_{n} = {p}" for n, p in report.momenta.items() if n not in idle)
     yield SheetSection("Generalized momenta", _formulas(momenta))
-    forces = (f"dL/d{n}{_added(report, n)} = {f}" for n, f in report.forces.items() if n not in idle)
+    added = {n: f" + Q_{n}" for n in report.non_conservative}
+    forces = (f"dL/d{n}{added.get(n, '')} = {f}" for n, f in report.forces.items() if n not in idle)
     yield SheetSection("Generalized forces", _formulas(forces))
     yield SheetSection("Cyclic coordinates", _formulas(n for n in report.cyclic if n not in idle))
     conserved = (c for c in report.conserved if c.quantity != "0")
@@ -60,11 +61,6 @@ def _without_equation(idle: list[str]) -> Iterator[Remark]:
     if idle:
         noun = "the coordinate" if len(idle) == 1 else "the coordinates"
         yield Remark("", f"No mass, force or constraint determines {noun} {', '.join(idle)}: 0 = 0.")
-
-
-def _added(report: MotionReport, name: str) -> str:
-    """Return the term that stands for the non-conservative force along a coordinate, if there is one."""
-    return f" + Q_{name}" if name in report.non_conservative else ""
 
 
 def _formula(text: str) -> Formula:

@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from functools import cache
 from html import escape
 from importlib.resources import files
+from typing import TYPE_CHECKING
 
 from dofkit.base.display import schemes
 from dofkit.expressions.text.typesetting import mathml, typeset
 from dofkit.interface.show.faults import safe
-from dofkit.interface.show.sheet import Content, Fact, Formula, Grid, Matrix, Remark, Sheet, SheetSection
+from dofkit.interface.show.sheet import Content, Formula, Matrix, Sheet
+
+if TYPE_CHECKING:
+    from jinja2 import Template
 
 #: What only the words of a joint or a link hold: two names with a line between them, or one of these.
 _WORDS = re.compile(
@@ -20,56 +24,18 @@ _WORDS = re.compile(
 
 def as_html(sheet: Sheet) -> str:
     """Return the whole sheet, with a picture of its scene if pictures are installed."""
-    css = (files("dofkit.interface.show") / "page.css").read_text(encoding="utf-8")
-    style = f"<style>{schemes('.dofkit')}\n{css}</style>"
-    return "\n".join([style, '<div class="dofkit">', *_pieces(sheet), "</div>"])
-
-
-def _pieces(sheet: Sheet) -> Iterator[str]:
-    title = f' <span class="s">{_set(sheet.title)}</span>' if sheet.title else ""
-    yield f"<p><strong>{_plain(sheet.name)}</strong>{title}</p>"
-    if sheet.alarm is not None:
-        text, tone = sheet.alarm
-        yield f'<p class="{tone}"><strong>{_plain(text)}</strong></p>'
+    css = (files(__package__) / "page.css").read_text(encoding="utf-8")
     picture = None if sheet.picture is None else sheet.picture()
-    if picture:
-        yield picture
-    if sheet.facts:
-        yield f"<table><tbody>{''.join(map(_fact, sheet.facts))}</tbody></table>"
-    for section in sheet.sections:
-        yield from _section(section)
+    return _template().render(sheet=sheet, picture=picture, css=css, schemes=schemes(".dofkit"))
 
 
-def _fact(fact: Fact) -> str:
-    value = _set(fact.value)
-    if fact.note:
-        value = f'<strong>{value}</strong> <span class="s">{_plain(fact.note)}</span>'
-    return f'<tr><th class="q" scope="row">{_plain(fact.label)}</th><td class="{fact.tone}">{value}</td></tr>'
+@cache
+def _template() -> Template:
+    from jinja2 import Environment, StrictUndefined  # only a notebook and the tests show pages
 
-
-def _section(section: SheetSection) -> Iterator[str]:
-    yield f'<b class="h">{_plain(section.heading)}</b>'
-    for part in section.content:
-        yield _grid(part) if isinstance(part, Grid) else _remark(part)
-    if section.more:
-        yield f'<p class="s">{_plain(section.more)}</p>'
-
-
-def _remark(remark: Remark) -> str:
-    note = f' <span class="s">({_plain(remark.note)})</span>' if remark.note else ""
-    label = f"<strong>{_set(remark.label)}</strong>" if str(remark.label) else ""
-    between = "" if not label else " " if remark.label == "!" else ": "
-    return f"<p>{label}{between}{_set(remark.text)}{note}</p>"
-
-
-def _grid(grid: Grid) -> str:
-    kinds = [' class="n"' if column.numbers else "" for column in grid.columns]
-    heads = (f'<th scope="col"{kind}>{_plain(c.head)}</th>' for c, kind in zip(grid.columns, kinds, strict=True))
-    rows = []
-    for name, *cells in grid.rows:
-        text = (f"<td{kind}>{_set(cell)}</td>" for cell, kind in zip(cells, kinds[1:], strict=True))
-        rows.append(f'<tr><th scope="row">{_set(name)}</th>{"".join(text)}</tr>')
-    return f"<table><thead><tr>{''.join(heads)}</tr></thead><tbody>{''.join(rows)}</tbody></table>"
+    environment = Environment(undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True)
+    environment.filters.update(plain=_plain, set=_set)
+    return environment.from_string((files(__package__) / "page.html").read_text(encoding="utf-8"))
 
 
 def _set(text: Content) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Sequence
 
-from dofkit.base.wording import many, verb
+from dofkit.base.wording import first_of, many, sentence, verb
 from dofkit.interface.show.assurance import checked_claims, how_sure, left_out, not_proved, reservation
 from dofkit.interface.show.sheet import TONES, Column, Fact, Formula, Grid, Remark, Sheet, SheetSection, Tone
 from dofkit.report import ConstraintEntry, Report, SpecialCase
@@ -63,7 +63,7 @@ def _sections(report: Report, how: bool) -> Iterator[SheetSection]:
     yield _listed("Special cases", [_special(case) for case in report.special_cases])
     yield _listed("Redundancy", list(_redundancy(report)))
     yield _listed("Forces", [Remark(force.name, force.reason) for force in report.forces])
-    yield _listed("Warnings", [Remark("!", _sentence(warning)) for warning in report.warnings])
+    yield _listed("Warnings", [Remark("!", sentence(warning)) for warning in report.warnings])
     yield _listed("Checked", checked_claims(report))
     if how:
         yield SheetSection("How", how_sure(report))
@@ -73,10 +73,6 @@ def _sections(report: Report, how: bool) -> Iterator[SheetSection]:
 def _listed(heading: str, remarks: Sequence[Remark]) -> SheetSection:
     """Return a section with the first remarks, and the number of the rest."""
     return SheetSection(heading, remarks[:MOST_ROWS], _more(len(remarks)))
-
-
-def _sentence(text: str) -> str:
-    return f"{text[:1].upper()}{text[1:]}{'' if text.endswith(('.', ':', '?')) else '.'}"
 
 
 def _more(number: int) -> str:
@@ -264,8 +260,7 @@ def _redundancy(report: Report) -> Iterator[Remark]:
 
 def names_of(names: Sequence[str]) -> str:
     """Return names with commas, the first of very many."""
-    listed = ", ".join(names[:_MOST_NAMES])
-    return f"{listed} and {len(names) - _MOST_NAMES} more" if len(names) > _MOST_NAMES else listed
+    return first_of(names, _MOST_NAMES)
 
 
 def number(value: int | None) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 from rich.console import Console, Group, RenderableType
@@ -146,11 +146,6 @@ def outcome_of(report: Report) -> dict[str, Any]:
         "undecided": report.verdict == "undecided",
     }
     return {"scene": report.scene, "verdict": report.verdict, "is": [name for name in findings if findings[name]]}
-
-
-def selection_of(fields: Mapping[str, Any], only: Sequence[str]) -> dict[str, Any]:
-    """Return the scene's name and some fields of a report in JSON."""
-    return {"scene": fields["scene"], **{name: fields[name] for name in only}}
 
 
 def selected_line(report: Report, only: Sequence[str]) -> str:

@@ -1,6 +1,7 @@
 """Constraints: one small class for each type, with its equations in its docstring and its facts for all others.
 
-`TYPES` maps every ``type`` to its class. A new type is a class of this folder and a row of `AnyConstraint`.
+`TYPES` maps every ``type`` to its class. A new type is a class of this folder, a row of `AnyConstraint`, and one of
+`types.yaml`, which has its examples and the words that lead to it.
 """
 
 from __future__ import annotations
@@ -14,16 +15,7 @@ from dofkit.scene.constraints.base import ConstraintBase, Equation, On
 from dofkit.scene.constraints.contacts import Cam, Gear, Roll
 from dofkit.scene.constraints.coupling import Coupling
 from dofkit.scene.constraints.distances import Link, Rigid, String
-from dofkit.scene.constraints.joints import (
-    Cylindrical,
-    Planar,
-    Prismatic,
-    Revolute,
-    Screw,
-    Spherical,
-    Universal,
-    Weld,
-)
+from dofkit.scene.constraints.joints import Cylindrical, Planar, Prismatic, Revolute, Screw, Spherical, Universal, Weld
 from dofkit.scene.constraints.places import Coincident, Fixed, Slot
 
 __all__ = ["TYPES", "AnyConstraint", "ConstraintBase"]
