@@ -132,7 +132,7 @@ def _required(cls: type[ConstraintBase]) -> set[str]:
 
 def meant_type(word: object, entry: Mapping[str, Any]) -> str | None:
     """Return the constraint type that a word most likely means, by the keys with it; None if there is none."""
-    words = {kind: (kind, *cls.synonyms, *cls.words().understood) for kind, cls in TYPES.items()}
+    words = {kind: (kind, *cls.synonyms, *cls.understood) for kind, cls in TYPES.items()}
     every_word = {name for names in words.values() for name in names}
     text = word.lower() if isinstance(word, str) else ""
     near = next((part for part in re.split(r"\W+", text) if part in every_word), None) or nearest(text, every_word)

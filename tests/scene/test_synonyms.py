@@ -218,8 +218,7 @@ def test_the_example_of_a_type_is_a_scene(kind: str) -> None:
         line = TYPES[kind].example(d)
         scene = dofkit.loads(
             f"dimension: {d}\nbodies: [crank, rod, wheel]\nparticles: [A, B, C]\ncoordinates: [x, y]\n"
-            f"constraints:\n- {line}\n"
-            + "".join(f"- {joint}\n" for joint in TYPES[kind].words().joints.get(str(d), ()))
+            f"constraints:\n- {line}\n" + "".join(f"- {other}\n" for other in TYPES[kind].example_joints.get(d, ()))
         )
         assert scene.constraints[0].kind() == kind
 

@@ -1,7 +1,6 @@
 """Constraints: one small class for each type, with its equations in its docstring and its facts for all others.
 
-`TYPES` maps every ``type`` to its class. A new type is a class of this folder, a row of `AnyConstraint`, and one of
-`types.yaml`, which has its examples and the words that lead to it.
+`TYPES` maps every ``type`` to its class. A new type is a class of this folder and a row of `AnyConstraint`.
 """
 
 from __future__ import annotations

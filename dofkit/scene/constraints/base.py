@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cache
-from typing import Annotated, ClassVar, Literal, NamedTuple, get_args
+from typing import Annotated, ClassVar, Literal, get_args
 
 from pydantic import BeforeValidator, Field
 
-from dofkit.base.documents import package_table
 from dofkit.base.errors import NoValueError
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.enclosures import approximate
@@ -28,14 +27,6 @@ LETTERS = ("x", "y", "z")
 _TEXTS = ("text", "surface", "curve", "length", "drive")
 
 
-class TypeWords(NamedTuple):
-    """A row of `types.yaml`: lines of a scene by its dimension, the joints that they name, and words for the type."""
-
-    examples: Mapping[str, str]
-    joints: Mapping[str, Sequence[str]] = {}
-    understood: Sequence[str] = ()
-
-
 class ConstraintBase(WrittenModel):
     """A constraint: its fields, and the scalar relations that it yields."""
 
@@ -43,8 +34,14 @@ class ConstraintBase(WrittenModel):
 
     #: The dimensions in which it is defined.
     dimensions: ClassVar[tuple[int, ...]] = (1, 2, 3)
-    #: Other words for the type that are read.
+    #: A line of a scene by its dimension (0: in any): it loads where the bodies crank and rod, the particles A, B and C
+    #: and the coordinates x and y are declared.
+    examples: ClassVar[Mapping[int, str]] = {}
+    #: Lines of joints that the example names, by dimension.
+    example_joints: ClassVar[Mapping[int, tuple[str, ...]]] = {}
+    #: Other words for the type that are read; words that are understood, and only lead to a hint.
     synonyms: ClassVar[tuple[str, ...]] = ()
+    understood: ClassVar[tuple[str, ...]] = ()
     #: Other words for its fields.
     other_keys: ClassVar[Mapping[str, str]] = {}
     #: What everyone else may know of the type.
@@ -62,15 +59,9 @@ class ConstraintBase(WrittenModel):
         return f"a constraint of type '{cls.kind()}'"
 
     @classmethod
-    def words(cls) -> TypeWords:
-        """Return what is said of the type beside its fields."""
-        return TypeWords(**package_table(__package__, "types.yaml")[cls.kind()])
-
-    @classmethod
     def example(cls, dimension: int) -> str:
         """Return one line that would work in a scene of that dimension, or else in another."""
-        examples = cls.words().examples
-        return examples.get(str(dimension)) or examples[max(examples)]
+        return cls.examples.get(dimension) or cls.examples[max(cls.examples)]
 
     def relations(self, world: World) -> Iterable[Relation]:
         """Yield its scalar relations; faults go to the world."""
@@ -137,6 +128,8 @@ class Equation(ConstraintBase):
     """
 
     type: Literal["equation"] = Field(default="equation", description="an equation or inequality as text")
+    examples: ClassVar[Mapping[int, str]] = {0: '"x^2 + y^2 = 4"'}
+    understood: ClassVar[tuple[str, ...]] = ("formula", "relation", "inequality", "pfaffian")
     text: Text = Field(description="the equation, such as `x^2 + y^2 = l^2` or `dy = R cos(theta) dphi`")
     facts: ClassVar[TypeFacts] = TypeFacts(written=True, surface=True)
     symbol: ClassVar[Symbol] = Symbol(run="locus")
@@ -165,6 +158,12 @@ class On(ConstraintBase):
     """
 
     type: Literal["on"] = Field(description="points on a surface or a curve")
+    examples: ClassVar[Mapping[int, str]] = {
+        1: "{type: on, members: [A], surface: x - 1}",
+        2: "{type: on, members: [A], surface: y - x^2}",
+        3: "{type: on, members: [A], surface: z - x^2 - y^2}",
+    }
+    understood: ClassVar[tuple[str, ...]] = ("surface", "curve", "wire", "bead")
     members: tuple[Point, ...] = Field(min_length=1, description="particles or points")
     surface: Text | None = Field(None, description="one equation in x, y, z")
     curve: Annotated[
