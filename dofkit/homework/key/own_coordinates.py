@@ -85,7 +85,7 @@ def offered(key: Key, names: Sequence[str]) -> Key:
 
 
 def _equations(key: Key, name: str) -> list[str]:
-    e = parse_expression(key.also[name], key.names)
+    e = parse_expression(key.also[name], key.declared.names)
     if e.op == "fn" and e.args[0] == "atan2":
         a, b = (to_text(part) for part in e.args[1:])
         for radius in key.declared.constants:
