@@ -41,7 +41,9 @@ def _expected(path: Path) -> set[str]:
     """The paths of the fields that a scene expects."""
     expect = dict(scene_of(path).expect or {})
     of_constraints = expect.pop("constraints", {}).items()
-    return {f"/{key}" for key in expect} | {f"/constraints/{name}/{key}" for name, keys in of_constraints for key in keys}
+    return {f"/{key}" for key in expect} | {
+        f"/constraints/{name}/{key}" for name, keys in of_constraints for key in keys
+    }
 
 
 @pytest.mark.parametrize("path", CATALOG, ids=stem)

@@ -41,7 +41,7 @@ class Key:
 
     @cached_property
     def report(self) -> Report:
-        """Return the strict report of the scene, which an answer's own coordinates with their equations do not change."""
+        """Return the strict report of the scene, which coordinates of an answer with their equations do not change."""
         return strict_report(self.scene) if self.base is None else self.base.report
 
     @cached_property

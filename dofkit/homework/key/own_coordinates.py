@@ -113,10 +113,10 @@ def faults_of_own(key: Key) -> Iterator[Fault]:
         odd = valid_name(name)
         if odd is not None:
             yield Fault(odd, (name,), hint="choose another name")
-        elif key.names.lookup.meaning(name) is not None:
+        elif key.declared.names.lookup.meaning(name) is not None:
             yield Fault(f"`{name}` is a name of the scene already", (name,), hint="choose another name")
         else:
             try:
-                parse_expression(text, key.names)
+                parse_expression(text, key.declared.names)
             except TextError as error:
                 yield Fault(error.message, (name,), column=error.column, hint=error.hint)

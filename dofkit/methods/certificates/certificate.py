@@ -10,7 +10,7 @@ from dofkit.checker.problem import CheckedProblem as Problem
 from dofkit.checker.problem import canonical, problem_of_canonical
 from dofkit.checker.relations import FAULTS, fault_text
 from dofkit.checker.trees import CheckError
-from dofkit.checker.verification import Verifier
+from dofkit.checker.verification import PARTS, Verifier
 from dofkit.methods.certificates import emptiness, fields, freedom, labels
 from dofkit.methods.certificates.context import Context, Told, empty_certificate
 from dofkit.methods.certificates.numerics import NoEstimateError
@@ -52,12 +52,6 @@ LAST = (
     "/growth_vector",
 )
 HINDRANCES = (CheckError, NoEstimateError, RecursionError, KeyError, ValueError, ZeroDivisionError, OverflowError)
-
-
-def certificate_of(document: Mapping[str, Any], report: Report) -> tuple[dict[str, Any], list[tuple[str, str]]]:
-    """The certificate of the claims that the checker accepts, and the claims that evidence contradicts, with why."""
-    making = Certifying(document, report)
-    return making.written(), list(making.contradictions.items())
 
 
 class Certifying:
@@ -155,26 +149,16 @@ def _guarded(candidates: Iterator[Told]) -> Iterator[Told]:
 
 
 def without_spare_parts(certificate: dict[str, Any]) -> dict[str, Any]:
-    """The certificate with only the parts that its claims use."""
-    used = _texts_in(certificate["claims"])
-    for part in ("covers", "minors", "fields", "points"):
-        certificate[part] = [part_entry for part_entry in certificate[part] if part_entry["id"] in used]
-        used |= _texts_in(certificate[part])
-    kept: set[str] = set()
-    while wanted := [
-        part_entry
-        for part_entry in certificate["relations"]
-        if part_entry["id"] not in kept and _needed(part_entry, used)
-    ]:
-        kept |= {part_entry["id"] for part_entry in wanted}
-        used |= _texts_in(wanted)
-    certificate["relations"] = [part_entry for part_entry in certificate["relations"] if part_entry["id"] in kept]
-    return certificate
+    """The certificate with only the parts that its claims use, and the steps that say something of its relations."""
+    used, size = _texts_in(certificate["claims"]), -1
 
+    def needed(part: str) -> list[Told]:
+        return [one for one in certificate[part] if one["id"] in used or (one.get("by") == "implied" and "of" in one)]
 
-def _needed(step: Told, used: set[str]) -> bool:
-    """Whether a step is used, or says something of a relation of the scene."""
-    return (step["by"] == "implied" and "of" in step) or step["id"] in used
+    while len(used) > size:
+        size = len(used)
+        used |= _texts_in([needed(part) for part in PARTS])
+    return certificate | {part: needed(part) for part in PARTS}
 
 
 def _texts_in(value: Any) -> set[str]:
@@ -183,7 +167,7 @@ def _texts_in(value: Any) -> set[str]:
         return {value}
     if isinstance(value, dict):
         return set(value) | {text for item in value.values() for text in _texts_in(item)}
-    return {text for item in value for text in _texts_in(item)} if isinstance(value, list) else set()
+    return set().union(*map(_texts_in, value)) if isinstance(value, list) else set()
 
 
 def _contexts(document: Mapping[str, Any], report: Report, certificate: dict[str, Any]) -> list[Context]:

@@ -65,11 +65,7 @@ def _by_squares(context: Context, name: str) -> Iterator[Told]:
     checked = context.scenery.evidence.relation(name)
     for sign in (1, -1):
         positive = positive_sum(context.scenery, checked.tree, Fraction(sign))
-        if positive is None:
-            continue
-        squares = [[c, text_of(base)] for c, base in positive[1]]
-        claim: Told = {"rule": "nullstellensatz", "number": positive[0], "sos": squares}
-        if checked.kind != "inequality":
-            yield {**claim, "c": {name: number_text(-sign)}}
-        elif sign == -1:
-            yield {**claim, "inequality": {name: [["1", "1"]]}}
+        if positive is not None:
+            squares = [[c, text_of(base)] for c, base in positive[1]]
+            factor = {name: number_text(-sign)}
+            yield {"rule": "nullstellensatz", "number": positive[0], "sos": squares, "c": factor}
