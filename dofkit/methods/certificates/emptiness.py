@@ -11,11 +11,6 @@ from dofkit.methods.certificates.scenery import number_text, text_of
 from dofkit.methods.certificates.steps import constant_cofactors, positive_sum, rate_of
 
 
-def inconsistent(context: Context) -> Iterator[Told]:
-    """No configuration, or no motion, meets the equations."""
-    yield from refutations(context, [relation.name for relation in context.problem.relations])
-
-
 def conflicting(context: Context) -> Iterator[Told]:
     """The constraints that cannot be met together, each of them needed."""
     evidence, members = context.scenery.evidence, context.report.conflicting

@@ -61,7 +61,7 @@ def moving_rows(context: Context) -> list[str]:
 def follows_from_integrals(context: Context, name: str, steps: Sequence[str], alone: bool = False) -> bool:
     """Whether a step was found by which a form follows from integrals, and finite relations if not ``alone``."""
     step = f"{context.scenery.label}{name} from {' and '.join(steps) if alone else 'integrals'}"
-    if context.scenery.has_step(step):
+    if step in context.scenery.steps:
         return True
     sources = [*steps, *(() if alone else context.scenery.evidence.finite)]
     rates = [rate for source in sources if (rate := rate_of(context.scenery, source))]
