@@ -712,7 +712,11 @@ export class Rules {
       refuse(!this.e.at(sub(mul(a, derivative(b, "t")), mul(b, derivative(a, "t"))), point).nonzero, "the pair may be 0");
       return {};
     }
-    refuse(true, "it is not shown to integrate");
+    const alone = this.verified.get(`/constraints/${escaped(name)}/holonomic_alone`);
+    if (alone?.uncovered) uncovered("a label of the constraint alone");
+    refuse(alone?.value !== true, "it is not shown to integrate");
+    refuse(!this.e.at(form.get("t"), point).nonzero, "the coefficient of tdot may be 0");
+    return {};
   }
 
   exact(claim, equations) {
