@@ -31,7 +31,8 @@ LEAST = 0.94
 def _shown(path: Path) -> tuple[int, set[str]]:
     """How many proved claims verify, and what is uncovered; none fails, and nothing contradicts the report."""
     report = strict_report_of(path)
-    verification = verify(document_of_scene(scene_of(path)), json.dumps(report.certificate))
+    scene = path.read_text(encoding="utf-8") if path in CATALOG else document_of_scene(scene_of(path))
+    verification = verify(scene, json.dumps(report.certificate))
     assert not verification.failed
     assert not any("a second program" in warning for warning in report.warnings)
     return sum(told.verdict == "proved" for _, _, told in told_fields(report)), set(verification.uncovered)
@@ -104,8 +105,5 @@ def test_hyphens_of_particles_and_bodies() -> None:
         "constraints": [{"type": "link", "between": ["k-1", "k-2"], "length": 1}, "y_k_1 = 0"],
     }
     report = dofkit.classify(scene, certificate=True)
-    assert report.certificate is not None
-    assert report.dof == 2
-    verification = dofkit.verify(scene, report.certificate)
-    assert verification.verified > 0
-    assert not verification.failed
+    verification = dofkit.verify(scene, report.certificate or {})
+    assert (report.dof, verification.failed, verification.verified > 0) == (2, [], True)
