@@ -95,6 +95,7 @@ def test_verdicts_say_whether_they_are_checked() -> None:
     strict = with_certificate(scene, report, strict=True)
     assert (strict.verdict, strict.verdicts["generalized_coordinates"].verdict) == ("probable", "probable")
     assert strict.verdicts["dof"].verdict == "proved"
+    assert Report.model_validate(strict.model_dump(mode="json")) == strict
     wrong = report.model_copy(update={"instantaneous_dof": 5})
     assert with_certificate(scene, wrong).verdicts["instantaneous_dof"].checked is False
 
