@@ -143,7 +143,11 @@ def without_spare_parts(certificate: dict[str, Any]) -> dict[str, Any]:
     used, size = _texts_in(certificate["claims"]), -1
 
     def needed(part: str) -> list[Told]:
-        return [one for one in certificate[part] if one["id"] in used or (one.get("by") == "implied" and "of" in one)]
+        return [
+            entry
+            for entry in certificate[part]
+            if entry["id"] in used or (entry.get("by") == "implied" and "of" in entry)
+        ]
 
     while len(used) > size:
         size = len(used)
