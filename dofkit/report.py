@@ -61,10 +61,11 @@ def decided(text: str) -> Any:
 class FieldVerdict(ReportModel):
     """How certain a field is: the ``argument`` (a row of `classification/arguments.yaml`), and what it is ``about``.
 
-    ``bound``: for ``probable`` the chance of an error (``2^-40``), for ``numeric`` the ratio that separates zero from
-    non-zero. ``about``: ``reference``, the configurations near the reference configuration; ``component``, those near
-    the report's ``witness``; or ``everywhere``. ``checked``: whether the checker accepted evidence for the field, where
-    a certificate was asked for, else None. A verdict without an argument cannot be constructed: ValidationError.
+    ``bound``: for ``probable`` the chance of an error (``2^-40``), or None where a proof lacks evidence alone; for
+    ``numeric`` the ratio that separates zero from non-zero. ``about``: ``reference``, the configurations near the
+    reference configuration; ``component``, those near the report's ``witness``; or ``everywhere``. ``checked``: whether
+    the checker accepted evidence for the field, where a certificate was asked for, else None. A verdict without an
+    argument cannot be constructed: ValidationError.
     """
 
     verdict: Verdict
@@ -77,7 +78,7 @@ class FieldVerdict(ReportModel):
     def _is_founded(self) -> Self:
         if self.verdict != "undecided" and self.argument is None:
             raise ValueError(f"{self.verdict!r} without an argument")
-        if self.verdict in ("probable", "numeric") and self.bound is None:
+        if self.verdict in ("probable", "numeric") and self.bound is None and self.checked is not False:
             raise ValueError(f"{self.verdict!r} without a bound")
         return self
 

@@ -102,7 +102,7 @@ import json, sys
 from pathlib import Path
 import dofkit
 from dofkit.checker import verify
-from dofkit.methods.certificates.certificate import certificate_of
+from dofkit.methods.certificates.certificate import Certifying
 from dofkit.methods.certificates.lowering import document_of_scene, told_fields
 
 sound = json.loads(Path(sys.argv[1]).read_text()) if sys.argv[1] else None
@@ -121,10 +121,11 @@ for path in sys.argv[2:]:
             proved += [place] if verdict.verdict == "proved" else []
         if sound is None or any(sound.get(path, {}).get(place, values[place]) != values[place] for place in proved):
             document = document_of_scene(scene)
-            certificate, contradicted = certificate_of(document, report)
+            making = Certifying(document, report)
+            certificate = making.written()
             failed = [one["path"] for one in verify(document, certificate).failed] if certificate["claims"] else []
             shown = [claim["path"] for claim in certificate["claims"]]
-            caught = [*map(list, contradicted), *([place, "fails"] for place in failed)]
+            caught = [*map(list, making.contradictions.items()), *([place, "fails"] for place in failed)]
         print(json.dumps([path, values, proved, shown, caught]), flush=True)
     except Exception as error:
         print(json.dumps([path, {}, [], [], [], f"{type(error).__name__}: {error}"[:100]]), flush=True)

@@ -37,8 +37,7 @@ class Surroundings:
 
     ``names``: what texts may mention; ``signs``: of the parameters that stay symbols. ``generic`` grows by a symbol for
     each length or component that was left out, ``counts`` by name; ``drawn`` by the bodies that the drawing
-    places. ``joints``: the constraints by name; ``unread``: those of a type that is not known;
-    ``index``: the place of the constraint that is read, from 1.
+    places. ``joints``: the constraints by name; ``index``: the place of the constraint that is read, from 1.
     """
 
     dimension: int
@@ -50,7 +49,6 @@ class Surroundings:
     counts: dict[str, int] = field(default_factory=dict)
     drawn: set[str] = field(default_factory=set)
     joints: dict[str, Entry] = field(default_factory=dict)
-    unread: list[str] = field(default_factory=list)
     index: int = 0
 
     def expression(self, value: object, *allowed: str) -> Tree:

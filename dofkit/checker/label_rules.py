@@ -1,6 +1,6 @@
 """Rules for the labels of a constraint, for what integrates, and for what can be met and what cannot."""
 
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from itertools import combinations
 from typing import Any
 
@@ -88,51 +88,31 @@ def form_of(evidence: CheckedEvidence, name: str) -> Form:
     return {v: evidence.slope(name, v) for v in evidence.variables if v + "dot" in checked.tree.symbols}
 
 
-def _forms(evidence: CheckedEvidence, claim: Told, single: bool = False) -> dict[str, Form]:
-    """The forms of the claim's constraint, by their names; all, or a single one, that is all it says."""
-    names = constraint_relations(evidence, claim)
-    forms = {name: form_of(evidence, name) for name in names if evidence.relation(name).kind == "velocity"}
-    refuse(not forms or (single and len(names) > 1), "there is no form, or several")
-    return forms
-
-
-def exterior_part(form: Form, i: str, j: str, k: str = "") -> Tree:
-    """A component of the derivative of a form; of the form times its derivative, where three are named."""
-    if k:
-        return add(
-            *(times(form.get(a, ZERO), exterior_part(form, b, c)) for a, b, c in ((i, j, k), (j, k, i), (k, i, j)))
-        )
-    return difference(derivative(form.get(j, ZERO), i), derivative(form.get(i, ZERO), j))
-
-
-def _is_closed(evidence: CheckedEvidence, claim: Told, forms: Collection[Form], size: int) -> bool:
-    """Whether all parts of forms for so many variables are 0; False where one that is named is not, at a point."""
-    named = claim.get("pair" if size == 2 else "triple")
-    if named is None:
-        for form in forms:
-            held = frozenset(form).union(*(part.symbols for part in form.values()))
-            for names in combinations([name for name in evidence.variables if name in held], size):
-                evidence.identity(exterior_part(form, *names), ZERO, f"the part for {', '.join(names)}")
-        return True
-    (form,) = forms
-    refuse(len(named) != size or not set(named) <= set(evidence.variables), "a form has parts for coordinates and t")
-    refuse(not not_zero(evidence.point(claim["at"]).value(exterior_part(form, *named))), "it may be 0 at the point")
-    return False
-
-
-def wedge(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
-    """One form by itself integrates where omega ^ d(omega) = 0 (Frobenius)."""
-    return _is_closed(evidence, claim, _forms(evidence, claim, single=True).values(), 3)
-
-
 def exact(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
     """Forms are exact near every point where they are closed; one is not where a part of its derivative is not 0.
 
     With Cayley parameters forms stand times a factor, which may make them so.
     """
     refuse(claim.get("cayley"), "a body turns by its angles here")
-    forms = _forms(evidence, claim)
-    return _is_closed(evidence, claim, [forms[claim["relation"]]] if "relation" in claim else forms.values(), 2)
+    names = [name for name in constraint_relations(evidence, claim) if evidence.relation(name).kind == "velocity"]
+    forms = {name: form_of(evidence, name) for name in names}
+    refuse(not forms, "there is no form")
+    if "pair" not in claim:
+        for form in forms.values():
+            held = frozenset(form).union(*(part.symbols for part in form.values()))
+            for pair in combinations([name for name in evidence.variables if name in held], 2):
+                evidence.identity(exterior_part(form, *pair), ZERO, f"the part for {' and '.join(pair)}")
+        return True
+    a, b = claim["pair"]
+    part = exterior_part(forms[claim["relation"] if len(forms) > 1 else names[0]], a, b)
+    refuse(not {a, b} <= {*evidence.variables}, "a form has parts for coordinates and t")
+    refuse(not not_zero(evidence.point(claim["at"]).value(part)), "it may be 0 at the point")
+    return False
+
+
+def exterior_part(form: Form, i: str, j: str) -> Tree:
+    """A component of the derivative of a form."""
+    return difference(derivative(form.get(j, ZERO), i), derivative(form.get(i, ZERO), j))
 
 
 def timeless(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
@@ -285,19 +265,18 @@ def moves(evidence: CheckedEvidence, claim: Told, wanted: Sequence[str]) -> Chec
 def refuted(evidence: CheckedEvidence, refutation: Told, verified: Told, names: Sequence[str] | None = None) -> bool:
     """No motion meets equations: a positive number plus squares plus multiples of what is 0 cannot be 0.
 
-    An inequality is refuted by itself, times squares (Krivine 1964, Stengle 1974).
+    An inequality is refuted by itself, times a positive number (Krivine 1964, Stengle 1974).
     """
     held = evidence.closure([checked.name for checked in evidence.problem.relations] if names is None else names, None)
     number = evidence.text(refutation["number"])
     refuse(not evidence.is_nowhere_zero(number, True), "what is left over is not positive")
-    sided = {name: evidence.squares(terms) for name, terms in refutation.get("inequality", {}).items()}
     factors = {name: evidence.text(text) for name, text in refutation.get("c", {}).items()}
-    refuse(sided and len(sided) + len(factors) > 1, "an inequality is refuted by itself")
     total = [number, evidence.squares(refutation.get("sos", []))]
-    for name, factor in (*sided.items(), *factors.items()):
+    for name, factor in factors.items():
         checked = evidence.relation(name)
-        fits = name in held and not checked.leaf and (checked.kind == "inequality") == (name in sided)
-        whole = fits and evidence.has_value_everywhere(factor)
+        alone = len(factors) == 1 and evidence.is_nowhere_zero(factor, True)
+        refuse(checked.kind == "inequality" and not alone, "an inequality is refuted by itself, times what is positive")
+        whole = name in held and not checked.leaf and evidence.has_value_everywhere(factor)
         refuse(not whole, f"`{name}` is not shown to follow everywhere, or has a cofactor without a value")
         total.append(times(factor, checked.tree))
     evidence.identity(substituted(add(*total), {"tdot": ONE}), ZERO, "what is left over")

@@ -191,10 +191,9 @@ def motion(evidence: CheckedEvidence, claim: Told, verified: Told) -> Told:
     lagrangian, lost = (substituted(tree, put) for tree in (energies.lagrangian, energies.dissipation))
     pushes = [(substituted(force, put), substituted(place, put)) for force, place in energies.pushes]
     whole = read(claimed["lagrangian"])
+    evidence.identity(whole, lagrangian, "the Lagrangian")
     for q, text in zip(kept, claimed["equations"], strict=True):
         rate, momentum, force = f"{q}dot", read(claimed["momenta"][q]), read(claimed["forces"][q])
-        for name in (q, rate):
-            evidence.identity(derivative(whole, name), derivative(lagrangian, name), f"the Lagrangian, by {name}")
         work = [times(push, derivative(place, q)) for push, place in pushes]
         outer = add(*work, times(MINUS, derivative(lost, rate)))
         evidence.identity(momentum, derivative(whole, rate), f"the momentum of {q}")

@@ -217,9 +217,7 @@ def _relations(world: Surroundings, scene: Entry, coordinates: Sequence[str]) ->
     world.joints |= named
     for world.index, (owner, entry) in enumerate(named.items(), 1):
         called = entry.get("type", "equation")
-        if called not in TYPES:
-            world.unread.append(owner)
-            continue
+        refuse(called not in TYPES, f"no type of constraint is called {called}")
         read, fields, dimensions = TYPES[called]
         known_fields(entry, f"type name {fields}")
         refuse(str(world.dimension) not in dimensions, f"no {called} is defined in dimension {world.dimension}")

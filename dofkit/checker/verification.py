@@ -35,7 +35,7 @@ TABLE: tuple[tuple[str, str, Rule], ...] = (
     ("/generalized_coordinates", "minor, frobenius", numbers.generalized_coordinates),
     ("holonomic, holonomic_alone", "finite, inequality", labels.by_kind),
     ("holonomic, holonomic_alone", "integral, frobenius", labels.integrable),
-    ("holonomic, holonomic_alone", "bracket", labels.bracket), ("holonomic_alone", "wedge", labels.wedge),
+    ("holonomic, holonomic_alone", "bracket", labels.bracket),
     ("scleronomic, catastatic", "timeless", labels.timeless),
     ("scleronomic, catastatic", "time-dependent", labels.time_dependent),
     ("exact", "exact, not exact", labels.exact), ("integral", "integral", labels.integral),
@@ -117,9 +117,9 @@ class Verifier:
         return self.evidences[cayley]
 
     def run(self) -> Verification:
-        """Every claim in its order; where the type of a constraint is not known, all are uncovered."""
-        unread, whole, uncovered = self.problem.world.unread, self.certificate["claims"], self.certificate["uncovered"]
-        failed, seen, claims = list[dict[str, str]](), set(uncovered), [] if unread else whole
+        """Every claim in its order."""
+        claims, uncovered = self.certificate["claims"], self.certificate["uncovered"]
+        failed, seen = list[dict[str, str]](), set(uncovered)
         for claim in claims:
             path, rule = str(claim.get("path"))[:200], str(claim.get("rule"))[:60]
             try:
@@ -128,9 +128,8 @@ class Verifier:
             except FAULTS as error:
                 failed.append({"path": path, "rule": rule, "why": fault_text(error)})
             seen.add(path)
-        uncovered = uncovered + [str(claim.get("path"))[:200] for claim in whole if unread]
         trusted = self.certificate["scene"].get("readings", {})
-        return Verification(self.name, len(whole), len(claims) - len(failed), failed, uncovered, trusted)
+        return Verification(self.name, len(claims), len(claims) - len(failed), failed, uncovered, trusted)
 
     def check(self, claim: dict[str, Any]) -> None:
         """`CheckError` unless the claim is shown; what was verified before may be used."""

@@ -38,6 +38,8 @@ from dofkit.scene.scene import Scene
 
 #: A scene of more constraints is refused: grading starts with working out all that may be asked of it.
 MOST_CONSTRAINTS = 5000
+#: One choice of many, with which no answer is compared.
+UNASKED = "generalized_coordinates"
 FeedbackLevel = Literal["hint", "full"]
 Visibility = Literal["visible", "after_due_date", "after_published", "hidden"]
 UnreadablePolicy = Literal["review", "zero"]
@@ -268,7 +270,8 @@ def _scene_faults(i: int, problem: Problem, key: Key) -> Iterator[Fault]:
         message = f"the scene of problem '{problem.id}' is inconsistent: {', '.join(key.report.conflicting)}"
         yield Fault(message, ("problems", i, "scene"), hint="no motion satisfies its constraints; correct the scene")
         return
-    if problem.vary and (unproved := [name for name, v in key.report.verdicts.items() if v.verdict != "proved"]):
+    verdicts = {name: v.verdict for name, v in key.report.verdicts.items() if name != UNASKED}
+    if problem.vary and (unproved := [name for name, verdict in verdicts.items() if verdict != "proved"]):
         hint = "choose values for which everything is proved, or ask `dofkit classify --how` why it is not"
         yield Fault(f"the key is not proved ({', '.join(unproved)})", ("problems", i, "vary"), hint=hint)
     for fault in faults_of_own(key):

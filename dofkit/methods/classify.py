@@ -125,6 +125,15 @@ def _classified(loaded: Scene | System, budget: float | None, method: MethodName
     return report.model_copy(update={"warnings": [*report.warnings, _UNWATCHED]})
 
 
+def strict_report(scene: Scene) -> Report:
+    """Return the report in which what is proved was checked; in a browser, which has no checker, the plain one."""
+    if sys.platform == "emscripten":
+        return classify(scene)
+    from dofkit.methods.certificates.lowering import with_certificate
+
+    return with_certificate(scene, classify(scene), strict=True)
+
+
 def derived_flag(scene: SceneLike | System, budget: float | None = None) -> list[int] | None:
     """Return the ranks of I, I', I'', ... at a generic point, down to the largest integrable part.
 

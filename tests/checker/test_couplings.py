@@ -8,7 +8,6 @@ from checker.test_problem import agrees, read
 from checker.values import of_tree
 
 from dofkit.checker import CheckError, verify
-from dofkit.checker.problem import canonical, problem_of_canonical
 
 ARM = """
 dimension: 2
@@ -64,11 +63,8 @@ def test_a_coupling_that_is_unclear_is_an_error(fields: str) -> None:
         read(SLEEVE + f"\n- {{type: coupling, {fields}}}")
 
 
-def test_a_type_that_is_not_known_is_told() -> None:
-    """What it says is not known: nothing of the scene is claimed as verified, and nothing fails."""
+def test_a_type_that_is_not_known_is_refused() -> None:
+    """What it says is not known: nothing of the scene is verified."""
     document = {"coordinates": ["x"], "constraints": [{"name": "odd", "type": "revolut"}, "x = 0"]}
-    assert problem_of_canonical(canonical(document)).world.unread == ["odd"]
-    claims = [{"path": f"/constraints/{name}/holonomic", "value": True, "rule": "finite"} for name in ("odd", "c2")]
-    verification = verify(document, certificate(document, claims, uncovered=["/dof"]))
-    assert (verification.claims, verification.verified, verification.failed) == (2, 0, [])
-    assert verification.uncovered == ["/dof", *(one["path"] for one in claims)]
+    with pytest.raises(CheckError, match="revolut"):
+        verify(document, certificate(document, []))

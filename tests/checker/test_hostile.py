@@ -11,14 +11,13 @@ from typing import Any
 
 import pytest
 from checker.certified import certificate, faults
-from shared.known_scenes import CATALOG, few, report_of, scene_of, spread, stem, swept
+from shared.known_scenes import CATALOG, few, scene_of, spread, stem, strict_report_of, swept
 from shared.tampering import put
 
 from dofkit.checker import CheckError, verify
 from dofkit.checker.problem import canonical, document_of, sha256_of
 from dofkit.checker.ring import CheckedRing
 from dofkit.checker.trees import Effort
-from dofkit.methods.certificates.certificate import certificate_of
 from dofkit.methods.certificates.lowering import document_of_scene
 
 CIRCLE = {"coordinates": ["x", "y"], "constraints": ["x^2 + y^2 = 1"]}
@@ -254,7 +253,7 @@ def _places(value: Any, place: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]
 def test_an_odd_value_in_any_place_is_a_fault_and_no_crash(path: Any) -> None:
     scene, rng = scene_of(path), random.Random(path.stem)
     document = canonical(document_of_scene(scene))
-    given = json.loads(json.dumps(certificate_of(document, report_of(path))[0]))
+    given = json.loads(json.dumps(strict_report_of(path).certificate))
     inside, outside = list(_places(given)), list(_places(document))
     for _ in range(40):
         fate(document, put(given, rng.choice(inside), rng.choice(ODD)))

@@ -9,12 +9,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from shared.known_scenes import CATALOG, few, report_of, scene_of, stem
+from shared.known_scenes import CATALOG, few, report_of, scene_of, stem, strict_report_of
 from shared.tampering import accepted, asserted, edited, renewed, tampered, untrue
 
 import dofkit
 from dofkit.checker import CheckError, verify
-from dofkit.methods.certificates.certificate import certificate_of
 from dofkit.methods.certificates.lowering import document_of_scene
 
 #: How many mutations and edits a scene has.
@@ -24,9 +23,8 @@ MUTATIONS, EDITS = 30, 3
 @cache
 def certified(path: Path) -> tuple[dict[str, Any], dict[str, Any], dict[str, Any]]:
     """A scene's document, its report and its certificate, all as JSON."""
-    document, report = document_of_scene(scene_of(path)), report_of(path)
-    certificate = certificate_of(document, report)[0]
-    return document, report.model_dump(mode="json"), json.loads(json.dumps(certificate))
+    certificate = json.loads(json.dumps(strict_report_of(path).certificate))
+    return document_of_scene(scene_of(path)), report_of(path).model_dump(mode="json"), certificate
 
 
 @pytest.mark.parametrize("path", few("mutated certificates", CATALOG, 12), ids=stem)

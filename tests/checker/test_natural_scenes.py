@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 import yaml
+from checker.test_second_checker import needs_node, second
 from shared.known_scenes import spread
 
 import dofkit
@@ -39,6 +40,14 @@ def test_a_scene_as_people_write_it_has_evidence(line: str) -> None:
 def test_nearly_all_that_is_proved_is_checked() -> None:
     fields = [one for line in SCENES for one in checked(line)]
     assert sum(fields) >= LEAST * len(fields)
+
+
+@needs_node
+def test_the_second_checker_refuses_none_of_it() -> None:
+    reports = [dofkit.classify(yaml.safe_load(line)[0], certificate=True) for line in SCENES[::7]]
+    certificates = [json.loads(json.dumps(report.certificate)) for report in reports]
+    verdicts = second([(certificate["scene"]["document"], certificate) for certificate in certificates])
+    assert "refused" not in {verdict for of_scene in verdicts for verdict in of_scene}
 
 
 READINGS = [

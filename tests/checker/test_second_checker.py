@@ -18,12 +18,11 @@ from typing import Any
 
 import pytest
 from jsonschema import Draft202012Validator
-from shared.known_scenes import CATALOG, SCENES, report_of, scene_of, stem, swept
+from shared.known_scenes import CATALOG, SCENES, scene_of, stem, strict_report_of, swept
 from shared.tampering import edited, renewed, tampered
 
 from dofkit.checker import CheckError, verify
 from dofkit.checker.problem import sha256_of
-from dofkit.methods.certificates.certificate import certificate_of
 from dofkit.methods.certificates.lowering import document_of_scene
 
 NODE = shutil.which("node")
@@ -45,8 +44,7 @@ Case = tuple[dict[str, Any], dict[str, Any]]
 @cache
 def certified(path: Path) -> Case:
     """Return a scene's document and its certificate, as JSON."""
-    document = document_of_scene(scene_of(path))
-    return document, json.loads(json.dumps(certificate_of(document, report_of(path))[0]))
+    return document_of_scene(scene_of(path)), json.loads(json.dumps(strict_report_of(path).certificate))
 
 
 def changed(document: dict[str, Any], certificate: dict[str, Any], rng: random.Random) -> Iterator[Case]:

@@ -499,7 +499,7 @@ def test_a_scene_on_which_dofkit_fails_costs_nobody_the_other_problems(monkeypat
     def classified(scene: Any) -> Any:
         return _breaks() if scene.name == "broken" else classify(scene)
 
-    monkeypatch.setattr("dofkit.homework.key.key.classify", classified)
+    monkeypatch.setattr("dofkit.homework.key.key.strict_report", classified)
     made = [{"id": one, "scene": {**POINT, "name": one}, "questions": QUESTIONS} for one in ("broken", "whole")]
     for feedback in ("hint", "full"):
         prepared = dofkit.load_assignment({"title": "One", "feedback": feedback, "problems": made})

@@ -120,6 +120,18 @@ def test_a_key_that_is_not_proved_is_refused() -> None:
         load_assignment({**SHEET, "problems": [varied]})
 
 
+def test_a_key_has_evidence_and_what_evidence_contradicts_is_for_a_person(monkeypatch: pytest.MonkeyPatch) -> None:
+    sheet = {
+        "title": "Bars",
+        "problems": [{"id": "p", "scene": "four-bar-linkage", "questions": CHAIN["questions"][:1]}],
+    }
+    report = load_assignment(sheet).keys["p"].report
+    assert {told.checked for told in report.verdicts.values() if told.verdict == "proved"} == {True}
+    monkeypatch.setattr("dofkit.methods.classify.classify", lambda scene: report.model_copy(update={"dof": 2}))
+    answer = of_value({"student": "s", "answers": {"p": {"f": 2}}}, "")
+    assert Grader(load_assignment(sheet)).grade(answer).items[0].status == "needs_review"
+
+
 def test_a_class_keeps_its_variants(tmp_path: Path) -> None:
     (tmp_path / "sheet.yaml").write_text(yaml.safe_dump(SHEET))
     (tmp_path / "roster.csv").write_text("name,email\nAda,ada@x\nBo,bo@x\nCy,cy@x\n")

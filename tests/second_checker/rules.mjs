@@ -232,23 +232,17 @@ export class Rules {
     }));
     const constant = claim.number === undefined ? number(0) : this.e.text(claim.number);
     const positive = nowhereZero(constant, this.s.signs, true);
-    const used = Object.entries(claim.inequality ?? {});
-    const strict = [];
+    refuse(!positive, "the number is positive");
+    const used = Object.entries(claim.c ?? {});
     let sum = add(constant, squares(claim.sos));
-    for (const [id, text] of Object.entries(claim.c ?? {})) {
+    for (const [id, text] of used) {
       const r = relations.find((one) => one.id === id);
       if (!r) uncovered("a contradiction by steps");
-      refuse(r.kind === "inequality", `${id} is an inequality`);
-      sum = add(sum, mul(total(this.e.text(text)), substitute(r.tree, rest)));
+      const factor = this.e.text(text);
+      const alone = used.length === 1 && nowhereZero(factor, this.s.signs, true);
+      refuse(r.kind === "inequality" && !alone, `${id} is an inequality`);
+      sum = add(sum, mul(total(factor), substitute(r.tree, rest)));
     }
-    for (const [id, all] of used) {
-      const r = relations.find((one) => one.id === id);
-      refuse(!r || r.kind !== "inequality", `${id} is no inequality`);
-      strict.push(r.strict && all.some(([w, a]) => nowhereZero(mul(this.e.text(w), this.e.text(a)), this.s.signs)));
-      sum = add(sum, mul(squares(all), substitute(r.tree, rest)));
-    }
-    refuse(!positive && !strict.includes(true), "nothing is contradicted");
-    refuse(!isZero(constant) && !positive, "the number is positive");
     if (this.s.relations.some((r) => r.kind !== "inequality" && !isTotal(r.tree))) uncovered("relations that may have no value somewhere");
     refuse(!isZero(sum), "the identity is not one");
     return {};
@@ -640,11 +634,10 @@ export class Rules {
     if (rule === "inequality") refuse(claim.value || equations.length, "it has equations");
     else if (rule === "finite") {
       refuse(!claim.value || own.some((r) => r.kind !== "finite"), "a relation is not finite");
-    } else if (rule === "wedge") this.wedge(claim, equations, alone);
-    else if (rule === "frobenius") {
+    } else if (rule === "frobenius") {
       refuse(!claim.value || equations.length < own.length, "the rule proves true");
       const minor = this.e.minor(claim.minor);
-      this.place(minor.point);
+      if (!alone) this.place(minor.point);
       const all = this.e.closure(ids(relations), minor.point);
       refuse(minor.rows.some((r) => !all.has(r.id)), "a row does not follow from its relations");
       relations.filter((r) => r.kind === "finite").forEach((r) => this.e.needHolds(r, minor.point));
@@ -653,7 +646,7 @@ export class Rules {
     } else if (rule === "integral") {
       refuse(!claim.value || equations.length < own.length, "the rule proves true");
       const point = this.e.point(claim.at);
-      this.place(point);
+      if (!alone) this.place(point);
       const integrals = list(claim.integrals).map((id) => this.e.relation(id));
       refuse(integrals.some((r) => !r.leaf), "integrals are steps");
       const all = this.e.closure(ids(relations), point);
@@ -668,7 +661,7 @@ export class Rules {
       const columns = list(claim.fields).length;
       refuse(!columns, "fields are needed");
       const { point } = this.span({ ...claim, columns: [] }, relations, [], [], claim.covers);
-      this.place(point);
+      if (!alone) this.place(point);
       refuse(list(claim.word).some((id) => !claim.fields.includes(id)), "a word is of the fields");
       const value = this.e.pairing(pairs, this.e.word(claim.word));
       refuse(!this.e.at(value, point).nonzero, "the bracket may be tangent");
@@ -676,27 +669,6 @@ export class Rules {
       else if (equations.some((r) => r.kind === "finite") && this.hasParameters) this.parameters(claim.minor, claim.covers, null, equations);
     } else refuse(true, "another rule");
     return {};
-  }
-
-  oneForm(equations) {
-    refuse(equations.length !== 1 || equations[0].kind !== "velocity", "one form is needed");
-    const form = this.e.form(equations[0]);
-    refuse(!form, "it is not linear in velocities");
-    return form;
-  }
-
-  wedge(claim, equations, alone) {
-    refuse(!alone, "the rule is of the constraint alone");
-    const form = this.oneForm(equations);
-    const names = [...this.s.coordinates, "t"].filter((q) => !tr.isNumber(form.get(q), 0) || [...form.values()].some((c) => c.has(q)));
-    const three = (x, y, z) => add(...[[x, y, z], [y, z, x], [z, x, y]].map(([a, b, c]) => mul(form.get(a), curl(form, b, c))));
-    if (!claim.value) {
-      const triple = list(claim.triple);
-      refuse(triple.length !== 3 || triple.some((q) => !form.has(q)), "three names are needed");
-      refuse(!this.e.at(three(...triple), this.e.point(claim.at)).nonzero, "the triple may be 0");
-      return;
-    }
-    names.forEach((x, i) => names.slice(i + 1).forEach((y, j) => names.slice(i + j + 2).forEach((z) => refuse(!isZero(three(x, y, z)), "the form does not integrate"))));
   }
 
   timeLabel(claim, name, own, field) {
@@ -740,7 +712,11 @@ export class Rules {
       refuse(!this.e.at(sub(mul(a, derivative(b, "t")), mul(b, derivative(a, "t"))), point).nonzero, "the pair may be 0");
       return {};
     }
-    refuse(true, "it is not shown to integrate");
+    const alone = this.verified.get(`/constraints/${escaped(name)}/holonomic_alone`);
+    if (alone?.uncovered) uncovered("a label of the constraint alone");
+    refuse(alone?.value !== true, "it is not shown to integrate");
+    refuse(!this.e.at(form.get("t"), point).nonzero, "the coefficient of tdot may be 0");
+    return {};
   }
 
   exact(claim, equations) {

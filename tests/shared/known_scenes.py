@@ -14,6 +14,7 @@ from zlib import crc32
 import pytest
 
 import dofkit
+from dofkit.methods.certificates.lowering import with_certificate
 from dofkit.report import Report
 from dofkit.scene.scene import Scene
 
@@ -39,6 +40,12 @@ def scene_of(path: Path) -> Scene:
 @cache
 def report_of(path: Path) -> Report:
     return dofkit.classify(scene_of(path))
+
+
+@cache
+def strict_report_of(path: Path) -> Report:
+    """Where what is proved was checked: with its certificate."""
+    return with_certificate(scene_of(path), report_of(path), strict=True)
 
 
 def few(what: str, paths: Sequence[Path], of: int, always: Collection[str] = ()) -> list[Any]:

@@ -183,7 +183,7 @@ class EquationComparison:
 
     def _is_product(self, text: str) -> bool:
         """Return whether an equation sets a product of several factors to 0: it holds on more than one surface."""
-        (c,) = parse_relations(text, self.key.names)
+        (c,) = parse_relations(text, self.key.declared.names)
         e = c.left - c.right if not c.right.is_zero else c.left
         return e.op == "mul" and sum(any(s.args[0] != "parameter" for s in f.symbols) for f in e.args) > 1
 
@@ -251,7 +251,7 @@ def _equations(key: Key, name: str) -> str:
 
 def _sayable(key: Key, expr: Expr) -> bool:
     """Return whether all names in it are declared, except lengths without a name."""
-    declared = {*key.names.coordinates, *key.names.parameters}
+    declared = {*key.declared.names.coordinates, *key.declared.names.parameters}
     return all(
         s.args[0] == "time" or str(s.args[-1]) in declared or _UNNAMED.fullmatch(str(s.args[-1])) for s in expr.symbols
     )

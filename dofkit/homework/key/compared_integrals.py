@@ -70,7 +70,7 @@ def _with_constants(reading: AnswerReading, key: Key) -> Read:
     relations = []
     for c, bare in zip(reading.relations, reading.bare, strict=True):
         if bare and not reading.undeclared:
-            fresh = next(n for n in _FRESH if n not in constants and key.names.lookup.meaning(n) is None)
+            fresh = next(n for n in _FRESH if n not in constants and key.declared.names.lookup.meaning(n) is None)
             constants.add(fresh)
             c = Comparison(c.left, "=", parameter(fresh), c.column)
         relations.append(c)

@@ -8,10 +8,9 @@ from functools import cached_property
 from typing import Any, Literal, TypeVar, cast
 
 from dofkit.base.errors import DofkitError
-from dofkit.expressions.text import Names
 from dofkit.homework.answers.declared import DeclaredNames
 from dofkit.homework.key.right_motion import RightMotion, right_motion_or_why
-from dofkit.methods.classify import classify
+from dofkit.methods.classify import strict_report
 from dofkit.report import ConstraintEntry, Report
 from dofkit.scene.constraints.base import Equation
 from dofkit.scene.lowering import lower
@@ -42,8 +41,8 @@ class Key:
 
     @cached_property
     def report(self) -> Report:
-        """Return the report of the scene, which an answer's own coordinates, each with its equation, do not change."""
-        return classify(self.scene) if self.base is None else self.base.report
+        """Return the strict report of the scene, which coordinates of an answer with their equations do not change."""
+        return strict_report(self.scene) if self.base is None else self.base.report
 
     @cached_property
     def system(self) -> System:
@@ -72,11 +71,6 @@ class Key:
     def declared(self) -> DeclaredNames:
         """Return what an answer's texts may mention."""
         return DeclaredNames.of(self.scene, self.also)
-
-    @property
-    def names(self) -> Names:
-        """The names of formulas."""
-        return self.declared.names
 
     @cached_property
     def coordinates(self) -> list[str]:

@@ -85,7 +85,7 @@ def offered(key: Key, names: Sequence[str]) -> Key:
 
 
 def _equations(key: Key, name: str) -> list[str]:
-    e = parse_expression(key.also[name], key.names)
+    e = parse_expression(key.also[name], key.declared.names)
     if e.op == "fn" and e.args[0] == "atan2":
         a, b = (to_text(part) for part in e.args[1:])
         for radius in key.declared.constants:
@@ -113,10 +113,10 @@ def faults_of_own(key: Key) -> Iterator[Fault]:
         odd = valid_name(name)
         if odd is not None:
             yield Fault(odd, (name,), hint="choose another name")
-        elif key.names.lookup.meaning(name) is not None:
+        elif key.declared.names.lookup.meaning(name) is not None:
             yield Fault(f"`{name}` is a name of the scene already", (name,), hint="choose another name")
         else:
             try:
-                parse_expression(text, key.names)
+                parse_expression(text, key.declared.names)
             except TextError as error:
                 yield Fault(error.message, (name,), column=error.column, hint=error.hint)

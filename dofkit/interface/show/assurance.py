@@ -59,7 +59,9 @@ def reservation(report: Report) -> str:
     bounds += [
         f.bound for e in report.constraints for f in e.verdicts.values() if f.verdict == report.verdict and f.bound
     ]
-    if report.verdict == "probable" and bounds:
+    if report.verdict == "probable" and not bounds:
+        return "no evidence for the checker (details: --how)"
+    if report.verdict == "probable":
         digits = min(int(int(bound.removeprefix("2^-")) * log10(2)) for bound in bounds)
         return f"chance of error below 1e-{digits} (details: --how)"
     if report.verdict == "numeric" and bounds:
@@ -132,8 +134,7 @@ def _because(entry: FieldVerdict, method: str) -> str:
     """Return the argument in parentheses, with the chance of an error or the gap."""
     if entry.verdict == "undecided":
         return ""
-    means = (
-        f"chance of error below {entry.bound}" if entry.verdict == "probable" else _gap(entry.bound or "inf", method)
-    )
+    chance = f"chance of error below {entry.bound}" if entry.bound else "no evidence for the checker"
+    means = chance if entry.verdict == "probable" else _gap(entry.bound or "inf", method)
     where = _NEAR.get(entry.about or "", "")
     return f" ({entry.argument}; {means}{where})"

@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import suppress
+from functools import partial
 from typing import Any
 
 from dofkit.checker.evidence import CheckedEvidence
-from dofkit.checker.problem import CheckedProblem as Problem
 from dofkit.checker.problem import canonical, problem_of_canonical
 from dofkit.checker.relations import FAULTS, fault_text
 from dofkit.checker.trees import CheckError
-from dofkit.checker.verification import Verifier
+from dofkit.checker.verification import PARTS, Verifier
 from dofkit.methods.certificates import emptiness, fields, freedom, labels
 from dofkit.methods.certificates.context import Context, Told, empty_certificate
 from dofkit.methods.certificates.numerics import NoEstimateError
 from dofkit.methods.certificates.scenery import FAR, Scenery
-from dofkit.report import ConstraintEntry, Report
+from dofkit.report import Report
 
 Maker = Callable[[Context], Iterator[Told]]
 
@@ -36,7 +37,7 @@ NUMBERS: dict[str, Maker] = {
     "growth_vector": fields.growth_vector,
     "conflicting": emptiness.conflicting,
 }
-LABELS: dict[str, Callable[[Context, ConstraintEntry, str], Iterator[Told]]] = {
+LABELS: dict[str, Callable[..., Iterator[Told]]] = {
     "holonomic": labels.holonomic,
     "holonomic_alone": labels.holonomic,
     "exact": labels.exact,
@@ -52,12 +53,6 @@ LAST = (
     "/growth_vector",
 )
 HINDRANCES = (CheckError, NoEstimateError, RecursionError, KeyError, ValueError, ZeroDivisionError, OverflowError)
-
-
-def certificate_of(document: Mapping[str, Any], report: Report) -> tuple[dict[str, Any], list[tuple[str, str]]]:
-    """The certificate of the claims that the checker accepts, and the claims that evidence contradicts, with why."""
-    making = Certifying(document, report)
-    return making.written(), list(making.contradictions.items())
 
 
 class Certifying:
@@ -97,17 +92,14 @@ class Certifying:
         """A claim that the checker accepts, or None; where the evidence for it gives another value, that is noted."""
         contradicted = ""
         for context in self.contexts:
-            for evidence in _guarded(make(context)):
-                claim = {
-                    "path": path,
-                    "value": value,
-                    **evidence,
-                    **({"cayley": True} if context.scenery.cayley else {}),
-                }
-                if (fault := self._fault(claim, context.scenery.evidence)) is None:
-                    return claim
-                if fault.startswith("the evidence gives") and self._is_of_same_points(context, claim):
-                    contradicted = contradicted or fault
+            chart = {"cayley": True} if context.scenery.cayley else {}
+            with suppress(*HINDRANCES):
+                for evidence in make(context):
+                    claim = {"path": path, "value": value, **evidence, **chart}
+                    if (fault := self._fault(claim, context.scenery.evidence)) is None:
+                        return claim
+                    if fault.startswith("the evidence gives") and self._is_of_same_points(context, claim):
+                        contradicted = contradicted or fault
         if contradicted and is_proved:
             self.contradictions[path] = contradicted
         return None
@@ -146,35 +138,21 @@ def _has_stationary_row(context: Context) -> bool:
     return any(all(abs(value) <= FAR for value in row.values()) for row in rows)
 
 
-def _guarded(candidates: Iterator[Told]) -> Iterator[Told]:
-    """Yield candidates until something stands in the way."""
-    try:
-        yield from candidates
-    except HINDRANCES:
-        return
-
-
 def without_spare_parts(certificate: dict[str, Any]) -> dict[str, Any]:
-    """The certificate with only the parts that its claims use."""
-    used = _texts_in(certificate["claims"])
-    for part in ("covers", "minors", "fields", "points"):
-        certificate[part] = [part_entry for part_entry in certificate[part] if part_entry["id"] in used]
-        used |= _texts_in(certificate[part])
-    kept: set[str] = set()
-    while wanted := [
-        part_entry
-        for part_entry in certificate["relations"]
-        if part_entry["id"] not in kept and _needed(part_entry, used)
-    ]:
-        kept |= {part_entry["id"] for part_entry in wanted}
-        used |= _texts_in(wanted)
-    certificate["relations"] = [part_entry for part_entry in certificate["relations"] if part_entry["id"] in kept]
-    return certificate
+    """The certificate with only the parts that its claims use, and the steps that say something of its relations."""
+    used, size = _texts_in(certificate["claims"]), -1
 
+    def needed(part: str) -> list[Told]:
+        return [
+            entry
+            for entry in certificate[part]
+            if entry["id"] in used or (entry.get("by") == "implied" and "of" in entry)
+        ]
 
-def _needed(step: Told, used: set[str]) -> bool:
-    """Whether a step is used, or says something of a relation of the scene."""
-    return (step["by"] == "implied" and "of" in step) or step["id"] in used
+    while len(used) > size:
+        size = len(used)
+        used |= _texts_in([needed(part) for part in PARTS])
+    return certificate | {part: needed(part) for part in PARTS}
 
 
 def _texts_in(value: Any) -> set[str]:
@@ -183,7 +161,7 @@ def _texts_in(value: Any) -> set[str]:
         return {value}
     if isinstance(value, dict):
         return set(value) | {text for item in value.values() for text in _texts_in(item)}
-    return {text for item in value for text in _texts_in(item)} if isinstance(value, list) else set()
+    return set().union(*map(_texts_in, value)) if isinstance(value, list) else set()
 
 
 def _contexts(document: Mapping[str, Any], report: Report, certificate: dict[str, Any]) -> list[Context]:
@@ -192,40 +170,28 @@ def _contexts(document: Mapping[str, Any], report: Report, certificate: dict[str
     contexts = [Context(report, Scenery(plain, False, certificate))]
     bodies = frozenset(plain.world.frames) - {"ground"}
     if plain.world.dimension == 3 and bodies and plain.reference:
-        chart = _with_cayley(document, bodies)
-        if chart is not None:
-            certificate["cayley"] = sorted(bodies)
+        with suppress(CheckError):
+            chart = problem_of_canonical(document, bodies)
             contexts.insert(0, Context(report, Scenery(chart, True, certificate)))
+            certificate["cayley"] = sorted(bodies)
     return contexts
-
-
-def _with_cayley(document: Mapping[str, Any], bodies: frozenset[str]) -> Problem | None:
-    try:
-        return problem_of_canonical(document, bodies)
-    except CheckError:
-        return None
 
 
 def _asked(report: Report) -> Iterator[tuple[str, Any, Maker]]:
     """The claims that are said to be proved, or numbers that are probable: path, value, how evidence is looked for."""
     document = report.model_dump(mode="json")
     for field, verdict in report.verdicts.items():
-        if verdict.verdict in ("proved", "probable") and field in NUMBERS:
-            yield f"/{field}", document[field], NUMBERS[field]
-        elif verdict.verdict == "proved":
-            yield f"/{field}", document[field], _nothing
+        make = NUMBERS.get(field, _nothing)
+        if verdict.verdict == "proved" or (verdict.verdict == "probable" and field in NUMBERS):
+            yield f"/{field}", document[field], make
     for entry, values in zip(report.constraints, document["constraints"], strict=True):
         name = entry.name.replace("~", "~0").replace("/", "~1")
         for field, verdict in sorted(entry.verdicts.items(), key=lambda item: item[0] == "scleronomic"):
             if verdict.verdict == "proved":
-                yield f"/constraints/{name}/{field}", values[field], _label_maker(entry, field)
+                of_entry = partial(LABELS.get(field, _nothing), entry=entry, field=field)
+                yield f"/constraints/{name}/{field}", values[field], of_entry
 
 
-def _nothing(context: Context) -> Iterator[Told]:
+def _nothing(*_: object, **__: object) -> Iterator[Told]:
     """No rule is known."""
     yield from ()
-
-
-def _label_maker(entry: ConstraintEntry, field: str) -> Maker:
-    make = LABELS.get(field)
-    return lambda context: make(context, entry, field) if make else iter(())

@@ -38,7 +38,7 @@ def families(context: Context, size: int) -> Iterator[Told]:
     assumed = []
     for i, text in enumerate(_linear_relations(context, _samples(context))):
         step = f"{scenery.label}family {i}"
-        if not scenery.has_step(step):
+        if step not in scenery.steps:
             scenery.add_step({"id": step, "by": "assumed", "function": text})
         assumed.append(step)
     standing = context.standing_of([*assumed, *scenery.evidence.finite])
@@ -295,7 +295,7 @@ def stationary(context: Context) -> Iterator[Told]:
 
 def _motions_from(context: Context, standing: Standing, size: int) -> Iterator[Told]:
     """Yield ``size`` motions from the point: rigid ones of all together, none, or a family."""
-    fields = kept_motions(context, standing.point) if size else {}
+    fields = kept_motions(context, context.scenery.evidence.finite, standing.point) if size else {}
     if len(fields) == size:
         orbit_of = {"fields": list(fields), "words": [[name] for name in fields], "columns": list(fields.values())}
         yield {"rule": "span", "at": standing.point.name, "rows": list(context.scenery.evidence.finite), **orbit_of}

@@ -11,11 +11,6 @@ from dofkit.methods.certificates.scenery import number_text, text_of
 from dofkit.methods.certificates.steps import constant_cofactors, positive_sum, rate_of
 
 
-def inconsistent(context: Context) -> Iterator[Told]:
-    """No configuration, or no motion, meets the equations."""
-    yield from refutations(context, [relation.name for relation in context.problem.relations])
-
-
 def conflicting(context: Context) -> Iterator[Told]:
     """The constraints that cannot be met together, each of them needed."""
     evidence, members = context.scenery.evidence, context.report.conflicting
@@ -65,11 +60,7 @@ def _by_squares(context: Context, name: str) -> Iterator[Told]:
     checked = context.scenery.evidence.relation(name)
     for sign in (1, -1):
         positive = positive_sum(context.scenery, checked.tree, Fraction(sign))
-        if positive is None:
-            continue
-        squares = [[c, text_of(base)] for c, base in positive[1]]
-        claim: Told = {"rule": "nullstellensatz", "number": positive[0], "sos": squares}
-        if checked.kind != "inequality":
-            yield {**claim, "c": {name: number_text(-sign)}}
-        elif sign == -1:
-            yield {**claim, "inequality": {name: [["1", "1"]]}}
+        if positive is not None:
+            squares = [[c, text_of(base)] for c, base in positive[1]]
+            factor = {name: number_text(-sign)}
+            yield {"rule": "nullstellensatz", "number": positive[0], "sos": squares, "c": factor}

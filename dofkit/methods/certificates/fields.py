@@ -48,33 +48,30 @@ def backing(context: Context, standing: Standing | None) -> Told | None:
 def covering(context: Context, standing: Standing) -> list[Told] | None:
     """Blocks of relations whose rank is told by how many there are, or by rigid motions."""
     scenery, blocks = context.scenery, []
-    candidates = motions(context.problem.world)
     accounted = {*standing.rows, *standing.dependent}
-    finite = [name for name in scenery.evidence.finite if name in accounted]
-    for names in parts_of(scenery, finite):
+    for names in parts_of(scenery, [name for name in scenery.evidence.finite if name in accounted]):
         rank = sum(row in names for row in standing.rows)
-        if rank == len(names):
-            blocks.append({"rows": names, "fields": [], "columns": []})
-            continue
-        held = {symbol for name in names for symbol in scenery.evidence.relation(name).tree.symbols}
-        variables = [q for q in context.problem.coordinates if q in held]
-        fields = [{q: text for q, text in motion.items() if q in held} for motion in candidates]
-        columns = _chosen(scenery, fields, standing)
-        ids = [scenery.entry_id("fields", {"components": fields[place]}) for place, _ in columns]
-        if len(variables) - rank != len(ids) or not _kept(scenery, ids, names):
+        fields = kept_motions(context, names, standing.point) if rank < len(names) else {}
+        variables = held_by(scenery, names).intersection(context.problem.coordinates)
+        if rank < len(names) and len(variables) - rank != len(fields):
             return None
-        blocks.append({"rows": names, "fields": ids, "columns": [column for _, column in columns]})
+        blocks.append({"rows": names, "fields": list(fields), "columns": list(fields.values())})
     return blocks
 
 
-def kept_motions(context: Context, point: FoundPoint) -> dict[str, str]:
-    """Motions of all together that keep all finite relations, each with a column: independent at the point."""
-    scenery = context.scenery
-    finite = list(scenery.evidence.finite)
-    ids = [scenery.entry_id("fields", {"components": motion}) for motion in motions(context.problem.world)]
-    kept = [motion for motion in ids if _kept(scenery, [motion], finite)]
-    fields = [field_named(scenery.evidence, motion) for motion in kept]
-    rows = [{q: point.estimates.value(tree) for q, tree in motion.items()} for motion in fields]
+def held_by(scenery: Scenery, names: Sequence[str]) -> frozenset[str]:
+    """The symbols in relations."""
+    return frozenset[str]().union(*(scenery.evidence.relation(name).tree.symbols for name in names))
+
+
+def kept_motions(context: Context, names: Sequence[str], point: FoundPoint) -> dict[str, str]:
+    """Rigid motions of what relations hold that keep these, each with a column: independent at the point."""
+    scenery, held = context.scenery, held_by(context.scenery, names)
+    fields = [{q: text for q, text in motion.items() if q in held} for motion in motions(context.problem.world)]
+    ids = [scenery.entry_id("fields", {"components": field}) for field in fields]
+    kept = [motion for motion in ids if _is_kept(scenery, motion, names)]
+    components = [field_named(scenery.evidence, motion) for motion in kept]
+    rows = [{q: point.estimates.value(tree) for q, tree in field.items()} for field in components]
     return {kept[p.row]: p.column for p in echelon(rows).pivots}
 
 
@@ -89,17 +86,10 @@ def parts_of(scenery: Scenery, names: Sequence[str]) -> list[list[str]]:
     return list(groups.values())
 
 
-def _chosen(scenery: Scenery, fields: list[dict[str, str]], standing: Standing) -> list[tuple[int, str]]:
-    """Independent fields at the point, each with a column."""
-    estimates = standing.point.estimates
-    rows = [{q: estimates.value(scenery.evidence.text(text)) for q, text in field.items()} for field in fields]
-    return [(p.row, p.column) for p in echelon(rows).pivots]
-
-
-def _kept(scenery: Scenery, ids: Sequence[str], names: Sequence[str]) -> bool:
-    """Return whether fields are tangent to relations, identically."""
+def _is_kept(scenery: Scenery, motion: str, names: Sequence[str]) -> bool:
+    """Whether a field is tangent to relations, identically."""
     try:
-        tangent(scenery.evidence, ([name] for name in ids), names)
+        tangent(scenery.evidence, [[motion]], names)
     except CheckError:
         return False
     return True

@@ -8,7 +8,7 @@ from typing import Any
 
 from dofkit.methods.certificates.context import Context, Told, states_of
 from dofkit.methods.certificates.dimension import everywhere, families, stationary, velocities_everywhere
-from dofkit.methods.certificates.emptiness import inconsistent
+from dofkit.methods.certificates.emptiness import refutations
 from dofkit.methods.certificates.fields import backing, integrable_names, involutive_rows, orbit
 from dofkit.methods.certificates.labels import integral_of_text
 from dofkit.methods.certificates.points import FoundPoint
@@ -18,7 +18,7 @@ from dofkit.report import ConstraintEntry
 def consistent(context: Context) -> Iterator[Told]:
     """A point with a motion through it."""
     if context.report.consistent is False:
-        yield from inconsistent(context)
+        yield from refutations(context, [relation.name for relation in context.problem.relations])
         return
     standing, inequalities = context.standing, _inequalities(context)
     if standing is None or inequalities is None:

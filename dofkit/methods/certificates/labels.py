@@ -61,7 +61,7 @@ def moving_rows(context: Context) -> list[str]:
 def add_step_from_integrals(context: Context, name: str, steps: Sequence[str], alone: bool = False) -> bool:
     """Add the step by which a form follows from integrals, and finite relations if not ``alone``; return whether."""
     step = f"{context.scenery.label}{name} from {' and '.join(steps) if alone else 'integrals'}"
-    if context.scenery.has_step(step):
+    if step in context.scenery.steps:
         return True
     sources = [*steps, *(() if alone else context.scenery.evidence.finite)]
     rates = [rate for source in sources if (rate := rate_of(context.scenery, source))]
@@ -176,64 +176,38 @@ def holonomic(context: Context, entry: ConstraintEntry, field: str) -> Iterator[
         yield {"rule": "finite"}
         return
     alone = field == "holonomic_alone"
-    names = list(evidence.owned(entry.name))
-    if alone and len(names) == 1 and getattr(entry, field) is True:
-        yield {"rule": "wedge"}
     if getattr(entry, field) is False:
-        if alone and len(names) == 1 and (claim := _wedge(context, names[0])):
-            yield claim
-        if claim := _reached(context, entry.name, alone):
-            yield claim
+        yield from _reached(context, entry.name, alone)
         return
-    if claim := _integrated(context, entry):
-        yield claim
-    yield from involutive_rows(context, names if alone else integrable_names(context))
+    yield from _integrated(context, entry)
+    yield from involutive_rows(context, list(evidence.owned(entry.name)) if alone else integrable_names(context))
 
 
-def _wedge(context: Context, name: str) -> Told | None:
-    """A point and three variables where omega ^ d(omega) is not 0."""
-    point = context.point
-    form = form_or_none(context, name)
-    if point is None or form is None:
-        return None
-    triple = _not_closed(context, form, point, 3)
-    return {"rule": "wedge", "at": point.name, "triple": triple} if triple else None
-
-
-def _not_closed(context: Context, form: Components, point: FoundPoint, size: int) -> list[str] | None:
-    """Return so many variables for which a part of d(omega), or of omega ^ d(omega), is not 0 at a point."""
-    variables = [v for v in context.scenery.evidence.variables if v in variables_of(form)]
-    for names in combinations(variables, size):
-        if context.scenery.differs(exterior_part(form, *names), point.estimates):
-            return list(names)
-    return None
-
-
-def _reached(context: Context, owner: str, alone: bool) -> Told | None:
-    """A word of brackets that a form of the constraint does not allow."""
+def _reached(context: Context, owner: str, alone: bool) -> Iterator[Told]:
+    """Yield a word of brackets that a form of the constraint does not allow."""
     evidence = context.scenery.evidence
-    standing = context.standing_of(evidence.owned(owner)) if alone else context.standing
-    if standing is None or context.nonlinear or not (alone or standing.accounted):
-        return None
+    names = evidence.owned(owner) if alone else context.equations
+    standing = context.standing_of(names) if alone else context.standing
+    if standing is None or not (alone or standing.accounted) or not all(map(context.scenery.linear, names)):
+        return
     words = words_of(context, standing, len(context.problem.coordinates) + 1 if alone else reach(context))
     if words is None:
-        return None
+        return
     for name in evidence.owned(owner, ("velocity",)):
         for word, vector in zip(words.words, words.vectors, strict=True):
             if len(word) > 1 and abs(pairing(context, name, standing.point, vector)) > FAR:
                 used = {"fields": words.fields, "rows": words.rows, "word": word, "pairs": name}
                 if any(map(evidence.is_open, (evidence.relation(other).tree for other in evidence.finite))):
                     used["minor"] = context.minor(standing)
-                return {"rule": "bracket", "at": standing.point.name, **used}
-    return None
+                yield {"rule": "bracket", "at": standing.point.name, **used}
+                return
 
 
-def _integrated(context: Context, entry: ConstraintEntry) -> Told | None:
-    """Return the rule `integral` for a constraint of one equation whose integral is known, or None."""
+def _integrated(context: Context, entry: ConstraintEntry) -> Iterator[Told]:
+    """Yield the rule `integral` for a constraint of one equation whose integral is known."""
     names = context.scenery.evidence.owned(entry.name)
-    if len(names) != 1 or context.point is None or (step := integral_alone(context, entry, names[0])) is None:
-        return None
-    return {"rule": "integral", "at": context.point.name, "integrals": [step]}
+    if len(names) == 1 and context.point is not None and (step := integral_alone(context, entry, names[0])):
+        yield {"rule": "integral", "at": context.point.name, "integrals": [step]}
 
 
 def integral_text(entry: ConstraintEntry) -> str | None:
@@ -269,15 +243,16 @@ def exact(context: Context, entry: ConstraintEntry, field: str) -> Iterator[Told
     if entry.exact:
         yield {"rule": "exact"}
         return
-    if context.scenery.cayley:
+    evidence, point = context.scenery.evidence, context.point
+    if context.scenery.cayley or point is None:
         return
-    names, point = context.scenery.evidence.owned(entry.name, ("velocity",)), context.point
-    if point is None:
-        return
+    names = evidence.owned(entry.name, ("velocity",))
     for name in names:
-        if pair := _not_closed(context, form_or_none(context, name) or {}, point, 2):
-            which = {"relation": name} if len(names) > 1 else {}
-            yield {"rule": "not exact", "at": point.name, "pair": pair, **which}
+        form = form_or_none(context, name) or {}
+        which = {"relation": name} if len(names) > 1 else {}
+        for pair in combinations([v for v in evidence.variables if v in variables_of(form)], 2):
+            if context.scenery.differs(exterior_part(form, *pair), point.estimates):
+                yield {"rule": "not exact", "at": point.name, "pair": list(pair), **which}
 
 
 def time_evidence(context: Context, entry: ConstraintEntry, field: str) -> Iterator[Told]:

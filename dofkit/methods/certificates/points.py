@@ -232,15 +232,11 @@ class PointSearch:
         if all(abs(float(short[name]) - floats[name]) < 1e-11 for name in columns):
             values = {**exact, **short}
             if self._holds(values, rows):
-                texts = {name: number_text(value) for name, value in self._ordered(values).items()}
+                texts = {name: number_text(value) for name, value in values.items()}
                 return FoundPoint("P", texts, dict(floats), self.scenery.functions, rank=len(rows))
-        texts = {name: number_text(value) for name, value in self._ordered(exact).items()}
+        texts = {name: number_text(value) for name, value in exact.items()}
         centre = {name: number_text(Fraction(repr(floats[name]))) for name in columns}
         return FoundPoint("P", texts | centre, dict(floats), self.scenery.functions, rows, columns, len(rows))
-
-    def _ordered(self, values: Mapping[str, Fraction]) -> dict[str, Fraction]:
-        first = [name for name in self.scenery.parameters if name in values]
-        return {name: values[name] for name in (*first, *(n for n in values if n not in first))}
 
     def _holds(self, values: Mapping[str, Fraction], names: Sequence[str]) -> bool:
         """Whether relations have the value 0 at rational values, and the checker can show that they are exactly 0."""

@@ -141,10 +141,6 @@ class Scenery:
         except NoEstimateError:
             return False
 
-    def has_step(self, name: str) -> bool:
-        """Return whether there is such a step."""
-        return name in self.steps
-
     def add_step(self, step: dict[str, Any]) -> None:
         """A further step, if it stands up; `CheckError` where it does not."""
         before = dict(self.evidence.by_name), list(self.evidence.consequences)

@@ -35,7 +35,7 @@ def _is_accepted(scenery: Scenery, *steps: Step) -> bool:
     """Return whether steps stand up, one after the other; those that are there already do."""
     try:
         for step in steps:
-            if not scenery.has_step(str(step["id"])):
+            if str(step["id"]) not in scenery.steps:
                 scenery.add_step(step)
     except CheckError:
         return False
@@ -189,7 +189,7 @@ def accounted(scenery: Scenery, name: str, rows: Sequence[str], point: FoundPoin
     if dependent.kind == "velocity":
         sources += [rate for row in rows if row not in sources and (rate := rate_of(scenery, row))]
     step = f"{scenery.label}{name} from {what}"
-    if scenery.has_step(step):
+    if step in scenery.steps:
         return True
     try:
         if (factors := constant_cofactors(scenery, dependent.tree, sources)) is not None:
