@@ -59,7 +59,7 @@ MAX_MULTIPLE, PARTS = 240, 24
 #: More relations than this are not searched for a proof that they have no real solution.
 MAX_RELATIONS = 40
 FIXED = "at the points that were found the geometric equations fix the time: no motion passes through them"
-EMPTY = "no real configuration satisfies all equations: interval bounds exclude every real solution"
+EMPTY = "no real configuration satisfies all equations: signs of terms, or a resultant, exclude every real solution"
 
 
 def find(chart: Chart, pose: Mapping[Expr, Expr], seed: int = 0) -> Variety:
