@@ -73,7 +73,7 @@ def find(chart: Chart, pose: Mapping[Expr, Expr], seed: int = 0) -> Variety:
     timed = chart.time is not None and variety.consistent is None and "field" in chart.setting.engines
     if timed:
         variety = by_cases(chart, variety, find_variety)
-    near = near_singular_point(chart, variety)
+    near = near_singular_point(chart, variety) if variety.consistent is None else variety
     unseen = near is variety and (variety.consistent is not True or ALLOWING in variety.reasons)
     looked = {"field", "balls"} <= chart.setting.engines and unseen and variety.verdict != "proved"
     if looked and len(chart.relations) <= MAX_RELATIONS and no_solution(chart.relations, chart.setting.positive):

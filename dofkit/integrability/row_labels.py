@@ -23,9 +23,8 @@ from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import pairing
 from dofkit.exact.points.real_search import RealPoint
 from dofkit.exact.residues import null_vectors, residue_matrix
-from dofkit.exact.ring.canonical import error_bits
 from dofkit.exact.ring.program import Scalar, values
-from dofkit.exact.zero import independent_on_set
+from dofkit.exact.zero import error_bits, independent_on_set
 from dofkit.expressions import tree as ex
 from dofkit.integrability.growth_vector import derived_flag, spanning_curves
 from dofkit.integrability.lie_algebra import SampledSpan, Span, ball_span
