@@ -75,6 +75,8 @@ def _is_refuted(claims: Sequence[SignClaim], positive: frozenset[Expr]) -> bool:
 
     u >= 0 is u = s^2 for some s.
     """
+    if not claims:
+        return False
     square = ex.coordinate("_slack") ** 2
     for c in claims:
         if c.sense != "=" and (
