@@ -58,10 +58,10 @@ BUGS: Mapping[str, Bug] = {
         "        return bool(value != 0) or (not strict",
         "tests/scenes/corners/wall-that-nothing-satisfies.yaml",
     ),
-    "boxes": Bug(
-        "exact/boxes.py",
-        "    return _hull((_meet_or_none(x, size), _meet_or_none(x, negative(size))))",
-        "    return _hull((_meet_or_none(x, size),))",
+    "signs": Bug(
+        "relations/normal/sign_claims.py",
+        "    return solution([_linear_condition(c, order) for c in facts]) is False",
+        "    return solution([_linear_condition(c, order) for c in facts]) is not None",
         "tests/scenes/corners/place-told-twice.yaml",
     ),
     "brackets": Bug(

@@ -1,9 +1,8 @@
 """Lengths that no points can have, proved by geometry before anything is searched.
 
-A distance is at most the length of any route between its ends (the triangle inequality), and the Gram matrix of points
-all of whose distances are known, G_ij = (d_0i^2 + d_0j^2 - d_ij^2) / 2, is positive semidefinite and of rank at most d
-[Schoenberg1935]; its determinants are those of Cayley and Menger [Menger1928]. Floating point proposes, intervals
-decide; where they do not tell two sides apart, as in a triangle drawn out to a line, nothing is contradicted.
+A distance is at most the length of any route between its ends (the triangle inequality [Menger1928]). Floating point
+proposes, intervals decide; where they do not tell two sides apart, as in a triangle drawn out to a line, nothing is
+contradicted.
 """
 
 from __future__ import annotations
@@ -13,10 +12,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
-from itertools import combinations, islice, pairwise
-from typing import Any
+from itertools import combinations, pairwise
 
-from flint import arb, arb_mat, ctx
+from flint import arb
 
 from dofkit.base.deadline import check
 from dofkit.base.libraries import nx
@@ -32,8 +30,8 @@ from dofkit.system import Distance, Place
 
 #: Precisions at which two lengths are compared, in bits.
 BITS = (64, 256, 1024)
-#: Steps of all searches for short routes, cliques that are looked at, and points of one body that are used.
-MAX_VISITS, MAX_CLIQUES, MAX_CARRIED = 100_000, 20_000, 40
+#: Steps of all searches for short routes, and points of one body that are used.
+MAX_VISITS, MAX_CARRIED = 100_000, 40
 #: Ways that are longer than a distance by more than this fraction are no reason to doubt it.
 SLACK = 1e-9
 #: Distances are shown to so many digits.
@@ -64,7 +62,7 @@ def lengths_unmet(block: Block, setting: Setting) -> Answer | None:
     """Return the answer to a block whose links cannot close; None where that is not seen."""
     owners = sorted({row.constraint for row in block.rows})
     prescribed = [(i, d) for i in owners for d in setting.distances.get(i, ())]
-    unmet_lengths = unmet(prescribed, setting.dimension, setting.positive) if len(prescribed) > 1 else None
+    unmet_lengths = unmet(prescribed, setting.positive) if len(prescribed) > 1 else None
     if unmet_lengths is None:
         return None
     return Answer(
@@ -76,10 +74,9 @@ def lengths_unmet(block: Block, setting: Setting) -> Answer | None:
     )
 
 
-def unmet(distances: Sequence[tuple[int, Distance]], dimension: int, positive: frozenset[Expr]) -> Unmet | None:
-    """A minimal set of distances, each with its constraint, that no points in so many dimensions have; or None."""
-    web = _Web(distances, positive)
-    return web.polygon() or web.simplex(dimension)
+def unmet(distances: Sequence[tuple[int, Distance]], positive: frozenset[Expr]) -> Unmet | None:
+    """A minimal set of distances, each with its constraint, that no points have; None where none is seen."""
+    return _Web(distances, positive).polygon()
 
 
 class _Web:
@@ -138,39 +135,6 @@ class _Web:
             if visits > MAX_VISITS:
                 return None
         return None
-
-    def simplex(self, dimension: int) -> Unmet | None:
-        """Points all of whose distances are known, and that cannot lie in so many dimensions; the fewest first."""
-        numeric = [edge for edge in self._exact() if not edge[2].squared.symbols]
-        web = nx.Graph(sorted((sorted(pair, key=repr) for *pair, _ in numeric), key=repr))
-        web.add_edges_from((a, b, {"side": side}) for a, b, side in reversed(numeric))
-        for clique in islice(nx.enumerate_all_cliques(web), MAX_CLIQUES):
-            check()
-            if len(clique) > dimension + 3:
-                return None
-            if len(clique) < 3:
-                continue
-            sides = {pair: web.edges[pair]["side"] for pair in combinations(clique, 2)}
-            owners = _owners(sides.values())
-            if owners and _unembeddable(clique, sides, dimension):
-                names = ", ".join(node[1] for node in clique)
-                claim = f"no {len(clique)} points in {dimension} dimension{'s' * (dimension > 1)} have the distances"
-                return Unmet(owners, f"{claim} given between {names} (Cayley-Menger determinant).")
-        return None
-
-
-def _unembeddable(clique: Sequence[Node], sides: Mapping[tuple[Node, Node], Side], dimension: int) -> bool:
-    """Return whether points are proved not to lie in so many dimensions at these distances."""
-    base, *corners = clique
-    squares = {pair: interval_of(side.squared, None, BITS[1]) for pair, side in sides.items()}
-
-    def square(u: Node, v: Node) -> Any:
-        return arb(0) if u == v else squares.get((u, v), squares.get((v, u)))
-
-    with ctx.workprec(BITS[1]):
-        rows = [[(square(base, u) + square(base, v) - square(u, v)) / 2 for v in corners] for u in corners]
-        volume = arb_mat(rows).det()
-    return bool(volume < 0) or (len(corners) > dimension and not volume.contains(0))
 
 
 def _node(place: Place) -> Node:

@@ -16,8 +16,7 @@ from dofkit.exact.matrices.certified import ball_part, dependencies
 from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows, sparse, sparse_frame, without_time
 from dofkit.exact.points.balls import rational_values, vanish_exactly
 from dofkit.exact.points.real_search import RealPoint
-from dofkit.exact.ring.canonical import error_bits
-from dofkit.exact.zero import independent_generators
+from dofkit.exact.zero import error_bits, independent_generators
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Answer, RealRows

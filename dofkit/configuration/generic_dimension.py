@@ -168,7 +168,7 @@ def _left_open(variety: Variety, why: str) -> Variety:
 def near_singular_point(chart: Chart, variety: Variety) -> Variety:
     """Return the set near a singular real point, where only such points were found; else the same as was known."""
     real = variety.real
-    if variety.consistent is not None or real is None or (real.certified and real.consistent):
+    if real is None or (real.certified and real.consistent):
         return variety
     local = numeric_local(chart, real)
     if local is None or local.dimension is None or local.confined:

@@ -59,7 +59,7 @@ MAX_MULTIPLE, PARTS = 240, 24
 #: More relations than this are not searched for a proof that they have no real solution.
 MAX_RELATIONS = 40
 FIXED = "at the points that were found the geometric equations fix the time: no motion passes through them"
-EMPTY = "no real configuration satisfies all equations: interval bounds exclude every real solution"
+EMPTY = "no real configuration satisfies all equations: signs of terms, or a resultant, exclude every real solution"
 
 
 def find(chart: Chart, pose: Mapping[Expr, Expr], seed: int = 0) -> Variety:
@@ -73,7 +73,7 @@ def find(chart: Chart, pose: Mapping[Expr, Expr], seed: int = 0) -> Variety:
     timed = chart.time is not None and variety.consistent is None and "field" in chart.setting.engines
     if timed:
         variety = by_cases(chart, variety, find_variety)
-    near = near_singular_point(chart, variety)
+    near = near_singular_point(chart, variety) if variety.consistent is None else variety
     unseen = near is variety and (variety.consistent is not True or ALLOWING in variety.reasons)
     looked = {"field", "balls"} <= chart.setting.engines and unseen and variety.verdict != "proved"
     if looked and len(chart.relations) <= MAX_RELATIONS and no_solution(chart.relations, chart.setting.positive):

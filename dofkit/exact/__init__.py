@@ -21,8 +21,7 @@ Mechanisms
     `triangular` draws points of a variety modulo p, solving for one of its `unknowns` after another; a search in
     floating point finds real ones, which the interval Newton test certifies [KrawczykNewton].
     `ideals` gives the dimension of a complex variety by Groebner bases [Buchberger1965], and `linear_inequalities` a
-    solution of linear conditions or a proof that there is none [Motzkin1936]. `boxes` excludes regions by interval
-    arithmetic, which proves that a system has no solution [Moore1966].
+    solution of linear conditions or a proof that there is none [Motzkin1936].
     `matrices` computes ranks: modulo p, of sparse rows, of rational rows, certified ones of balls; `dense`
     has the steps and singular values of floats, by numpy only where they are many. `ring.program` has the errors by
     which arithmetic fails.

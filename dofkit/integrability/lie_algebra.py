@@ -343,9 +343,7 @@ def span_at(forms: Codistribution, point: FieldPoint, drawn: bool = False) -> Sa
         return None
 
 
-def ball_span(
-    forms: Codistribution, rank: int, point: BallPoint, drawn: bool = False
-) -> tuple[Span, list[list[arb]]] | None:
+def ball_span(forms: Codistribution, rank: int, point: BallPoint) -> tuple[Span, list[list[arb]]] | None:
     """The Lie algebra with balls; None where the point is no regular one, or has another rank than over GF(p)."""
     try:
         matrix = forms.rows.matrix(values(forms.chart.ring, point), arb(0))
@@ -354,7 +352,7 @@ def ball_span(
             return None
         free = tuple(c for c in range(len(forms.chart.symbols)) if c not in set(part.columns))
         point.rng.seed("dofkit curve")
-        return lie_span(forms.rows, Pivots(tuple(part.rows), tuple(part.columns), free), point, drawn), matrix
+        return lie_span(forms.rows, Pivots(tuple(part.rows), tuple(part.columns), free), point), matrix
     except NoValueError:
         return None
 

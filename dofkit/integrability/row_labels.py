@@ -5,7 +5,7 @@ Labels at a generic point are those of the component on which it was found [Herm
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import islice
@@ -16,19 +16,19 @@ from flint import arb
 from dofkit.base.verdicts import Verdict, weakest
 from dofkit.configuration.at_reference import CLEAR
 from dofkit.configuration.finite_blocks import dependent_names
-from dofkit.configuration.variety import Variety
+from dofkit.configuration.variety import SAMPLES, Variety, on_variety, pose_point
 from dofkit.exact.matrices.certified import ball_part, dependencies
 from dofkit.exact.matrices.sparse import rank_of, sparse
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import pairing
 from dofkit.exact.points.real_search import RealPoint
 from dofkit.exact.residues import null_vectors, residue_matrix
-from dofkit.exact.ring.canonical import error_bits
 from dofkit.exact.ring.program import Scalar, values
-from dofkit.exact.zero import independent_on_set
+from dofkit.exact.zero import error_bits, independent_on_set
 from dofkit.expressions import tree as ex
+from dofkit.expressions.tree import Expr
 from dofkit.integrability.growth_vector import derived_flag, spanning_curves
-from dofkit.integrability.lie_algebra import SampledSpan, Span, ball_span
+from dofkit.integrability.lie_algebra import SampledSpan, Span, ball_span, span_at
 from dofkit.integrability.pfaffian_system import Codistribution, is_nonzero, linear_rows
 from dofkit.integrability.traits import proof
 from dofkit.relations.answer import Answer, HolonomyLabel
@@ -174,7 +174,7 @@ def certificate(forms_at_points: SampledForms, variety: Variety) -> Certificate 
         return forms_at_points.sampled.span, forms_at_points.sampled.matrix
     if forms_at_points.columns > CERTIFIED_COLUMNS:
         return None
-    return ball_span(forms_at_points.forms, forms_at_points.rank, real.point, variety.about == "reference")
+    return ball_span(forms_at_points.forms, forms_at_points.rank, real.point)
 
 
 def _rank_verdict(forms_at_points: SampledForms, proof_of: Certificate | None, setting: Setting) -> Verdict:
@@ -279,3 +279,41 @@ def ball_labels(block: Block, forms: Codistribution, real: RealPoint, result: An
             continue
         sure: Verdict = "proved" if finite or not zero else "numeric"
         result.labels[i] = HolonomyLabel(zero, sure)
+
+
+# The reference configuration beside the generic points at which rows are labelled
+
+
+def reference_points(forms: Codistribution, reference: Mapping[Expr, Expr]) -> list[FieldPoint] | None:
+    """Return the reference configuration (t = 0) over GF(p), one point per sample; none if an equation is not 0 there.
+
+    None where it has no point over GF(p): numbers there may be related in a way that is not known.
+    """
+    points = [pose_point(forms.chart, {**reference, ex.TIME: ex.ZERO}, 11 + k) for k in range(SAMPLES)]
+    drawn = [point for point in points if point is not None]
+    if len(drawn) < SAMPLES:
+        return None
+    return drawn if all(on_variety(forms.chart, point) for point in drawn) else []
+
+
+def span_at_reference(forms: Codistribution, reference: Mapping[Expr, Expr]) -> tuple[FieldPoint, SampledSpan] | None:
+    """Return the reference configuration over GF(p) and the Lie algebra there; None where it has no such point."""
+    if "field" not in forms.chart.setting.engines:
+        return None
+    for point in reference_points(forms, reference) or []:
+        sampled = span_at(forms, point, True)
+        return None if sampled is None else (point, sampled)
+    return None
+
+
+def is_exceptional(
+    forms: Codistribution, reference: tuple[FieldPoint, SampledSpan], samples: Sequence[SampledSpan]
+) -> bool:
+    """Return whether the rows or the Lie algebra are smaller at the reference configuration than at one of the samples.
+
+    Several leaves, or one of smaller dimension, can pass through such a configuration [HermannNagano]. Rows count by
+    what they say of velocities: where only the dt term remains no motion passes.
+    """
+    point, here = reference
+    rank = rank_of([row[: forms.n] for row in here.matrix], point.p)
+    return any(rank < len(there.frame.rows) or here.span.dimension < there.span.dimension for there in samples)

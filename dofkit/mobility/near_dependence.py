@@ -10,7 +10,8 @@ from __future__ import annotations
 from itertools import pairwise
 from math import ceil, log10
 
-from dofkit.exact.matrices.dense import cross, length, plus, singular_values, unit_rows
+from dofkit.exact.matrices.dense import length, plus, singular_values, unit_rows
+from dofkit.exact.matrices.sparse import cross
 from dofkit.mobility.placement import TURNS, Member, Placement, rows_of
 
 #: More columns than this are not looked at.

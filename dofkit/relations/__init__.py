@@ -12,8 +12,8 @@ Mechanisms, in the order in which an equation meets them
        `polynomial_zeros` the factors of the numerator otherwise; `semidefinite` proves signs [Sylvester1852]; `domain`
        tells absolute values and roots apart by the signs of their arguments; `normal_form` splits relations quadratic
        in the velocities whose discriminant is a square. What has no such form stays as it is.
-    2. `normal.no_solution` proves that equations and inequalities have no real solution, by boxes that interval
-       evaluation excludes [Moore1966], or that an inequality is satisfied somewhere, by a point.
+    2. `normal.no_solution` proves that equations and inequalities have no real solution, by linear conditions on their
+       terms (`sign_claims`) [Motzkin1936] and by resultants, or that an inequality is satisfied somewhere, by a point.
     3. `velocity_reductions` substitutes what linear equations determine into relations nonlinear in the velocities.
     4. `blocks` separates what shares no coordinate and gives every integrated form dC = 0 its constant as a
        coordinate; `normal.pieces` recognises equations that are equal up to names; a `Chart` has the program that the

@@ -5,10 +5,11 @@ Types
     state of motion has to satisfy. `Values`: a certified point. `Feasibility`: the answer.
 
 Mechanisms, in the order in which they are tried (`feasibility` is the driver)
-    1. `sign_claims`: the inequalities contradict each other as linear conditions on their terms [Motzkin1936].
+    1. `relations.normal.sign_claims`: the inequalities contradict each other as linear conditions on their terms
+       [Motzkin1936].
     2. `state_problem`: the reference configuration; a zero along slack variables that interval Newton certifies
        [KrawczykNewton].
-    3. `sign_claims`: products of inequalities, and boxes excluded by interval bounds [Moore1966].
+    3. `relations.normal.no_solution`: products of inequalities, and resultants of equations.
 
 Where a proof succeeds, constraints are left out one by one until every one of them is needed.
 """

@@ -16,7 +16,6 @@ from flint import arb
 from dofkit.base.deadline import limited, unless_late
 from dofkit.base.verdicts import ArgumentKey, Claim, Verdict, weakest
 from dofkit.classification.dependence.minimal_sets import minimal_set
-from dofkit.classification.feasibility.sign_claims import contradictory, point_of_linear, refuted
 from dofkit.classification.feasibility.state_problem import Part, StateProblem, Values, certified_state, parts_of
 from dofkit.classification.freedom.preparation import copies
 from dofkit.classification.study import Study
@@ -27,6 +26,8 @@ from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import BITS, GAP, Answer
 from dofkit.relations.normal.domain import holds_at
+from dofkit.relations.normal.no_solution import refuted
+from dofkit.relations.normal.sign_claims import contradictory, point_of_linear
 from dofkit.report import FieldVerdict
 from dofkit.system import System, TypeFacts
 

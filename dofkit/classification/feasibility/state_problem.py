@@ -23,7 +23,6 @@ from flint import arb
 
 from dofkit.base.deadline import check
 from dofkit.base.errors import NoValueError
-from dofkit.classification.feasibility.sign_claims import SignClaim
 from dofkit.classification.freedom.common_point import hold_strictly
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.sparse import components
@@ -42,6 +41,7 @@ from dofkit.relations.linear_relations import solve_linear
 from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.normal_form import velocities_of
 from dofkit.relations.normal.pieces import Finite, Inequality, Nonlinear, Pfaffian, Piece, Reduced
+from dofkit.relations.normal.sign_claims import SignClaim
 from dofkit.relations.velocity_reductions import rate
 
 #: Choices of branches that are looked at.

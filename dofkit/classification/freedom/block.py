@@ -13,7 +13,7 @@ from dofkit.configuration.components import is_graph, is_irreducible
 from dofkit.configuration.finite_blocks import finite_answer
 from dofkit.configuration.linear_blocks import eliminated
 from dofkit.configuration.search import LEVEL, find, level_angle
-from dofkit.configuration.variety import Variety, of_real_point, of_reference
+from dofkit.configuration.variety import Variety, of_real_point
 from dofkit.exact.matrices.sparse import echelon
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import pairing
@@ -29,13 +29,14 @@ from dofkit.integrability.pfaffian_system import (
     first_order_freedom,
     prolong,
 )
-from dofkit.integrability.regular_reference import (
+from dofkit.integrability.row_labels import (
+    ball_labels,
+    field_labels,
+    integrable_names,
     is_exceptional,
     reference_points,
-    regular_reference,
     span_at_reference,
 )
-from dofkit.integrability.row_labels import ball_labels, field_labels, integrable_names
 from dofkit.mobility.general_position import framework_answer
 from dofkit.relations.answer import Answer, Size
 from dofkit.relations.blocks import Block, is_measured
@@ -201,20 +202,17 @@ def _prolonged(block: Block, setting: Setting, result: Answer, relations: Sequen
 
 
 def _points(forms: Codistribution, setting: Setting) -> Variety:
-    """Points to look at the forms: of the reference's part where one is given, else generic ones."""
+    """Generic points to look at the forms; where there is a reference, of a set that is known to be alike there."""
     alike = is_irreducible(forms.chart) if setting.reference is None else is_graph(forms.chart)
     if setting.reference is None or alike:
         result = find(forms.chart, setting.pose)
         return result if alike else replace(result, about="component")
-    undecided = Variety(None, None, "undecided", reasons=[IRREGULAR])
     points = reference_points(forms, setting.reference) if "field" in forms.chart.setting.engines else None
-    if points is None:
-        return undecided
-    if not points:
+    if points == []:
         return replace(find(forms.chart, setting.pose), about="component")
-    if is_irreducible(forms.chart) and _as_large(forms, setting.reference):
+    if points and is_irreducible(forms.chart) and _as_large(forms, setting.reference):
         return find(forms.chart, setting.pose)
-    return regular_reference(forms, points, setting.reference) or undecided
+    return Variety(None, None, "undecided", reasons=[IRREGULAR])
 
 
 def _as_large(forms: Codistribution, reference: Mapping[Expr, Expr]) -> bool:
@@ -231,14 +229,9 @@ def _with_spans(block: Block, forms: Codistribution, points: Variety, extra: lis
     result = Answer(True, hidden=extra, reasons=list(points.reasons), verdict=points.verdict, about=points.about)
     result.argument, result.gap, result.witness = points.argument, points.gap, of_real_point(forms.chart, points.real)
     result.separating, result.isolated = points.separating, points.argument == "isolated zeros"
-    if points.about == "reference" and setting.reference is not None:
-        result.witness = of_reference(forms.chart.symbols, setting.reference)
-    if block.nonlinear and points.about == "reference":
-        return replace(result, consistent=None, verdict="undecided", reasons=[*points.reasons, IRREGULAR])
     if points.samples:
         good = _spans(forms, points)
-        elsewhere = setting.reference is not None and points.about != "reference"
-        here = span_at_reference(forms, setting.reference or {}) if elsewhere else None
+        here = None if setting.reference is None else span_at_reference(forms, setting.reference)
         if here is not None and is_exceptional(forms, here, [sampled for _, sampled in good]):
             return replace(result, consistent=None, verdict="undecided", reasons=[*points.reasons, IRREGULAR])
         if good:
@@ -268,7 +261,7 @@ def _spans(forms: Codistribution, points: Variety) -> list[tuple[FieldPoint, Sam
     """The Lie algebra at every sample; at one, where it is all of the tangent space and nothing could raise it."""
     good = []
     for point in points.samples:
-        sampled = span_at(forms, point, points.about == "reference")
+        sampled = span_at(forms, point)
         if sampled is None:
             continue
         good.append((point, sampled))

@@ -31,11 +31,6 @@ def dot(a: Vector, b: Vector) -> float:
     return product
 
 
-def cross(a: Vector, b: Vector) -> list[float]:
-    """Return the vector product in space."""
-    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-
-
 def length(v: Vector) -> float:
     """Return the Euclidean length."""
     return math.hypot(*v)

@@ -16,7 +16,7 @@ from flint.utils.flint_exceptions import DomainError
 
 from dofkit.base.deadline import check
 from dofkit.base.errors import NoValueError, PoleError
-from dofkit.exact.ring.program import ADD, MUL, NUM, POW, VAR, TooLargeError, raising_no_value, reachable
+from dofkit.exact.ring.program import ADD, MUL, NUM, POW, TooLargeError, raising_no_value, reachable
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
@@ -257,52 +257,3 @@ def determinant(canon: Canon, matrix: Sequence[Sequence[Poly]]) -> Poly:
             term = canon.reduce(entry * below)
             total = total + term if c % 2 == 0 else total - term
     return canon.reduce(total)
-
-
-#: Bits of the primes, less one; of what is looked for among arguments of exponentials and angles (see `characters`).
-PRIME, RELATIONS = 60, 30
-
-
-#: The degrees of a numerator and of a denominator.
-Degrees = tuple[int, int]
-
-
-def degree_bound(ring: Ring, nodes: Sequence[int]) -> int:
-    """Return a bound of the degrees of numerators and denominators, in symbols and independent values of functions.
-
-    Sines and cosines are functions on a curve of the second degree, a root is the power of another root.
-    """
-    most: dict[int, Degrees] = {}
-    for i in reversed(reachable(ring, nodes, through_generators=False)):
-        op, payload = ring.code[i]
-        if op == NUM:
-            most[i] = (0, 0)
-        elif op == VAR:
-            var = ring.vars[payload]
-            most[i] = (2 if var.kind in ("cos", "sin") else max(1, var.degree), 0)
-        elif op == ADD:
-            most[i] = _of_sum([most[j] for j in payload])
-        elif op == MUL:
-            most[i] = (sum(most[j][0] for j in payload), sum(most[j][1] for j in payload))
-        elif op == POW:
-            top, bottom = most[payload[0]]
-            k = abs(payload[1])
-            most[i] = (top * k, bottom * k) if payload[1] > 0 else (bottom * k, top * k)
-    return max((max(most[node]) for node in nodes), default=0)
-
-
-def _of_sum(terms: Sequence[Degrees]) -> Degrees:
-    """Over the product of all denominators."""
-    below = sum(bottom for _, bottom in terms)
-    return max(top + below - bottom for top, bottom in terms), below
-
-
-def error_bits(ring: Ring, nodes: Sequence[int], size: int) -> int:
-    """b with a chance below 2^-b that a minor, not 0, is 0 at a random point over GF(p) [SchwartzZippel].
-
-    Of ``size`` rows of the nodes' derivatives it has at most so many times twice their degree. Where several
-    exponentials or angles occur, relations among their arguments are found by chance with 2^-30.
-    """
-    bits = PRIME - (2 * max(1, size) * max(1, degree_bound(ring, nodes))).bit_length()
-    several = sum(var.kind in ("exp", "cos") for var in ring.vars) > 1
-    return max(1, min(bits, RELATIONS) if several else bits)

@@ -1,28 +1,24 @@
-"""Relations without a real solution: a proof by exclusion.
+"""Relations without a real solution: proofs by signs and by resultants; inequalities that hold somewhere, by a point.
 
-Space is cut into boxes; a box is excluded where interval evaluation of the relations leaves nothing [Moore1966]. If
-every box is excluded there is no solution. Two descriptions of the same set are tried: the relations as written, and
-polynomials in their generators with resultants of these.
+What relations say is put to linear conditions on their terms (`sign_claims`): as they are written, and once what some
+of them give is put into the others. Resultants of two polynomials vanish wherever both do, so that one without a real
+zero is a proof.
 """
 
 from __future__ import annotations
 
-import math
 import random
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from functools import lru_cache
 from itertools import combinations, islice
-from typing import Any, NamedTuple
-
-from flint import arb, ctx
+from typing import Any
 
 from dofkit.base.deadline import OutOfTimeError, check
 from dofkit.base.errors import NoValueError, PoleError
-from dofkit.exact.boxes import NON_NEGATIVE, UNIT, WHOLE, Box, BoxProgram, EmptyError, Interval, bounds, middle
 from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.canonical import Canon
-from dofkit.exact.ring.program import Var, values
+from dofkit.exact.ring.program import values
 from dofkit.exact.ring.radicals import known_signs
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero import is_proved_zero
@@ -30,106 +26,94 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.enclosures import interval_of
 from dofkit.expressions.tree import Expr
-from dofkit.relations.normal.domain import DomainCondition
+from dofkit.relations.linear_relations import explicit_relations
+from dofkit.relations.normal.domain import DomainCondition, conditions_of
 from dofkit.relations.normal.semidefinite import never_holds
-from dofkit.relations.normal.zero_set import never_vanishes
+from dofkit.relations.normal.sign_claims import SignClaim, are_contradictory
+from dofkit.relations.normal.zero_set import never_vanishes, zero_set
 
-#: Steps of programs over boxes that one search may take; bits of the balls behind them.
-MAX_STEPS, BITS = 60_000, 64
-#: So many before polynomials are tried, which tell at once what boxes tell slowly: nested circles of nearly one radius.
-SOON = 6_000
-#: A box thinner than this, or this far out, is not cut any further.
-THINNEST, FARTHEST = 1e-7, 1e7
-#: Resultants are taken of polynomials up to this size and degree, and of so many pairs.
-MAX_RESULTANT_TERMS, MAX_RESULTANT_DEGREE, MAX_PAIRS = 40, 8, 60
-ZERO: Interval = (0.0, 0.0)
-
-#: An expression and where its value must lie.
-Wanted = tuple[Expr, Interval]
+#: More claims than this are not put to resultants.
+MAX_CLAIMS = 40
+#: Resultants are taken of polynomials up to this size and degree, of so many pairs, and then of these.
+MAX_RESULTANT_TERMS, MAX_RESULTANT_DEGREE, MAX_PAIRS, ROUNDS = 40, 8, 60, 2
 
 
 def no_solution(relations: Sequence[Expr], positive: frozenset[Expr], conditions: Sequence[Expr] = ()) -> bool:
-    """True where ``relations`` (= 0) and ``conditions`` (>= 0) are proved to hold together at no real point.
+    """Return whether ``relations`` (= 0) and ``conditions`` (>= 0) are proved to hold together at no real point.
 
     Parameters may have any value (those of ``positive`` a positive one), unknown functions as well. False says nothing.
     """
-    wanted = [(e, ZERO) for e in relations] + [(e, NON_NEGATIVE) for e in conditions]
-    if not wanted:
+    return refuted([*(SignClaim(e, "=") for e in relations), *(SignClaim(e, ">=") for e in conditions)], positive)
+
+
+def refuted(claims: Sequence[SignClaim], positive: frozenset[Expr]) -> bool:
+    """Return whether it is proved that no real point satisfies all claims, at which all they hold has a value."""
+    try:
+        within = dict.fromkeys(d for c in claims for d in conditions_of(c.expr, positive))
+        sided = [*claims, *(SignClaim(d.expr, d.sense) for d in within if d.sense != "!=")]
+        return _is_refuted(sided, positive) or _is_refuted(_with_values(sided, positive), positive)
+    except NoValueError:
         return False
-    ranges = dict.fromkeys(positive, NON_NEGATIVE)
-    with ctx.workprec(BITS):
-        try:
-            soon = _excluded(wanted, ranges, SOON)
-            system = None if soon else _system(relations, positive)
-            excluded = _excluded(wanted, ranges) if soon is None else soon
-            return bool(excluded or (excluded is None and system is not None and _is_excluded(system)))
-        except EmptyError:
-            return True
-        except NoValueError:
-            return False
 
 
 def hold_nowhere(relations: Sequence[Expr], conditions: Sequence[DomainCondition], positive: frozenset[Expr]) -> bool:
     """Return whether it is proved that ``conditions`` hold together at no real point at which ``relations`` are 0.
 
-    u > 0 is written u s^2 = 1 for some s, and u != 0 is u s = 1.
+    u != 0 is written u s = 1 for some s.
     """
-    if any(never_holds(c.expr, c.strict, positive) for c in conditions if c.sense != "!="):
-        return True
-    slacks = [ex.coordinate(f"_slack {k}") for k in range(len(conditions))]
-    strict = [
-        c.expr * s * (s if c.strict else ex.ONE) - ex.ONE
-        for c, s in zip(conditions, slacks, strict=True)
-        if c.sense != ">="
-    ]
-    return no_solution([*relations, *strict], positive, [c.expr for c in conditions if c.sense != "!="])
+    claims = [SignClaim(g, "=") for g in relations]
+    for k, c in enumerate(conditions):
+        inverse = c.expr * ex.coordinate(f"_slack {k}") - ex.ONE
+        claims.append(SignClaim(inverse, "=") if c.sense == "!=" else SignClaim(c.expr, c.sense))
+    return refuted(claims, positive)
 
 
-def _excluded(wanted: Sequence[Wanted], ranges: Mapping[Expr, Interval], steps: int = MAX_STEPS) -> bool | None:
-    """Branch and prune: is every box of the whole excluded within the bounds? False: one shrinks to a point."""
-    try:
-        relations = BoxProgram(wanted)
-        boxes: list[Box] = [relations.contract([ranges.get(v, WHOLE) for v in relations.variables])]
-    except EmptyError:
-        return True
-    while relations.work < steps:
-        check()
-        if not boxes:
+def _is_refuted(claims: Sequence[SignClaim], positive: frozenset[Expr]) -> bool:
+    """Return whether one claim holds nowhere, or all contradict each other by signs, or by a resultant.
+
+    u >= 0 is u = s^2 for some s.
+    """
+    if not claims:
+        return False
+    square = ex.coordinate("_slack") ** 2
+    for c in claims:
+        if c.sense != "=" and (
+            never_holds(c.expr, c.sense == ">", positive) or never_vanishes(c.expr - square, positive)
+        ):
             return True
-        box = boxes.pop()
-        k = _widest(box)
-        if k is None:
-            return None if any(math.isinf(v) for x in box for v in x) else False
-        cut = middle(box[k])
-        for part in ((box[k][0], cut), (cut, box[k][1])):
-            try:
-                boxes.append(relations.contract([*box[:k], part, *box[k + 1 :]]))
-            except EmptyError:
-                continue
-    return None
+    relations = [c.expr for c in claims if c.sense == "="]
+    few = len(relations) > 0 and len(claims) <= MAX_CLAIMS
+    return are_contradictory(claims, positive) or (few and _some_resultant_never_vanishes(relations, positive))
 
 
-def _widest(box: Box) -> int | None:
-    """The variable to cut; None where that would not lead on."""
-    best, width = None, THINNEST
-    for k, (low, high) in enumerate(box):
-        near = max((abs(v) for v in (low, high) if not math.isinf(v)), default=0.0)
-        if high - low > width and not (math.isinf(high - low) and near > FARTHEST):
-            best, width = k, high - low
-    return best
+def _with_values(claims: Sequence[SignClaim], positive: frozenset[Expr]) -> list[SignClaim]:
+    """Return the claims with the values put in that equations give; none where they give none. Raises NoValueError.
+
+    A sum of squares gives each of its terms. Where something has no value then, what is claimed is false: -1 > 0.
+    """
+    relations = list[Expr]()
+    for c in claims:
+        branches = zero_set(c.expr, positive, c.expr.symbols)[0] if c.sense == "=" else ()
+        relations += branches[0] if len(branches) == 1 else [c.expr] if c.sense == "=" else []
+    try:
+        solved = explicit_relations(relations, _plain_coefficients)
+        explicit = solved.by_others
+        others = [SignClaim(substitute(c.expr, explicit), c.sense) for c in claims if c.sense != "="]
+    except PoleError:
+        return [SignClaim(ex.MINUS_ONE, ">")]
+    return [*(SignClaim(g, "=") for g in solved.implicit), *others] if explicit else []
+
+
+def _plain_coefficients(g: Expr) -> dict[Expr, Expr]:
+    """Return the coordinates and velocities of which a sum holds a multiple by a number, and nothing else."""
+    terms = [ex.number_and_rest(t) for t in (g.args if g.op == "add" else (g,))]
+    moving = [(s, number) for number, s in terms if s.op == "sym" and s.args[0] in ("coordinate", "velocity")]
+    return {s: ex.num(number) for s, number in moving if sum(s in rest.symbols for _, rest in terms) == 1}
 
 
 # -- polynomials in the generators ------------------------------------------------------------------
 
 Poly = Any
-
-
-class PolynomialSystem(NamedTuple):
-    """Polynomials that vanish wherever the relations hold, and the ``ranges`` of the generators."""
-
-    polynomials: tuple[Poly, ...]
-    symbols: tuple[Expr, ...]
-    ranges: Mapping[Expr, Interval]
 
 
 def _faithful(relations: Sequence[Expr], positive: frozenset[Expr]) -> bool:
@@ -148,53 +132,31 @@ def _is_exp(e: Expr) -> bool:
     return e.op == "fn" and e.args[0] in ("exp", "cosh")
 
 
-def _system(relations: Sequence[Expr], positive: frozenset[Expr]) -> PolynomialSystem | None:
-    """Polynomials that vanish wherever the relations hold; None where there are none to be had.
-
-    Raises EmptyError where one of them has no real root.
-    """
-    try:
-        return _polynomials(relations, positive) if _faithful(relations, positive) else None
-    except NoValueError:
-        return None
-
-
-def _polynomials(relations: Sequence[Expr], positive: frozenset[Expr]) -> PolynomialSystem:
-    """Return numerators in the canonical ring, the generators' relations and resultants of both."""
+def _some_resultant_never_vanishes(relations: Sequence[Expr], positive: frozenset[Expr]) -> bool:
+    """Return whether a polynomial that vanishes wherever the relations hold has no real zero: them, or a resultant."""
+    if not _faithful(relations, positive):
+        return False
     ring = Ring(relations, positive)
-    nodes = [ring.node(e) for e in relations]
-    canon = Canon(ring)
-    numerators = [canon.quotient(node)[0] for node in nodes]
-    if any(p == 0 for p in numerators):
-        numerators = [p for p in numerators if p != 0]
-    present = {i for p in numerators for i in canon.generators_in(p)}
-    numerators += [g for g in canon.relations if not present.isdisjoint(canon.generators_in(g))]
-    everything = _resultants(numerators)
-    count = len(ring.vars)
-    symbols = tuple(ex.parameter(f"generator {count - 1 - i}") for i in range(count))
-    ranges = {symbols[count - 1 - v.index]: _range(v, ring) for v in ring.vars}
-    if any(_without_hidden_numbers(canon, p) and never_vanishes(canon.to_expr(p), positive) for p in everything):
-        raise EmptyError
-    return PolynomialSystem(tuple(everything), symbols, ranges)
+    try:
+        nodes = [ring.node(e) for e in relations]
+        canon = Canon(ring)
+        numerators = [p for p in (canon.quotient(node)[0] for node in nodes) if p != 0]
+        present = {i for p in numerators for i in canon.generators_in(p)}
+        numerators += [g for g in canon.relations if not present.isdisjoint(canon.generators_in(g))]
+    except NoValueError:
+        return False
+    for v in ring.vars:
+        if v.kind == "sign":  # where its argument is 0 either sign satisfies them, and abs(u)/u has no value
+            ring.var_expr[v.index] = ex.coordinate(f"_sign {v.index}")
+    polynomials = numerators
+    for _ in range(ROUNDS):
+        polynomials = _resultants(polynomials)
+    return any(_without_hidden_numbers(canon, p) and never_vanishes(canon.to_expr(p), positive) for p in polynomials)
 
 
 def _without_hidden_numbers(canon: Canon, p: Poly) -> bool:
     """No generator is a number of its own: such numbers may be related, and their polynomials hidden zeros."""
     return all(canon.ring.var_expr[i].symbols for i in canon.generators_in(p))
-
-
-def _range(var: Var, ring: Ring) -> Interval:
-    if var.kind in ("cos", "sin", "sign"):
-        return UNIT
-    if var.kind in ("asin", "atan"):
-        return -1.6, 1.6
-    if var.kind == "atan2":
-        return -3.2, 3.2
-    if var.kind == "pi":
-        return bounds(arb.pi())
-    if var.kind == "exp" or (var.kind == "root" and var.degree % 2 == 0):
-        return NON_NEGATIVE
-    return NON_NEGATIVE if var.kind == "symbol" and var.key in ring.positive else WHOLE
 
 
 def _resultants(polynomials: list[Poly]) -> list[Poly]:
@@ -211,24 +173,8 @@ def _resultants(polynomials: list[Poly]) -> list[Poly]:
     return result
 
 
-def _is_excluded(system: PolynomialSystem) -> bool:
-    """Return whether every box of the space of the generators is excluded."""
-    return bool(_excluded([(_expression(p, system.symbols), ZERO) for p in system.polynomials], system.ranges))
-
-
-def _expression(p: Poly, symbols: Sequence[Expr]) -> Expr:
-    return ex.add(*(_term(c, m, symbols) for m, c in p.to_dict().items()))
-
-
-def _term(coefficient: Any, exponents: Sequence[int], symbols: Sequence[Expr]) -> Expr:
-    powers = [ex.power(s, ex.num(int(k))) for s, k in zip(symbols, exponents, strict=True) if k]
-    return ex.mul(ex.num(Fraction(int(coefficient.p), int(coefficient.q))), *powers)
-
-
 #: Values that are tried for every symbol, and for all alike.
 _SIMPLE = (ex.ZERO, ex.ONE, ex.MINUS_ONE, ex.TWO, ex.PI, ex.PI * ex.HALF, -ex.PI * ex.HALF)
-#: Functions that are defined and continuous everywhere.
-_TOTAL = frozenset({"sin", "cos", "exp", "sinh", "cosh", "tanh", "atan", "abs"})
 #: Random points, and how far out they lie.
 POINTS, SCALES = 40, (1, 10, 1000, Fraction(1, 1000))
 #: Starts of the search along a slack variable.
@@ -247,9 +193,7 @@ def holds_somewhere(e: Expr, strict: bool, positive: frozenset[Expr]) -> bool | 
         plain = None
     if plain is not None and any(_holds_at(plain, strict, point) for point in _points(plain, positive)):
         return True
-    if never_holds(e, strict, positive) or _never_by_bounds(e, strict, positive) or no_solution([], positive, [e]):
-        return False
-    if _negative_everywhere(e, positive):
+    if refuted([SignClaim(e, ">" if strict else ">=")], positive):
         return False
     return True if plain is not None and _holds_along_slack(plain, strict, positive) else None
 
@@ -286,33 +230,6 @@ def _holds_at(e: Expr, strict: bool, point: dict[Expr, Expr]) -> bool:
         return bool(value > 0) or (not strict and is_proved_zero(there, frozenset()))
     except (NoValueError, ArithmeticError, ValueError):
         return False
-
-
-def _never_by_bounds(e: Expr, strict: bool, positive: frozenset[Expr]) -> bool:
-    """Return whether an upper bound of ``e`` over all of space is below 0, or 0 where > 0 is asked."""
-    try:
-        program = BoxProgram([(e, WHOLE)])
-        box = [NON_NEGATIVE if v in positive else WHOLE for v in program.variables]
-        top = program.forward(box)[e][1]
-    except (EmptyError, NoValueError):
-        return False
-    return top <= 0 if strict else top < 0
-
-
-def _negative_everywhere(e: Expr, positive: frozenset[Expr]) -> bool:
-    """Continuous on all of space, without a zero, and below 0 at one point (the intermediate value theorem)."""
-    if not all(map(_continuous, ex.nodes(e))):
-        return False
-    point = dict.fromkeys(e.symbols, ex.ONE)
-    return _holds_at(-e, True, point) and (never_vanishes(e, positive) or no_solution([e], positive))
-
-
-def _continuous(node: Expr) -> bool:
-    """Return whether an operation is defined and continuous everywhere."""
-    if node.op == "pow":
-        exponent = node.args[1]
-        return exponent.op == "num" and bool(exponent.args[0] > 0) and exponent.args[0].denominator == 1
-    return node.op in ("num", "const", "sym", "add", "mul") or (node.op == "fn" and node.args[0] in _TOTAL)
 
 
 def _holds_along_slack(e: Expr, strict: bool, positive: frozenset[Expr]) -> bool:

@@ -1,7 +1,7 @@
-"""What contradicts itself by signs: equations and inequalities, for which no real point is left.
+"""Equations and inequalities that contradict each other by their terms and the signs of these.
 
-They are linear conditions on their terms, taken for unknowns of their own, beside the signs that terms have wherever
-they have a value [Motzkin1936]; then so are products of two inequalities. What is left is put to boxes [Moore1966].
+They are linear conditions on their terms, taken for unknowns of their own, beside the signs and bounds that terms have
+wherever they have a value [Motzkin1936]; then so are products of two inequalities.
 """
 
 from __future__ import annotations
@@ -18,16 +18,18 @@ from dofkit.exact.linear_inequalities import LinearCondition, solution
 from dofkit.expressions import tree as ex
 from dofkit.expressions.terms import linear_terms
 from dofkit.expressions.tree import Expr
-from dofkit.relations.normal.no_solution import no_solution
 
 #: Inequalities of which products are taken.
 MAX_FACTORS = 8
 #: Terms of all together, or twice as many as claims where those are more.
 MAX_TERMS = 80
-#: More claims than this are not put to boxes.
-MAX_BOXED = 40
-#: Functions that are nowhere negative, and those that are above 0; bounded by 1 in size.
-_NOT_NEGATIVE, _POSITIVE, _BOUNDED = frozenset({"abs", "acos"}), frozenset({"exp", "cosh"}), ("sin", "cos", "tanh")
+#: Functions that are nowhere negative, and those that are above 0.
+_NOT_NEGATIVE, _POSITIVE = frozenset({"abs", "acos"}), frozenset({"exp", "cosh"})
+#: Functions with the size that they do not exceed, and those that do not reach it; 11/7 is more than pi/2.
+_BOUNDS = {name: Fraction(1) for name in ("sin", "cos", "tanh")} | {
+    name: Fraction(11, 7) * turns for name, turns in (("asin", 1), ("atan", 1), ("acos", 2), ("atan2", 2))
+}
+_UNREACHED = frozenset({"tanh", "atan", "asin", "acos", "atan2"})
 
 ZERO = fmpq(0)
 Sense = Literal["=", ">=", ">"]
@@ -40,8 +42,8 @@ class SignClaim(NamedTuple):
     sense: Sense
 
 
-def refuted(claims: Sequence[SignClaim], positive: frozenset[Expr]) -> bool:
-    """True where no real point satisfies all claims: proved. False says nothing.
+def are_contradictory(claims: Sequence[SignClaim], positive: frozenset[Expr]) -> bool:
+    """Return whether no real point satisfies all claims: proved where True, False says nothing.
 
     Parameters may have any value (those of ``positive`` a positive one), and so may every value of an unknown function.
     """
@@ -50,11 +52,7 @@ def refuted(claims: Sequence[SignClaim], positive: frozenset[Expr]) -> bool:
     if all(u.op == "sym" or u == ex.ONE for c in claims for u in _terms(c.expr)):
         return False
     more = list(_products(claims, positive))
-    if more and contradictory([*claims, *more], positive):
-        return True
-    equations = [c.expr for c in claims if c.sense == "="]
-    others = [c.expr for c in claims if c.sense != "="]
-    return len(claims) <= MAX_BOXED and no_solution(equations, positive, others)
+    return bool(more) and contradictory([*claims, *more], positive)
 
 
 @lru_cache(maxsize=4096)
@@ -94,8 +92,10 @@ def _facts(term: Expr, positive: frozenset[Expr]) -> Iterator[SignClaim]:
     sense = _sign(term, positive)
     if sense is not None:
         yield SignClaim(term, sense)
-    if term.op == "fn" and term.args[0] in _BOUNDED:
-        yield from (SignClaim(ex.ONE - term, ">="), SignClaim(ex.ONE + term, ">="))
+    if term.op == "fn" and term.args[0] in _BOUNDS:
+        most = ex.num(_BOUNDS[term.args[0]])
+        within: Sense = ">" if term.args[0] in _UNREACHED else ">="
+        yield from (SignClaim(most - term, within), SignClaim(most + term, within))
     if term.op == "fn" and term.args[0] == "cosh":
         yield SignClaim(term - ex.ONE, ">=")
     if term.op == "fn" and term.args[0] == "abs":
