@@ -80,6 +80,7 @@ SOLVABLE = [
     ("z = 0; z + 4 atan(1/5) - atan(1/239) - pi/4 = 0", "0, Machin's formula"),
     ("z = 0; z + cos(pi/5) = (1 + sqrt(5))/4", "0"),
     ("(x^2 + 1) (atan(1) - pi/4) = 0", "everything"),
+    ("sqrt(x^2) = 0; asin(x) = x", "0, where abs(x)/x has no value"),
     ("(x^2 + 1) z = (x^2 + 1) (asin(sin(pi/7)) - pi/7)", "z = 0"),
 ]
 
