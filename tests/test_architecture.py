@@ -37,7 +37,7 @@ LATE_IMPORTS = frozenset(
 )  # fmt: skip
 #: Where one bad file or answer must not stop the others, whatever it does.
 CATCH_ALL = frozenset(
-    {"base/workers.py", "homework/assignment.py", "homework/grading.py", "interface/answers.py",
+    {"base/worker_process.py", "homework/assignment.py", "homework/grading.py", "interface/answers.py",
      "benchmark/runner.py"}
 )  # fmt: skip
 
@@ -143,10 +143,7 @@ _OTHER_WORDS = {
     "equation": {
         "homework/questions/equations.py", "homework/starting.py",
     },
-    "string": {
-        "scene/fields.py", "homework/key/facts.py", "scene/picture.py",
-        "pictures/placed_shapes.py",
-    },
+    "string": {"scene/fields.py", "homework/key/facts.py", "pictures/placed_shapes.py"},
     "fixed": {"scene/frames.py"},
     "on": {"scene/world.py"},
 }  # fmt: skip

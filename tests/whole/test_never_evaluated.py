@@ -28,7 +28,7 @@ ALLOWED = {
         "site/browser/__init__.py",
         "import_module",
     ): "a module of the page's own, which its script names",
-    ("base/workers.py", "import_module"): "the module of a job's function, which the parent process names",
+    ("base/worker_process.py", "import_module"): "the module of a job's function, which the parent process names",
 }
 
 

@@ -108,7 +108,7 @@ def _plain_coefficients(g: Expr) -> dict[Expr, Expr]:
     """Return the coordinates and velocities of which a sum holds a multiple by a number, and nothing else."""
     terms = [ex.number_and_rest(t) for t in (g.args if g.op == "add" else (g,))]
     moving = [(s, number) for number, s in terms if s.op == "sym" and s.args[0] in ("coordinate", "velocity")]
-    return {s: ex.num(number) for s, number in moving if sum(s in rest.symbols for _, rest in terms) == 1}
+    return {s: ex.num(number) for s, number in moving if sum(s in factor.symbols for _, factor in terms) == 1}
 
 
 # -- polynomials in the generators ------------------------------------------------------------------
