@@ -91,7 +91,7 @@ def test_what_hears_no_signal_is_killed() -> None:
 def test_ladders_climb_by_size_and_other_ladders_go_on() -> None:
     lines = ran(["hangs", "right"])
     sizes = [line.size for line in lines if line.method == "hangs"]
-    assert sizes[:4] == [1, 1, 2, 2]
+    assert sorted(sizes[:4]) == [1, 1, 2, 2]
     assert sizes[4:].index(4) < sizes[4:].index(8)
     trial = next(chart_methods.family())
     one, other = tasks.TrialTask(trial, "m"), tasks.TrialTask(replace(trial, size=7, name="box-7-0"), "m")
