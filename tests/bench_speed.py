@@ -3,7 +3,7 @@
 python tests/bench_speed.py [ROW...] [--list] [--dry]
 
 Writes tests/charts/speed.json and the table of dofkit/site/pages/about/speed.md; with names of rows only these are
-measured again. It takes about two minutes, and wants a machine that does nothing else.
+measured again. It takes two to five minutes, and wants a machine that does nothing else.
 """
 
 from __future__ import annotations
