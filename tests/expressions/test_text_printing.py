@@ -134,7 +134,7 @@ def grow(below: st.SearchStrategy[Expr]) -> st.SearchStrategy[Expr]:
     )
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=120, deadline=None)
 @given(st.recursive(LEAVES, grow, max_leaves=10))
 def test_what_is_printed_is_read_back(e: Expr) -> None:
     text = to_text(e)
