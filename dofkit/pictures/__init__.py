@@ -10,8 +10,8 @@ From a scene to a file, in this order
        adds the places and sizes of symbols, `words` what the report says of each constraint.
     2. Shapes: a `Sketch` is made of `shapes` that bodies and particles carry. There are four kinds: a `mechanism`
        (with `joints`, the `loci` of equations and the `placed_shapes` of the scene's own picture, or of a disc or knife
-       edge by `recognition`), the set of two or three `coordinates`, the `directions` that brackets add, and the
-       `constraint_graph`.
+       edge by `recognition`), the set of two or three coordinates and the directions that brackets add (both in
+       `directions`), and the `constraint_graph`.
     3. Motion: frames are the same shapes with other poses. `motion_clips` has sampled finite motions (each free
        velocity in turn), infinitesimal ones, and those that are new without a constraint; `loop_clips` has loops. By
        `planar_program` and `planar.js` a page drags a planar scene. `animation` has the files.

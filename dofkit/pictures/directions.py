@@ -1,8 +1,9 @@
-"""The directions that differential constraints allow at each point, and those that their brackets add."""
+"""Scenes of coordinates alone: their axes, the directions that constraints allow, and those that brackets add."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from itertools import product
 from typing import NamedTuple
 
@@ -11,9 +12,10 @@ import numpy as np
 from dofkit.base.errors import DofkitError
 from dofkit.expressions.tree import TIME, Expr, coordinate
 from dofkit.motion.loops import Field, bracket, by_pivots, by_size, fields_of_pivots
-from dofkit.pictures.arrangement import Arrangement, is_linear, velocity_rows
+from dofkit.pictures.arrangement import Arrangement, finite_relations, is_linear, velocity_rows
 from dofkit.pictures.evaluation import kernel
-from dofkit.pictures.mechanism import notes_of
+from dofkit.pictures.loci import half_of
+from dofkit.pictures.mechanism import notes_of, sketch_of
 from dofkit.pictures.shapes import AT_REST, Array, Role, Shape, Sketch, circle, fixed, place
 from dofkit.pictures.stage import StagedScene
 from dofkit.pictures.words import alternative, answer, sure
@@ -231,3 +233,35 @@ def _at_start(distribution: Distribution, directions: Sequence[Direction3], chos
         yield Shape("line", fixed(start, tip), role, owner=direction.name)
         yield Shape("ball", fixed(tip), role, owner=direction.name, size=0.03)
         yield Shape("words", fixed(tip), "name", owner=direction.name, text=direction.name)
+
+
+# scenes of two or three coordinates
+
+
+def coordinate_sketch(stage: StagedScene) -> Sketch:
+    """Return the sketch of a particle whose position are the coordinates, with the axes."""
+    sketch = sketch_of(stage)
+    shapes = (*_axes(stage), *_field(stage), *sketch.shapes)
+    return replace(sketch, shapes=shapes, axes=(), alternative=f"{sketch.alternative} The axes are the coordinates.")
+
+
+def _axes(stage: StagedScene) -> Iterator[Shape]:
+    """Yield a line for each coordinate, with its name and marks at the whole numbers."""
+    half = half_of(stage)
+    for axis, direction in zip(stage.system.coordinates, np.eye(3), strict=False):
+        yield Shape("line", fixed(-half * direction, half * direction), "axis")
+        yield Shape("words", fixed(1.06 * half * direction), "name", text=axis.name)
+        side = 0.03 * half * np.roll(direction, 1 if direction[1] == 0 else -1)
+        for tick in range(-int(half), int(half) + 1):
+            if tick and half < 12:
+                yield Shape("line", fixed(tick * direction - side, tick * direction + side), "axis")
+        yield Shape("words", fixed(direction - 2.6 * side), "name", text="1")
+
+
+def _field(stage: StagedScene) -> Iterator[Shape]:
+    """Yield the directions that constraints of velocities allow, over the plane of two coordinates."""
+    system = stage.system
+    finite = finite_relations(system, ("=", ">=", ">"))
+    written = [r.expr for c in system.constraints for r in c.relations]
+    if system.dimension == 2 and len(written) > len(finite) and is_linear(system):
+        yield from elements(Distribution(stage.arrangement), 0.9 * half_of(stage))

@@ -10,8 +10,7 @@ import numpy as np
 
 from dofkit.methods.classify import classify
 from dofkit.pictures.constraint_graph import graph_sketch, hover_script
-from dofkit.pictures.coordinates import coordinate_sketch
-from dofkit.pictures.directions import phase_sketch
+from dofkit.pictures.directions import coordinate_sketch, phase_sketch
 from dofkit.pictures.files import DrawnSketch, has_matplotlib, png_of, svg_of
 from dofkit.pictures.layout import WIDTH, page_of
 from dofkit.pictures.mechanism import FREE_PLACES, is_bare, sketch_of
