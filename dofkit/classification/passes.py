@@ -225,6 +225,8 @@ def _warnings(study: Study) -> list[str]:
     answer += [
         f"'{study.names[i]}': whether it can be satisfied at all was not decided" for i in study.outcome.unsettled
     ]
+    if study.dependence.conflicting.members and study.dependence.conflicting.claim == OPEN:
+        answer.append("Whether every constraint that is named as conflicting is needed for this was not decided.")
     for a in study.outcome.answers:
         answer += a.reasons
         answer += [f"hidden geometric equation: {to_text(g)} = 0" for g in a.hidden]

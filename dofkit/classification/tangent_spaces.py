@@ -149,24 +149,9 @@ def _tangent(chart: Chart, symbols: dict[Expr, float], turning: Sequence[Rotatio
     columns = [c for s, c in zip(chart.symbols, chart.columns, strict=True) if s != ex.TIME]
     rows = jacobian(chart.ring, at, point, chart.nodes, columns, 0.0)
     j = unit_rows([list(map(float, row)) for row in rows], ZERO)
-    for group in _groups(chart):
-        size = max((largest([row[c] for c in group]) for row in j), default=0.0) or 1.0
-        for row in j:
-            for c in group:
-                row[c] /= size
     regular = len(j) == len(columns) - dof and len(pivoted(j, FAINT).order) == len(j)
     basis = pivoted(j, FAINT if regular else ZERO).basis
     return _in_angles(chart, symbols, complement(basis, len(columns)), turning)
-
-
-def _groups(chart: Chart) -> list[list[int]]:
-    """The columns of lengths, of angles, and of other coordinates."""
-    roles = {c.name: c.role for c in chart.setting.roles}
-    kinds: dict[str, list[int]] = {}
-    for i, s in enumerate(s for s in chart.symbols if s != ex.TIME):
-        role = roles.get(str(s.args[1]), "free")
-        kinds.setdefault("length" if role in ("x", "y", "z") else "free" if role == "free" else "angle", []).append(i)
-    return list(kinds.values())
 
 
 def _in_angles(chart: Chart, symbols: dict[Expr, float], basis: Any, turning: Sequence[Rotation]) -> Any:

@@ -49,6 +49,15 @@ def test_without_any_member_the_set_holds(
         assert classified(coordinates.split(), list(rest)).consistent is True
 
 
+def test_a_set_that_may_not_be_minimal_is_no_sure_answer() -> None:
+    """Two unit vectors with x + w > 2: the second constraint is not needed, which no engine proves."""
+    texts = ["x^2 + y^2 = 1", "x z + y w = 0", "z^2 + w^2 = 1", "x + w = 2 + 1e-9"]
+    report = classified(list("xyzw"), texts)
+    assert report.consistent is False
+    assert {"c1", "c3", "c4"} <= {*report.conflicting}
+    assert report.verdicts["conflicting"].verdict == "undecided" or report.conflicting == ["c1", "c3", "c4"]
+
+
 def test_unrelated_constraints_are_left_alone() -> None:
     """Forty pairs that have nothing to do with the two circles between them."""
     others = [f"p{i}^2 + q{i}^2 = {i + 1}" for i in range(40)]

@@ -8,7 +8,7 @@ from functools import partial
 from typing import NamedTuple
 
 from dofkit.base.deadline import limited, unless_late
-from dofkit.base.verdicts import About, Claim
+from dofkit.base.verdicts import OPEN, About, Claim
 from dofkit.classification.dependence.implication import IMPLIED, follows
 from dofkit.classification.dependence.minimal_sets import largest_redundant_set, minimal_set
 from dofkit.classification.freedom.branches import AnsweredBlocks, Outcome, solve
@@ -134,7 +134,7 @@ class Conflict(NamedTuple):
     """Constraints that cannot hold together; ``claim``: none of them can be left out."""
 
     members: list[int]
-    claim: Claim = LEFT_OUT
+    claim: Claim = OPEN
 
 
 def conflict(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome) -> Conflict:
@@ -156,8 +156,8 @@ def conflict(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome) -> 
         kept = [i for i, r in enumerate(reduced) if r.normals]
     with limited(CONFLICT_SECONDS):
         kept = minimal_set(kept, sets.inconsistent_in_time, len(kept) // 2 or 1)
-    minimal = all(sets.consistent(kept[:k] + kept[k + 1 :]) for k in range(len(kept)))
-    return Conflict(kept, MINIMAL if minimal else LEFT_OUT)
+    satisfied = {sets.satisfied(kept[:k] + kept[k + 1 :]) for k in range(len(kept))}
+    return Conflict(kept, OPEN if OPEN in satisfied else LEFT_OUT if LEFT_OUT in satisfied else MINIMAL)
 
 
 class ConstraintSets:
@@ -178,9 +178,10 @@ class ConstraintSets:
         """Return whether some constraints are inconsistent; False also where there is no time to tell."""
         return bool(numbers) and unless_late(partial(self.inconsistent, numbers), False)
 
-    def consistent(self, numbers: Sequence[int]) -> bool:
-        """Return whether it was proved, when they were examined, that they are satisfied somewhere."""
-        return self._answers.get(tuple(numbers)) == (True, True)
+    def satisfied(self, numbers: Sequence[int]) -> Claim:
+        """Return how sure it was, when some constraints were examined, that they are satisfied somewhere."""
+        consistent, proved = self._answers.get(tuple(numbers), (None, False))
+        return OPEN if consistent is not True else MINIMAL if proved else LEFT_OUT
 
     def _looked(self, numbers: Sequence[int]) -> tuple[bool | None, bool]:
         """(consistent, proved)."""
