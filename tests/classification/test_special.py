@@ -113,6 +113,14 @@ LOCI: list[tuple[str, dict[str, Any], list[Case]]] = [
         scene("dz = y^2 dx", "y >= 0"),
         [("y = 0", flat("(2, 2, 3)", "(2, 3)"), ONE, "probable")],
     ),
+    (
+        "w = t x dx + y dy: w = 0 where x = y = 0, and w ^ dw = x y dy ^ dt ^ dx",
+        scene("t x dx + y dy = 0", coordinates=["x", "y"]),
+        [
+            ("x = 0 and y = 0", drop(1, 0, 2), ONE, "proved"),
+            *((f"{q} = 0", flat("(2, 2, 3)", "(2, 3)"), ONE, "probable") for q in "xy"),
+        ],
+    ),
     ("an unknown function may vanish or not", scene("h(x)*dz = dx", functions={"h": ["x"]}), []),
     ("nonlinear in velocities: not searched", scene("xdot^2 + ydot^2 = zdot^2"), []),
 ]

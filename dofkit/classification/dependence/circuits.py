@@ -65,10 +65,9 @@ def analyse(matrices: Sequence[OwnedRows], needed: Collection[int] = ()) -> Redu
     redundant: list[int] = []
     for _, members in groups:
         redundant += _droppable(matrices, [o for o in order if o in members and o not in needed], bases)
-    rows_of = Counter(o for part in matrices for o in part.owners)
     open_ = set[int]().union(*(b.open for b in bases))
     decided = [owner for owner in redundant if owner not in open_]
-    circuits = {owner: _circuit(matrices, order, owner, bases, rows_of[owner] == 1) for owner in decided}
+    circuits = {owner: _circuit(matrices, order, owner, bases) for owner in decided}
     uncounted = tuple(sorted(set[int]().union(*(b.uncounted for b in bases))))
     equations = {o: e for o, e in _equations(matrices, bases).items() if o not in uncounted}
     claim = together(*(part.claim for part, basis in zip(matrices, bases, strict=True) if basis.supports))
@@ -139,10 +138,6 @@ class _Basis:
         numbers = [i for i in _by_kind(self._rows) if self.owners[i] in kept]
         return [numbers[k] for k in echelon([self._rows.matrix[i] for i in numbers], self._rows.p).independent]
 
-    def whole(self, owners: set[int]) -> bool:
-        """Return whether all rows of these constraints are pivots."""
-        return not any(self.owners[i] in owners for i in self.supports)
-
     @staticmethod
     def _from_supports(rows: OwnedRows, tell: Supports) -> tuple[list[int], dict[int, list[int]]]:
         supports = {i: list(support) for i, support in tell().items()}
@@ -193,8 +188,8 @@ def _droppable(matrices: Sequence[OwnedRows], members: list[int], bases: Sequenc
 
     Modulo 2 stands only which rows depend on which (balls tell no more): then those that add nothing to those before.
     """
-    rows_of = Counter(o for p in matrices for o in p.owners)
     unweighted = any(p.p == 2 for p in matrices) and len(members) > SEARCHED
+    rows_of = Counter(o for p in matrices for o in p.owners)
     if unweighted or len(members) > REMOVED or all(rows_of[o] == 1 for o in members):
         kept_of = set().union(*(b.pivot_owners for b in bases))
         return [o for o in members if o not in kept_of]
@@ -260,13 +255,11 @@ class _Dispensable:
         return dropped
 
 
-def _circuit(
-    matrices: Sequence[OwnedRows], order: list[int], owner: int, bases: Sequence[_Basis], single: bool
-) -> list[int]:
+def _circuit(matrices: Sequence[OwnedRows], order: list[int], owner: int, bases: Sequence[_Basis]) -> list[int]:
     """A minimal set of other constraints on which a redundant one depends, of those before it where that can be."""
     if not any(owner in b.pivot_owners for b in bases):
         supports = set().union(*(b.circuits.get(owner, set()) for b in bases)) - {owner}
-        if len(supports) < 2 or len(supports) > SEARCHED or (single and all(b.whole(supports) for b in bases)):
+        if len(supports) < 2 or len(supports) > SEARCHED:
             return sorted(supports)
         kept = [o for o in order if o in supports]
     else:
