@@ -117,7 +117,7 @@ LOCI: list[tuple[str, dict[str, Any], list[Case]]] = [
         "w = t x dx + y dy: w = 0 where x = y = 0, and w ^ dw = x y dy ^ dt ^ dx",
         scene("t x dx + y dy = 0", coordinates=["x", "y"]),
         [
-            ("x = 0 and y = 0", drop(1, 0, 2), ONE, "proved"),
+            (ORIGIN, drop(1, 0, 1), ONE, "proved"),
             *((f"{q} = 0", flat("(2, 2, 3)", "(2, 3)"), ONE, "probable") for q in "xy"),
         ],
     ),
