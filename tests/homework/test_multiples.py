@@ -32,6 +32,10 @@ CIRCLE, LINE, CROSS, HYPERBOLA, WAVE = "x^2 + y^2 = R^2", "3 x + 4 y = 5", "x^2 
             (CROSS, "abs(x) = abs(y)", "right", []),
             (CROSS, "(x - y)^2 (x + y) = 0", "partly", ["IRREGULAR"]),
             (CROSS, "x = y", "partly", ["ONE_BRANCH"]),
+            ("x^4 = y^4", CROSS, "right", []),  # x^2 + y^2 vanishes where x = y = 0 only, a point of both lines
+            ("x^4 = y^4", "x^4 = y^4", "right", []),
+            ("(x - y)^2 = 0", "(y - x)^2 = 0", "right", []),  # as irregular as what was asked for
+            ("xdot^3 = ydot^3", "2 xdot^3 = 2 ydot^3", "right", []),
         ],
         2,
         several=True,

@@ -283,7 +283,7 @@ class Equivalence:
     def _regularity(self) -> Sameness:
         """The same set: is the answer's gradient as good there, on every branch?"""
         names = [c.name for c in self.system.coordinates]
-        result = Regularity(self._others, self._all_wanted, self.submitted, self.setting, names).irregular()
+        result = Regularity(self._others, self.wanted, self.submitted, self.setting, names).irregular()
         return Sameness.UNDECIDED if result is None else Sameness.IRREGULAR if result else Sameness.SAME
 
     # inequalities
