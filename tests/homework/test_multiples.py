@@ -36,6 +36,8 @@ CIRCLE, LINE, CROSS, HYPERBOLA, WAVE = "x^2 + y^2 = R^2", "3 x + 4 y = 5", "x^2 
             ("x^4 = y^4", "x^4 = y^4", "right", []),
             ("(x - y)^2 = 0", "(y - x)^2 = 0", "right", []),  # as irregular as what was asked for
             ("xdot^3 = ydot^3", "2 xdot^3 = 2 ydot^3", "right", []),
+            ("xdot^2 + ydot^2 = R^2", "(xdot^2 + ydot^2 - R^2)^2 = 0", "partly", ["IRREGULAR"]),
+            ("xdot^2 + ydot^2 = R^2", "(xdot^2 + ydot^2)^2 = R^4", "right", []),
         ],
         2,
         several=True,

@@ -33,7 +33,7 @@ from dofkit.expressions.calculus import Requirement, diff, in_velocities, replac
 from dofkit.expressions.tree import HALF, MINUS_ONE, ZERO, Expr
 from dofkit.relations.blocks import Block, Row, make_chart, split
 from dofkit.relations.normal.normal_form import velocities_of
-from dofkit.relations.normal.pieces import Finite, Inequality, Normal, Pfaffian, Piece, Reduced
+from dofkit.relations.normal.pieces import Finite, Inequality, Nonlinear, Normal, Pfaffian, Piece, Reduced
 from dofkit.relations.normal.polynomial_zeros import EXPONENT_NOTE, POWER_NOTE, SQUARES_NOTE
 from dofkit.relations.setting import Setting
 from dofkit.relations.velocity_reductions import eliminated
@@ -132,11 +132,12 @@ class Regularity:
     def irregular(self) -> bool | None:
         """Return whether the answer's gradient loses rank where that of what was asked for does not, or None."""
         answer, asked = ([n for r in some for n in r.normals] for some in (self.submitted, self.wanted))
+        nonlinear = any(isinstance(p, Nonlinear) for n in (*answer, *asked) for p in n.pieces)
+        if _lost(answer, nonlinear) and not _lost(asked, nonlinear):
+            return True
         if any(isinstance(p, Pfaffian) for n in (*answer, *asked) for p in n.pieces):
             choices = list(cartesian(*(n.branches for n in asked if n.branches)))[:MAX_BRANCHES]
             return any(self._flat(self.submitted, c) and not self._flat(self.wanted, c) for c in choices)
-        if _lost(answer) and not _lost(asked):
-            return True
         branches = list(cartesian(*(n.branches for n in (*self.others, *asked) if n.branches)))
         regular = {self._as_regular(choice) for choice in branches[:MAX_BRANCHES]}
         if False in regular:
@@ -182,9 +183,13 @@ class Regularity:
         return [ball_part(j).rank if j else 0 for j in slopes]
 
 
-def _lost(normals: Sequence[Normal]) -> bool:
-    """Return whether a relation was a power or a sum of squares in exponentials, of whose zeros GF(p) knows nothing."""
-    return any(EXPONENT_NOTE in n.notes and not {POWER_NOTE, SQUARES_NOTE}.isdisjoint(n.notes) for n in normals)
+def _lost(normals: Sequence[Normal], nonlinear: bool) -> bool:
+    """Return whether a relation was a power or a sum of squares: in exponentials, or ``nonlinear`` in the velocities.
+
+    At points of those no gradients are looked at.
+    """
+    powers = [n for n in normals if not {POWER_NOTE, SQUARES_NOTE}.isdisjoint(n.notes)]
+    return any(nonlinear or EXPONENT_NOTE in n.notes for n in powers)
 
 
 def _is_flat(r: Reduced, choice: Sequence[Sequence[Piece]], positive: frozenset[Expr]) -> bool:
