@@ -63,3 +63,20 @@ def test_the_square_of_a_finite_relation_beside_a_form_is_irregular() -> None:
             {"title": "sheet", "problems": [problem]}, {"student": "s", "answers": {"p": {"q": answer}}}
         )
         assert [i.status for i in result.items] == [status]
+
+
+@pytest.mark.parametrize(
+    ("answer", "status"),
+    [
+        ("z = x y + C", "right"),
+        ("z = y + C", "needs_review"),
+        ("z = ± y + C", "needs_review"),
+        ("z = 2 y + C", "wrong"),
+    ],
+)
+def test_an_integral_of_one_branch_of_the_others_is_left_to_a_person(answer: str, status: str) -> None:
+    """Where x = 1 it is z - y = C, and z + y = C where x = -1."""
+    made = {"coordinates": ["x", "y", "z"], "constraints": ["x^2 = 1", "dz = x dy"]}
+    problem = {"id": "p", "scene": made, "questions": [{"id": "q", "ask": "integral", "constraint": "c2"}]}
+    result = dofkit.grade({"title": "sheet", "problems": [problem]}, {"student": "s", "answers": {"p": {"q": answer}}})
+    assert [i.status for i in result.items] == [status]

@@ -11,9 +11,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
 from functools import cached_property
+from itertools import islice
+from itertools import product as cartesian
 
 from dofkit.base.deadline import part, unless_late
 from dofkit.classification.dependence.comparison import (
+    MAX_BRANCHES,
     Regularity,
     bounds,
     loses_nothing,
@@ -30,7 +33,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.domain import DomainCondition
-from dofkit.relations.normal.pieces import UNDONE_NOTE, Finite, Normal, Pfaffian, Reduced
+from dofkit.relations.normal.pieces import UNDONE_NOTE, Finite, Normal, Pfaffian, Piece, Reduced
 from dofkit.relations.setting import Setting
 from dofkit.system import System
 
@@ -252,7 +255,8 @@ class Equivalence:
     def leaves(self, constants: frozenset[str]) -> Leaves:
         """Leaves of the forms: they vanish there, and as many velocities are free as the forms leave.
 
-        Where there are other forms, one of several constants may be that of another integral: that is undecided.
+        Where there are other forms, one of several constants may be that of another integral: that is undecided. So is
+        what vanishes on one branch of the others only.
         """
         finite = _finite(self._answer)
         if not finite or len(finite) != len(self._answer):
@@ -265,7 +269,8 @@ class Equivalence:
         answer = self._follow(self._all_wanted, self._answer)
         if not answer:
             borrowed = len(named & constants) > 1 and any(self._moved(n) - constants for n in self._others)
-            return Leaves.NONE if answer is False and not borrowed else Leaves.OPEN
+            nowhere = answer is False and not borrowed and not any(self._vanish_on(b) for b in self._other_branches)
+            return Leaves.NONE if nowhere else Leaves.OPEN
         mine, asked = self._with(self.submitted), self._with(self.wanted)
         if mine.velocity_dof is None or asked.velocity_dof is None:
             return Leaves.OPEN
@@ -274,6 +279,16 @@ class Equivalence:
         if len(moving) > 1 and len(named - constants) < 2:
             return Leaves.OPEN
         return Leaves.ALL if named & constants else Leaves.ONE
+
+    @property
+    def _other_branches(self) -> list[tuple[tuple[Piece, ...], ...]]:
+        """Choices of branches of the others; none where there is one only."""
+        choices = list(islice(cartesian(*(n.branches for n in self._others if n.branches)), MAX_BRANCHES))
+        return choices if len(choices) > 1 else []
+
+    def _vanish_on(self, branches: Sequence[tuple[Piece, ...]]) -> bool:
+        """Return whether the forms may vanish on the answer where the others are on these branches."""
+        return self._follow(self._all_wanted, [*self._answer, *(Normal((b,)) for b in branches)]) is not False
 
     @staticmethod
     def _moved(normal: Normal) -> set[str]:
