@@ -33,7 +33,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.domain import DomainCondition
-from dofkit.relations.normal.pieces import UNDONE_NOTE, Finite, Normal, Pfaffian, Piece, Reduced
+from dofkit.relations.normal.pieces import UNDONE_NOTE, Finite, Normal, Pfaffian, Reduced
 from dofkit.relations.setting import Setting
 from dofkit.system import System
 
@@ -265,11 +265,12 @@ class Equivalence:
         if not self._possible:
             return Leaves.NONE
         named = {str(s.args[1]) for g in finite for s in g.symbols if s.args[0] == "coordinate"}
-        moving = {q for n in self._all_wanted for q in self._moved(n)}
+        moving = {q for n in self._all_wanted for q in _moved(n)}
         answer = self._follow(self._all_wanted, self._answer)
         if not answer:
-            borrowed = len(named & constants) > 1 and any(self._moved(n) - constants for n in self._others)
-            nowhere = answer is False and not borrowed and not any(self._vanish_on(b) for b in self._other_branches)
+            borrowed = len(named & constants) > 1 and any(_moved(n) - constants for n in self._others)
+            on_branches = (self._follow(self._all_wanted, [*self._answer, *b]) for b in _branches_of(self._others))
+            nowhere = answer is False and not borrowed and all(a is False for a in on_branches)
             return Leaves.NONE if nowhere else Leaves.OPEN
         mine, asked = self._with(self.submitted), self._with(self.wanted)
         if mine.velocity_dof is None or asked.velocity_dof is None:
@@ -279,21 +280,6 @@ class Equivalence:
         if len(moving) > 1 and len(named - constants) < 2:
             return Leaves.OPEN
         return Leaves.ALL if named & constants else Leaves.ONE
-
-    @property
-    def _other_branches(self) -> list[tuple[tuple[Piece, ...], ...]]:
-        """Choices of branches of the others; none where there is one only."""
-        choices = list(islice(cartesian(*(n.branches for n in self._others if n.branches)), MAX_BRANCHES))
-        return choices if len(choices) > 1 else []
-
-    def _vanish_on(self, branches: Sequence[tuple[Piece, ...]]) -> bool:
-        """Return whether the forms may vanish on the answer where the others are on these branches."""
-        return self._follow(self._all_wanted, [*self._answer, *(Normal((b,)) for b in branches)]) is not False
-
-    @staticmethod
-    def _moved(normal: Normal) -> set[str]:
-        """The coordinates whose differentials occur in the forms of a normal."""
-        return {q for p in normal.pieces if isinstance(p, Pfaffian) for q in p.coefficients}
 
     def _regularity(self) -> Sameness:
         """The same set: is the answer's gradient as good there, on every branch?"""
@@ -321,6 +307,18 @@ class Equivalence:
         if all(met):
             return Compared(Sameness.STRONGER if extra else Sameness.SAME, met)
         return Compared(Sameness.DIFFERENT if extra else Sameness.WEAKER, met)
+
+
+def _moved(normal: Normal) -> set[str]:
+    """The coordinates whose differentials occur in the forms of a normal."""
+    return {q for p in normal.pieces if isinstance(p, Pfaffian) for q in p.coefficients}
+
+
+def _branches_of(normals: Sequence[Normal]) -> list[list[Normal]]:
+    """Choices of one branch of each; none where there is one choice only."""
+    choices = islice(cartesian(*(n.branches for n in normals if n.branches)), MAX_BRANCHES)
+    chosen = [[Normal((branch,)) for branch in choice] for choice in choices]
+    return chosen if len(chosen) > 1 else []
 
 
 def _normals(constraints: Sequence[Reduced]) -> list[Normal]:
