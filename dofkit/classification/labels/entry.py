@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 from dofkit.base.verdicts import OPEN, Claim, weakest
 from dofkit.classification.labels.reasons import (
+    ON_COMPONENT,
     EntryDependence,
     EntryLabels,
     EntryTraits,
@@ -87,6 +88,8 @@ def entry(reduced: Reduced, evidence: Evidence, setting: Setting, consistent: bo
     sentences = [reason_of(form, labels, proofs, dependence.circuit, others), reason_of_time(traits)]
     sentences += dependence.sentences(implied, reduced.equations)
     claims = _claims(form, labels, traits, integral, evidence, bool(proofs) and all(p.proved for p in proofs))
+    if "integral" in claims and claims["integral"].about == "component" and ON_COMPONENT not in sentences:
+        sentences.append(ON_COMPONENT)
     sure = weakest(*(c.verdict for c in claims.values()), *(t.answer.verdict for t in evidence.rows))
     return ConstraintEntry(
         name=constraint.name,
