@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -88,8 +88,6 @@ def entry(reduced: Reduced, evidence: Evidence, setting: Setting, consistent: bo
     sentences = [reason_of(form, labels, proofs, dependence.circuit, others), reason_of_time(traits)]
     sentences += dependence.sentences(implied, reduced.equations)
     claims = _claims(form, labels, traits, integral, evidence, bool(proofs) and all(p.proved for p in proofs))
-    if "integral" in claims and claims["integral"].about == "component" and ON_COMPONENT not in sentences:
-        sentences.append(ON_COMPONENT)
     sure = weakest(*(c.verdict for c in claims.values()), *(t.answer.verdict for t in evidence.rows))
     return ConstraintEntry(
         name=constraint.name,
@@ -110,7 +108,7 @@ def entry(reduced: Reduced, evidence: Evidence, setting: Setting, consistent: bo
         redundant_equations=implied,
         verdict=weakest(sure, dependence.claim.verdict if dependence.redundant else "proved"),
         verdicts={name: FieldVerdict.of(claim) for name, claim in claims.items()},
-        reason="".join(sentences),
+        reason="".join(dict.fromkeys([*sentences, _scope(claims)])),
     )
 
 
@@ -220,6 +218,11 @@ def _claims(
     elif dependence.seen:
         claims["independent"] = Claim("numeric", "leaving out", gap=GAP, about="reference")
     return claims
+
+
+def _scope(claims: Mapping[str, Claim]) -> str:
+    """What is said of an integral that holds on one component only."""
+    return ON_COMPONENT if "integral" in claims and claims["integral"].about == "component" else ""
 
 
 def _own_integral(normals: Sequence[Normal], proofs: Sequence[Integrability]) -> str | None:
