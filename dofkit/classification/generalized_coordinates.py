@@ -7,7 +7,7 @@ from dataclasses import replace
 from functools import partial
 
 from dofkit.base.deadline import expired, unless_late
-from dofkit.base.verdicts import OPEN, ArgumentKey, Claim, together
+from dofkit.base.verdicts import OPEN, About, ArgumentKey, Claim, least, together
 from dofkit.classification import tangent_spaces
 from dofkit.classification.study import Decided, Study, counted, decided
 from dofkit.classification.turned_coordinates import (
@@ -98,8 +98,9 @@ def claim_of_choice(study: Study, chosen: Sequence[str]) -> Claim:
     """
     of_blocks = []
     for block, a in zip(study.outcome.blocks, study.outcome.answers, strict=True):
+        scope: About = "component" if a.one_branch else "everywhere"
         if a.argument in ALIKE or not a.dof or (a.about == "reference" and a.instantaneous == a.velocity_dof):
-            of_blocks.append(counted(a.claim))
+            of_blocks.append(counted(replace(a.claim, about=least(a.about, scope))))
         elif a.argument == "joints that close no loop":
             of_blocks.append(replace(counted(a.claim), about="component"))
         elif a.about == "reference":

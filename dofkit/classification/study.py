@@ -247,10 +247,13 @@ def joint_coordinates(study: Study) -> list[str] | None:
 
 def largest_integrable_part(study: Study) -> Decided:
     """What the forms say in finite relations; None where that is not known."""
-    if not any(block.forms for block in study.outcome.blocks):
+    outcome = study.outcome
+    if not any(block.forms for block in outcome.blocks):
         return Decided(None)
-    part = unless_late(partial(integrable_part, study.outcome, study.entries, study.company), None)
-    return Decided(part, None if part is None else study.free)
+    part = unless_late(partial(integrable_part, outcome, study.entries, study.company), None)
+    one_branch = any(block.forms and a.one_branch for block, a in zip(outcome.blocks, outcome.answers, strict=True))
+    about = least(study.free.about, "component" if one_branch else "everywhere")
+    return Decided(part, None if part is None else replace(study.free, about=about))
 
 
 def growth_vector(study: Study) -> Decided:

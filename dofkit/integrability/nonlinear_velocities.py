@@ -284,7 +284,7 @@ def label_modulo_others(
     touched = [answers[k] for k in numbers]
     weak = max(touched, key=lambda a: VERDICTS.index(a.verdict), default=Answer(argument="nothing constrains"))
     together = Answer(verdict=weak.verdict, about=weak.about, argument=weak.argument, bits=weak.bits, gap=weak.gap)
-    together.hidden = [g for a in touched for g in a.hidden]
+    together.hidden, together.one_branch = [g for a in touched for g in a.hidden], any(a.one_branch for a in touched)
     f = slot.written.piece
     curved = all(answers[k].curved for k in numbers if blocks[k].nonlinear)
     impossible = any(a.consistent is False for a in answers)

@@ -89,7 +89,7 @@ class Answer:
     what was answered apart, all other rows being independent of each other and of these; None where the whole was
     looked at together, and only then is there a ``matrix``; ``most``: where the freedom is not known, what it is proved
     not to exceed; ``separating``: expressions each of which may vanish on every component that is as large, and not on
-    others.
+    others; ``one_branch``: that of one of several branches, of which others may integrate to something else.
     """
 
     consistent: bool | None = True
@@ -129,6 +129,7 @@ class Answer:
     answered_parts: tuple[AnsweredPart, ...] | None = None
     most: int | None = None
     separating: tuple[Expr, ...] = ()
+    one_branch: bool = False
 
     @property
     def claim(self) -> Claim:

@@ -300,7 +300,8 @@ def _reference(surveyed: Survey, pose: Pose) -> tuple[Pose | None, Pose | None, 
     if reference is not None:
         level = _level(drawing, touched)
         return (None, reference, [LEVEL.format(", ".join(level))]) if level else (reference, None, [])
-    missing = undrawn(drawing, surveyed.drawn, pose, touched()) if surveyed.drawn else ()
+    placed = surveyed.drawn or drawing.configuration
+    missing = undrawn(drawing, surveyed.drawn, pose, touched()) if placed else ()
     listed = ", ".join(missing[:8]) + (", ..." if len(missing) > 8 else "")
     message = f"There is no reference configuration: the position of {listed} is not given."
     return None, None, [message] if missing else []

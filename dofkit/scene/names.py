@@ -17,6 +17,7 @@ from dofkit.scene.parts import Body, Declarations, Particle
 from dofkit.system import BODY_ROLES, GROUND, PARTICLE_ROLES, Coordinate, Sign
 
 SIGNS: tuple[Sign, ...] = ("real", "positive", "nonzero")
+_KINDS = "write real, positive or nonzero, or a value in numbers and the parameters before it"
 RESERVED = frozenset({"t", GROUND})
 
 
@@ -137,11 +138,11 @@ def _parameters(scene: Declarations) -> tuple[dict[str, Expr], dict[str, Sign], 
 
 
 def _parameter_value(texts: Texts, name: str, value: str) -> Expr:
-    if value.isalpha() and value not in texts.names.parameters:
+    if value.isalpha() and value not in (*texts.names.parameters, "pi", "E"):
         near = nearest(value, SIGNS)
-        if near is not None:
-            texts.fault(f"there is no kind of parameter '{value}'", name, hint=f"did you mean '{near}'?")
-            return parameter(name)
+        hint = f"did you mean '{near}'?" if near else _KINDS
+        texts.fault(f"there is no kind of parameter '{value}'", name, hint=hint)
+        return parameter(name)
     return texts.fixed(value, name)
 
 

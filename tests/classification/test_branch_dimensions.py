@@ -83,3 +83,26 @@ def test_what_is_redundant_on_one_branch_says_so() -> None:
     assert report.redundant == ["c5"]
     assert report.verdicts["redundant"].about == "component"
     assert "The claim is about the component of the configuration space" in report.constraints[-1].reason
+
+
+@pytest.mark.parametrize(
+    ("texts", "about", "why"),
+    [
+        (("x^2 = 1", "dz = x dy"), "component", "z - y = C where x = 1, z + y = C where x = -1"),
+        (("x y = 0", "z dx = y dz"), "component", "z = C where x = 0; x = C where y = 0 and z is not 0"),
+        (("xdot^2 = ydot^2", "dz = x dy"), "component", "2 z = x^2 + C or 2 z = -x^2 + C"),
+        (("x y = 0", "dz = dx"), "everywhere", "z - x = C on its own"),
+        (("x^2 = 2", "dz = x dy"), "everywhere", "z - x y = C for both roots"),
+    ],
+)
+def test_what_integrates_on_one_branch_is_told_of_that_branch(texts: Sequence[str], about: str, why: str) -> None:
+    report = dofkit.classify(coordinates("x y z", *texts))
+    form = report.constraints[1]
+    assert (report.dof, form.holonomic, form.verdicts["integral"].about) == (1, True, about), why
+    assert report.verdicts["dof"].about == "everywhere"
+
+
+def test_a_special_case_of_one_branch_names_the_branch() -> None:
+    """On x = 0 the rows are y dx and -y dz; on y = 0 they are x dy and z dx: y = 0 alone is not special."""
+    report = dofkit.classify(coordinates("x y z", "x y = 0", "z dx = y dz"))
+    assert [case.where for case in report.special_cases] == ["x = 0 and y = 0"]

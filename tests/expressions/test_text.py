@@ -170,6 +170,7 @@ READ: dict[str, Expr] = {
     "θdot": thetadot,
     "ẋ_A": velocity("x_A"),
     "xdot_A": velocity("x_A"),
+    "xdot1": velocity("x1"),
     "x_Adot": velocity("x_A"),
     "dx_A": differential("x_A"),
     "phi_Bdot": velocity("phi_B"),

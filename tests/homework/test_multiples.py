@@ -32,6 +32,12 @@ CIRCLE, LINE, CROSS, HYPERBOLA, WAVE = "x^2 + y^2 = R^2", "3 x + 4 y = 5", "x^2 
             (CROSS, "abs(x) = abs(y)", "right", []),
             (CROSS, "(x - y)^2 (x + y) = 0", "partly", ["IRREGULAR"]),
             (CROSS, "x = y", "partly", ["ONE_BRANCH"]),
+            ("x^4 = y^4", CROSS, "right", []),  # x^2 + y^2 vanishes where x = y = 0 only, a point of both lines
+            ("x^4 = y^4", "x^4 = y^4", "right", []),
+            ("(x - y)^2 = 0", "(y - x)^2 = 0", "right", []),  # as irregular as what was asked for
+            ("xdot^3 = ydot^3", "2 xdot^3 = 2 ydot^3", "right", []),
+            ("xdot^2 + ydot^2 = R^2", "(xdot^2 + ydot^2 - R^2)^2 = 0", "partly", ["IRREGULAR"]),
+            ("xdot^2 + ydot^2 = R^2", "(xdot^2 + ydot^2)^2 = R^4", "right", []),
         ],
         2,
         several=True,
@@ -57,3 +63,20 @@ def test_the_square_of_a_finite_relation_beside_a_form_is_irregular() -> None:
             {"title": "sheet", "problems": [problem]}, {"student": "s", "answers": {"p": {"q": answer}}}
         )
         assert [i.status for i in result.items] == [status]
+
+
+@pytest.mark.parametrize(
+    ("answer", "status"),
+    [
+        ("z = x y + C", "right"),
+        ("z = y + C", "needs_review"),
+        ("z = ± y + C", "needs_review"),
+        ("z = 2 y + C", "wrong"),
+    ],
+)
+def test_an_integral_of_one_branch_of_the_others_is_left_to_a_person(answer: str, status: str) -> None:
+    """Where x = 1 it is z - y = C, and z + y = C where x = -1."""
+    made = {"coordinates": ["x", "y", "z"], "constraints": ["x^2 = 1", "dz = x dy"]}
+    problem = {"id": "p", "scene": made, "questions": [{"id": "q", "ask": "integral", "constraint": "c2"}]}
+    result = dofkit.grade({"title": "sheet", "problems": [problem]}, {"student": "s", "answers": {"p": {"q": answer}}})
+    assert [i.status for i in result.items] == [status]

@@ -271,6 +271,7 @@ BAD: list[tuple[Any, tuple[str | int, ...], int | None, str, str]] = [
     ({"functions": {"h": []}}, ("functions", "h"), None, "at least 1", ""),
     ({"parameters": ["a", "a"]}, ("parameters", 1), None, "given twice", ""),
     ({"parameters": {"a": "positve"}}, ("parameters", "a"), None, "no kind of parameter", "'positive'"),
+    ({"parameters": {"a": "negative"}}, ("parameters", "a"), None, "no kind of parameter", "nonzero"),
     ({"parameters": {"a": "2 b"}}, ("parameters", "a"), 3, "`b` is not declared", ""),
     ({"dimension": 4}, ("dimension",), None, "1, 2 or 3, not 4", ""),
     ({"dimension": True}, ("dimension",), None, "true", ""),

@@ -56,6 +56,13 @@ def test_what_is_constrained_and_not_drawn_is_named() -> None:
     assert "There is no reference configuration: the position of P is not given." in report.warnings
 
 
+def test_a_configuration_of_some_coordinates_is_not_ignored_in_silence() -> None:
+    scene = {"coordinates": ["x", "y"], "constraints": ["x^2 + y^2 = 1"], "configuration": {"x": 1}}
+    report = dofkit.classify(scene)
+    assert report.singular is None
+    assert "There is no reference configuration: the position of y is not given." in report.warnings
+
+
 def test_nothing_drawn_is_no_reference() -> None:
     assert told({"coordinates": ["x", "y"], "constraints": ["x = 1"]}) == moves(1, None, None)
     assert told({"coordinates": ["x", "y"]}) == moves(2, None, None)

@@ -29,11 +29,11 @@ from dofkit.exact.ring.program import POW, values
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero import is_proved_zero
 from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import diff, in_velocities, replace_nodes, substitute
+from dofkit.expressions.calculus import Requirement, diff, in_velocities, replace_nodes, substitute
 from dofkit.expressions.tree import HALF, MINUS_ONE, ZERO, Expr
 from dofkit.relations.blocks import Block, Row, make_chart, split
 from dofkit.relations.normal.normal_form import velocities_of
-from dofkit.relations.normal.pieces import Finite, Inequality, Normal, Pfaffian, Piece, Reduced
+from dofkit.relations.normal.pieces import Finite, Inequality, Nonlinear, Normal, Pfaffian, Piece, Reduced
 from dofkit.relations.normal.polynomial_zeros import EXPONENT_NOTE, POWER_NOTE, SQUARES_NOTE
 from dofkit.relations.setting import Setting
 from dofkit.relations.velocity_reductions import eliminated
@@ -47,12 +47,20 @@ def same_up_to_numbers(submitted: Sequence[Reduced], wanted: Sequence[Reduced], 
 
     True is a proof that they say the same and are as regular; False says nothing.
     """
+    if _as_written(submitted) == _as_written(wanted):
+        return True
     asked = [_terms(n) for r in wanted for n in r.normals]
     answer = [terms for r in submitted for terms in _written(r)]
     if not answer or [] in asked or [] in answer:
         return False
     table = [[_proportional(terms_of_one, other, positive) for other in asked] for terms_of_one in answer]
     return all(map(any, table)) and all(any(row[k] for row in table) for k in range(len(asked)))
+
+
+def _as_written(constraints: Sequence[Reduced]) -> set[tuple[frozenset[Expr], frozenset[Requirement]]]:
+    """The left sides of the equations e = 0, each with -e, and where they have a value."""
+    relations = (e for r in constraints for e in r.constraint.relations)
+    return {(frozenset((e.expr, -e.expr)), frozenset(e.domain)) for e in relations}
 
 
 def _entire(ring: Ring) -> bool:
@@ -116,20 +124,21 @@ class Regularity:
     """The relations of others, those that were asked for, and the constraints of an answer with the same solutions."""
 
     others: Sequence[Normal]
-    wanted: Sequence[Normal]
+    wanted: Sequence[Reduced]
     submitted: Sequence[Reduced]
     setting: Setting
     coordinates: Sequence[str]
 
     def irregular(self) -> bool | None:
         """Return whether the answer's gradient loses rank where that of what was asked for does not, or None."""
-        answer = [n for r in self.submitted for n in r.normals]
-        if any(isinstance(p, Pfaffian) for n in (*answer, *self.wanted) for p in n.pieces):
-            choices = list(cartesian(*(n.branches for n in self.wanted if n.branches)))[:MAX_BRANCHES]
-            return any(_is_flat(r, choice, self.setting.positive) for r in self.submitted for choice in choices)
-        if _lost(answer) and not _lost(self.wanted):
+        answer, asked = ([n for r in some for n in r.normals] for some in (self.submitted, self.wanted))
+        nonlinear = any(isinstance(p, Nonlinear) for n in (*answer, *asked) for p in n.pieces)
+        if _lost(answer, nonlinear) and not _lost(asked, nonlinear):
             return True
-        branches = list(cartesian(*(n.branches for n in (*self.others, *self.wanted) if n.branches)))
+        if any(isinstance(p, Pfaffian) for n in (*answer, *asked) for p in n.pieces):
+            choices = list(cartesian(*(n.branches for n in asked if n.branches)))[:MAX_BRANCHES]
+            return any(self._flat(self.submitted, c) and not self._flat(self.wanted, c) for c in choices)
+        branches = list(cartesian(*(n.branches for n in (*self.others, *asked) if n.branches)))
         regular = {self._as_regular(choice) for choice in branches[:MAX_BRANCHES]}
         if False in regular:
             return True
@@ -143,9 +152,14 @@ class Regularity:
         wanted = [p.expr for branch in finite[others:] for p in branch]
         if not wanted:
             return True
-        raw = [e.expr for r in self.submitted for e in r.constraint.relations]
+        raw, asked = ([e.expr for r in some for e in r.constraint.relations] for some in (self.submitted, self.wanted))
         ranks = self._ranks([*chain(*finite)], [*before, *raw], [*before, *wanted])
+        if ranks is not None and ranks[0] < ranks[1]:  # as written, what was asked for may lose rank here too
+            ranks = self._ranks([*chain(*finite)], [*before, *raw], [*before, *asked])
         return None if ranks is None else ranks[0] >= ranks[1]
+
+    def _flat(self, some: Sequence[Reduced], choice: Sequence[Sequence[Piece]]) -> bool:
+        return any(_is_flat(r, choice, self.setting.positive) for r in some)
 
     def _ranks(self, on: Sequence[Finite], *sets: Sequence[Expr]) -> list[int] | None:
         """The ranks of the gradients of sets of expressions at a generic point of the set where ``on`` vanish."""
@@ -169,9 +183,13 @@ class Regularity:
         return [ball_part(j).rank if j else 0 for j in slopes]
 
 
-def _lost(normals: Sequence[Normal]) -> bool:
-    """Return whether a relation was a power or a sum of squares in exponentials, of whose zeros GF(p) knows nothing."""
-    return any(EXPONENT_NOTE in n.notes and not {POWER_NOTE, SQUARES_NOTE}.isdisjoint(n.notes) for n in normals)
+def _lost(normals: Sequence[Normal], nonlinear: bool) -> bool:
+    """Return whether a relation was a power or a sum of squares: in exponentials, or ``nonlinear`` in the velocities.
+
+    At points of those no gradients are looked at.
+    """
+    powers = [n for n in normals if not {POWER_NOTE, SQUARES_NOTE}.isdisjoint(n.notes)]
+    return any(nonlinear or EXPONENT_NOTE in n.notes for n in powers)
 
 
 def _is_flat(r: Reduced, choice: Sequence[Sequence[Piece]], positive: frozenset[Expr]) -> bool:

@@ -11,9 +11,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
 from functools import cached_property
+from itertools import islice
+from itertools import product as cartesian
 
 from dofkit.base.deadline import part, unless_late
 from dofkit.classification.dependence.comparison import (
+    MAX_BRANCHES,
     Regularity,
     bounds,
     loses_nothing,
@@ -252,7 +255,8 @@ class Equivalence:
     def leaves(self, constants: frozenset[str]) -> Leaves:
         """Leaves of the forms: they vanish there, and as many velocities are free as the forms leave.
 
-        Where there are other forms, one of several constants may be that of another integral: that is undecided.
+        Where there are other forms, one of several constants may be that of another integral: that is undecided. So is
+        what vanishes on one branch of the others only.
         """
         finite = _finite(self._answer)
         if not finite or len(finite) != len(self._answer):
@@ -261,11 +265,13 @@ class Equivalence:
         if not self._possible:
             return Leaves.NONE
         named = {str(s.args[1]) for g in finite for s in g.symbols if s.args[0] == "coordinate"}
-        moving = {q for n in self._all_wanted for q in self._moved(n)}
+        moving = {q for n in self._all_wanted for q in _moved(n)}
         answer = self._follow(self._all_wanted, self._answer)
         if not answer:
-            borrowed = len(named & constants) > 1 and any(self._moved(n) - constants for n in self._others)
-            return Leaves.NONE if answer is False and not borrowed else Leaves.OPEN
+            borrowed = len(named & constants) > 1 and any(_moved(n) - constants for n in self._others)
+            on_branches = (self._follow(self._all_wanted, [*self._answer, *b]) for b in _branches_of(self._others))
+            nowhere = answer is False and not borrowed and all(a is False for a in on_branches)
+            return Leaves.NONE if nowhere else Leaves.OPEN
         mine, asked = self._with(self.submitted), self._with(self.wanted)
         if mine.velocity_dof is None or asked.velocity_dof is None:
             return Leaves.OPEN
@@ -275,15 +281,10 @@ class Equivalence:
             return Leaves.OPEN
         return Leaves.ALL if named & constants else Leaves.ONE
 
-    @staticmethod
-    def _moved(normal: Normal) -> set[str]:
-        """The coordinates whose differentials occur in the forms of a normal."""
-        return {q for p in normal.pieces if isinstance(p, Pfaffian) for q in p.coefficients}
-
     def _regularity(self) -> Sameness:
         """The same set: is the answer's gradient as good there, on every branch?"""
         names = [c.name for c in self.system.coordinates]
-        result = Regularity(self._others, self._all_wanted, self.submitted, self.setting, names).irregular()
+        result = Regularity(self._others, self.wanted, self.submitted, self.setting, names).irregular()
         return Sameness.UNDECIDED if result is None else Sameness.IRREGULAR if result else Sameness.SAME
 
     # inequalities
@@ -306,6 +307,18 @@ class Equivalence:
         if all(met):
             return Compared(Sameness.STRONGER if extra else Sameness.SAME, met)
         return Compared(Sameness.DIFFERENT if extra else Sameness.WEAKER, met)
+
+
+def _moved(normal: Normal) -> set[str]:
+    """The coordinates whose differentials occur in the forms of a normal."""
+    return {q for p in normal.pieces if isinstance(p, Pfaffian) for q in p.coefficients}
+
+
+def _branches_of(normals: Sequence[Normal]) -> list[list[Normal]]:
+    """Choices of one branch of each; none where there is one choice only."""
+    choices = islice(cartesian(*(n.branches for n in normals if n.branches)), MAX_BRANCHES)
+    chosen = [[Normal((branch,)) for branch in choice] for choice in choices]
+    return chosen if len(chosen) > 1 else []
 
 
 def _normals(constraints: Sequence[Reduced]) -> list[Normal]:

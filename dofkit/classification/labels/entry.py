@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
 from dofkit.base.verdicts import OPEN, Claim, weakest
 from dofkit.classification.labels.reasons import (
+    ON_COMPONENT,
     EntryDependence,
     EntryLabels,
     EntryTraits,
@@ -107,7 +108,7 @@ def entry(reduced: Reduced, evidence: Evidence, setting: Setting, consistent: bo
         redundant_equations=implied,
         verdict=weakest(sure, dependence.claim.verdict if dependence.redundant else "proved"),
         verdicts={name: FieldVerdict.of(claim) for name, claim in claims.items()},
-        reason="".join(sentences),
+        reason="".join(dict.fromkeys([*sentences, _scope(claims)])),
     )
 
 
@@ -217,6 +218,11 @@ def _claims(
     elif dependence.seen:
         claims["independent"] = Claim("numeric", "leaving out", gap=GAP, about="reference")
     return claims
+
+
+def _scope(claims: Mapping[str, Claim]) -> str:
+    """What is said of an integral that holds on one component only."""
+    return ON_COMPONENT if "integral" in claims and claims["integral"].about == "component" else ""
 
 
 def _own_integral(normals: Sequence[Normal], proofs: Sequence[Integrability]) -> str | None:

@@ -336,6 +336,8 @@ BY_FORM: Mapping[Form, ArgumentKey] = {
     "inequality": "inequality",
     "nonlinear": "curved velocities",
 }
+#: The arguments for what integrates beside others only.
+_IN_SYSTEM: tuple[ArgumentKey, ArgumentKey] = ("line field", "in the integrable part")
 
 
 class Ground(NamedTuple):
@@ -346,10 +348,15 @@ class Ground(NamedTuple):
     labels: Sequence[HolonomyLabel]
 
     def claim(self, verdict: Verdict, argument: ArgumentKey, local: bool = True) -> Claim:
-        """A claim with the bound that the blocks have; ``local``: of the points that they were answered at."""
+        """A claim with the bound that the blocks have; ``local``: of the points that they were answered at.
+
+        What integrates in the system does so on the branch that was answered.
+        """
         bits = min((a.bits for a in self.answers), default=BITS)
         gap = min((a.gap for a in self.answers), default=GAP)
         about = least(*(a.about for a in self.answers)) if local else "everywhere"
+        if about == "everywhere" and argument in _IN_SYSTEM and any(a.one_branch for a in self.answers):
+            about = "component"
         return OPEN if verdict == "undecided" else Claim(verdict, argument, bits, gap, about)
 
     def argument(self, value: bool | None, on_their_own: bool) -> ArgumentKey:

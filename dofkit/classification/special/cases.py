@@ -135,11 +135,15 @@ def where_nonzero(system: System, h: Expr) -> System:
 
 def _separating(reduced: Sequence[Reduced], outcome: Outcome) -> Iterator[Expr]:
     """Yield expressions that vanish on the branch that was answered, and may not do so on others."""
+    for h in [*_factors(reduced, outcome), *(h for a in outcome.answers for h in a.separating)]:
+        yield ex.number_and_rest(h)[1]
+
+
+def _factors(reduced: Sequence[Reduced], outcome: Outcome) -> list[Expr]:
+    """Return the factors of products that are zero on the branch that was answered."""
     products = [n for r in reduced for n in r.normals if len(n.branches) > 1]
     factors = {p.expr for n in products for branch in n.branches for p in branch if isinstance(p, Finite)}
-    result = [r.piece.expr for r in outcome.rows if isinstance(r.piece, Finite) and r.piece.expr in factors]
-    for h in [*result, *(h for a in outcome.answers for h in a.separating)]:
-        yield ex.number_and_rest(h)[1]
+    return [r.piece.expr for r in outcome.rows if isinstance(r.piece, Finite) and r.piece.expr in factors]
 
 
 def _in_order(e: Expr, system: System) -> list[Expr]:
@@ -209,7 +213,7 @@ def _is_plain(block: Block, study: Study) -> bool:
 class SpecialLoci:
     """The loci of one block on which its answer is another one than the generic ``report``. Raises NoValueError.
 
-    ``rank`` of its rows at a generic configuration.
+    ``rank`` of its rows at a generic configuration; ``branch``: the factors of products that are zero on its branch.
     """
 
     def __init__(self, study: Study, report: Report, block: Block, a: Answer) -> None:
@@ -218,6 +222,8 @@ class SpecialLoci:
         curved = any(label.holonomic is False for label in a.labels.values())
         independent = a.growth[1] - a.growth[0] if a.growth and len(a.growth) > 1 else 1
         curvature = independent if curved else 0
+        places = {ex.coordinate(name) for name in block.coordinates}
+        self.branch = [h for h in _factors(study.reduced, study.outcome) if not places.isdisjoint(h.symbols)]
         self.candidates: Candidates = candidates(block, a.hidden, study.setting, self.rank, curvature)
 
     def cases(self) -> Iterator[SpecialCase]:
@@ -286,7 +292,8 @@ class SpecialLoci:
             return
         order = [ex.coordinate(c.name) for c in self.study.system.coordinates]
         solved = [s - locus.explicit[s] for s in order if s in locus.explicit]
-        texts = [_equation(_in_order(e, self.study.system)) for e in (*solved, *locus.others)]
+        branch = [h for h in self.branch if not self.candidates.zeros.holds_on(locus, h)]
+        texts = [_equation(_in_order(e, self.study.system)) for e in (*branch, *solved, *locus.others)]
         names = [self.study.names[i] for i in constraints]
         yield SpecialCase(where=" and ".join(texts), kind="locus", what=what, constraints=names, verdict=sure)
 

@@ -116,7 +116,7 @@ class AmbiguousError(TextError):
 
 _PLAIN = re.compile(r"[A-Za-z0-9_]*")
 _NUMBERED = re.compile(r"(.*[A-Za-z])(_?)(\d+)", re.ASCII)
-_SUFFIXED = re.compile(r"(.+?)_?(d?dot)(_.*)?", re.ASCII)
+_SUFFIXED = re.compile(r"(.+?)_?(d?dot)([_0-9].*)?", re.ASCII)
 _MARKED = re.compile(f"([^{DOT}{TWO_DOTS}]+)([{DOT}{TWO_DOTS}]+)([_0-9][^{DOT}{TWO_DOTS}]*)?")
 _DOTS = {1: "dot", 2: "ddot"}
 #: How many words are remembered at most beside the declared ones; a word that fits nothing is remembered too.
@@ -198,7 +198,7 @@ class Lookup:
         return self._time_derivative(match[1] + (match[3] or ""), _order(match[2]))
 
     def _marked_derivative(self, word: str) -> Meaning | None:
-        """`dq`, `qdot`, `q_dot`, `qdot_A`, `qddot` of a declared q."""
+        """`dq`, `qdot`, `q_dot`, `qdot_A`, `qdot1`, `qddot` of a declared q."""
         if word[0] == "d":
             differential = self._time_derivative(word[1:], -1)
             if differential is not None:

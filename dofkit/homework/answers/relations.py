@@ -27,7 +27,7 @@ _OWN = re.compile(
 )
 _CARTESIAN = frozenset("xyzXYZ")
 _LONG = frozenset({*GREEK.values(), "varphi", "vartheta"})
-_RATE = re.compile(r"(.+?)_?d?dot(_\w+)?")
+_RATE = re.compile(r"(.+?)_?d?dot([_0-9]\w*)?")
 _RELATION = re.compile(r"[=<>≤≥]")
 #: Of a quotient of two numbers before a factor everybody reads the first way: `1/2(m v^2)` is half of it.
 _HALF = re.compile(r"\(\d+/\d+\)\*\(")

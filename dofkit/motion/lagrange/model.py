@@ -193,6 +193,9 @@ def _built(
         notes.append(
             "Constraints nonlinear in the velocities follow Chetaev's rule: their force is along the velocity gradient."
         )
+    one_sided = [e.name for e in study.report.constraints if e.form == "inequality"]
+    if one_sided:
+        notes.append(f"The equations are valid while no inequality is an equality: {', '.join(one_sided)}.")
     used = sorted(str(c.args[1]) for c in elimination.constants)
     if used:
         notes.append(f"Constants of integration, fixed by the initial conditions: {', '.join(used)}.")
