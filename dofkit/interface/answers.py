@@ -25,7 +25,7 @@ from dofkit.interface.show.motion import sheet_of_motion
 from dofkit.interface.show.report import changed, sheet_of_report, unexpected
 from dofkit.interface.show.sheet import SheetSection
 from dofkit.interface.show.terminal import as_text, brief_line, outcome_of, selected_line
-from dofkit.methods.stages import classified, lowered, stages
+from dofkit.methods.classify import classified, lowered, stages
 from dofkit.report import Report
 from dofkit.scene.catalog import FoundFile, find
 from dofkit.scene.expectation import unmet
