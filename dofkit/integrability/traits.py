@@ -8,7 +8,7 @@ from fractions import Fraction
 from itertools import combinations
 
 from dofkit.base.errors import NoValueError, TextError
-from dofkit.base.verdicts import VERDICTS, Verdict, weakest
+from dofkit.base.verdicts import TraitAnswer, Verdict, all_of, weakest
 from dofkit.exact.analyticity import is_analytic
 from dofkit.exact.points.real_search import RealPoint, RealSearch, at_another_time
 from dofkit.exact.ring.canonical import Canon
@@ -27,8 +27,6 @@ from dofkit.relations.normal.pieces import Clause, Inequality, Nonlinear, Pfaffi
 from dofkit.relations.normal.zero_set import never_vanishes
 from dofkit.relations.setting import Setting
 
-TraitAnswer = tuple[bool | None, Verdict]
-
 #: Times at which a factor of time alone may rest at 0.
 TIMES = tuple(Fraction(n, 3) for n in (-80, -31, -14, -7, -2, 1, 4, 8, 11, 16, 29, 80))
 
@@ -46,7 +44,7 @@ class Traits:
     exact: TraitAnswer | None = None
 
 
-def traits(piece: Clause, positive: frozenset[Expr], engines: Engines = BOTH) -> Traits:
+def traits_of(piece: Clause, positive: frozenset[Expr], engines: Engines = BOTH) -> Traits:
     """Return all labels that a piece carries by itself."""
     without_t = timeless(piece, positive, engines)
     if isinstance(piece, Nonlinear):
@@ -75,16 +73,6 @@ def timeless(piece: Clause, positive: frozenset[Expr], engines: Engines = BOTH) 
         return False, "proved"
     kept = [answer for f, answer in zip(factors, answers, strict=True) if not no_solution([f], positive)]
     return all_of(kept) if not sided or not kept else (None, "undecided")
-
-
-def all_of(answers: Sequence[TraitAnswer]) -> TraitAnswer:
-    """Return whether all are true, and how sure that is."""
-    denied = [sure for holds, sure in answers if holds is False]
-    if denied:
-        return False, min(denied, key=VERDICTS.index)
-    if any(holds is None for holds, _ in answers):
-        return None, "undecided"
-    return True, weakest(*(sure for _, sure in answers))
 
 
 def _is_still(f: Expr, sided: bool, positive: frozenset[Expr], engines: Engines) -> TraitAnswer:
