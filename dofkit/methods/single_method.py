@@ -10,6 +10,7 @@ from dofkit.base.errors import PoleError
 from dofkit.base.verdicts import OPEN, About, Claim, Verdict, weakest
 from dofkit.base.wording import many
 from dofkit.classification.freedom.branches import Outcome
+from dofkit.classification.freedom.preparation import all_of
 from dofkit.classification.undecided import sketch
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
@@ -48,7 +49,7 @@ def report_of_method(system: System, method: MethodName) -> Report:
         _entry(c, e, labels.verdict if c.name in holonomic else None, methods()[method].best)
         for c, e in zip(system.constraints, base.constraints, strict=True)
     ]
-    whole = {name: _all_of([getattr(e, name) for e in entries]) for name in ("holonomic", "scleronomic")}
+    whole = {name: all_of(getattr(e, name) for e in entries) for name in ("holonomic", "scleronomic")}
     about: About = "everywhere" if system.reference is None else "reference"
     verdicts = {
         **base.verdicts,
@@ -96,10 +97,6 @@ def _in_words(question: Question, value: Any) -> str:
 
 def _verdict(verdict: Verdict, about: About = "everywhere") -> FieldVerdict:
     return FieldVerdict.of(OPEN if verdict == "undecided" else Claim(verdict, "one method alone", BITS, GAP, about))
-
-
-def _all_of(labels: list[bool | None]) -> bool | None:
-    return False if False in labels else None if None in labels else True
 
 
 def _of_entries(name: str, value: bool | None, entries: list[ConstraintEntry]) -> FieldVerdict:
