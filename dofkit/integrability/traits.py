@@ -141,7 +141,7 @@ def _is_of_time_alone(e: Expr) -> bool:
 def _is_cone(e: Expr, positive: frozenset[Expr], engines: Engines) -> TraitAnswer:
     """Return whether e = 0 is homogeneous in the velocities where it holds: v . de/dv = 0 there (Euler)."""
     radial = ex.add(*(v * diff(e, v) for v in sorted(velocities_of(e), key=repr)))
-    return (True, "proved") if _is_homogeneous(e) else vanishes_on(e, radial, positive, engines)
+    return (True, "proved") if _is_homogeneous(e) else vanishes_on(e, radial, positive, engines, velocities_of(e))
 
 
 def vanishes_on(
@@ -149,9 +149,9 @@ def vanishes_on(
 ) -> TraitAnswer:
     """Return whether ``slope`` = 0 wherever g = 0, and how sure that is.
 
-    A certified point where it is not is a proof that it is not; with ``regular_in`` g must not be stationary in these
-    symbols there. What one factor, one branch of a root or one sign of an absolute value tells is not told of the
-    others.
+    A certified point where it is not is a proof that it is not. With ``regular_in``, for a slope along a direction, g
+    must not be stationary in these symbols there: otherwise that slope does not tell whether the set is the same along
+    it. What one factor, one branch of a root or one sign of an absolute value tells is not told of the others.
     """
     still, sure = zero_and_verdict(slope, positive, engines)
     if still:
@@ -162,8 +162,10 @@ def vanishes_on(
     point = TriangularSolver(ring, [node]).draw(1) if "field" in engines else None
     if point is not None:
         try:
-            if values(ring, point)[rate] == 0:
-                whole = is_analytic(g, g.symbols, positive) and _is_irreducible(g, positive)
+            at = values(ring, point)
+            if at[rate] == 0:
+                regular = not others or any(at[k] != 0 for k in others)
+                whole = regular and is_analytic(g, g.symbols, positive) and _is_irreducible(g, positive)
                 return (True, "probable") if whole else (None, "undecided")
         except NoValueError:
             return None, "undecided"
