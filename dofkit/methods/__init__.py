@@ -11,8 +11,8 @@ Types
     answer with its verdict.
 
 Mechanisms, in the order in which a scene meets them
-    1. `classify` has a report in which everything is undecided, then the finished one; with a budget it
-       comes from a worker process that can be killed, where there are processes.
+    1. `classify` has the report; with a budget it comes from a worker process that can be killed, where there are
+       processes, and which first returns one in which everything is undecided.
     2. The row's engines classify the scene. A method without engines has a module of its name; of its answers the
        report of this `single_method` decides only what its own argument proves, the rest are warnings.
 

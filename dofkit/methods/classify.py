@@ -1,6 +1,7 @@
 """Entry points: `classify` reports everything about a scene, `derived_flag` the ranks of its derived flag.
 
-A scene is classified in `stages`: first a report in which everything is undecided, then the finished one.
+With a budget a scene is classified in a worker process, which can be killed: first it returns a report in which
+everything is undecided, then the finished one.
 """
 
 from __future__ import annotations
@@ -159,32 +160,23 @@ def _report_from_worker(scene: Scene | System, budget: float, method: MethodName
 
 
 def worker_stages(payload: tuple[Scene | System, float, MethodName]) -> Iterator[dict[str, Any]]:
-    """Yield the stages of a scene's report, in the worker, or the faults of the scene."""
+    """Yield a report in which everything is undecided, then the finished one, in the worker; or the scene's faults."""
     scene, budget, method = payload
+    until = time.monotonic() + budget
     try:
-        for report in stages(scene, budget, method):
-            yield {"report": report.model_dump(mode="json")}
+        answer = lowered(scene, budget)
     except SceneError as error:
         yield {"faults": [asdict(fault) for fault in error.faults], "source": error.source}
-
-
-def stages(scene: Scene | System, seconds: float, method: MethodName = "auto") -> Iterator[Report]:
-    """Yield a report in which everything is undecided, then the one that is finished within so many seconds.
-
-    Raises SceneError where the scene cannot be read as mathematics.
-    """
-    until = time.monotonic() + seconds
-    system = lowered(scene, seconds)
-    if isinstance(system, Report):
-        yield system
         return
-    yield sketch(system, OUT_OF_TIME)
-    yield _report_of(system, until - time.monotonic(), method)
+    if isinstance(answer, System):
+        yield {"report": sketch(answer, OUT_OF_TIME).model_dump(mode="json")}
+        answer = _report_of(answer, until - time.monotonic(), method)
+    yield {"report": answer.model_dump(mode="json")}
 
 
 @gc_rarely()
 def classified(scene: Scene | System, seconds: float, method: MethodName = "auto") -> Report:
-    """Return the last of the `stages`."""
+    """Return the report, finished within so many seconds. Raises SceneError where the scene cannot be read."""
     until = time.monotonic() + seconds
     system = lowered(scene, seconds)
     return system if isinstance(system, Report) else _report_of(system, until - time.monotonic(), method)
