@@ -107,7 +107,7 @@ class CountsBeside:
         columns = len(system.coordinates)
         small = columns <= MOST_COLUMNS and all(c.facts.velocities is not None for c in system.connections)
         placement = measured_placement(system) if small else None
-        return None if placement is None else nearly_dependent(placement, system.dimension, columns, columns - here)
+        return None if placement is None else _nearly_dependent(placement, system.dimension, columns, columns - here)
 
     def mobility(self) -> Mobility | None:
         """Gruebler's and Kutzbach's count; None without bodies and joints."""
@@ -140,7 +140,7 @@ def counts_beside(study: Study, instantaneous: int | None) -> tuple[dict[str, Ge
     return {"generic": generic, "mobility": _if_it_has_a_value(counts.mobility)}, _if_it_has_a_value(counts.nearly)
 
 
-def nearly_dependent(placement: Placement, dimension: int, columns: int, rank: int) -> str | None:
+def _nearly_dependent(placement: Placement, dimension: int, columns: int, rank: int) -> str | None:
     """What to say of a near-dependence, with a `tolerance` to set; None where there is none, or too much to look at.
 
     ``placement`` in floating point, lengths in units of the scene's size; ``rank``: the exact one.
