@@ -28,12 +28,12 @@ from dofkit.configuration.generic_dimension import (
 )
 from dofkit.configuration.variety import (
     Variety,
+    all_configurations,
     field_jacobian,
     on_variety,
     pose_samples,
     samples_for,
     time_is_free,
-    unconstrained,
 )
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.sparse import rank_of_rows
@@ -105,7 +105,7 @@ def _fixes_time(chart: Chart, variety: Variety) -> bool:
 
 def _variety(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> Variety:
     if not chart.nodes:
-        return unconstrained(chart, seed)
+        return all_configurations(chart, seed)
     if "field" in chart.setting.engines and _has_joint_positions(chart):
         posed = pose_samples(chart, pose, seed)
         if posed:

@@ -113,7 +113,7 @@ def is_unconstrained(chart: Chart) -> bool:
     return not chart.nodes and all(v.kind != "sign" and v.kind not in BRANCHED for v in chart.ring.vars)
 
 
-def unconstrained(chart: Chart, seed: int = 0) -> Variety:
+def all_configurations(chart: Chart, seed: int = 0) -> Variety:
     """Return the set of all configurations, where there is no relation."""
     points = []
     if "field" in chart.setting.engines:

@@ -13,7 +13,7 @@ from dofkit.configuration.components import is_graph, is_irreducible
 from dofkit.configuration.finite_blocks import finite_answer
 from dofkit.configuration.linear_blocks import eliminated
 from dofkit.configuration.search import LEVEL, find, level_angle
-from dofkit.configuration.variety import Variety, is_unconstrained, of_real_point, unconstrained
+from dofkit.configuration.variety import Variety, all_configurations, is_unconstrained, of_real_point
 from dofkit.exact.matrices.sparse import echelon
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import pairing
@@ -205,7 +205,7 @@ def _prolonged(block: Block, setting: Setting, result: Answer, relations: Sequen
 def _points(forms: Codistribution, setting: Setting) -> Variety:
     """Generic points to look at the forms; where there is a reference, of a set that is known to be alike there."""
     if is_unconstrained(forms.chart):
-        return unconstrained(forms.chart)
+        return all_configurations(forms.chart)
     alike = is_irreducible(forms.chart) if setting.reference is None else is_graph(forms.chart)
     if setting.reference is None or alike:
         result = find(forms.chart, setting.pose)

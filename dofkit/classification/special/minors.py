@@ -180,7 +180,7 @@ class RowPolynomials:
         even = sum_of_even(poly, self.signs) if len(poly) <= MAX_EVEN else None
         return even is not None and any(not zeros for zeros in even)
 
-    def vanish_together(self, polynomials: Sequence[Poly]) -> bool:
+    def can_vanish_together(self, polynomials: Sequence[Poly]) -> bool:
         """Return False where the sum of their squares shows that they vanish at no real point; True says nothing."""
         short = all(len(poly) <= MAX_EVEN for poly in polynomials)
         return not short or not self._never_vanishes(self.canon.reduce(sum(p * p for p in polynomials)))
@@ -285,7 +285,7 @@ def _loci(rows: RowPolynomials, matrix: Callable[[], list[list[Poly]]], size: in
         shortest = min(minors, key=len, default=None)
         if shortest is None or len(shortest) > MAX_FACTORED or max(map(len, minors)) > MAX_LONG:
             return []
-        if not rows.vanish_together(minors):
+        if not rows.can_vanish_together(minors):
             return []
         if all(len(factor) > MAX_READ for factor, _ in rows.canon.factors(shortest)):
             return []
