@@ -10,9 +10,9 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Any, Literal, NamedTuple, Protocol
 
-from dofkit.expressions.calculus import Requirement
+from dofkit.expressions.calculus import longest_number
+from dofkit.expressions.real_values import Requirement
 from dofkit.expressions.renaming import Unwritten
-from dofkit.expressions.terms import longest_number
 from dofkit.expressions.tree import Expr
 
 Sense = Literal["=", ">=", ">"]

@@ -33,7 +33,7 @@ LONGEST_FUNCTION, MOST_PARAMETERS, LONGEST_CLASS, LONGEST_FILE, MOST_METHODS = 4
 #: Heavy, optional, or what nothing but this needs: imported where they are used.
 LATE_IMPORTS = frozenset(
     {"sympy", "rich", "matplotlib", "PIL", "distributed", "jinja2", "flint", "mujoco", "typst", "latex2mathml",
-     "contourpy", "dofkit.methods.supervised", "dofkit.methods.certificates.lowering"}
+     "contourpy", "dofkit.base.runs", "dofkit.base.workers", "dofkit.methods.certificates.lowering"}
 )  # fmt: skip
 #: Where one bad file or answer must not stop the others, whatever it does.
 CATCH_ALL = frozenset(

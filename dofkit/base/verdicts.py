@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import log2
 from typing import Literal, get_args
@@ -72,6 +73,9 @@ ArgumentKey = Literal[
 ]
 ARGUMENTS: frozenset[str] = frozenset(get_args(ArgumentKey))
 
+#: Whether something is so (None: undecided), and how sure that is.
+TraitAnswer = tuple[bool | None, Verdict]
+
 #: From the strongest to the weakest.
 VERDICTS: tuple[Verdict, ...] = ("proved", "probable", "numeric", "undecided")
 #: From what says least.
@@ -85,6 +89,16 @@ def weakest(*verdicts: Verdict) -> Verdict:
     'numeric'
     """
     return max(verdicts, key=VERDICTS.index, default="proved")
+
+
+def all_of(answers: Sequence[TraitAnswer]) -> TraitAnswer:
+    """Return whether all are true, and how sure that is."""
+    denied = [sure for holds, sure in answers if holds is False]
+    if denied:
+        return False, min(denied, key=VERDICTS.index)
+    if any(holds is None for holds, _ in answers):
+        return None, "undecided"
+    return True, weakest(*(sure for _, sure in answers))
 
 
 def least(*abouts: About) -> About:

@@ -21,7 +21,8 @@ Mechanisms, in the order in which a report is filled
        `turned_coordinates` serve this choice.
     5. `feasibility`: inequalities together with the equations, by a certified point or a proof that there is none
        [Motzkin1936].
-    6. `counts`: the counts that stand beside the report's own, and why they differ.
+    6. `counts`: the counts that stand beside the report's own, and why they differ; and whether rows are dependent but
+       for rounding.
     7. `special`: loci on which a rank drops or curvature vanishes, and branches of another dimension.
 
 `arguments` lists the arguments with their hypotheses and theorems; `passes` withholds counts that contradict each

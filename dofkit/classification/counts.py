@@ -1,27 +1,38 @@
-"""Counts that stand beside a report's own: in general position, and Gruebler's and Kutzbach's; and why they differ."""
+"""Counts that stand beside a report's own: in general position, and Gruebler's and Kutzbach's; and why they differ.
+
+Where positions are rounded, an exact rank is full although the true one is not. So the relations between twists, with
+rows of length 1 as for measured geometry, are looked at for a gap between their singular values. A body turns about the
+middle of its points, its turn measured by how far they reach, so that a small body in a large scene makes none.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property, partial
+from itertools import pairwise
+from math import ceil, log10
 from typing import TypeVar
 
 from dofkit.base.deadline import part, unless_late
 from dofkit.base.wording import many, verb
 from dofkit.classification.study import Study
-from dofkit.exact.matrices.sparse import echelon
+from dofkit.exact.matrices.dense import length, plus, singular_values, unit_rows
+from dofkit.exact.matrices.sparse import cross, echelon
 from dofkit.exact.ring.program import raising_no_value
 from dofkit.mobility import special_position
 from dofkit.mobility.counts import kutzbach_count
 from dofkit.mobility.general_position import General, in_general_position
-from dofkit.mobility.near_dependence import MOST, nearly_dependent
-from dofkit.mobility.placement import Placement, drawn_placement, measured_placement
+from dofkit.mobility.placement import TURNS, Member, Placement, drawn_placement, measured_placement, rows_of
 from dofkit.relations.normal.pieces import Finite
 from dofkit.report import Generic, Mobility
 
 #: Dependent sets of rows that are looked at, and sentences about them that are told.
 MOST_SETS, MOST_TOLD = 40, 6
+#: Relations in more columns than these are not looked at for a near-dependence.
+MOST_COLUMNS = 200
+#: A singular value is nearly 0 below the first of these, if it is less by the second than what comes next.
+NEAR, GAP = 2e-3, 100.0
 #: Of the time that is left, for the count in general position.
 SHARE = 0.4
 #: Measured lines count as parallel, and so on, within so many tolerances.
@@ -94,9 +105,9 @@ class CountsBeside:
         if here is None or system.tolerance is not None or not system.has_geometry:
             return None
         columns = len(system.coordinates)
-        small = columns <= MOST and all(c.facts.velocities is not None for c in system.connections)
+        small = columns <= MOST_COLUMNS and all(c.facts.velocities is not None for c in system.connections)
         placement = measured_placement(system) if small else None
-        return None if placement is None else nearly_dependent(placement, system.dimension, columns, columns - here)
+        return None if placement is None else _nearly_dependent(placement, system.dimension, columns, columns - here)
 
     def mobility(self) -> Mobility | None:
         """Gruebler's and Kutzbach's count; None without bodies and joints."""
@@ -127,3 +138,71 @@ def counts_beside(study: Study, instantaneous: int | None) -> tuple[dict[str, Ge
     with part(SHARE):
         generic = _if_it_has_a_value(counts.generic)
     return {"generic": generic, "mobility": _if_it_has_a_value(counts.mobility)}, _if_it_has_a_value(counts.nearly)
+
+
+def _nearly_dependent(placement: Placement, dimension: int, columns: int, rank: int) -> str | None:
+    """What to say of a near-dependence, with a `tolerance` to set; None where there is none, or too much to look at.
+
+    ``placement`` in floating point, lengths in units of the scene's size; ``rank``: the exact one.
+    """
+    if not 1 < rank <= columns <= MOST_COLUMNS:
+        return None
+    rows = []
+    for connection in placement.located:
+        conditions = rows_of(connection)
+        if conditions is None:
+            return None
+        rows += conditions
+    j = [[float(row.get(c, 0.0)) for c in range(columns)] for row in rows]
+    by_size = _gap(j, rank)
+    if by_size is None or _gap(_about_centroids(j, placement, dimension), rank) is None:
+        return None
+    small, large = by_size
+    tolerance = 10.0 ** ceil(log10(max(small, 1e-12)))
+    return (
+        f"the equations are nearly dependent at the reference configuration (singular values of {small:.1e} "
+        f"beside {large:.1e}): if "
+        f"its positions are rounded or measured, `tolerance: {tolerance:g}` states their accuracy"
+    )
+
+
+def _about_centroids(j: list[list[float]], placement: Placement, dimension: int) -> list[list[float]]:
+    """Return the rows by velocities v' of the centroids and w' = reach w: v = v' - w x (middle - start).
+
+    So rows can be compared whatever the unit of length and wherever the origin.
+    """
+    j = [list(row) for row in j]
+    for member, points in _points(placement).values():
+        first, start = member.column, member.start
+        if first is None or start is None:
+            continue
+        middle = [sum(places) / len(points) for places in zip(*points, strict=True)]
+        reach = max(*(length(plus(at, -1.0, middle)) for at in points), 1e-9) if len(points) > 1 else 1.0
+        arm = plus(middle, -1.0, list(map(float, start)))
+        turn = slice(first + dimension, first + dimension + TURNS[dimension])
+        for row in j:
+            v, w = row[first : turn.start], row[turn]
+            if dimension == 2:
+                row[turn] = [(w[0] + arm[1] * v[0] - arm[0] * v[1]) / reach]
+            elif dimension == 3:
+                row[turn] = [a / reach for a in plus(w, -1.0, cross(arm, v))]
+    return j
+
+
+def _points(placement: Placement) -> dict[int, tuple[Member, list[list[float]]]]:
+    """Return the places at which each member is held, by its first column."""
+    held: dict[int, tuple[Member, list[list[float]]]] = {}
+    for connection in placement.located:
+        joined = ((member, at) for at in connection.places for member in connection.members)
+        for member, at in (*connection.points, *joined):
+            if member.column is not None:
+                held.setdefault(member.column, (member, []))[1].append(list(map(float, at)))
+    return held
+
+
+def _gap(j: list[list[float]], rank: int) -> tuple[float, float] | None:
+    """The largest of the singular values that are nearly 0, and the next above; None where there are none such."""
+    for above, below in pairwise(singular_values(unit_rows(j))[:rank]):
+        if below < NEAR and above > GAP * below:
+            return below, above
+    return None

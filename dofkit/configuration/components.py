@@ -21,7 +21,7 @@ from typing import NamedTuple
 from dofkit.base.errors import NoValueError
 from dofkit.base.verdicts import ArgumentKey, weakest
 from dofkit.configuration import cases as all_cases
-from dofkit.configuration.variety import Variety, chart_of_relations, field_jacobian, on_variety
+from dofkit.configuration.variety import BRANCHED, Variety, chart_of_relations, field_jacobian, on_variety
 from dofkit.exact.analyticity import is_analytic
 from dofkit.exact.matrices.sparse import components, rank_of_rows
 from dofkit.exact.ring.canonical import Canon, is_identically_zero
@@ -36,8 +36,6 @@ from dofkit.relations.normal.zero_set import never_vanishes
 
 #: Relations that are looked at; cases of all parts together that are looked at, and that are listed.
 MAX_RELATIONS, MAX_TOGETHER, MAX_PRODUCTS = 200, 16, 2000
-#: Functions that are one branch of several; of signs see `_in_regions`.
-BRANCHED = ("root", "asin", "atan", "atan2")
 LARGER = "over the complex numbers the set has a component of larger dimension, and its real points were not decided"
 NO_CASE = "no configuration satisfies all equations: each case leads to an equation without a solution"
 NEAR = (

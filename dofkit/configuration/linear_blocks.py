@@ -20,8 +20,7 @@ from dofkit.exact.matrices.sparse import RationalRow, SparseRow, dependences, ec
 from dofkit.exact.points.field import prime_for
 from dofkit.exact.zero import BOTH, certainly_nonzero, zero_and_verdict
 from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import diff
-from dofkit.expressions.terms import linear_terms
+from dofkit.expressions.calculus import diff, linear_terms
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block

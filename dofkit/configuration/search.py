@@ -28,17 +28,16 @@ from dofkit.configuration.generic_dimension import (
 )
 from dofkit.configuration.variety import (
     Variety,
+    all_configurations,
     field_jacobian,
-    free_real_point,
     on_variety,
-    pose_point,
     pose_samples,
     samples_for,
     time_is_free,
 )
-from dofkit.exact.matrices.certified import PivotedPart, ball_part
+from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.sparse import rank_of_rows
-from dofkit.exact.points.real_search import RealPoint, RealSearch
+from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.program import VAR, reachable
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.triangular import TriangularSolver
@@ -106,12 +105,7 @@ def _fixes_time(chart: Chart, variety: Variety) -> bool:
 
 def _variety(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> Variety:
     if not chart.nodes:
-        points = []
-        if "field" in chart.setting.engines:
-            points = [p for p in (pose_point(chart, {}, seed + k) for k in range(samples_for(chart))) if p is not None]
-        free = free_real_point(chart, seed) if "balls" in chart.setting.engines else None
-        real = None if free is None else RealPoint(free, PivotedPart(0, math.inf, [], []), True, True, [])
-        return Variety(True, chart.coordinates, "proved", points, real, argument="nothing constrains")
+        return all_configurations(chart, seed)
     if "field" in chart.setting.engines and _has_joint_positions(chart):
         posed = pose_samples(chart, pose, seed)
         if posed:

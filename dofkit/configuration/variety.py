@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
@@ -13,6 +14,7 @@ from flint import arb, ctx
 from dofkit.base.deadline import check
 from dofkit.base.errors import NoValueError, PoleError
 from dofkit.base.verdicts import About, ArgumentKey, Verdict
+from dofkit.exact.matrices.certified import PivotedPart
 from dofkit.exact.matrices.sparse import Pivots, SparseRow, rank_of_rows, sparse_frame, without_time
 from dofkit.exact.points.balls import BallPoint, precision, random_ball_point
 from dofkit.exact.points.field import FieldPoint, field_point
@@ -100,6 +102,25 @@ def free_real_point(chart: Chart, seed: int) -> BallPoint | None:
                 continue
             return point
     return None
+
+
+#: Functions that are one branch of several; of the sign of an expression see `components`.
+BRANCHED = ("root", "asin", "atan", "atan2")
+
+
+def is_unconstrained(chart: Chart) -> bool:
+    """Return whether every configuration is allowed, and every function is the same one at all of them."""
+    return not chart.nodes and all(v.kind != "sign" and v.kind not in BRANCHED for v in chart.ring.vars)
+
+
+def all_configurations(chart: Chart, seed: int = 0) -> Variety:
+    """Return the set of all configurations, where there is no relation."""
+    points = []
+    if "field" in chart.setting.engines:
+        points = [p for p in (pose_point(chart, {}, seed + k) for k in range(samples_for(chart))) if p is not None]
+    free = free_real_point(chart, seed) if "balls" in chart.setting.engines else None
+    real = None if free is None else RealPoint(free, PivotedPart(0, math.inf, [], []), True, True, [])
+    return Variety(True, chart.coordinates, "proved", points, real, argument="nothing constrains")
 
 
 # Points over GF(p)

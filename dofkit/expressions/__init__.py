@@ -10,10 +10,10 @@ Mechanisms, in the order in which an equation meets them
     1. `text` reads the grammar (ASCII, Unicode, LaTeX, primes, Leibniz) into a tree, and prints a tree in it. Every
        error has a column and a hint. The grammar is bounded in length, depth and in the size of what a text may stand
        for.
-    2. `calculus` substitutes and differentiates, relates differentials and velocities (dq = qdot dt), and lists the
-       conditions under which powers and functions, as they were written, have a real value. `bounded_arithmetic` keeps
-       the numbers and powers of a text within bounds.
-    3. `terms` takes sums apart into linear terms.
+    2. `real_values` lists the conditions under which powers and functions, as they were written, have a real value, and
+       keeps the numbers and powers of a text within bounds.
+    3. `calculus` substitutes, takes sums apart into linear terms, differentiates, and relates differentials and
+       velocities (dq = qdot dt).
     4. `rational_values` knows the rational values of roots and of trigonometric functions; `enclosures` gives every
        other constant as a certified interval.
     5. `renaming` finds expressions that are equal up to the names in them, so that work is done once for many copies,

@@ -1,4 +1,4 @@
-"""Substitution, derivatives, differentials, and where powers and functions have a real value.
+"""Substitution, sums as combinations of their terms, derivatives, and differentials.
 
 For velocities dq = qdot dt: a relation homogeneous of degree k in (dq, dt) is divided by dt^k; one that adds
 differentials to finite terms says nothing. Second derivatives have to stand linearly: then the relation may integrate
@@ -7,11 +7,10 @@ once.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping
 from fractions import Fraction
 from functools import partial
-from typing import Literal
+from math import gcd
 
 from dofkit.base.errors import TextError
 from dofkit.expressions import tree as ex
@@ -46,6 +45,83 @@ def _replaced(node: Expr, memo: dict[Expr, Expr]) -> Expr:
     if replaced is None:
         replaced = memo[node] = rebuild(node, tuple([_replaced(child, memo) for child in children(node)]))
     return replaced
+
+
+#: Products of sums are multiplied out in arguments up to this many terms.
+EXPAND_TERMS = 64
+
+
+def expand(e: Expr) -> Expr:
+    """Return ``e`` with products of sums and small powers of sums multiplied out."""
+    if e.op == "add":
+        return add(*(expand(term) for term in e.args))
+    if e.op == "mul":
+        total: list[Expr] = [ONE]
+        for factor in (expand(f) for f in e.args):
+            terms = factor.args if factor.op == "add" else (factor,)
+            if len(total) * len(terms) > EXPAND_TERMS:
+                return e
+            total = [mul(a, b) for a in total for b in terms]
+        return add(*total)
+    if e.op == "pow" and e.args[1].op == "num" and e.args[0].op == "add":
+        exponent = e.args[1].args[0]
+        if exponent.denominator == 1 and 2 <= exponent <= 4:
+            return expand(Expr("mul", (e.args[0],) * int(exponent)))
+    return e
+
+
+def linear_terms(e: Expr) -> dict[Expr, Fraction]:
+    """Return ``e`` as a combination of its terms with rational coefficients, not 0; the number's term is `ONE`."""
+    if e.op == "sym":
+        return {e: Fraction(1)}
+    total = expand(e)
+    terms: dict[Expr, Fraction] = {}
+    cancels = False
+    for term in total.args if total.op == "add" else (total,):
+        factor, base = ex.number_and_rest(term)
+        if factor:
+            base = sorted_product(base)
+            if base in terms:
+                factor += terms[base]
+                cancels = cancels or not factor
+            terms[base] = factor
+    return {base: factor for base, factor in terms.items() if factor} if cancels else terms
+
+
+def sorted_product(e: Expr) -> Expr:
+    """Return the same product, its factors in an order of their own."""
+    return Expr("mul", tuple(sorted(e.args, key=repr))) if e.op == "mul" else e
+
+
+def sorted_sum(e: Expr) -> tuple[tuple[str, Fraction], ...]:
+    """Return a key that does not depend on the order of terms."""
+    return tuple(sorted((repr(base), factor) for base, factor in linear_terms(e).items()))
+
+
+def content(e: Expr) -> tuple[Fraction, Expr]:
+    """Return a sum as positive rational content times the rest."""
+    factors = [ex.number_and_rest(t)[0] for t in e.args]
+    top = gcd(*(abs(f.numerator) for f in factors))
+    bottom = 1
+    for f in factors:
+        bottom = bottom * f.denominator // gcd(bottom, f.denominator)
+    content = Fraction(top, bottom)
+    return content, mul(num(1 / content), e)
+
+
+def longest_number(expressions: Iterable[Expr]) -> int:
+    """Return the bits of the longest numerator or denominator of a number that occurs; 0 where none does."""
+    seen: set[Expr] = set()
+    stack, longest = list(expressions), 0
+    while stack:
+        node = stack.pop()
+        if node.op == "num":
+            value: Fraction = node.args[0]
+            longest = max(longest, value.numerator.bit_length(), value.denominator.bit_length())
+        elif node.op != "sym" and node not in seen:
+            seen.add(node)
+            stack.extend(children(node))
+    return longest
 
 
 _DERIVATIVES: dict[str, Callable[[Expr], Expr]] = {
@@ -233,53 +309,3 @@ def over_dt(e: Expr) -> Expr | None:
 def is_differential(e: Expr) -> bool:
     """Return whether ``e`` is dq or dt."""
     return e.op == "sym" and e.args[0] in ("differential", "dt")
-
-
-#: An expression, and what it has to be against 0.
-DomainSense = Literal[">=", ">", "!="]
-Requirement = tuple[Expr, DomainSense]
-
-
-def of_power(base: Expr, exponent: Expr) -> Iterator[Requirement]:
-    """Yield what ``base^exponent`` requires; a number as base was checked when it was read."""
-    if base.op == "num":
-        return
-    if exponent.op != "num":
-        yield base, ">"
-    elif exponent.args[0].denominator % 2 == 0:
-        yield base, ">=" if exponent.args[0] > 0 else ">"
-    elif exponent.args[0] < 0:
-        yield base, "!="
-
-
-def of_function(name: str, u: Expr, *others: Expr) -> Iterator[Requirement]:
-    """Yield what an elementary function requires of its arguments."""
-    if name == "sqrt":
-        yield u, ">="
-    elif name == "log":
-        yield u, ">"
-    elif name in ("asin", "acos"):
-        yield ONE - u * u, ">="
-    elif name in ("tan", "sec"):
-        yield fn("cos", u), "!="
-    elif name in ("cot", "csc"):
-        yield fn("sin", u), "!="
-    elif name == "atan2":
-        yield u * u + others[0] * others[0], "!="
-
-
-RelationSign = Literal["=", "<=", ">=", "<", ">"]
-
-
-@dataclass(frozen=True)
-class Comparison:
-    """One relation; ``column`` is where its sign stands (where the text begins, if it has none).
-
-    ``domain``: the conditions under which the text, as it was written, has a value.
-    """
-
-    left: Expr
-    relation: RelationSign
-    right: Expr
-    column: int
-    domain: tuple[Requirement, ...] = ()

@@ -81,7 +81,7 @@ class AdmissibleCurve:
         self.rows, self.frame, self.base = rows, frame, base
         at = values(rows.ring, base)
         self.sample = at[0] if at else base.number(0)
-        self.like = zero_poly(base, self.sample)
+        self.like = zero_poly(self.sample)
         self.numbers = PointMatrices(modulus(self.like) if isinstance(self.like, ResiduePolynomial) else None)
         zero = self.sample * 0
         self.path = [[at[rows.ring.var_node[c]] if c >= 0 else zero] for c in rows.columns]

@@ -8,7 +8,7 @@ from fractions import Fraction
 from itertools import combinations
 
 from dofkit.base.errors import NoValueError, TextError
-from dofkit.base.verdicts import VERDICTS, Verdict, weakest
+from dofkit.base.verdicts import TraitAnswer, Verdict, all_of, weakest
 from dofkit.exact.analyticity import is_analytic
 from dofkit.exact.points.real_search import RealPoint, RealSearch, at_another_time
 from dofkit.exact.ring.canonical import Canon
@@ -27,8 +27,6 @@ from dofkit.relations.normal.pieces import Clause, Inequality, Nonlinear, Pfaffi
 from dofkit.relations.normal.zero_set import never_vanishes
 from dofkit.relations.setting import Setting
 
-TraitAnswer = tuple[bool | None, Verdict]
-
 #: Times at which a factor of time alone may rest at 0.
 TIMES = tuple(Fraction(n, 3) for n in (-80, -31, -14, -7, -2, 1, 4, 8, 11, 16, 29, 80))
 
@@ -46,7 +44,7 @@ class Traits:
     exact: TraitAnswer | None = None
 
 
-def traits(piece: Clause, positive: frozenset[Expr], engines: Engines = BOTH) -> Traits:
+def traits_of(piece: Clause, positive: frozenset[Expr], engines: Engines = BOTH) -> Traits:
     """Return all labels that a piece carries by itself."""
     without_t = timeless(piece, positive, engines)
     if isinstance(piece, Nonlinear):
@@ -75,16 +73,6 @@ def timeless(piece: Clause, positive: frozenset[Expr], engines: Engines = BOTH) 
         return False, "proved"
     kept = [answer for f, answer in zip(factors, answers, strict=True) if not no_solution([f], positive)]
     return all_of(kept) if not sided or not kept else (None, "undecided")
-
-
-def all_of(answers: Sequence[TraitAnswer]) -> TraitAnswer:
-    """Return whether all are true, and how sure that is."""
-    denied = [sure for holds, sure in answers if holds is False]
-    if denied:
-        return False, min(denied, key=VERDICTS.index)
-    if any(holds is None for holds, _ in answers):
-        return None, "undecided"
-    return True, weakest(*(sure for _, sure in answers))
 
 
 def _is_still(f: Expr, sided: bool, positive: frozenset[Expr], engines: Engines) -> TraitAnswer:
@@ -153,7 +141,7 @@ def _is_of_time_alone(e: Expr) -> bool:
 def _is_cone(e: Expr, positive: frozenset[Expr], engines: Engines) -> TraitAnswer:
     """Return whether e = 0 is homogeneous in the velocities where it holds: v . de/dv = 0 there (Euler)."""
     radial = ex.add(*(v * diff(e, v) for v in sorted(velocities_of(e), key=repr)))
-    return (True, "proved") if _is_homogeneous(e) else vanishes_on(e, radial, positive, engines)
+    return (True, "proved") if _is_homogeneous(e) else vanishes_on(e, radial, positive, engines, velocities_of(e))
 
 
 def vanishes_on(
@@ -161,9 +149,9 @@ def vanishes_on(
 ) -> TraitAnswer:
     """Return whether ``slope`` = 0 wherever g = 0, and how sure that is.
 
-    A certified point where it is not is a proof that it is not; with ``regular_in`` g must not be stationary in these
-    symbols there. What one factor, one branch of a root or one sign of an absolute value tells is not told of the
-    others.
+    A certified point where it is not is a proof that it is not. With ``regular_in``, for a slope along a direction, g
+    must not be stationary in these symbols there: otherwise that slope does not tell whether the set is the same along
+    it. What one factor, one branch of a root or one sign of an absolute value tells is not told of the others.
     """
     still, sure = zero_and_verdict(slope, positive, engines)
     if still:
@@ -174,8 +162,10 @@ def vanishes_on(
     point = TriangularSolver(ring, [node]).draw(1) if "field" in engines else None
     if point is not None:
         try:
-            if values(ring, point)[rate] == 0:
-                whole = is_analytic(g, g.symbols, positive) and _is_irreducible(g, positive)
+            at = values(ring, point)
+            if at[rate] == 0:
+                regular = not others or any(at[k] != 0 for k in others)
+                whole = regular and is_analytic(g, g.symbols, positive) and _is_irreducible(g, positive)
                 return (True, "probable") if whole else (None, "undecided")
         except NoValueError:
             return None, "undecided"

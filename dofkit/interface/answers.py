@@ -25,7 +25,7 @@ from dofkit.interface.show.motion import sheet_of_motion
 from dofkit.interface.show.report import changed, sheet_of_report, unexpected
 from dofkit.interface.show.sheet import SheetSection
 from dofkit.interface.show.terminal import as_text, brief_line, outcome_of, selected_line
-from dofkit.methods.stages import classified, lowered, stages
+from dofkit.methods.classify import classified, lowered
 from dofkit.report import Report
 from dofkit.scene.catalog import FoundFile, find
 from dofkit.scene.expectation import unmet
@@ -82,7 +82,7 @@ def _report(whole: Scene, request: Request) -> Iterator[Json]:
     as_json = request.output.as_json
     sections: tuple[SheetSection, ...] = ()
     if request.without and not as_json:
-        *_, before = stages(whole, request.budget, request.method)
+        before = classified(whole, request.budget, request.method)
         sections = (changed(before, report, request.without),)
     missed = unmet(scene, report.model_dump(mode="json")) if scene.expect else []
     text = _report_text(

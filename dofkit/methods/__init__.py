@@ -11,10 +11,10 @@ Types
     answer with its verdict.
 
 Mechanisms, in the order in which a scene meets them
-    1. `stages` yields a report in which everything is undecided, then the finished one; with a budget `supervised` has
-       it from a worker process that can be killed, where there are processes.
+    1. `classify` has the report; with a budget it comes from a worker process that can be killed, where there are
+       processes, and which first returns one in which everything is undecided.
     2. The row's engines classify the scene. A method without engines has a module of its name; of its answers the
-       report decides only what its own argument proves, the rest are warnings.
+       report of this `single_method` decides only what its own argument proves, the rest are warnings.
 
 The methods without engines
     `count` is the textbook: f = N d - k, and the test of mixed partial derivatives. `graph` has ranks in general

@@ -1,24 +1,35 @@
-"""Entry points: `classify` reports everything about a scene, `derived_flag` the ranks of its derived flag."""
+"""Entry points: `classify` reports everything about a scene, `derived_flag` the ranks of its derived flag.
+
+With a budget a scene is classified in a worker process, which can be killed: first it returns a report in which
+everything is undecided, then the finished one.
+"""
 
 from __future__ import annotations
 
 import sys
-from dataclasses import replace
-from typing import overload
+import time
+from collections.abc import Iterator
+from dataclasses import asdict, replace
+from typing import Any, overload
 
-from dofkit.base.deadline import DEFAULT_SECONDS, OutOfTimeError, limited
+from dofkit.base.deadline import DEFAULT_SECONDS, OUT_OF_TIME, OutOfTimeError, gc_rarely, limit, limited
 from dofkit.base.errors import ArgumentError, Fault, SceneError
 from dofkit.base.wording import require_one_of, seconds_of
+from dofkit.classification.passes import PASSES, PLAIN, examined
 from dofkit.classification.study import study
+from dofkit.classification.undecided import open_entry, open_report, sketch, undecided, why_nothing
 from dofkit.exact.points.balls import precise_for
-from dofkit.methods.stages import classified
-from dofkit.methods.table import METHODS, MethodName
-from dofkit.report import Report
+from dofkit.methods.single_method import report_of_engine, report_of_method
+from dofkit.methods.table import ENGINES, METHODS, MethodName
+from dofkit.report import Count, ForceEntry, Report
 from dofkit.scene.lowering import lower
+from dofkit.scene.names import names_by_position
 from dofkit.scene.reading import SceneLike, scene_or_system
 from dofkit.scene.scene import Scene
-from dofkit.system import System
+from dofkit.system import BODY_ROLES, Constraint, System
 
+#: The function that a worker runs.
+WORKER_STAGES = "dofkit.methods.classify:worker_stages"
 #: Several scenes at once.
 Scenes = list[SceneLike | System] | tuple[SceneLike | System, ...]
 
@@ -103,26 +114,121 @@ def _all_read(scenes: Scenes) -> list[Scene | System]:
 
 def _certified(loaded: Scene | System, budget: float | None, method: MethodName, certificate: bool) -> Report:
     if not certificate:
-        return _classified(loaded, budget, method).with_scene(loaded)
+        return _within_budget(loaded, budget, method).with_scene(loaded)
     if isinstance(loaded, System):
         raise ArgumentError("a certificate needs a Scene: a System has no text that the checker could read")
     from dofkit.methods.certificates.lowering import with_certificate
 
-    return with_certificate(loaded, _classified(loaded, budget, method).with_scene(loaded))
+    return with_certificate(loaded, _within_budget(loaded, budget, method).with_scene(loaded))
 
 
-def _classified(loaded: Scene | System, budget: float | None, method: MethodName) -> Report:
+def _within_budget(loaded: Scene | System, budget: float | None, method: MethodName) -> Report:
     if budget is None:
         return classified(loaded, DEFAULT_SECONDS, method)
     seconds = seconds_of(budget)
     if sys.platform != "emscripten":  # a browser has no processes
-        from dofkit.methods.supervised import report_from_worker
-
-        report = report_from_worker(loaded, seconds, method)
+        report = _report_from_worker(loaded, seconds, method)
         if report is not None:
             return report
     report = classified(loaded, seconds, method)
     return report.model_copy(update={"warnings": [*report.warnings, _UNWATCHED]})
+
+
+def _report_from_worker(scene: Scene | System, budget: float, method: MethodName) -> Report | None:
+    """Return the report on a scene from a process that can be killed, or None where none can be started here.
+
+    Raises SceneError with the faults of the scene, RuntimeError where the classification itself fails.
+    """
+    from dofkit.base.runs import shared
+    from dofkit.base.workers import Job
+
+    outcome = shared(__name__).run(Job(WORKER_STAGES, (scene, budget, method), limit(budget)))
+    value = outcome.value or {}
+    if "faults" in value:
+        faults = tuple(Fault(**{**fault, "where": tuple(fault["where"])}) for fault in value["faults"])
+        raise SceneError(faults, value["source"])
+    if outcome.ended == "absent":
+        return None
+    if outcome.ended == "failed":
+        error = RuntimeError(f"the classification failed with {outcome.reason}")
+        error.add_note(outcome.trace)
+        raise error
+    if "report" in value:
+        report = Report.model_validate(value["report"])
+        return report if outcome.finished else undecided(report, outcome.reason)
+    return sketch(scene, outcome.reason) if isinstance(scene, System) else blank(scene, outcome.reason)
+
+
+def worker_stages(payload: tuple[Scene | System, float, MethodName]) -> Iterator[dict[str, Any]]:
+    """Yield a report in which everything is undecided, then the finished one, in the worker; or the scene's faults."""
+    scene, budget, method = payload
+    until = time.monotonic() + budget
+    try:
+        answer = lowered(scene, budget)
+    except SceneError as error:
+        yield {"faults": [asdict(fault) for fault in error.faults], "source": error.source}
+        return
+    if isinstance(answer, System):
+        yield {"report": sketch(answer, OUT_OF_TIME).model_dump(mode="json")}
+        answer = _report_of(answer, until - time.monotonic(), method)
+    yield {"report": answer.model_dump(mode="json")}
+
+
+@gc_rarely()
+def classified(scene: Scene | System, seconds: float, method: MethodName = "auto") -> Report:
+    """Return the report, finished within so many seconds. Raises SceneError where the scene cannot be read."""
+    until = time.monotonic() + seconds
+    system = lowered(scene, seconds)
+    return system if isinstance(system, Report) else _report_of(system, until - time.monotonic(), method)
+
+
+def lowered(scene: Scene | System, seconds: float) -> System | Report:
+    """Return the scene's equations, or a report that says that there was no time even for reading them."""
+    if isinstance(scene, System):
+        return scene
+    try:
+        with limited(seconds):
+            return lower(scene)
+    except OutOfTimeError as error:
+        return blank(scene, str(error))
+
+
+def _report_of(system: System, seconds: float, method: MethodName) -> Report:
+    engines = ENGINES.get(method)
+    try:
+        if engines is None:
+            with limited(seconds):
+                return report_of_method(system, method)
+        study = examined(system, seconds, engines, passes=PASSES if method == "auto" else PLAIN)
+        return study.report if method == "auto" else report_of_engine(study.report, study.outcome, method)
+    except OutOfTimeError as error:
+        return sketch(system, str(error))
+
+
+def blank(scene: Scene, why: str) -> Report:
+    """Return a report on a scene whose equations could not be read in time: they are not counted."""
+    d, particles, bodies = scene.dimension, len(scene.particles), len(scene.bodies)
+    coordinates = d * particles + len(BODY_ROLES[d]) * bodies + len(scene.coordinates)
+    count = Count(
+        particles=particles,
+        bodies=bodies,
+        dimension=d,
+        coordinates=coordinates,
+        constraints=0,
+        independent=None,
+        naive_dof=coordinates,
+        formula=f"f = n - k = {coordinates} - k",
+        errs="the equations were not counted",
+    )
+    names = names_by_position("c", [c.name for c in scene.constraints])
+    constraints = [
+        Constraint(name, c.kind(), c.facts, c.in_words, ()) for name, c in zip(names, scene.constraints, strict=True)
+    ]
+    forces = [
+        ForceEntry(name=name, reason=f.reason)
+        for name, f in zip(names_by_position("f", [f.name for f in scene.forces]), scene.forces, strict=True)
+    ]
+    return open_report(scene.name, count, [open_entry(c, why) for c in constraints], forces, [why_nothing(why)])
 
 
 def strict_report(scene: Scene) -> Report:

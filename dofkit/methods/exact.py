@@ -13,8 +13,7 @@ from dofkit.base.errors import NoValueError
 from dofkit.exact.points.frames import pivots
 from dofkit.exact.ring.program import Scalar, Var, raising_no_value
 from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import diff
-from dofkit.expressions.terms import expand
+from dofkit.expressions.calculus import diff, expand
 from dofkit.expressions.tree import Expr
 from dofkit.methods.as_written import (
     Decider,

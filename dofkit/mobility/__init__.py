@@ -15,7 +15,7 @@ Mechanisms, cheapest first
     4. `placement` puts the same connections at random places modulo a prime, as drawn, or in floating point;
        `general_position` is the mobility at random places, and answers blocks that are graphs of links.
     5. `special_position` names what makes a geometry special: parallel or concurrent lines, points on one line, plane
-       or conic [BolkerRoth1980]. `near_dependence` warns of rows that are dependent but for rounding.
+       or conic [BolkerRoth1980].
 
 Handed on: freedoms and redundant constraints that need no equation, and for all others the reason why the counts
 differ.

@@ -14,8 +14,7 @@ from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero import is_zero
 from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import diff, substitute
-from dofkit.expressions.terms import linear_terms
+from dofkit.expressions.calculus import diff, linear_terms, substitute
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Row, coordinates_of, split
 from dofkit.relations.linear_relations import explicit_relations, number_coefficients

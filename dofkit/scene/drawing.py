@@ -14,7 +14,7 @@ from dofkit.base.errors import Fault
 from dofkit.expressions.enclosures import approximate, differs_from_zero
 from dofkit.expressions.tree import ONE, ZERO, Expr, coordinate, num
 from dofkit.expressions.vectors import Vec
-from dofkit.scene.frames import Chart, Frame, Placed, ground_frame
+from dofkit.scene.frames import Chart, Frame, Placed
 from dofkit.scene.ledger import Texts
 from dofkit.scene.names import Vocabulary
 from dofkit.scene.parts import Declarations, Particle
@@ -56,6 +56,7 @@ def drawing_of(scene: Declarations, vocabulary: Vocabulary, mentioned: frozenset
             configuration[name] = texts.fixed(value, name)
         else:
             texts.unknown("coordinate", name, coordinates, name)
+    origin = (ZERO,) * scene.dimension
     points: list[Vec] = []
     particles: dict[str, Placed] = {}
     for index, particle in enumerate(scene.particles):
@@ -71,7 +72,7 @@ def drawing_of(scene: Declarations, vocabulary: Vocabulary, mentioned: frozenset
         tolerance=scene.tolerance,
         configuration=configuration,
         particles=particles,
-        ground=ground_frame(scene.dimension),
+        ground=Frame(GROUND, origin, origin),
         frames=_frames(scene.dimension, vocabulary, configuration, mentioned),
         points=tuple(points),
         drawn=frozenset(b for b, names in vocabulary.table.bodies.items() if any(n in configuration for n in names)),

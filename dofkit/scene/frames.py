@@ -28,7 +28,6 @@ from dofkit.expressions.vectors import (
     transposed,
     unit,
 )
-from dofkit.system import GROUND
 
 Chart = Literal["fixed", "line", "plane", "gibbs", "euler"]
 
@@ -94,7 +93,7 @@ class Frame:
     name: str
     position: Vec
     start: Vec
-    chart: Chart
+    chart: Chart = "fixed"
     angles: tuple[str, ...] = ()
     initial: Vec = ()
 
@@ -164,12 +163,6 @@ class Frame:
         tilt = fn("sin", theta)
         axle = (mul(fn("sin", phi), tilt), mul(MINUS_ONE, fn("cos", phi), tilt), fn("cos", theta))
         return plus(scaled(rates[0], unit(2, 3)), scaled(rates[1], line), scaled(rates[2], axle)), ONE
-
-
-def ground_frame(dimension: int) -> Frame:
-    """Return the frame of the ground, at the origin."""
-    origin = (ZERO,) * dimension
-    return Frame(GROUND, origin, origin, "fixed")
 
 
 def relative(first: Frame, second: Frame) -> tuple[Expr, Vec] | None:

@@ -9,7 +9,7 @@ from itertools import chain
 from typing import Any, NamedTuple
 
 from dofkit.base.errors import TextError
-from dofkit.expressions.calculus import DomainSense, Requirement, of_function, of_power
+from dofkit.expressions.real_values import DomainSense, Requirement, of_function, of_power
 from dofkit.expressions.text import Names, parse_expression, parse_relations, to_text
 from dofkit.expressions.tree import Expr, nodes
 from dofkit.scene.lowering import survey_of

@@ -24,13 +24,13 @@ from dofkit.base.deadline import (
     remaining_seconds,
     unless_late,
 )
-from dofkit.methods import stages
+from dofkit.methods import classify
 from dofkit.report import Report
 
 
 @pytest.fixture(autouse=True)
 def _processor_time(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(stages, "time", SimpleNamespace(monotonic=time.process_time))
+    monkeypatch.setattr(classify, "time", SimpleNamespace(monotonic=time.process_time))
 
 
 class Readings:
@@ -57,7 +57,7 @@ def within(budget: float, **made: Any) -> tuple[Report, float]:
     """The report, and the seconds it took."""
     scene = dofkit.load({"name": "late", **made})
     start = time.process_time()
-    *_, report = stages.stages(scene, budget)
+    report = classify.classified(scene, budget)
     return report, time.process_time() - start
 
 
@@ -136,7 +136,7 @@ def test_little_is_done_when_the_time_is_up(made: dict[str, Any], looks: int, mo
     """A million calls of functions are some 0.2 s."""
     clock = Readings(looks)
     monkeypatch.setattr(deadline, "time", clock)
-    monkeypatch.setattr(stages, "time", clock)
+    monkeypatch.setattr(classify, "time", clock)
     try:
         report, _ = within(looks * clock.TICK, **made)
     finally:

@@ -306,10 +306,10 @@ def test_without_time_everything_is_undecided_but_named() -> None:
 @pytest.mark.sweep
 def test_work_that_hears_no_deadline_is_killed(monkeypatch: pytest.MonkeyPatch) -> None:
     """8 coordinates, one finite equation as written: the lecture's count is 7."""
-    monkeypatch.setattr("dofkit.methods.supervised.WORKER_STAGES", "shared.worker_jobs:sketched")
+    monkeypatch.setattr("dofkit.methods.classify.WORKER_STAGES", "shared.worker_jobs:sketched")
     monkeypatch.setattr(
         "dofkit.base.runs._shared",
-        cache(lambda *_: Pool(1, modules=["shared.worker_jobs", "dofkit.methods.supervised"])),
+        cache(lambda *_: Pool(1, modules=["shared.worker_jobs", "dofkit.methods.classify"])),
     )
     scene = dofkit.load(HARD)
     limits = let_time_run_out(monkeypatch, told=1)

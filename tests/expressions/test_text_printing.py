@@ -11,8 +11,7 @@ from hypothesis import strategies as st
 
 from dofkit.base.errors import TextError
 from dofkit.exact.zero import is_zero
-from dofkit.expressions.calculus import substitute
-from dofkit.expressions.terms import content
+from dofkit.expressions.calculus import content, substitute
 from dofkit.expressions.text import Names, parse_expression, to_text
 from dofkit.expressions.tree import (
     DT,

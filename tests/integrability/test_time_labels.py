@@ -26,6 +26,7 @@ TABLE: list[tuple[str, list[str], bool | None, bool | None, str]] = [
     ("x y", ["(abs(t)/t + 1) x = 0"], False, None, "no condition for t < 0, x = 0 after"),
     ("x y", ["(acos(cos(t)) - t) y = 0"], None, None, "no condition for 0 < t < pi, y = 0 after"),
     ("x y", ["(2 + x^2 + cos(x)) (y^2 + t^2) = 0"], None, None, "y = 0 at t = 0 only"),
+    ("x y", ["cos(x - t) cosh(y) = cosh(y)"], None, None, "x = t, where the gradient vanishes: not wrong"),
     # Pfaffian: not integrable.
     ("x y z", ["dz = y dx"], True, True, "neither t nor dt"),
     ("x y z", ["zdot = y xdot + 1"], True, False, "dz - y dx - dt does not integrate: dt dx dy remains of its wedge"),
@@ -58,6 +59,7 @@ TABLE: list[tuple[str, list[str], bool | None, bool | None, str]] = [
     ("x y", ["xdot^2 + ydot^2 = v^2"], True, False, "a speed that is prescribed"),
     ("x y", ["xdot ydot = v"], True, False, "the same"),
     ("x y z", ["xdot^2 + ydot^2 = zdot^2"], True, True, "a cone"),
+    ("x y", ["cos(xdot - 1) cosh(y) = cosh(y)"], None, None, "xdot = 1 is no cone; the gradient vanishes: not wrong"),
     ("x y z", ["xdot^3 + ydot^3 = t zdot^3"], False, True, "a cone that changes"),
     ("x y", ["xdot^2 + ydot^2 = t^2"], False, False, "t occurs"),
     ("x y", ["f(t) (xdot^2 + ydot^2 - v^2) = 0"], True, False, "a declared function"),

@@ -60,7 +60,7 @@ def stuck(path: str = "") -> None:
 
 def sketched(payload: Any) -> Iterator[Any]:
     """What a scene is asked for, hanging inside a library after the sketch."""
-    from dofkit.methods.supervised import worker_stages
+    from dofkit.methods.classify import worker_stages
 
     yield next(worker_stages(payload))
     stuck()

@@ -12,7 +12,7 @@ from shared.known_scenes import ROOT
 
 from dofkit.base import deadline
 
-CEILING = 74
+CEILING = 60
 
 
 def test_a_small_scene_passes_through_few_modules() -> None:

@@ -12,7 +12,7 @@ from shared.known_scenes import VARIED, few, report_of, scene_of, stem
 
 import dofkit
 from dofkit.methods.certificates.lowering import told_fields, with_certificate
-from dofkit.methods.stages import classified
+from dofkit.methods.classify import classified
 
 #: Seconds for one scene of any texts.
 SECONDS = 2.0

@@ -32,9 +32,8 @@ from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero import is_proved_zero
 from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import substitute
+from dofkit.expressions.calculus import linear_terms, substitute
 from dofkit.expressions.enclosures import has_call, interval_of
-from dofkit.expressions.terms import linear_terms
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import coordinates_of
 from dofkit.relations.linear_relations import solve_linear

@@ -13,7 +13,7 @@ from dofkit.configuration.components import is_graph, is_irreducible
 from dofkit.configuration.finite_blocks import finite_answer
 from dofkit.configuration.linear_blocks import eliminated
 from dofkit.configuration.search import LEVEL, find, level_angle
-from dofkit.configuration.variety import Variety, of_real_point
+from dofkit.configuration.variety import Variety, all_configurations, is_unconstrained, of_real_point
 from dofkit.exact.matrices.sparse import echelon
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import pairing
@@ -70,7 +70,8 @@ def answer(block: Block, setting: Setting) -> Answer:
     if bridged is not None:
         return bridged
     result = _engines(block, setting)
-    level = None if result.dof is None or setting.reference is not None else level_angle(block, setting)
+    is_generic = result.dof is not None and setting.reference is None
+    level = level_angle(block, setting) if setting.tilts and is_generic else None
     if level is not None:
         reasons = [*result.reasons, LEVEL.format(level)]
         result = replace(result, dof=None, velocity_dof=None, growth=None, verdict="undecided", reasons=reasons)
@@ -203,6 +204,8 @@ def _prolonged(block: Block, setting: Setting, result: Answer, relations: Sequen
 
 def _points(forms: Codistribution, setting: Setting) -> Variety:
     """Generic points to look at the forms; where there is a reference, of a set that is known to be alike there."""
+    if is_unconstrained(forms.chart):
+        return all_configurations(forms.chart)
     alike = is_irreducible(forms.chart) if setting.reference is None else is_graph(forms.chart)
     if setting.reference is None or alike:
         result = find(forms.chart, setting.pose)

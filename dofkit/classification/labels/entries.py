@@ -18,7 +18,6 @@ from dofkit.exact.matrices.sparse import rank_of_rows
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import TIME
 from dofkit.integrability.nonlinear_velocities import label_modulo_others
-from dofkit.integrability.traits import Traits, traits
 from dofkit.relations.answer import IDENTITY, Answer, HolonomyLabel, Redundancies
 from dofkit.relations.blocks import Block, Row, coordinates_of
 from dofkit.relations.normal.pieces import Clause, JointEquation, Nonlinear, Normal, Pfaffian, Reduced, piece_shape
@@ -44,7 +43,6 @@ def entries_of(
     answer = _labelled_rows(len(reduced), outcome, setting)
     dependences = _dependences([r.constraint.name for r in reduced], dependent, outcome, answer)
     entries, by_kind = list[ConstraintEntry](), dict[Hashable, ConstraintEntry]()
-    traits_of, consistent = partial(_traits_of, setting), outcome.consistent
     for i, (r, dependence) in enumerate(zip(reduced, dependences, strict=True)):
         try:
             check()
@@ -56,9 +54,8 @@ def entries_of(
                 continue
             companions_of = partial(_with_others, i, answer[i], company)
             alone = by_itself(r, answer[i], company.answered)
-            entries.append(
-                entry(r, Evidence(answer[i], alone, dependence, traits_of, companions_of), setting, consistent)
-            )
+            evidence = Evidence(answer[i], alone, dependence, companions_of)
+            entries.append(entry(r, evidence, setting, outcome.consistent))
             if kind is not None and _is_nameless(entries[-1]):
                 by_kind[kind] = entries[-1]
         except OutOfTimeError as error:
@@ -106,13 +103,6 @@ def _is_nameless(entry: ConstraintEntry) -> bool:
     decided = None not in (entry.holonomic, entry.holonomic_alone, entry.scleronomic)
     plain = entry.form in ("finite", "inequality") or (entry.form == "pfaffian" and entry.holonomic is False)
     return decided and plain and entry.integral is None and entry.integrating_factor is None
-
-
-def _traits_of(setting: Setting, piece: Clause) -> Traits:
-    """Return the labels that a piece carries on its own; the equations of a joint that is not driven hold no time."""
-    if isinstance(piece, JointEquation):
-        return Traits((True, "proved"))
-    return traits(piece, setting.positive, setting.engines)
 
 
 def _dependences(
@@ -204,12 +194,14 @@ def by_itself(r: Reduced, labelled: Sequence[LabelledRow], answered: AnsweredBlo
             return bent
     elif not any(isinstance(t.row.piece, Pfaffian) for t in labelled) and all(len(n.branches) < 2 for n in r.normals):
         return None
+    label = labelled[0].label if Nonlinear not in pieces and len(labelled) == 1 else None
+    if label is not None and label.holonomic is False and label.verdict == "proved":
+        return Answer(labels={0: label})
     match r.normals:
         case (Normal(branches=((Pfaffian() as form,),)),) if labelled and answered.is_curved(form):
             return Answer(labels={0: HolonomyLabel(False, "proved")})
-    labels = [t.label for t in labelled]
-    if Nonlinear not in pieces and len(labels) == 1 and labels[0] is not None and labels[0].holonomic is False:
-        return Answer(labels={0: labels[0]})
+    if label is not None and label.holonomic is False:
+        return Answer(labels={0: label})
     mentioned = {name for n in r.normals for b in n.branches for p in b for name in coordinates_of(p)}
     setting = replace(answered.setting, roles=tuple(c for c in answered.setting.roles if c.name in mentioned))
     try:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from dofkit.base.verdicts import OPEN, Claim, weakest
+from dofkit.base.verdicts import OPEN, Claim, TraitAnswer, all_of, weakest
 from dofkit.classification.labels.reasons import (
     ON_COMPONENT,
     EntryDependence,
@@ -24,10 +24,11 @@ from dofkit.classification.labels.reasons import (
     traits_together,
 )
 from dofkit.exact.zero import BOTH
-from dofkit.integrability.traits import Integrability, TraitAnswer, Traits, all_of, integrability
+from dofkit.expressions.tree import TIME
+from dofkit.integrability.traits import Integrability, Traits, integrability, traits_of
 from dofkit.relations.answer import GAP, Answer, HolonomyLabel
 from dofkit.relations.blocks import Block, Row
-from dofkit.relations.normal.pieces import Clause, Finite, Nonlinear, Normal, Pfaffian, Reduced
+from dofkit.relations.normal.pieces import Clause, Finite, JointEquation, Nonlinear, Normal, Pfaffian, Reduced
 from dofkit.relations.setting import Setting
 from dofkit.report import FORMS, ConstraintEntry, FieldVerdict, Form
 
@@ -58,14 +59,12 @@ def form_of(piece: Clause) -> Form:
 class Evidence:
     """What was found of one constraint: its rows as they were labelled, and its rows by themselves (None: finite).
 
-    ``traits_of`` gives what a piece carries by itself, ``companions_of`` what the other constraints do for a form that
-    is holonomic in the system, or is not.
+    ``companions_of`` gives what the other constraints do for a form that is holonomic in the system, or is not.
     """
 
     rows: Sequence[LabelledRow]
     by_itself: Answer | None
     dependence: EntryDependence
-    traits_of: Callable[[Clause], Traits]
     companions_of: Callable[[bool], Others]
 
 
@@ -79,7 +78,7 @@ def entry(reduced: Reduced, evidence: Evidence, setting: Setting, consistent: bo
     labels = _labels_of(reduced, evidence, form, proofs, forms, consistent)
     own_integral = _own_integral(normals, proofs)
     integral, others = _integral_of(form, labels, own_integral, evidence, bool(consistent))
-    of_pieces = _traits_of(pieces, normals, evidence)
+    of_pieces = _traits_of(pieces, normals, setting)
     of_pieces += branches_of_time(reduced, bool(consistent), setting.positive)
     single = evidence.rows[0] if len(evidence.rows) == len(pieces) == 1 else None
     timed = timed_in_system(pieces[0], single.block, single.answer, others, setting) if single else None
@@ -112,10 +111,21 @@ def entry(reduced: Reduced, evidence: Evidence, setting: Setting, consistent: bo
     )
 
 
-def _traits_of(pieces: Sequence[Clause], normals: Sequence[Normal], evidence: Evidence) -> list[Traits]:
-    """Return the traits of the equations of a constraint, without those that only declare an unknown function."""
+def _traits_of(pieces: Sequence[Clause], normals: Sequence[Normal], setting: Setting) -> list[Traits]:
+    """Return the traits of the equations of a constraint, without those that only declare an unknown function.
+
+    A geometric equation without time carries no others; that of a joint that is not driven is one.
+    """
     generic = declared_functions(normals)
-    return [evidence.traits_of(p) for p in pieces if p not in generic]
+    return [
+        Traits((True, "proved")) if _is_still(p) else traits_of(p, setting.positive, setting.engines)
+        for p in pieces
+        if p not in generic
+    ]
+
+
+def _is_still(piece: Clause) -> bool:
+    return isinstance(piece, JointEquation) or (isinstance(piece, Finite) and TIME not in piece.expr.symbols)
 
 
 def _integrable_forms(normals: Sequence[Normal], rows: Sequence[LabelledRow]) -> list[Pfaffian]:

@@ -6,12 +6,12 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from dofkit.base.verdicts import OPEN, ArgumentKey, Claim, Verdict, least, together, weakest
+from dofkit.base.verdicts import OPEN, ArgumentKey, Claim, TraitAnswer, Verdict, all_of, least, together, weakest
 from dofkit.base.wording import verb
 from dofkit.expressions import tree as ex
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
-from dofkit.integrability.traits import Integrability, TraitAnswer, Traits, all_of, timeless, vanishes_on
+from dofkit.integrability.traits import Integrability, Traits, timeless, vanishes_on
 from dofkit.relations.answer import BITS, GAP, Answer, HolonomyLabel
 from dofkit.relations.blocks import Block
 from dofkit.relations.normal.domain import DomainCondition

@@ -143,7 +143,6 @@ class RowPolynomials:
         ring = Ring([*chain(*rows), *chain(*(curl.values() for curl in curls))], setting.positive)
         nodes = {e: ring.node(e) for e in chain(*rows, *(curl.values() for curl in curls))}
         self.canon = Canon(ring)
-        self.signs = Signs(self.canon, setting.positive)
         self.moving = {i for i, e in enumerate(ring.var_expr) if not self.zeros.variables.isdisjoint(e.symbols)}
         self.rows = [self._cleared(row, nodes) for row in rows]
         self._curls, self._nodes = curls, nodes
@@ -151,6 +150,11 @@ class RowPolynomials:
         while (pivot := self._pivot()) is not None:
             self._eliminate(*pivot)
             self.pivots.append(pivot)
+
+    @cached_property
+    def signs(self) -> Signs:
+        """What is known of the signs of the ring's generators."""
+        return Signs(self.canon, self.zeros.positive)
 
     def _cleared(self, row: Sequence[Expr], nodes: Mapping[Expr, int]) -> list[Poly]:
         quotients = (self.canon.quotient(nodes[e]) for e in row)
@@ -175,6 +179,11 @@ class RowPolynomials:
             return True
         even = sum_of_even(poly, self.signs) if len(poly) <= MAX_EVEN else None
         return even is not None and any(not zeros for zeros in even)
+
+    def can_vanish_together(self, polynomials: Sequence[Poly]) -> bool:
+        """Return False where the sum of their squares shows that they vanish at no real point; True says nothing."""
+        short = all(len(poly) <= MAX_EVEN for poly in polynomials)
+        return not short or not self._never_vanishes(self.canon.reduce(sum(p * p for p in polynomials)))
 
     def _eliminate(self, r: int, c: int) -> None:
         check()
@@ -275,6 +284,8 @@ def _loci(rows: RowPolynomials, matrix: Callable[[], list[list[Poly]]], size: in
         minors = raising_no_value(lambda: list(_minors(rows.canon, matrix(), size)))()
         shortest = min(minors, key=len, default=None)
         if shortest is None or len(shortest) > MAX_FACTORED or max(map(len, minors)) > MAX_LONG:
+            return []
+        if not rows.can_vanish_together(minors):
             return []
         if all(len(factor) > MAX_READ for factor, _ in rows.canon.factors(shortest)):
             return []

@@ -72,7 +72,7 @@ class Manifold:
         self.scales = list(scales) or [1.0] * len(self.columns)
         at = values(ring, base)
         self.sample = at[0] * 0 if at else base.number(0)
-        self.like = zero_poly(base, self.sample)
+        self.like = zero_poly(self.sample)
         self.start = [at[ring.var_node[c]] if c >= 0 else self.sample for c in columns]
         kept = set(frame.rows)
         self.rows = [self.nodes[r] for r in frame.rows]

@@ -11,7 +11,7 @@ from flint import arb, arb_poly
 
 from dofkit.base.errors import PoleError
 from dofkit.exact.residues import Residue, ResiduePolynomial, modulus, residue_polynomial
-from dofkit.exact.ring.program import Point, Scalar, Var
+from dofkit.exact.ring.program import Scalar, Var
 
 #: An unknown function's composition uses this many of its derivatives by several arguments at most.
 MAX_JET = 400
@@ -205,7 +205,7 @@ def _multi_indices(n: int, total: int) -> list[tuple[int, ...]]:
     return indices[:MAX_JET]
 
 
-def zero_poly(base: Point, sample: Scalar) -> Any:
+def zero_poly(sample: Scalar) -> Any:
     """Return the zero polynomial over the numbers that ``sample`` belongs to."""
     return residue_polynomial([0], modulus(sample)) if isinstance(sample, Residue) else arb_poly([])
 

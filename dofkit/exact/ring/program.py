@@ -298,11 +298,11 @@ def partials(ring: Instructions, var: Var, at: Sequence[Scalar], point: Point) -
         below = 1 / (x * x + y * y)
         return [(var.args[0], x * below), (var.args[1], -y * below)]
     if kind == "call":
-        return [(node, _derivative(ring, var, i, at, point)) for i, node in enumerate(var.args)]
+        return [(node, _derivative(var, i, at, point)) for i, node in enumerate(var.args)]
     return []
 
 
-def _derivative(ring: Instructions, var: Var, i: int, at: Sequence[Scalar], point: Point) -> Scalar:
+def _derivative(var: Var, i: int, at: Sequence[Scalar], point: Point) -> Scalar:
     """Return the value of the unknown function differentiated once more by its i-th argument."""
     name, orders, key = var.key
     raised = tuple(o + (i == j) for j, o in enumerate(orders))

@@ -9,8 +9,8 @@ from flint import fmpz
 
 from dofkit.exact.ring.program import Instructions
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import content, sorted_sum
 from dofkit.expressions.enclosures import interval_of, is_constant
-from dofkit.expressions.terms import content, sorted_sum
 from dofkit.expressions.tree import Expr
 
 Key = tuple[Any, int]

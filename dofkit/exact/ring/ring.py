@@ -18,8 +18,7 @@ from dofkit.base.errors import NoValueError
 from dofkit.exact.ring.program import ADD, MUL, NUM, VAR, Instructions, Var
 from dofkit.exact.ring.radicals import inverse_function, log, over_primes, root, sign
 from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import substitute
-from dofkit.expressions.terms import linear_terms, sorted_sum
+from dofkit.expressions.calculus import linear_terms, sorted_sum, substitute
 from dofkit.expressions.tree import Expr
 
 #: sin(n u) is a polynomial in sin u and cos u up to this n; beyond, it is a generator of its own.

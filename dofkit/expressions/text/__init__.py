@@ -2,13 +2,13 @@
 
 A text is data: nothing in it is ever run. It goes through a whitelist of characters and LaTeX commands (`characters`),
 a tokenizer that knows the declared names (`tokens`, `names`) and a grammar (`grammar`, `applications`) whose arithmetic
-is bounded (`calculus`). Every refusal is a `TextError` with the column in the text as it was written. `printing` writes
-expressions in the grammar, `typesetting` texts of it in LaTeX and MathML.
+is bounded (`real_values`). Every refusal is a `TextError` with the column in the text as it was written. `printing`
+writes expressions in the grammar, `typesetting` texts of it in LaTeX and MathML.
 """
 
 from __future__ import annotations
 
-from dofkit.expressions.calculus import Comparison
+from dofkit.expressions.real_values import Comparison
 from dofkit.expressions.text.applications import parse_expression, parse_relations
 from dofkit.expressions.text.names import AmbiguousError, Names, UnknownNameError, spelled, valid_name
 from dofkit.expressions.text.printing import to_text

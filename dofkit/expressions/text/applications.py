@@ -6,8 +6,8 @@ from collections.abc import Callable
 from itertools import islice
 from typing import NoReturn
 
-from dofkit.expressions.bounded_arithmetic import applied, inverse
-from dofkit.expressions.calculus import Comparison, by_time, diff, of_function, of_power, over_dt, total_differential
+from dofkit.expressions.calculus import by_time, diff, over_dt, total_differential
+from dofkit.expressions.real_values import Comparison, applied, inverse, of_function, of_power
 from dofkit.expressions.text.characters import MAX_DIFFERENTIATED, MAX_ORDER
 from dofkit.expressions.text.grammar import Parser
 from dofkit.expressions.text.names import AmbiguousError, Names

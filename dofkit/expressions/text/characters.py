@@ -113,7 +113,7 @@ def _plain(char: str, column: int) -> str:
             return table[char]
     codes = unicodedata.decomposition(char).split()
     if len(codes) == 2 and (codes[0] == "<font>" or codes[0] in _BASES):
-        plain = _composed(char, codes)
+        plain = _composed(codes)
         if plain is not None:
             return plain
     if len(codes) == 1 and codes[0][0] != "<":  # one character with two codes, such as the sign for ohm
@@ -122,7 +122,7 @@ def _plain(char: str, column: int) -> str:
     raise _refusal(char, column)
 
 
-def _composed(char: str, decomposition: list[str]) -> str | None:
+def _composed(decomposition: list[str]) -> str | None:
     """Return a letter in another type face, or a letter with dots above it."""
     if decomposition[0] == "<font>":
         base = chr(int(decomposition[1], 16))

@@ -17,8 +17,8 @@ from dataclasses import replace
 from typing import Any, NoReturn, cast
 
 from dofkit.base.errors import TextError
-from dofkit.expressions.bounded_arithmetic import bounded, inverse, raised
-from dofkit.expressions.calculus import Comparison, RelationSign, Requirement, is_differential, of_power, over_dt
+from dofkit.expressions.calculus import is_differential, over_dt
+from dofkit.expressions.real_values import Comparison, RelationSign, Requirement, bounded, inverse, of_power, raised
 from dofkit.expressions.text.characters import MAX_DEPTH
 from dofkit.expressions.text.names import AmbiguousError, Names, derivative
 from dofkit.expressions.text.tokens import Token, Tokens

@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from itertools import chain, repeat
 
-from dofkit.expressions.bounded_arithmetic import MAX_EXPONENT
+from dofkit.expressions.real_values import MAX_EXPONENT
 from dofkit.expressions.text.characters import MAX_DIGITS
 from dofkit.expressions.tree import HALF, TIME, Expr, num, power
 

@@ -12,7 +12,7 @@ from functools import cache
 from typing import NamedTuple, NoReturn
 
 from dofkit.base.errors import TextError
-from dofkit.expressions.bounded_arithmetic import MAX_EXPONENT
+from dofkit.expressions.real_values import MAX_EXPONENT
 from dofkit.expressions.text.characters import (
     DEGREE,
     DOT,

@@ -18,9 +18,8 @@ from dofkit.exact.ring.program import TooLargeError, raising_no_value
 from dofkit.exact.ring.quotients import MAX_TERMS, Quotient, factored, rationalised
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import diff
+from dofkit.expressions.calculus import diff, expand
 from dofkit.expressions.sympy_bridge import UntranslatableError, antiderivative_by_sympy, integrators
-from dofkit.expressions.terms import expand
 from dofkit.expressions.tree import Expr
 
 T = TypeVar("T")

@@ -18,8 +18,7 @@ from dofkit.exact.ring.program import raising_no_value
 from dofkit.exact.ring.quotients import Poly, solve
 from dofkit.exact.zero import certainly_nonzero
 from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import diff
-from dofkit.expressions.terms import content
+from dofkit.expressions.calculus import content, diff
 from dofkit.expressions.text.printing import to_text
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.integrals.potentials import (

@@ -17,8 +17,8 @@ from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero import is_proved_zero
 from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import DomainSense, of_function, of_power, substitute
-from dofkit.expressions.terms import linear_terms
+from dofkit.expressions.calculus import linear_terms, substitute
+from dofkit.expressions.real_values import DomainSense, of_function, of_power
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.semidefinite import never_holds
 from dofkit.relations.normal.zero_set import never_vanishes

@@ -16,7 +16,7 @@ from dofkit.exact.ring.ring import Ring
 from dofkit.exact.triangular import TriangularSolver
 from dofkit.exact.zero import zero_and_verdict
 from dofkit.expressions import tree as ex
-from dofkit.expressions.terms import linear_terms
+from dofkit.expressions.calculus import linear_terms
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.semidefinite import Signs, fraction, semidefinite, sum_of_even
 

@@ -16,7 +16,7 @@ from flint import fmpq
 
 from dofkit.exact.linear_inequalities import LinearCondition, solution
 from dofkit.expressions import tree as ex
-from dofkit.expressions.terms import linear_terms
+from dofkit.expressions.calculus import linear_terms
 from dofkit.expressions.tree import Expr
 
 #: Inequalities of which products are taken.

@@ -12,9 +12,8 @@ from pydantic import Discriminator, Field, Tag, WrapValidator
 
 from dofkit.base.errors import NoValueError
 from dofkit.exact.matrices.sparse import combined
-from dofkit.expressions.calculus import diff, substitute
+from dofkit.expressions.calculus import diff, linear_terms, substitute
 from dofkit.expressions.enclosures import approximate
-from dofkit.expressions.terms import linear_terms
 from dofkit.expressions.text import valid_name
 from dofkit.expressions.tree import MINUS_ONE, ONE, TIME, ZERO, Expr, coordinate, mul
 from dofkit.expressions.vectors import difference, dot, is_zero, length

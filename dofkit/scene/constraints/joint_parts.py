@@ -17,7 +17,7 @@ from itertools import chain
 from typing import Literal, NamedTuple
 
 from dofkit.exact.matrices import sparse as rows
-from dofkit.expressions.terms import longest_number
+from dofkit.expressions.calculus import longest_number
 from dofkit.expressions.tree import HALF, MINUS_ONE, PI, ZERO, Expr, add, fn, mul
 from dofkit.expressions.vectors import Vec, cross, difference, dot, is_zero, length, minus, scaled, unit
 from dofkit.scene.constraints.base import component_relations

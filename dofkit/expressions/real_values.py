@@ -1,11 +1,14 @@
-"""Powers, quotients and elementary functions of numbers within bounds, where they have a real value."""
+"""Where powers, quotients and elementary functions have a real value; those of numbers, within bounds."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from dataclasses import dataclass
 from fractions import Fraction
+from typing import Literal
 
 from dofkit.base.errors import TextError
-from dofkit.expressions.tree import MINUS_ONE, Expr, children, fn, nodes, num, power
+from dofkit.expressions.tree import MINUS_ONE, ONE, Expr, children, fn, nodes, num, power
 
 #: Constant exponents, powers of ten included, and the product of nested ones.
 MAX_EXPONENT = 64
@@ -93,3 +96,53 @@ def bounded(e: Expr) -> Expr:
             message = f"the powers in this text multiply to more than {MAX_EXPONENT}"
             raise TextError(message, hint="choose smaller exponents")
     return e
+
+
+#: An expression, and what it has to be against 0.
+DomainSense = Literal[">=", ">", "!="]
+Requirement = tuple[Expr, DomainSense]
+
+
+def of_power(base: Expr, exponent: Expr) -> Iterator[Requirement]:
+    """Yield what ``base^exponent`` requires; a number as base was checked when it was read."""
+    if base.op == "num":
+        return
+    if exponent.op != "num":
+        yield base, ">"
+    elif exponent.args[0].denominator % 2 == 0:
+        yield base, ">=" if exponent.args[0] > 0 else ">"
+    elif exponent.args[0] < 0:
+        yield base, "!="
+
+
+def of_function(name: str, u: Expr, *others: Expr) -> Iterator[Requirement]:
+    """Yield what an elementary function requires of its arguments."""
+    if name == "sqrt":
+        yield u, ">="
+    elif name == "log":
+        yield u, ">"
+    elif name in ("asin", "acos"):
+        yield ONE - u * u, ">="
+    elif name in ("tan", "sec"):
+        yield fn("cos", u), "!="
+    elif name in ("cot", "csc"):
+        yield fn("sin", u), "!="
+    elif name == "atan2":
+        yield u * u + others[0] * others[0], "!="
+
+
+RelationSign = Literal["=", "<=", ">=", "<", ">"]
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """One relation; ``column`` is where its sign stands (where the text begins, if it has none).
+
+    ``domain``: the conditions under which the text, as it was written, has a value.
+    """
+
+    left: Expr
+    relation: RelationSign
+    right: Expr
+    column: int
+    domain: tuple[Requirement, ...] = ()

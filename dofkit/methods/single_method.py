@@ -1,104 +1,25 @@
-"""A scene classified in stages: first a report in which everything is undecided, then the finished one.
-
-`supervised` does the same in a process that can be killed.
-"""
+"""The reports of one method on its own: they decide what its own argument proves, the rest are warnings."""
 
 from __future__ import annotations
 
-import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from typing import Any
 
-from dofkit.base.deadline import OUT_OF_TIME, OutOfTimeError, gc_rarely, limited
+from dofkit.base.deadline import OutOfTimeError
 from dofkit.base.errors import PoleError
 from dofkit.base.verdicts import OPEN, About, Claim, Verdict, weakest
 from dofkit.base.wording import many
 from dofkit.classification.freedom.branches import Outcome
-from dofkit.classification.passes import PASSES, PLAIN, examined
-from dofkit.classification.undecided import open_entry, open_report, sketch, why_nothing
+from dofkit.classification.freedom.preparation import all_of
+from dofkit.classification.undecided import sketch
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
-from dofkit.methods.table import ENGINES, MethodName, Question, Reply, function_of, methods
+from dofkit.methods.table import MethodName, Question, Reply, function_of, methods
 from dofkit.relations.answer import BITS, GAP, Answer
 from dofkit.relations.blocks import Block
-from dofkit.report import ConstraintEntry, Count, FieldVerdict, ForceEntry, Report
-from dofkit.scene.lowering import lower
-from dofkit.scene.names import names_by_position
-from dofkit.scene.scene import Scene
-from dofkit.system import BODY_ROLES, Constraint, System
-
-
-def stages(scene: Scene | System, seconds: float, method: MethodName = "auto") -> Iterator[Report]:
-    """Yield a report in which everything is undecided, then the one that is finished within so many seconds.
-
-    Raises SceneError where the scene cannot be read as mathematics.
-    """
-    until = time.monotonic() + seconds
-    system = lowered(scene, seconds)
-    if isinstance(system, Report):
-        yield system
-        return
-    yield sketch(system, OUT_OF_TIME)
-    yield _classified(system, until - time.monotonic(), method)
-
-
-@gc_rarely()
-def classified(scene: Scene | System, seconds: float, method: MethodName = "auto") -> Report:
-    """Return the last of the `stages`."""
-    until = time.monotonic() + seconds
-    system = lowered(scene, seconds)
-    return system if isinstance(system, Report) else _classified(system, until - time.monotonic(), method)
-
-
-def lowered(scene: Scene | System, seconds: float) -> System | Report:
-    """Return the scene's equations, or a report that says that there was no time even for reading them."""
-    if isinstance(scene, System):
-        return scene
-    try:
-        with limited(seconds):
-            return lower(scene)
-    except OutOfTimeError as error:
-        return blank(scene, str(error))
-
-
-def _classified(system: System, seconds: float, method: MethodName) -> Report:
-    engines = ENGINES.get(method)
-    try:
-        if engines is None:
-            with limited(seconds):
-                return report_of_method(system, method)
-        study = examined(system, seconds, engines, passes=PASSES if method == "auto" else PLAIN)
-        return study.report if method == "auto" else report_of_engine(study.report, study.outcome, method)
-    except OutOfTimeError as error:
-        return sketch(system, str(error))
-
-
-def blank(scene: Scene, why: str) -> Report:
-    """Return a report on a scene whose equations could not be read in time: they are not counted."""
-    d, particles, bodies = scene.dimension, len(scene.particles), len(scene.bodies)
-    coordinates = d * particles + len(BODY_ROLES[d]) * bodies + len(scene.coordinates)
-    count = Count(
-        particles=particles,
-        bodies=bodies,
-        dimension=d,
-        coordinates=coordinates,
-        constraints=0,
-        independent=None,
-        naive_dof=coordinates,
-        formula=f"f = n - k = {coordinates} - k",
-        errs="the equations were not counted",
-    )
-    names = names_by_position("c", [c.name for c in scene.constraints])
-    constraints = [
-        Constraint(name, c.kind(), c.facts, c.in_words, ()) for name, c in zip(names, scene.constraints, strict=True)
-    ]
-    forces = [
-        ForceEntry(name=name, reason=f.reason)
-        for name, f in zip(names_by_position("f", [f.name for f in scene.forces]), scene.forces, strict=True)
-    ]
-    return open_report(scene.name, count, [open_entry(c, why) for c in constraints], forces, [why_nothing(why)])
-
+from dofkit.report import ConstraintEntry, FieldVerdict, Report
+from dofkit.system import Constraint, System
 
 #: The questions that a report answers, and how each is called in a warning.
 ASKED: Mapping[Question, str] = {
@@ -128,7 +49,7 @@ def report_of_method(system: System, method: MethodName) -> Report:
         _entry(c, e, labels.verdict if c.name in holonomic else None, methods()[method].best)
         for c, e in zip(system.constraints, base.constraints, strict=True)
     ]
-    whole = {name: _all_of([getattr(e, name) for e in entries]) for name in ("holonomic", "scleronomic")}
+    whole = {name: all_of(getattr(e, name) for e in entries) for name in ("holonomic", "scleronomic")}
     about: About = "everywhere" if system.reference is None else "reference"
     verdicts = {
         **base.verdicts,
@@ -176,10 +97,6 @@ def _in_words(question: Question, value: Any) -> str:
 
 def _verdict(verdict: Verdict, about: About = "everywhere") -> FieldVerdict:
     return FieldVerdict.of(OPEN if verdict == "undecided" else Claim(verdict, "one method alone", BITS, GAP, about))
-
-
-def _all_of(labels: list[bool | None]) -> bool | None:
-    return False if False in labels else None if None in labels else True
 
 
 def _of_entries(name: str, value: bool | None, entries: list[ConstraintEntry]) -> FieldVerdict:
