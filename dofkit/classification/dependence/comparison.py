@@ -29,7 +29,8 @@ from dofkit.exact.ring.program import POW, values
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero import is_proved_zero
 from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import Requirement, diff, in_velocities, replace_nodes, substitute
+from dofkit.expressions.calculus import diff, in_velocities, replace_nodes, substitute
+from dofkit.expressions.real_values import Requirement
 from dofkit.expressions.tree import HALF, MINUS_ONE, ZERO, Expr
 from dofkit.relations.blocks import Block, Row, make_chart, split
 from dofkit.relations.normal.normal_form import velocities_of
