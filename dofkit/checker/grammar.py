@@ -19,6 +19,7 @@ from dofkit.checker.trees import (
     Tree,
     add,
     call,
+    keeps_values,
     negative,
     number,
     power,
@@ -47,7 +48,6 @@ _TOKEN = re.compile(
     re.ASCII | re.DOTALL,
 )
 _VELOCITY, _DIFFERENTIAL = re.compile(rf"(.+?)(?:_?dot|['{DOT}])([_0-9].*)?"), re.compile("d(.+)")
-_TOTAL = ("number", "pi", "symbol", "sum", "product", "exp", "sin", "cos", "apply")
 _BEGIN = ("value", "moving", "function", "declared", "(")
 #: With these what a function without parentheses is of may go on.
 _LONGER = ("value", "number", "declared", "^", "/")
@@ -72,11 +72,10 @@ _E = Lexeme("value", EULER)
 
 
 class Sided(NamedTuple):
-    """One relation: ``tree`` = 0; with the sign ``>`` it is > 0 (``strict``) or >= 0."""
+    """One relation: ``tree`` is 0, or by its ``sign`` > 0 or >= 0."""
 
     tree: Tree
     sign: str = "="
-    strict: bool = False
 
 
 def spelled_out(name: str) -> str:
@@ -149,6 +148,8 @@ def tokens_of(text: object, names: KnownNames) -> list[Lexeme]:
 
 def parse(text: object, names: KnownNames) -> Tree:
     """The value that a text writes."""
+    if type(text) is int:
+        return number(text)
     return parse_relations(text, names, signs=False)[0].tree
 
 
@@ -159,7 +160,7 @@ def parse_relations(text: object, names: KnownNames, signs: bool = True) -> list
     while signs and (sign := reader.accepted("relation").name):
         right = reader.sum()
         tree = add(right, negative(side)) if sign[0] in "<≤" else add(side, negative(right))
-        relations.append(Sided(tree, "=" if sign[0] == "=" else ">", sign in "<>"))
+        relations.append(Sided(tree, "=" if sign[0] == "=" else ">" if sign in "<>" else ">="))
         side = right
     reader.needed("end")
     return relations or [Sided(side)]
@@ -248,7 +249,7 @@ class _Reader:
         return values
 
     def function(self, token: Lexeme) -> Tree:
-        """``sin(x)``, ``sin^2(x)``, ``sin x dy``; ``sin x y``, ``sin x/2`` and ``sin^-1(x)`` could be read in two ways."""
+        """``sin(x)``, ``sin^2(x)``, ``sin x dy``; ``sin x y``, ``sin x/2``, ``sin^-1(x)`` could be read in two ways."""
         exponent = self.needed("number").tree if self.accepted("^").kind else ONE
         alone = self.next.kind == "value"
         values = [self.primary()] if alone else self.arguments()
@@ -281,6 +282,4 @@ def _power(base: Tree, exponent: Tree) -> Tree:
 
 def _is_partial(tree: Tree) -> bool:
     """Whether a tree may have no value somewhere: then 0 times it is not 0 there."""
-    exponent = tree.below[1].value if tree.head == "power" else None
-    whole = isinstance(exponent, Fraction) and exponent.denominator == 1 and exponent > 0
-    return not (whole or tree.head in _TOTAL) or any(map(_is_partial, tree.below))
+    return not keeps_values(tree) or any(map(_is_partial, tree.below))

@@ -257,6 +257,16 @@ def _partial(node: Tree, place: int) -> Tree:
     return slopes[node.head]
 
 
+_TOTAL = frozenset(("number", "pi", "symbol", "sum", "product", "exp", "sin", "cos", "apply"))
+
+
+def keeps_values(node: Tree, poles: bool = False) -> bool:
+    """Whether a node has a value, and is smooth, wherever all below it do and are; with ``poles``: but for those."""
+    exponent = node.below[1].value if node.head == "power" else ""
+    whole = isinstance(exponent, Fraction) and exponent.denominator == 1 and (poles or exponent > 0)
+    return node.head in _TOTAL or whole
+
+
 def along(field: Mapping[str, Tree], tree: Tree) -> Tree:
     """The derivative of a tree along a field."""
     held = tree.symbols
