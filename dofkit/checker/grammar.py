@@ -37,6 +37,7 @@ _LATIN = (
     "chi psi omega Gamma Delta Theta Lambda Xi Pi Sigma Phi Psi Omega"
 )
 GREEK = dict(zip("αβγδεζηθϑικλμνξπρστυφϕχψωΓΔΘΛΞΠΣΦΨΩ", _LATIN.split(), strict=True))
+_SPELLED = str.maketrans(GREEK)
 _DOTTED = zip("ȧḃċḋėḟġḣṁṅȯṗṙṡṫẇẋẏż", "abcdefghmnoprstwxyz", strict=True)
 _PLAIN = str.maketrans("−–·⋅×′’", "--***''") | {ord(dotted): letter + DOT for dotted, letter in _DOTTED}
 _LETTERS = "A-Za-z" + "".join(GREEK)
@@ -47,6 +48,7 @@ _TOKEN = re.compile(
     r"|(?P<raised>[²³])(?! *(?:[²³^]|\*\*))|(?P<unknown>.))",
     re.ASCII | re.DOTALL,
 )
+_WHOLE = re.compile(r"\d{1,400}", re.ASCII)
 _VELOCITY, _DIFFERENTIAL = re.compile(rf"(.+?)(?:_?dot|['{DOT}])([_0-9].*)?"), re.compile("d(.+)")
 _BEGIN = ("value", "moving", "function", "declared", "(")
 #: With these what a function without parentheses is of may go on.
@@ -80,7 +82,7 @@ class Sided(NamedTuple):
 
 def spelled_out(name: str) -> str:
     """A name with its Greek letters in Latin ones."""
-    return "".join(GREEK.get(c, c) for c in name)
+    return name.translate(_SPELLED)
 
 
 @dataclass(frozen=True)
@@ -148,8 +150,8 @@ def tokens_of(text: object, names: KnownNames) -> list[Lexeme]:
 
 def parse(text: object, names: KnownNames) -> Tree:
     """The value that a text writes."""
-    if type(text) is int:
-        return number(text)
+    if type(text) is int or (isinstance(text, str) and _WHOLE.fullmatch(text)):
+        return number(int(text))
     return parse_relations(text, names, signs=False)[0].tree
 
 

@@ -98,9 +98,11 @@ def _canonical(value: Any, key: str, depth: int) -> Any:
     if value in _NULLS:
         return None
     match = _VALUE.fullmatch(str(value)) if len(str(value)) <= LONGEST_VALUE else None
-    refuse(match is None and not isinstance(value, str), f"{str(value)[:40]} cannot stand in a document")
-    exact = Fraction(match[1]) / int(match[2] or 1) if match else Fraction(0)
-    return value if match is None else int(exact) if exact == int(exact) else str(exact)
+    if match is None:
+        refuse(not isinstance(value, str), f"{str(value)[:40]} cannot stand in a document")
+        return value
+    exact = Fraction(match[1]) / int(match[2] or 1)
+    return int(exact) if exact.denominator == 1 else str(exact)
 
 
 def sha256_of(document: object) -> str:
