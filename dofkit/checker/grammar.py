@@ -1,7 +1,7 @@
-"""The grammar of texts: relations and values as people write them, read into trees.
+"""The grammar of texts: relations and values as most people write them, read into trees.
 
-Words first: what each name means, and how letters written together fall into names. Then, from loosest to tightest:
-relation, sum, term, factor, primary. What could be read in two ways is an error.
+Words first: what each name means. Then, from loosest to tightest: relation, sum, term, factor, primary. What could be
+read in two ways is an error; so is a notation that few people use, for which another text stands in the scene.
 """
 
 import re
@@ -15,10 +15,11 @@ from dofkit.checker.trees import (
     FUNCTIONS,
     ONE,
     ZERO,
+    CheckError,
     Tree,
     add,
     call,
-    derivative,
+    keeps_values,
     negative,
     number,
     power,
@@ -27,8 +28,8 @@ from dofkit.checker.trees import (
     times,
 )
 
-#: The last: how often a declared function is differentiated.
-MOST_CHARACTERS, LONGEST_NAME, DEEPEST, LARGEST_EXPONENT, MOST_ORDERS = 20_000, 64, 60, 64, 6
+#: The last: how many primes a declared function has.
+MOST_CHARACTERS, LONGEST_NAME, DEEPEST, LARGEST_EXPONENT, MOST_PRIMES = 20_000, 64, 60, 64, 6
 #: The last: a dot above the letter before it.
 PI, EULER, _TIME, _STEP, DOT = Tree("pi"), call("exp", ONE), symbol("t"), symbol("dt"), "\u0307"
 _LATIN = (
@@ -36,27 +37,29 @@ _LATIN = (
     "chi psi omega Gamma Delta Theta Lambda Xi Pi Sigma Phi Psi Omega"
 )
 GREEK = dict(zip("αβγδεζηθϑικλμνξπρστυφϕχψωΓΔΘΛΞΠΣΦΨΩ", _LATIN.split(), strict=True))
+_SPELLED = str.maketrans(GREEK)
 _DOTTED = zip("ȧḃċḋėḟġḣṁṅȯṗṙṡṫẇẋẏż", "abcdefghmnoprstwxyz", strict=True)
 _PLAIN = str.maketrans("−–·⋅×′’", "--***''") | {ord(dotted): letter + DOT for dotted, letter in _DOTTED}
 _LETTERS = "A-Za-z" + "".join(GREEK)
 DECIMAL = r"(?:\d{1,400}\.?\d{0,400}|\.\d{1,400})(?:[eE][+-]?\d{1,3})?"
 _TOKEN = re.compile(
     rf"([ \t\u00a0\u2009]*)(?:(?P<word>[{_LETTERS}][{_LETTERS}0-9_{DOT}']*)|(?P<number>{DECIMAL})"
-    r"|(?P<relation>[<>]=?|==?|[≤≥])|(?P<sign>\*\*|[-+*/^(),\[\]{}])"
+    r"|(?P<relation>[<>]=?|==?|[≤≥])|(?P<sign>\*\*|[-+*/^(),])"
     r"|(?P<raised>[²³])(?! *(?:[²³^]|\*\*))|(?P<unknown>.))",
     re.ASCII | re.DOTALL,
 )
+_WHOLE = re.compile(r"\d{1,400}", re.ASCII)
 _VELOCITY, _DIFFERENTIAL = re.compile(rf"(.+?)(?:_?dot|['{DOT}])([_0-9].*)?"), re.compile("d(.+)")
-_TOTAL = ("number", "pi", "symbol", "sum", "product", "exp", "sin", "cos", "apply")
-_PAIRS = {"(": ")", "[": "]", "{": "}"}
-_BEGIN = ("value", "moving", "function", "declared", "derivative", *_PAIRS)
+_BEGIN = ("value", "moving", "function", "declared", "(")
+#: With these what a function without parentheses is of may go on.
+_LONGER = ("value", "number", "declared", "^", "/")
 
 
 class Lexeme(NamedTuple):
     """A piece of a text; it may touch the one before it.
 
     ``kind``: ``number``, ``value`` (a name), ``moving`` (a velocity or differential), ``function`` (elementary),
-    ``declared`` (a function, ``tree`` what it is by itself), ``derivative``, ``relation``, ``end`` or a sign.
+    ``declared`` (a function, ``tree`` is it without its arguments), ``relation``, ``end`` or a sign.
     """
 
     kind: str
@@ -67,21 +70,19 @@ class Lexeme(NamedTuple):
 
 BUILT_IN = {name: Lexeme("function", name=name) for name in FUNCTIONS}
 BUILT_IN |= {"pi": Lexeme("value", PI), "t": Lexeme("value", _TIME), "dt": Lexeme("moving", _STEP)}
-BUILT_IN |= {"diff": Lexeme("derivative", name="diff")}
 _E = Lexeme("value", EULER)
 
 
 class Sided(NamedTuple):
-    """One relation: ``tree`` = 0; with the sign ``>`` it is > 0 (``strict``) or >= 0."""
+    """One relation: ``tree`` is 0, or by its ``sign`` > 0 or >= 0."""
 
     tree: Tree
     sign: str = "="
-    strict: bool = False
 
 
 def spelled_out(name: str) -> str:
     """A name with its Greek letters in Latin ones."""
-    return "".join(GREEK.get(c, c) for c in name)
+    return name.translate(_SPELLED)
 
 
 @dataclass(frozen=True)
@@ -100,11 +101,9 @@ class KnownNames:
     def words(self) -> dict[str, Lexeme]:
         """What words mean, Greek letters spelled out; those of motions come besides."""
         entries = [("t", _TIME), *((name, symbol(name)) for name in self.coordinates), *self.values.items()]
-        trees = {spelled_out(name): tree for name, tree in entries}
         for name, arguments in self.functions.items():
-            symbols = tuple(trees[word] for word in map(spelled_out, arguments) if word in trees)
-            orders = range(MOST_ORDERS + 1 if len(arguments) == 1 else 1)
-            entries += [(name + "'" * k, Tree("apply", symbols, name, (k,) * len(arguments))) for k in orders]
+            orders = range(MOST_PRIMES + 1 if len(arguments) == 1 else 1)
+            entries += [(name + "'" * k, Tree("apply", (), name, (k,) * len(arguments))) for k in orders]
         kinds = {"apply": "declared"}
         lexemes = {spelled_out(name): Lexeme(kinds.get(tree.head, "value"), tree, name) for name, tree in entries}
         refuse(len(lexemes) < len(entries), "a name is declared twice")
@@ -119,24 +118,14 @@ class KnownNames:
                 return Lexeme("value" if "'" in word else "moving", times(symbol(f"{base.name}dot"), step))
         return None
 
-    def meaning(self, word: str) -> Lexeme | None:
-        """What a whole word means."""
-        word = spelled_out(word)
-        return self.words.get(word) or self.moved(word) or (_E if word == "E" else None)
-
-    def factors(self, word: str) -> list[Lexeme]:
-        """The factors of a word; an index, a dot and a prime belong to the letter before them."""
+    def meaning(self, word: str) -> Lexeme:
+        """What a word means."""
         refuse(len(word) > LONGEST_NAME, f"a name of {len(word)} letters is too long")
-        if whole := self.meaning(word):
-            return [whole]
-        starts = [i for i, letter in enumerate(word) if letter.isalpha()]
-        ways: dict[int, list[list[Lexeme]]] = {0: [[]]}
-        for end in [*starts[1:], len(word)]:
-            pieces = [(start, self.meaning(word[start:end])) for start in starts if start < end]
-            ways[end] = [[*before, piece] for start, piece in pieces if piece for before in ways[start]][:2]
-        readings = ways[len(word)]
-        refuse(len(readings) != 1, f"`{word}` is {'a product in several ways' if readings else 'not declared'}")
-        return readings[0]
+        plain = spelled_out(word)
+        lexeme = self.words.get(plain) or self.moved(plain) or (_E if plain == "E" else None)
+        if lexeme is None:
+            raise CheckError(f"`{word}` is not declared")
+        return lexeme
 
 
 def tokens_of(text: object, names: KnownNames) -> list[Lexeme]:
@@ -147,7 +136,7 @@ def tokens_of(text: object, names: KnownNames) -> list[Lexeme]:
         kind = str(match.lastgroup)
         word, touching = match[kind], not match[1]
         if kind == "word":
-            tokens += [part._replace(touching=touching or i > 0) for i, part in enumerate(names.factors(word))]
+            tokens.append(names.meaning(word)._replace(touching=touching))
         elif kind == "number":
             refuse(any(names.words.get(c, _E) != _E for c in "eE" if c in word), f"`{word}` may be a power of ten")
             tokens.append(Lexeme(kind, number(Fraction(word)), word, touching))
@@ -161,6 +150,8 @@ def tokens_of(text: object, names: KnownNames) -> list[Lexeme]:
 
 def parse(text: object, names: KnownNames) -> Tree:
     """The value that a text writes."""
+    if type(text) is int or (isinstance(text, str) and _WHOLE.fullmatch(text)):
+        return number(int(text))
     return parse_relations(text, names, signs=False)[0].tree
 
 
@@ -171,7 +162,7 @@ def parse_relations(text: object, names: KnownNames, signs: bool = True) -> list
     while signs and (sign := reader.accepted("relation").name):
         right = reader.sum()
         tree = add(right, negative(side)) if sign[0] in "<≤" else add(side, negative(right))
-        relations.append(Sided(tree, "=" if sign[0] == "=" else ">", sign in "<>"))
+        relations.append(Sided(tree, "=" if sign[0] == "=" else ">" if sign in "<>" else ">="))
         side = right
     reader.needed("end")
     return relations or [Sided(side)]
@@ -235,14 +226,13 @@ class _Reader:
 
     def primary(self) -> Tree:
         """A number, a name, a group, or a function of something."""
-        if self.next.kind in _PAIRS:
+        if self.next.kind == "(":
             group, *more = self.arguments()
             refuse(more, "a comma stands in a group")
             return group
         token = self.needed("number", *_BEGIN)
-        readers = {"function": self.function, "declared": self.declared, "derivative": self.derivative}
-        if token.kind in readers:
-            return readers[token.kind](token)
+        if token.kind in ("function", "declared"):
+            return self.function(token) if token.kind == "function" else self.declared(token)
         after = self.tokens[self.at : self.at + 3]
         called = token.kind != "number" and [lexeme.kind for lexeme in after] in (
             ["(", "value", ")"],
@@ -253,37 +243,29 @@ class _Reader:
 
     def arguments(self) -> list[Tree]:
         """Values in parentheses, with commas between them."""
-        closing = _PAIRS[self.needed(*_PAIRS).kind]
+        self.needed("(")
         values = [self.sum()]
         while self.accepted(",").kind:
             values.append(self.sum())
-        self.needed(closing)
+        self.needed(")")
         return values
 
     def function(self, token: Lexeme) -> Tree:
-        """``sin(x)``, ``sin^2(x)``; ``sin x`` and ``sin^-1(x)`` could be read in two ways."""
+        """``sin(x)``, ``sin^2(x)``, ``sin x dy``; ``sin x y``, ``sin x/2``, ``sin^-1(x)`` could be read in two ways."""
         exponent = self.needed("number").tree if self.accepted("^").kind else ONE
-        values = self.arguments()
+        alone = self.next.kind == "value"
+        values = [self.primary()] if alone else self.arguments()
+        longer = self.next.kind in _LONGER or (self.next.kind == "(" and self.next.touching)
+        refuse(alone and longer, f"where `{token.name}` ends is unclear")
         refuse(len(values) != (2 if token.name == "atan2" else 1), f"`{token.name}` has {len(values)} arguments")
         return _power(ONE if (token.name, values) == ("exp", [ZERO]) else call(token.name, *values), exponent)
 
     def declared(self, token: Lexeme) -> Tree:
-        """``h(s)``, ``h'(s)``, ``h`` alone."""
-        alone = token.tree
-        values = tuple(self.arguments()) if self.next.kind in _PAIRS else alone.below
-        refuse(values is alone.below and self.next.kind in ("value", "^"), f"`{token.name}` needs parentheses here")
-        refuse(len(values) != len(alone.orders), f"`{token.name}` is declared with {len(alone.orders)} arguments")
-        return Tree("apply", values, alone.value, alone.orders)
-
-    def derivative(self, _: Lexeme) -> Tree:
-        """``diff(h(s), s)``, ``diff(h(s), s, s)``."""
-        tree, *steps = self.arguments()
-        refuse(not 0 < len(steps) <= MOST_ORDERS, "a derivative needs what to differentiate, and by what")
-        for step in steps:
-            doubtful = step == _TIME and not tree.symbols <= {"t", *self.names.values}
-            refuse(doubtful or step.head != "symbol", "a derivative is by a symbol, and not by time on the way")
-            tree = derivative(tree, str(step.value))
-        return tree
+        """``h(s)``, ``h'(s)``."""
+        values, function = tuple(self.arguments()), token.tree
+        wrong = len(values) != len(function.orders)
+        refuse(wrong, f"`{token.name}` is declared with {len(function.orders)} arguments")
+        return Tree("apply", values, function.value, function.orders)
 
 
 def _power(base: Tree, exponent: Tree) -> Tree:
@@ -302,6 +284,4 @@ def _power(base: Tree, exponent: Tree) -> Tree:
 
 def _is_partial(tree: Tree) -> bool:
     """Whether a tree may have no value somewhere: then 0 times it is not 0 there."""
-    exponent = tree.below[1].value if tree.head == "power" else None
-    whole = isinstance(exponent, Fraction) and exponent.denominator == 1 and exponent > 0
-    return not (whole or tree.head in _TOTAL) or any(map(_is_partial, tree.below))
+    return not keeps_values(tree) or any(map(_is_partial, tree.below))

@@ -98,9 +98,11 @@ def _canonical(value: Any, key: str, depth: int) -> Any:
     if value in _NULLS:
         return None
     match = _VALUE.fullmatch(str(value)) if len(str(value)) <= LONGEST_VALUE else None
-    refuse(match is None and not isinstance(value, str), f"{str(value)[:40]} cannot stand in a document")
-    exact = Fraction(match[1]) / int(match[2] or 1) if match else Fraction(0)
-    return value if match is None else int(exact) if exact == int(exact) else str(exact)
+    if match is None:
+        refuse(not isinstance(value, str), f"{str(value)[:40]} cannot stand in a document")
+        return value
+    exact = Fraction(match[1]) / int(match[2] or 1)
+    return int(exact) if exact.denominator == 1 else str(exact)
 
 
 def sha256_of(document: object) -> str:
@@ -170,19 +172,20 @@ def _surroundings(scene: Entry, cayley: frozenset[str]) -> tuple[Surroundings, t
     charts = bodies | {body: [*bodies[body][:3], *(f"{body}_{g}" for g in "abc")] for body in cayley}
     written = [*chain(*particles.values(), *bodies.values(), others)]
     coordinates = (*chain(*particles.values(), *charts.values(), others),)
+    world.signs = {name: value for name, value in scene.get("parameters", {}).items() if value in SIGNS}
     values: dict[str, Tree] = {}
     for name, value in scene.get("parameters", {}).items():
-        if value in SIGNS:
-            world.signs[name] = value
-        values[name] = symbol(name) if value in SIGNS else world.expression(value)
-        world.names = KnownNames(values=dict(values))
-    spelled = [spelled_out(name) for name in (*written, *values, *functions)]
+        values[name] = symbol(name) if name in world.signs else world.expression(value)
+        world.names = KnownNames(values={**values})
+    names = [spelled_out(name) for name in (*written, *values, *functions)]
+    twice = len({*names, *BUILT_IN, "tdot"}) <= len(names) + len(BUILT_IN)
     every = KnownNames(frozenset([*written, *coordinates]), values, functions)
-    twice = len({*spelled, *BUILT_IN, "tdot"}) <= len(spelled) + len(BUILT_IN)
-    names = (*spelled, *map(spelled_out, coordinates))
-    words = (re.fullmatch("[A-Za-z][A-Za-z0-9_]*", name) and name not in _NULLS for name in names)
-    plain = all(words) and not any(map(every.moved, names)) and all(isinstance(v, list) for v in functions.values())
-    refuse(twice or not plain, "a name is taken, or not made of letters, or a function has no list of arguments")
+    for name in (*names, *map(spelled_out, coordinates)):
+        word = re.fullmatch("[A-Za-z][A-Za-z0-9_]*", name) and name not in _NULLS
+        refuse(twice or not word or every.moved(name), "a name is taken, or is not made of letters")
+    refuse(
+        not all(isinstance(arguments, list) for arguments in functions.values()), "a function has a list of arguments"
+    )
     configured = {q: world.expression(value) for q, value in scene.get("configuration", {}).items()}
     refuse(not configured.keys() <= {*written}, "the configuration mentions what is no coordinate")
     world.names = KnownNames(frozenset(written).intersection(coordinates), values, functions)
@@ -221,17 +224,15 @@ def _relations(world: Surroundings, scene: Entry, coordinates: Sequence[str]) ->
         read, fields, dimensions = TYPES[called]
         known_fields(entry, f"type name {fields}")
         refuse(str(world.dimension) not in dimensions, f"no {called} is defined in dimension {world.dimension}")
-        relations = [
-            relation if isinstance(relation, Sided) else Sided(relation)
-            for relation in islice(read(world, entry), remaining + 1)
-        ]
+        sided = islice(read(world, entry), remaining + 1)
+        relations = [relation if isinstance(relation, Sided) else Sided(relation) for relation in sided]
         remaining -= len(relations)
         refuse(remaining < 0, "there are too many relations")
         for place, relation in enumerate(relations, 1):
             moving = not relation.tree.symbols.isdisjoint(rates)
             kind = "inequality" if relation.sign != "=" else "velocity" if moving else "finite"
             name = owner if len(relations) == 1 else f"{owner}.{place}"
-            yield CheckedRelation(name, owner, kind, relation.tree, relation.strict)
+            yield CheckedRelation(name, owner, kind, relation.tree, relation.sign == ">")
 
 
 def _reference(

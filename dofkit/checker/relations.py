@@ -6,7 +6,6 @@ point, and others to have a value there, so that it is true near the point.
 """
 
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
-from fractions import Fraction
 from typing import Any, NamedTuple, TypeVar, cast
 
 from flint import arb
@@ -24,6 +23,7 @@ from dofkit.checker.trees import (
     add,
     along,
     evaluated,
+    keeps_values,
     negative,
     not_zero,
     power,
@@ -37,7 +37,6 @@ from dofkit.checker.trees import (
 FAULTS = (CheckError, KeyError, TypeError, ValueError, AttributeError, IndexError, ArithmeticError, RecursionError)
 LONGEST_TEXT, MOST_SYMBOLS = 40_000, 2000
 Looked = TypeVar("Looked")
-_PLAIN = frozenset(("symbol", "sum", "product", "sin", "cos", "exp", "apply"))
 
 
 class CheckedTexts:
@@ -114,9 +113,7 @@ class CheckedTexts:
         """
         if not tree.symbols:
             return evaluated(tree, {}, self.effort) is not None
-        exponent = tree.below[1].value if tree.head == "power" else None
-        plain = isinstance(exponent, Fraction) and exponent.denominator == 1 and (poles or exponent > 0)
-        plain |= tree.head in _PLAIN or (tree.head == "atan2" and self.is_nowhere_zero(tree.below[1], True))
+        plain = keeps_values(tree, poles) or (tree.head == "atan2" and self.is_nowhere_zero(tree.below[1], True))
         poles &= tree.head in ("sum", "product", "power")
         return plain and all(self.has_value_everywhere(part, poles) for part in tree.below)
 

@@ -48,46 +48,50 @@ class Effort:
         refuse(self.remaining < 0, "the work that a certificate may cost is used up")
 
 
-_NAMELESS: frozenset[str] = frozenset()
-
-
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True, eq=False)
 class Tree:
-    """One node of an expression; ``symbols`` are those in it; ``applied``: a declared function occurs."""
+    """A node of an expression, never changed; ``symbols`` are those in it; ``applied``: a declared function occurs."""
 
     head: str
     below: tuple[Tree, ...] = ()
     value: Fraction | str = ""
     orders: tuple[int, ...] = ()
-    size: int = field(init=False, compare=False, repr=False)
-    symbols: frozenset[str] = field(init=False, compare=False, repr=False)
-    applied: bool = field(init=False, compare=False, repr=False)
-    hashed: int = field(init=False, compare=False, repr=False)
+    size: int = field(init=False, repr=False)
+    symbols: frozenset[str] = field(init=False, repr=False)
+    applied: bool = field(init=False, repr=False)
+    hashed: int = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
         """Parts may be shared, so that a short text writes a huge tree, and powers of powers a huge number."""
-        often, words, below = 1, 1, self.below
-        if self.head == "power" and isinstance(exponent := below[1].value, Fraction):
+        head, below, value, often, words = self.head, self.below, self.value, 1, 1
+        if head == "power" and isinstance(exponent := below[1].value, Fraction):
             often = max(1, int(abs(exponent)))
-        elif self.head == "number" and isinstance(self.value, Fraction):
-            words += max(map(int.bit_length, self.value.as_integer_ratio())) // 64
-        named = _NAMELESS if self.head != "symbol" else frozenset((str(self.value),))
-        size = words + often * sum([part.size for part in below])
-        object.__setattr__(self, "size", size)
-        object.__setattr__(self, "symbols", named.union(*[part.symbols for part in below]) if below else named)
-        object.__setattr__(self, "applied", self.head == "apply" or any(part.applied for part in below))
-        object.__setattr__(self, "hashed", hash((self.head, below, self.value, self.orders)))
-        refuse(size > LARGEST or words > LARGEST_NUMBER, "an expression or a number is too large")
+        elif isinstance(value, Fraction):
+            words += max(value.numerator.bit_length(), value.denominator.bit_length()) // 64
+        self.size = words + often * sum([part.size for part in below])
+        named = frozenset((str(value),) if head == "symbol" else ())
+        self.symbols = named.union(*[part.symbols for part in below]) if below else named
+        self.applied = head == "apply" or any(part.applied for part in below)
+        self.hashed = hash((head, below, value, self.orders))
+        refuse(self.size > LARGEST or words > LARGEST_NUMBER, "an expression or a number is too large")
 
     def __hash__(self) -> int:
         """Trees are keys of memories again and again."""
         return self.hashed
+
+    def __eq__(self, other: object) -> bool:
+        """Whether both are written the same; what has another hash is told apart at once."""
+        if self is other or not isinstance(other, Tree) or self.hashed != other.hashed:
+            return self is other
+        same = self.head == other.head and self.value == other.value and self.orders == other.orders
+        return same and self.below == other.below
 
 
 ZERO, ONE, TWO, MINUS = (Tree("number", (), Fraction(k)) for k in (0, 1, 2, -1))
 HALF = Tree("number", (), Fraction(1, 2))
 
 
+@lru_cache(maxsize=1024)
 def number(value: Fraction | int) -> Tree:
     """A rational number."""
     return Tree("number", (), Fraction(value))
@@ -100,10 +104,11 @@ def symbol(name: str) -> Tree:
 
 def _split(operands: Sequence[Tree]) -> tuple[list[Fraction], list[Tree]]:
     """The numbers among terms or factors, and the others."""
-    numbers, others = list[Tree](), list[Tree]()
-    for operand in operands:
-        (numbers if operand.head == "number" else others).append(operand)
-    refuse(numbers and sum([p.size - 1 for p in numbers]) > LARGEST_NUMBER, "a number is too large")
+    numbers = [operand for operand in operands if operand.head == "number"]
+    if not numbers:
+        return [], [*operands]
+    refuse(sum([p.size - 1 for p in numbers]) > LARGEST_NUMBER, "a number is too large")
+    others = [operand for operand in operands if operand.head != "number"]
     return [p.value for p in numbers if isinstance(p.value, Fraction)], others
 
 
@@ -250,6 +255,16 @@ def _partial(node: Tree, place: int) -> Tree:
         return times(MINUS if place else ONE, below[1 - place], power(size, MINUS))
     slopes = {"sum": ONE, "exp": node, "log": power(u, MINUS), "sin": call("cos", u), "cos": negative(call("sin", u))}
     return slopes[node.head]
+
+
+_TOTAL = frozenset(("number", "pi", "symbol", "sum", "product", "exp", "sin", "cos", "apply"))
+
+
+def keeps_values(node: Tree, poles: bool = False) -> bool:
+    """Whether a node has a value, and is smooth, wherever all below it do and are; with ``poles``: but for those."""
+    exponent = node.below[1].value if node.head == "power" else ""
+    whole = isinstance(exponent, Fraction) and exponent.denominator == 1 and (poles or exponent > 0)
+    return node.head in _TOTAL or whole
 
 
 def along(field: Mapping[str, Tree], tree: Tree) -> Tree:

@@ -144,6 +144,6 @@ class Verifier:
             evidence.once(("covers", name), partial(take_cover, evidence, name))
         owner = keys[-2].replace("~1", "/").replace("~0", "~")
         shown_value = RULES[field or path, rule](evidence, {**claim, "owner": owner, "field": field}, self.verified)
-        same = json.dumps(shown_value, sort_keys=True) == json.dumps(value, sort_keys=True)
+        same = shown_value is value or json.dumps(shown_value, sort_keys=True) == json.dumps(value, sort_keys=True)
         refuse(not same, f"the evidence gives {shown_value!r}, not {str(value)[:80]!r}")
         self.verified |= {f"{field} {owner}" if field else path: value, f"{path} about": about}

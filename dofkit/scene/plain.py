@@ -13,6 +13,7 @@ from dofkit.expressions.real_values import DomainSense, Requirement, of_function
 from dofkit.expressions.text import Names, parse_expression, parse_relations, to_text
 from dofkit.expressions.tree import Expr, nodes
 from dofkit.scene.lowering import survey_of
+from dofkit.scene.names import SIGNS
 from dofkit.scene.scene import Scene
 from dofkit.scene.synonyms import SAID
 
@@ -30,9 +31,12 @@ class PlainScene(NamedTuple):
 def plain_scene(scene: Scene, reads: Reads) -> PlainScene:
     """Return the document of a scene in standard words, texts that ``reads`` does not read in plain notation."""
     names, readings = survey_of(scene).names, dict[str, str]()
+    owners = {"ground", *SIGNS, *(named.name for named in (*scene.particles, *scene.bodies, *scene.constraints))}
 
     def rewritten(value: Any, names: Names) -> Any:
         if isinstance(value, str):
+            if value in owners:
+                return value
             plain = None if reads(value, names) else plain_text(value, names)
             readings.update({} if plain is None else {value: plain})
             return value if plain is None else plain

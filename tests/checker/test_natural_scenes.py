@@ -53,7 +53,7 @@ def test_the_second_checker_refuses_none_of_it() -> None:
 READINGS = [
     (r"\frac{x^2}{4} = 1 - y", "x^2/4 = 1 - y"),
     ("0 ≤ |x| ≤ 3", "0 <= abs(x) <= 3"),
-    ("dx = sin y dy", "dx = sin(y)*dy"),
+    (r"dx = \sin y dy", "dx = sin(y)*dy"),
     ("x = y cos(60°) + ½", "x = y/2 + 1/2"),
 ]
 

@@ -16,12 +16,11 @@ const LETTERS = `A-Za-z${Object.keys(GREEK).join("")}`;
 const TOKEN = new RegExp(
   `([ \\t\\u00a0\\u2009]*)(?:(?<word>[${LETTERS}][${LETTERS}0-9_${DOT}']*)` +
     "|(?<number>(?:[0-9]+\\.?[0-9]*|\\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?)" +
-    "|(?<relation>[<>]=?|==?|[≤≥])|(?<sign>\\*\\*|[-+*/^(),\\[\\]{}])" +
+    "|(?<relation>[<>]=?|==?|[≤≥])|(?<sign>\\*\\*|[-+*/^(),])" +
     "|(?<raised>[²³])(?! *(?:[²³^]|\\*\\*))|(?<unknown>[^]))",
   "gy",
 );
-const CLOSING = { "(": ")", "[": "]", "{": "}" };
-const BEGINNING = new Set(["value", "moving", "function", "declared", "derivative", "(", "[", "{"]);
+const BEGINNING = new Set(["value", "moving", "function", "declared", "("]);
 
 export const spelledOut = (name) => [...name].map((c) => GREEK[c] ?? c).join("");
 const own = (table, key) => (Object.hasOwn(table, key) ? table[key] : undefined);
@@ -32,15 +31,13 @@ export class Names {
     Object.assign(this, { coordinates, values, functions });
     this.words = new Map(FUNCTIONS.map((name) => [name, { kind: "function", name }]));
     this.words.set("pi", { kind: "value", tree: tr.pi() }).set("t", { kind: "value", tree: symbol("t"), name: "t" });
-    this.words.set("dt", { kind: "moving", tree: symbol("dt"), step: true }).set("diff", { kind: "derivative", name: "diff" });
+    this.words.set("dt", { kind: "moving", tree: symbol("dt"), step: true });
     for (const q of coordinates) this.words.set(spelledOut(q), { kind: "value", tree: symbol(q), name: q });
     for (const [p, tree] of values) this.words.set(spelledOut(p), { kind: "value", tree, name: p });
     for (const [f, args] of functions) {
-      const given = args.map((a) => this.words.get(spelledOut(a))?.tree ?? null);
-      const alone = given.includes(null) ? null : given;
       for (let k = 0; k <= (args.length === 1 ? 6 : 0); k += 1) {
         const orders = args.map(() => k);
-        this.words.set(spelledOut(f) + "'".repeat(k), { kind: "declared", name: f, orders, alone });
+        this.words.set(spelledOut(f) + "'".repeat(k), { kind: "declared", name: f, orders });
       }
     }
   }
@@ -65,26 +62,9 @@ export class Names {
   meaning(written) {
     const word = spelledOut(written);
     const found = this.words.get(word) ?? this.moved(word);
-    return found ?? (word === "E" ? { kind: "value", tree: call("exp", number(1)), euler: true } : undefined);
-  }
-
-  /** The factors of a word: it is one name, or a product of names in one way. */
-  parts(word) {
-    const whole = this.meaning(word);
-    if (whole) return [whole];
-    const starts = [...word].flatMap((c, i) => (/\p{L}/u.test(c) ? [i] : []));
-    const ways = new Map([[0, [[]]]]);
-    for (const end of [...starts.slice(1), word.length]) {
-      const all = [];
-      for (const start of starts.filter((s) => s < end)) {
-        const piece = this.meaning(word.slice(start, end));
-        if (piece) for (const before of ways.get(start) ?? []) all.push([...before, piece]);
-      }
-      ways.set(end, all.slice(0, 2));
-    }
-    const found = ways.get(word.length);
-    refuse(found.length !== 1, `${word} is ${found.length ? "a product in several ways" : "not declared"}`);
-    return found[0];
+    if (found) return found;
+    refuse(word !== "E", `${word} is not declared`);
+    return { kind: "value", tree: call("exp", number(1)), euler: true };
   }
 }
 
@@ -103,7 +83,7 @@ function tokensOf(text, names) {
   for (const match of plain.matchAll(TOKEN)) {
     const { word, number: digits, relation, sign, raised } = match.groups;
     const touching = match[1] === "";
-    if (word) found.push(...names.parts(word).map((p, i) => ({ ...p, touching: touching || i > 0 })));
+    if (word) found.push({ ...names.meaning(word), touching });
     else if (digits) {
       const taken = [..."eE"].some((c) => digits.includes(c) && names.words.has(c));
       refuse(taken, `${digits} may be a power of ten`);
@@ -187,7 +167,7 @@ class Reader {
   }
 
   primary() {
-    if (own(CLOSING, this.next.kind)) {
+    if (this.next.kind === "(") {
       const found = this.arguments();
       refuse(found.length > 1, "a comma stands in a group");
       return found[0];
@@ -195,7 +175,6 @@ class Reader {
     const token = this.need("number", ...BEGINNING);
     if (token.kind === "function") return this.function(token);
     if (token.kind === "declared") return this.declared(token);
-    if (token.kind === "derivative") return this.derivative();
     const after = this.tokens.slice(this.at, this.at + 3);
     const called = token.kind !== "number" && after[0]?.kind === "(" && ["value", "number"].includes(after[1]?.kind) && after[2]?.kind === ")";
     refuse(called && (this.next.touching || after[1].tree === symbol("t")), "it may be a factor or a function");
@@ -203,38 +182,28 @@ class Reader {
   }
 
   arguments() {
-    const closing = CLOSING[this.need("(", "[", "{").kind];
+    this.need("(");
     const found = [this.sum()];
     while (this.take(",")) found.push(this.sum());
-    this.need(closing);
+    this.need(")");
     return found;
   }
 
   function(token) {
     const exponent = this.take("^") ? this.need("number").tree : number(1);
-    const given = this.arguments();
+    const alone = this.next.kind === "value";
+    const given = alone ? [this.primary()] : this.arguments();
+    const longer = ["value", "number", "declared", "^", "/"].includes(this.next.kind) || (this.next.kind === "(" && this.next.touching);
+    refuse(alone && longer, `where ${token.name} ends is unclear`);
     refuse(given.length !== (token.name === "atan2" ? 2 : 1), `${token.name} has ${given.length} arguments`);
     const zero = token.name === "exp" && tr.isNumber(given[0], 0);
     return this.power(zero ? number(1) : call(token.name, ...given), exponent);
   }
 
   declared(token) {
-    const given = own(CLOSING, this.next.kind) ? this.arguments() : null;
-    refuse(!given && (!token.alone || ["value", "^"].includes(this.next.kind)), `${token.name} needs parentheses here`);
-    refuse((given ?? token.alone).length !== token.orders.length, `${token.name} has another number of arguments`);
-    return tr.apply(token.name, token.orders, given ?? token.alone);
-  }
-
-  derivative() {
-    const [first, ...steps] = this.arguments();
-    refuse(steps.length === 0 || steps.length > 6, "a derivative needs what to differentiate, and by what");
-    let found = first;
-    for (const step of steps) {
-      const doubtful = step === symbol("t") && [...found.symbols].some((s) => s !== "t" && !this.names.values.has(s));
-      refuse(doubtful || step.head !== "symbol", "a derivative is by a symbol, and not by time on the way");
-      found = tr.derivative(found, step.value);
-    }
-    return found;
+    const given = this.arguments();
+    refuse(given.length !== token.orders.length, `${token.name} has another number of arguments`);
+    return tr.apply(token.name, token.orders, given);
   }
 }
 

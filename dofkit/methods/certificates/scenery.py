@@ -46,11 +46,10 @@ def _factor(tree: Tree) -> str:
 
 def _applied(tree: Tree) -> str:
     """A declared function, or its derivative by its arguments."""
-    called = f"{tree.value}({', '.join(text_of(part) for part in tree.below)})"
-    for argument, order in zip(tree.below, tree.orders, strict=True):
-        for _ in range(order):
-            called = f"diff({called}, {text_of(argument)})"
-    return called
+    if len(tree.orders) > 1 and any(tree.orders):
+        raise CheckError("a partial derivative of a declared function has no text")
+    primes = "'" * tree.orders[0]
+    return f"{tree.value}{primes}({', '.join(text_of(part) for part in tree.below)})"
 
 
 # The checker's reading of a scene, with choices made for what it leaves open.

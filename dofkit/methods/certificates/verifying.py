@@ -11,9 +11,8 @@ from typing import Any
 from dofkit.base.errors import ArgumentError
 from dofkit.base.wording import description_of
 from dofkit.checker import CheckError, Verification
-from dofkit.checker import verify as rechecked
 from dofkit.checker.problem import document_of, sha256_of
-from dofkit.checker.verification import certificate_of
+from dofkit.checker.verification import Verifier, certificate_of
 from dofkit.methods.certificates.lowering import document_of_scene
 from dofkit.scene.catalog import find
 from dofkit.scene.reading import SceneLike, load
@@ -54,7 +53,7 @@ def verify(scene: SceneLike | None, certificate: Given) -> Verification:
     []
     """
     read = certificate_of(_text_of(certificate))
-    return rechecked(None if scene is None else _document(scene, read), read)
+    return Verifier(read["scene"].get("document") if scene is None else _document(scene, read), read).run()
 
 
 def _document(scene: SceneLike, certificate: Mapping[str, Any]) -> Mapping[str, Any]:
