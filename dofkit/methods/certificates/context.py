@@ -54,15 +54,13 @@ class Context:
         return self.scenery.problem
 
     def add_point(self, point: FoundPoint) -> str:
-        """The id of a further point, written into the certificate."""
-        entries = self.scenery.entries["points"]
-        if all(point_entry["id"] != point.name for point_entry in entries):
-            entries.append(point.entry())
+        """The id of a point, written into the certificate where it is new."""
+        point.name = point.name or self.scenery.entry_id("points", point.entry())
         return point.name
 
     def minor(self, standing: Standing) -> str:
         """Return the id of the minor of the rows and columns."""
-        entry = {"at": standing.point.name, "rows": standing.rows, "columns": standing.columns}
+        entry = {"at": self.add_point(standing.point), "rows": standing.rows, "columns": standing.columns}
         return self.scenery.entry_id("minors", entry)
 
     @property
@@ -101,8 +99,7 @@ class Context:
             return None
         place = self._reference or self._searched()
         if place is not None:
-            place.name = f"{self.scenery.label}{place.name}"
-            self.scenery.entries["points"].append(place.entry())
+            self.add_point(place)
         return place
 
     def _searched(self) -> FoundPoint | None:
@@ -111,9 +108,7 @@ class Context:
         names = list(self.scenery.evidence.finite)
         if self.nonlinear:
             names, unknowns = states_of(self)
-        finite = not self.scenery.evidence.moving and self.report.dof is not None
-        rank = len(problem.coordinates) - (self.report.dof or 0) if finite else None
-        return self.search.somewhere(names, unknowns, rank=rank)
+        return next(self.search.points(names, unknowns), None)
 
     @cached_property
     def equations(self) -> list[str]:

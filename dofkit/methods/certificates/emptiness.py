@@ -19,24 +19,22 @@ def conflicting(context: Context) -> Iterator[Told]:
         minimal: Told = {}
         for name in members:
             others = [relation for other in members if other != name for relation in evidence.owned(other)]
-            if others and (witness := _met(context, name, others)):
+            if others and (witness := _met(context, others)):
                 minimal[name] = witness
         yield {"rule": "conflict", "refutation": refutation, "minimal": minimal}
 
 
-def _met(context: Context, name: str, others: Sequence[str]) -> Told | None:
-    """What shows that the others can be met without one."""
+def _met(context: Context, others: Sequence[str]) -> Told | None:
+    """What shows that the others can be met."""
     relation = context.scenery.evidence.relation
     finite = [other for other in others if relation(other).kind == "finite"]
-    point = context.search.somewhere(finite, context.problem.coordinates, 300)
+    point = next(context.search.points(finite, context.problem.coordinates, 300), None)
     if point is None:
         return None
-    point.name = f"without {name}"
-    context.add_point(point)
     standing = context.standing_of(others, point=point)
     if standing is not None and standing.rows and not standing.dependent:
         return {"rule": "regular", "minor": context.minor(standing)}
-    return {"rule": "point", "at": point.name}
+    return {"rule": "point", "at": context.add_point(point)}
 
 
 def refutations(context: Context, names: Sequence[str]) -> Iterator[Told]:

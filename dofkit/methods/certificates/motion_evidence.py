@@ -84,7 +84,6 @@ class MotionEvidence:
         for point in self.points() if size else ():
             standing = self.context.standing_of(self.context.equations, point=point)
             if standing is not None and len(standing.rows) == size:
-                self.context.add_point(point)
                 for factors in self.factors():
                     yield {**claim, **factors, "minor": self.context.minor(standing)}
         if not size:
@@ -137,7 +136,7 @@ class MotionEvidence:
                 floats[q] = Estimates(floats).value(self.context.scenery.chosen(tree))
         except HINDRANCES:
             return None
-        return FoundPoint(f"T{attempt}", texts, floats, self.context.scenery.functions)
+        return FoundPoint(texts, floats, self.context.scenery.functions)
 
 
 def _exponentials(tree: Tree) -> set[str]:
