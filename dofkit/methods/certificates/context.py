@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -46,7 +46,6 @@ class Context:
 
     report: Report
     scenery: Scenery
-    words: dict[tuple[str, ...], Any] = field(default_factory=dict)
 
     @property
     def problem(self) -> Problem:

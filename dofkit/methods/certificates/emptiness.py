@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
-from dofkit.checker.trees import MINUS
+from dofkit.checker.trees import MINUS, Tree, add, number, power, times
 from dofkit.methods.certificates.context import Context, Told
 from dofkit.methods.certificates.scenery import number_text, text_of
-from dofkit.methods.certificates.steps import constant_cofactors, positive_sum, rate_of
+from dofkit.methods.certificates.steps import constant_cofactors, operands, rate_of
+
+HALF, EVEN = number(Fraction(1, 2)), range(2, 20, 2)
 
 
 def conflicting(context: Context) -> Iterator[Told]:
@@ -55,10 +57,21 @@ def refutations(context: Context, names: Sequence[str]) -> Iterator[Told]:
 
 def _by_squares(context: Context, name: str) -> Iterator[Told]:
     """Yield evidence that one relation is never satisfied: it is a positive number and squares, or their negative."""
-    checked = context.scenery.evidence.relation(name)
+    evidence = context.scenery.evidence
     for sign in (1, -1):
-        positive = positive_sum(context.scenery, checked.tree, Fraction(sign))
-        if positive is not None:
-            squares = [[c, text_of(base)] for c, base in positive[1]]
-            factor = {name: number_text(-sign)}
-            yield {"rule": "nullstellensatz", "number": positive[0], "sos": squares, "c": factor}
+        terms = [times(number(sign), term) for term in operands(evidence.relation(name).tree, "sum")]
+        plain = [term for term in terms if term.symbols <= evidence.chosen]
+        squares = [_square(term) for term in terms if term not in plain]
+        if None not in squares:
+            rest = {"number": text_of(add(*plain)), "sos": squares}
+            yield {"rule": "nullstellensatz", **rest, "c": {name: number_text(-sign)}}
+
+
+def _square(term: Tree) -> list[str] | None:
+    """A coefficient, and the root of what it is multiplied with; None where that is no product of even powers."""
+    factors = operands(term, "product")
+    powers = [factor for factor in factors if factor.symbols]
+    if any(factor.head != "power" or factor.below[1].value not in EVEN for factor in powers):
+        return None
+    roots = [power(factor.below[0], times(factor.below[1], HALF)) for factor in powers]
+    return [text_of(times(*(factor for factor in factors if not factor.symbols))), text_of(times(*roots))]

@@ -33,19 +33,19 @@ def _inequalities(context: Context) -> dict[str, str] | None:
     places: dict[str, str] = {}
     for relation in context.problem.relations:
         if relation.kind == "inequality":
-            point = _meeting(context, [relation.name]) or context.search.touching(relation.name, 70)
+            point = _meeting(context, [relation.name]) or next(context.search.touching(relation.name), None)
             if point is None:
                 return None
             places[relation.name] = context.add_point(point)
     return places
 
 
-def _meeting(context: Context, inequalities: list[str], seed: int = 100) -> FoundPoint | None:
+def _meeting(context: Context, inequalities: list[str]) -> FoundPoint | None:
     """Return a point at which inequalities hold, and the finite relations; if they hold velocities, all relations."""
     evidence = context.scenery.evidence
     moving = any(evidence.met_by(evidence.relation(name).tree) for name in inequalities)
     names, unknowns = states_of(context) if moving else (evidence.finite, context.problem.coordinates)
-    return context.search.meeting(inequalities, names, unknowns, seed)
+    return context.search.meeting(inequalities, names, unknowns)
 
 
 def dof(context: Context) -> Iterator[Told]:
@@ -189,7 +189,7 @@ def circuit(context: Context, entry: ConstraintEntry, field: str) -> Iterator[To
 def feasible(context: Context) -> Iterator[Told]:
     """A point at which everything holds."""
     inequalities = [relation.name for relation in context.problem.relations if relation.kind == "inequality"]
-    for point in (context.point, _meeting(context, inequalities, 200)) if context.report.feasible else ():
+    for point in (context.point, _meeting(context, inequalities)) if context.report.feasible else ():
         standing = None if point is None else context.standing_of(context.equations, point=point)
         if standing is not None:
             minor = {"minor": context.minor(standing)}

@@ -3,22 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from contextlib import suppress
 from fractions import Fraction
 from typing import Any
 
 from dofkit.checker.motion import MOTION_FIELDS
 from dofkit.checker.problem import CheckedProblem as Problem
-from dofkit.checker.problem import canonical, problem_of_canonical
-from dofkit.checker.relations import FAULTS
 from dofkit.checker.trees import MINUS, ONE, Tree, along, number, power, substituted, symbol, times
-from dofkit.checker.verification import Verifier
-from dofkit.methods.certificates.certificate import HINDRANCES, without_spare_parts
-from dofkit.methods.certificates.context import Context, Told, empty_certificate
+from dofkit.methods.certificates.certificate import HINDRANCES, Certifying, without_spare_parts
+from dofkit.methods.certificates.context import Context, Told
 from dofkit.methods.certificates.lowering import scene_of_checker
 from dofkit.methods.certificates.numerics import Estimates
 from dofkit.methods.certificates.points import FoundPoint
-from dofkit.methods.certificates.scenery import Scenery, number_text, text_of
+from dofkit.methods.certificates.scenery import number_text, text_of
 from dofkit.report import Report
 from dofkit.scene.scene import Scene
 
@@ -32,22 +28,12 @@ def certificate_of_motion(scene: Scene, motion: Mapping[str, Any], report: Repor
 
     ``report``: what the equations rest on.
     """
-    written, readings = scene_of_checker(scene)
-    document = canonical(written)
-    certificate = empty_certificate(report.scene, document, readings) | {"uncovered": [PATH]}
-    try:
-        problem = problem_of_canonical(document)
-        context = Context(report, Scenery(problem, False, certificate))
-        verifier = Verifier(document, certificate, problem)
-        verifier.evidences[context.scenery.cayley] = context.scenery.evidence
-        for evidence in MotionEvidence(context, {name: motion[name] for name in MOTION_FIELDS}).claims():
-            with suppress(*FAULTS):
-                verifier.check(evidence)
-                certificate |= {"claims": [evidence], "uncovered": []}
-                break
-    except HINDRANCES:
-        pass
-    return without_spare_parts(certificate)
+    told = {name: motion[name] for name in MOTION_FIELDS}
+    document, readings = scene_of_checker(scene)
+    making = Certifying(document, report, readings)
+    claim = making.confirmed(PATH, told, lambda context: MotionEvidence(context, told).claims(), True)
+    making.certificate |= {"claims": [claim]} if claim else {"uncovered": [PATH]}
+    return without_spare_parts(making.certificate)
 
 
 class MotionEvidence:
@@ -78,7 +64,7 @@ class MotionEvidence:
 
     def claims(self) -> Iterator[Told]:
         """Claims, one point after another."""
-        claim: Told = {"path": PATH, "value": self.motion, "rule": "lagrange", "c": self.cofactors()}
+        claim: Told = {"rule": "lagrange", "c": self.cofactors()}
         claim |= {"constants": self.constants} if self.constants else {}
         size = len(self.eliminated) + len(self.constraint_of_multiplier)
         for point in self.points() if size else ():

@@ -20,7 +20,7 @@ RADIUS = "1e-9"
 
 @dataclass
 class FoundPoint:
-    """A point: ``values`` as texts, ``floats`` to look with, ``rows`` and ``columns`` of its box, ``name`` if written."""
+    """A point: ``values`` as texts, ``floats`` to look with, ``rows`` and ``columns`` of its box, ``name`` if any."""
 
     values: dict[str, str]
     floats: dict[str, float]
@@ -96,21 +96,19 @@ class PointSearch:
                 if point is not None:
                     yield point
 
-    def meeting(
-        self, inequalities: Sequence[str], names: Sequence[str], unknowns: Sequence[str], seed: int
-    ) -> FoundPoint | None:
+    def meeting(self, inequalities: Sequence[str], names: Sequence[str], unknowns: Sequence[str]) -> FoundPoint | None:
         """Return a point at which inequalities hold, and the relations ``names``."""
         trees = [self.scenery.tree(name) for name in inequalities]
-        for point in self.points(names, unknowns, seed, AFAR + 6):
+        for point in self.points(names, unknowns, 100, AFAR + 6):
             if all(self.scenery.estimated(tree, point.estimates) > NEAR for tree in trees):
                 return point
         return None
 
-    def touching(self, name: str, seed: int) -> FoundPoint | None:
-        """A point at which a relation is 0, an inequality too, whatever the others say."""
+    def touching(self, name: str) -> Iterator[FoundPoint]:
+        """Points at which a relation is 0, an inequality too, whatever the others say."""
         checked = self.scenery.evidence.relation(name)
         names = [name] if checked.kind == "inequality" else self.scenery.evidence.finite
-        return next(self.points(names, self.problem.coordinates, seed), None)
+        return self.points(names, self.problem.coordinates, 50)
 
     def _start(self, attempt: int, unknowns: Sequence[str]) -> dict[str, Fraction]:
         drawn = random.Random(1000 + attempt)
