@@ -107,7 +107,14 @@ class Context:
         names = list(self.scenery.evidence.finite)
         if self.nonlinear:
             names, unknowns = states_of(self)
-        return next(self.search.points(names, unknowns), None)
+        finite = not self.scenery.evidence.moving and self.report.dof is not None
+        rank = len(problem.coordinates) - (self.report.dof or 0) if finite else len(names)
+        first: FoundPoint | None = None
+        for point in self.search.points(names, unknowns):
+            if point.rank == rank:
+                return point
+            first = first or point
+        return first
 
     @cached_property
     def equations(self) -> list[str]:

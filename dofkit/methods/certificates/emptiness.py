@@ -58,8 +58,9 @@ def refutations(context: Context, names: Sequence[str]) -> Iterator[Told]:
 def _by_squares(context: Context, name: str) -> Iterator[Told]:
     """Yield evidence that one relation is never satisfied: it is a positive number and squares, or their negative."""
     evidence = context.scenery.evidence
+    *factors, whole = operands(evidence.relation(name).tree, "product")
     for sign in (1, -1):
-        terms = [times(number(sign), term) for term in operands(evidence.relation(name).tree, "sum")]
+        terms = [times(number(sign), *factors, term) for term in operands(whole, "sum")]
         plain = [term for term in terms if term.symbols <= evidence.chosen]
         squares = [_square(term) for term in terms if term not in plain]
         if None not in squares:

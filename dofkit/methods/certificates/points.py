@@ -27,6 +27,7 @@ class FoundPoint:
     functions: dict[str, dict[str, Any]]
     rows: list[str] = field(default_factory=list)
     columns: list[str] = field(default_factory=list)
+    rank: int = 0
     name: str = ""
 
     @cached_property
@@ -202,10 +203,10 @@ class PointSearch:
             values = {**exact, **short}
             if self._holds(values, rows):
                 texts = {name: number_text(value) for name, value in values.items()}
-                return FoundPoint(texts, dict(floats), self.scenery.functions)
+                return FoundPoint(texts, dict(floats), self.scenery.functions, rank=len(rows))
         texts = {name: number_text(value) for name, value in exact.items()}
         centre = {name: number_text(Fraction(repr(floats[name]))) for name in columns}
-        return FoundPoint(texts | centre, dict(floats), self.scenery.functions, rows, columns)
+        return FoundPoint(texts | centre, dict(floats), self.scenery.functions, rows, columns, len(rows))
 
     def _holds(self, values: Mapping[str, Fraction], names: Sequence[str]) -> bool:
         """Whether the checker can show that relations are exactly 0 at rational values."""
