@@ -117,6 +117,11 @@ class Context:
         return first
 
     @cached_property
+    def rates(self) -> list[str]:
+        """The steps for the rates of the finite relations."""
+        return [step for name in self.scenery.evidence.finite if (step := rate_of(self.scenery, name))]
+
+    @cached_property
     def equations(self) -> list[str]:
         """All finite and velocity relations in their order."""
         return [relation.name for relation in self.problem.relations if relation.kind != "inequality"]
@@ -183,6 +188,5 @@ class Context:
 
 def states_of(context: Context) -> tuple[list[str], list[str]]:
     """The relations that hold of a configuration with its velocities, and the symbols of both."""
-    rates = [step for name in context.scenery.evidence.finite if (step := rate_of(context.scenery, name))]
     symbols = [*context.problem.coordinates, *context.problem.world.generic]
-    return [*context.finite_first, *rates], [*symbols, *(f"{q}dot" for q in context.problem.coordinates)]
+    return [*context.finite_first, *context.rates], [*symbols, *(f"{q}dot" for q in context.problem.coordinates)]

@@ -43,11 +43,7 @@ def refutations(context: Context, names: Sequence[str]) -> Iterator[Told]:
     """Ways in which relations cannot be met."""
     evidence = context.scenery.evidence
     equations = [name for name in names if evidence.relation(name).kind != "inequality"]
-    rates = [
-        rate
-        for name in equations
-        if evidence.relation(name).kind == "finite" and (rate := rate_of(context.scenery, name))
-    ]
+    rates = [step for name in equations if (step := rate_of(context.scenery, name))]
     for chosen in (equations, [*equations, *rates]):
         if (factors := constant_cofactors(context.scenery, MINUS, chosen)) is not None:
             yield {"rule": "nullstellensatz", "c": factors, "number": "1"}

@@ -62,10 +62,9 @@ def _near(context: Context) -> Iterator[Told]:
     if context.scenery.evidence.moving:
         yield from orbit(context)
         return
-    standing = context.standing
-    if standing is not None and (backed := backing(context, standing)) is not None:
-        yield {"rule": "regular", "minor": context.minor(standing), "about": context.about, **backed}
+    yield from _regular(context)
     yield from stationary(context)
+    standing = context.standing
     if standing is not None and standing.dependent:
         most = {"rule": "minor", "minor": context.minor(standing)}
         for least in families(context, len(context.problem.coordinates) - len(standing.rows)):
@@ -79,6 +78,11 @@ def velocity_dof(context: Context) -> Iterator[Told]:
         return
     if context.report.verdicts["velocity_dof"].about == "everywhere":
         yield from velocities_everywhere(context)
+    yield from _regular(context)
+
+
+def _regular(context: Context) -> Iterator[Told]:
+    """The rank at the main point, where all relations follow from the rows."""
     standing = context.standing
     if standing is not None and (backed := backing(context, standing)) is not None:
         yield {"rule": "regular", "minor": context.minor(standing), "about": context.about, **backed}

@@ -45,17 +45,8 @@ def combined_integral(context: Context, function: str, alone: str = "") -> str |
         return None
     target = {v: derivative(tree, v) for v in context.scenery.evidence.variables}
     step = {"id": name, "by": "integral", "function": function}
-    return name if _combined(context, step, target, [alone] if alone else moving_rows(context)) else None
-
-
-def moving_rows(context: Context) -> list[str]:
-    """The velocity relations, and the rates of the finite ones."""
-    rows = []
-    for name in context.equations:
-        finite = context.scenery.evidence.relation(name).kind == "finite"
-        row = rate_of(context.scenery, name) if finite else name
-        rows += [row] if row else []
-    return rows
+    sources = [alone] if alone else [*context.rates, *context.scenery.evidence.moving]
+    return name if _combined(context, step, target, sources) else None
 
 
 def add_step_from_integrals(context: Context, name: str, steps: Sequence[str], alone: bool = False) -> bool:

@@ -49,13 +49,10 @@ class MotionEvidence:
 
     def _constants(self) -> dict[str, str]:
         """Names in the eliminated coordinates that are none of the scene's: constants of integration."""
-        constants: dict[str, str] = {}
-        for text in self.motion["eliminated"].values():
-            for k in range(1, 5):
-                for name in (f"C{k}", f"C_{k}", "C"):
-                    if name in text and name not in (*self.problem.world.signs, *self.problem.coordinates):
-                        constants[name] = "0"
-        return constants
+        names = ["C", *(f"{letter}{k}" for letter in ("C", "C_") for k in range(1, 5))]
+        known = {*self.problem.world.signs, *self.problem.coordinates}
+        texts = self.motion["eliminated"].values()
+        return {name: "0" for name in names if name not in known and any(name in text for text in texts)}
 
     def read(self, text: str) -> Tree:
         """A text of the report."""
