@@ -121,10 +121,10 @@ class Context:
         """The steps for the rates of the finite relations."""
         return [step for name in self.scenery.evidence.finite if (step := rate_of(self.scenery, name))]
 
-    @cached_property
-    def equations(self) -> list[str]:
-        """All finite and velocity relations in their order."""
-        return [relation.name for relation in self.problem.relations if relation.kind != "inequality"]
+    @property
+    def equations(self) -> tuple[str, ...]:
+        """All finite relations, then those of velocities: the order in which one is independent of those before it."""
+        return self.scenery.evidence.equations
 
     def owner(self, name: str) -> str:
         """The constraint of a relation."""
@@ -162,19 +162,12 @@ class Context:
     @cached_property
     def standing(self) -> Standing | None:
         """The main point with rows among all equations, the finite ones first; the others by steps if possible."""
-        return self.accounted(self.finite_first)
-
-    @cached_property
-    def finite_first(self) -> list[str]:
-        """The equations in the order in which one is independent of those before it."""
-        relation = self.scenery.evidence.relation
-        return sorted(self.equations, key=lambda name: relation(name).kind != "finite")
+        return self.accounted(self.equations)
 
     @cached_property
     def finite_standing(self) -> Standing | None:
         """The same for the finite relations."""
-        names = [name for name in self.equations if self.scenery.evidence.relation(name).kind == "finite"]
-        return self.standing if names == self.equations else self.accounted(names)
+        return self.accounted(self.scenery.evidence.finite) if self.scenery.evidence.moving else self.standing
 
     def accounted(self, names: Sequence[str]) -> Standing | None:
         """Independent rows in an order of their own, the others by steps where that is possible."""
@@ -189,4 +182,4 @@ class Context:
 def states_of(context: Context) -> tuple[list[str], list[str]]:
     """The relations that hold of a configuration with its velocities, and the symbols of both."""
     symbols = [*context.problem.coordinates, *context.problem.world.generic]
-    return [*context.finite_first, *context.rates], [*symbols, *(f"{q}dot" for q in context.problem.coordinates)]
+    return [*context.equations, *context.rates], [*symbols, *(f"{q}dot" for q in context.problem.coordinates)]

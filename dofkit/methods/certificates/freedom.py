@@ -154,7 +154,7 @@ def independent(context: Context, entry: ConstraintEntry, field: str) -> Iterato
     if entry.form == "inequality":
         yield {"rule": "inequality"}
         return
-    standing, order = context.standing, context.finite_first
+    standing, order = context.standing, context.equations
     last = max((k for k, name in enumerate(order) if context.owner(name) == entry.name), default=-1)
     rows = order[: last + 1]
     if standing is None or not rows:
