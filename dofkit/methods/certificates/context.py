@@ -54,7 +54,8 @@ class Context:
 
     def add_point(self, point: FoundPoint) -> str:
         """The id of a point, written into the certificate where it is new."""
-        point.name = point.name or self.scenery.entry_id("points", point.entry())
+        functions = {"functions": self.scenery.functions} if self.scenery.functions else {}
+        point.name = point.name or self.scenery.entry_id("points", point.entry() | functions)
         return point.name
 
     def minor(self, standing: Standing) -> str:

@@ -145,12 +145,9 @@ def by_cramer(matrix: Sequence[Sequence[Tree]], right: Sequence[Tree]) -> tuple[
 def _touched(context: Context, standing: Standing, free: str) -> list[str]:
     """The rows that move together when one free coordinate moves."""
     evidence, groups = context.scenery.evidence, parts_of(context.scenery, standing.rows)
-    moved = [part for part in groups if any(_holds(evidence.relation(row).tree, free) for row in part)]
+    names = {free, f"{free}dot"}
+    moved = [part for part in groups if any(names & evidence.relation(row).tree.symbols for row in part)]
     return [row for row in standing.rows if any(row in part for part in moved)]
-
-
-def _holds(tree: Tree, name: str) -> bool:
-    return not {name, f"{name}dot"}.isdisjoint(tree.symbols)
 
 
 def words_of(context: Context, standing: Standing, most: int) -> Words | None:

@@ -119,7 +119,7 @@ class MotionEvidence:
                 floats[q] = Estimates(floats).value(self.context.scenery.chosen(tree))
         except HINDRANCES:
             return None
-        return FoundPoint(texts, floats, self.context.scenery.functions)
+        return FoundPoint(texts, floats)
 
 
 def _exponentials(tree: Tree) -> set[str]:

@@ -24,7 +24,6 @@ class FoundPoint:
 
     values: dict[str, str]
     floats: dict[str, float]
-    functions: dict[str, dict[str, Any]]
     rows: list[str] = field(default_factory=list)
     columns: list[str] = field(default_factory=list)
     rank: int = 0
@@ -38,8 +37,6 @@ class FoundPoint:
     def entry(self) -> dict[str, Any]:
         """The point as a certificate writes it."""
         entry_of_point: dict[str, Any] = {"values": self.values}
-        if self.functions:
-            entry_of_point["functions"] = self.functions
         if self.columns:
             entry_of_point |= {"rows": self.rows, "columns": self.columns, "radius": RADIUS}
         return entry_of_point
@@ -81,7 +78,7 @@ class PointSearch:
                 values[name], floats[name] = text_of(tree), Estimates(floats).value(tree)
             if self.scenery.timed:
                 values["t"], floats["t"] = "0", 0.0
-            point = FoundPoint(values, floats, self.scenery.functions)
+            point = FoundPoint(values, floats)
             return point if residual(self.scenery, floats, self.scenery.evidence.finite) < NEAR else None
         except NoEstimateError:
             return None
@@ -203,10 +200,10 @@ class PointSearch:
             values = {**exact, **short}
             if self._holds(values, rows):
                 texts = {name: number_text(value) for name, value in values.items()}
-                return FoundPoint(texts, dict(floats), self.scenery.functions, rank=len(rows))
+                return FoundPoint(texts, dict(floats), rank=len(rows))
         texts = {name: number_text(value) for name, value in exact.items()}
         centre = {name: number_text(Fraction(repr(floats[name]))) for name in columns}
-        return FoundPoint(texts | centre, dict(floats), self.scenery.functions, rows, columns, len(rows))
+        return FoundPoint(texts | centre, dict(floats), rows, columns, len(rows))
 
     def _holds(self, values: Mapping[str, Fraction], names: Sequence[str]) -> bool:
         """Whether the checker can show that relations are exactly 0 at rational values."""

@@ -77,11 +77,8 @@ def puts(scenery: Scenery, names: Sequence[str]) -> Order:
 def _gives(scenery: Scenery, name: str, q: str) -> bool:
     """Return whether an equation is linear in a coordinate with a factor that is nowhere 0."""
     evidence = scenery.evidence
-
-    def is_refuted() -> bool:
-        return evidence.is_nowhere_zero(put_in(ZERO, q, evidence.relation(name).tree)[0])
-
-    return evidence.once(("gives", name, q), is_refuted)
+    tree = evidence.relation(name).tree
+    return evidence.once(("gives", name, q), lambda: evidence.is_nowhere_zero(put_in(ZERO, q, tree)[0]))
 
 
 def with_puts(scenery: Scenery, tree: Tree, order: Order) -> Tree:
