@@ -106,8 +106,6 @@ def components(context: Context, name: str) -> Components:
 
 def cofactors(context: Context, target: Components, rows: dict[str, Components]) -> tuple[Tree, dict[str, Tree]] | None:
     """h and c_i with h target = sum c_i row_i in as many columns as there are rows; None where a few do not do."""
-    if context.point is None:
-        return None
     try:
         chosen, columns = _chosen(context, target, rows)
     except NoEstimateError:

@@ -94,13 +94,8 @@ class MotionEvidence:
         return multiples
 
     def points(self) -> Iterator[FoundPoint]:
-        """The configuration; else points whose eliminated coordinates are put in, or any."""
-        search = self.context.search
-        if self.problem.reference:
-            if (configuration := search.reference()) is not None:
-                yield configuration
-            return
-        if not self.constraint_of_multiplier:
+        """The main point; without a configuration and multipliers points whose eliminated coordinates are put in."""
+        if not self.problem.reference and not self.constraint_of_multiplier:
             yield from filter(None, map(self._put_in, range(MOST_POINTS)))
         elif self.context.point is not None:
             yield self.context.point
