@@ -58,29 +58,25 @@ HINDRANCES = (CheckError, NoEstimateError, RecursionError, KeyError, ValueError,
 class Certifying:
     """A certificate while it is made; ``contradictions``: claims whose evidence gives another value, and why."""
 
-    verifier: Verifier
-
     def __init__(self, document: Mapping[str, Any], report: Report, readings: Mapping[str, str] | None = None) -> None:
-        self.document, self.report = canonical(document), report
-        self.certificate = empty_certificate(report.scene, self.document, readings or {})
-        self.contexts: list[Context] = []
+        document = canonical(document)
+        self.report, self.contexts = report, list[Context]()
+        self.certificate = empty_certificate(report.scene, document, readings or {})
         #: Why the last evidence for a claim was not accepted, and what contradicts claims, by path.
         self.reasons: dict[str, str] = {}
         self.contradictions: dict[str, str] = {}
+        with suppress(CheckError):
+            self.contexts = _contexts(document, report, self.certificate)
+            self.verifier = Verifier(document, self.certificate, self.contexts[-1].problem)
+            self.verifier.evidences = {context.scenery.cayley: context.scenery.evidence for context in self.contexts}
 
     def written(self) -> dict[str, Any]:
         """All claims that are said to be proved, each with evidence or among the uncovered."""
-        try:
-            self.contexts = _contexts(self.document, self.report, self.certificate)
-            self.verifier = Verifier(self.document, self.certificate, self.contexts[-1].problem)
-            self.verifier.evidences = {context.scenery.cayley: context.scenery.evidence for context in self.contexts}
-        except CheckError:
-            self.contexts = []
         claims, uncovered = self.certificate["claims"], self.certificate["uncovered"]
         for path, value, make in sorted(_asked(self.report), key=lambda asked: asked[0] in LAST):
             verdict = self.report.verdicts.get(path[1:])
             is_proved = verdict is None or verdict.verdict == "proved"
-            claim = self._confirmed(path, value, make, is_proved)
+            claim = self.confirmed(path, value, make, is_proved)
             claims += [claim] if claim else []
             uncovered += [path] if is_proved and not claim and path not in self.contradictions else []
             # a number shown near a point only, that is stated of all points, is uncovered in that
@@ -88,7 +84,7 @@ class Certifying:
             uncovered += [f"/verdicts{path}/about"] if elsewhere else []
         return without_spare_parts(self.certificate)
 
-    def _confirmed(self, path: str, value: Any, make: Maker, is_proved: bool) -> Told | None:
+    def confirmed(self, path: str, value: Any, make: Maker, is_proved: bool) -> Told | None:
         """A claim that the checker accepts, or None; where the evidence for it gives another value, that is noted."""
         contradicted = ""
         for context in self.contexts:
@@ -140,19 +136,14 @@ def _has_stationary_row(context: Context) -> bool:
 
 def without_spare_parts(certificate: dict[str, Any]) -> dict[str, Any]:
     """The certificate with only the parts that its claims use, and the steps that say something of its relations."""
-    used, size = _texts_in(certificate["claims"]), -1
-
-    def needed(part: str) -> list[Told]:
-        return [
-            entry
-            for entry in certificate[part]
-            if entry["id"] in used or (entry.get("by") == "implied" and "of" in entry)
-        ]
-
-    while len(used) > size:
-        size = len(used)
-        used |= _texts_in([needed(part) for part in PARTS])
-    return certificate | {part: needed(part) for part in PARTS}
+    used, kept = _texts_in(certificate["claims"]), dict[str, list[Told]]()
+    for part in reversed(PARTS):
+        kept[part] = []
+        for entry in reversed(certificate[part]):
+            if entry["id"] in used or (entry.get("by") == "implied" and "of" in entry):
+                kept[part].insert(0, entry)
+                used |= _texts_in(entry)
+    return certificate | kept
 
 
 def _texts_in(value: Any) -> set[str]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -46,7 +46,6 @@ class Context:
 
     report: Report
     scenery: Scenery
-    words: dict[tuple[str, ...], Any] = field(default_factory=dict)
 
     @property
     def problem(self) -> Problem:
@@ -54,15 +53,14 @@ class Context:
         return self.scenery.problem
 
     def add_point(self, point: FoundPoint) -> str:
-        """The id of a further point, written into the certificate."""
-        entries = self.scenery.entries["points"]
-        if all(point_entry["id"] != point.name for point_entry in entries):
-            entries.append(point.entry())
+        """The id of a point, written into the certificate where it is new."""
+        functions = {"functions": self.scenery.functions} if self.scenery.functions else {}
+        point.name = point.name or self.scenery.entry_id("points", point.entry() | functions)
         return point.name
 
     def minor(self, standing: Standing) -> str:
         """Return the id of the minor of the rows and columns."""
-        entry = {"at": standing.point.name, "rows": standing.rows, "columns": standing.columns}
+        entry = {"at": self.add_point(standing.point), "rows": standing.rows, "columns": standing.columns}
         return self.scenery.entry_id("minors", entry)
 
     @property
@@ -101,8 +99,7 @@ class Context:
             return None
         place = self._reference or self._searched()
         if place is not None:
-            place.name = f"{self.scenery.label}{place.name}"
-            self.scenery.entries["points"].append(place.entry())
+            self.add_point(place)
         return place
 
     def _searched(self) -> FoundPoint | None:
@@ -112,13 +109,23 @@ class Context:
         if self.nonlinear:
             names, unknowns = states_of(self)
         finite = not self.scenery.evidence.moving and self.report.dof is not None
-        rank = len(problem.coordinates) - (self.report.dof or 0) if finite else None
-        return self.search.somewhere(names, unknowns, rank=rank)
+        rank = len(problem.coordinates) - (self.report.dof or 0) if finite else len(names)
+        first: FoundPoint | None = None
+        for point in self.search.points(names, unknowns):
+            if point.rank == rank:
+                return point
+            first = first or point
+        return first
 
     @cached_property
-    def equations(self) -> list[str]:
-        """All finite and velocity relations in their order."""
-        return [relation.name for relation in self.problem.relations if relation.kind != "inequality"]
+    def rates(self) -> list[str]:
+        """The steps for the rates of the finite relations."""
+        return [step for name in self.scenery.evidence.finite if (step := rate_of(self.scenery, name))]
+
+    @property
+    def equations(self) -> tuple[str, ...]:
+        """All finite relations, then those of velocities: the order in which one is independent of those before it."""
+        return self.scenery.evidence.equations
 
     def owner(self, name: str) -> str:
         """The constraint of a relation."""
@@ -156,19 +163,12 @@ class Context:
     @cached_property
     def standing(self) -> Standing | None:
         """The main point with rows among all equations, the finite ones first; the others by steps if possible."""
-        return self.accounted(self.finite_first)
-
-    @cached_property
-    def finite_first(self) -> list[str]:
-        """The equations in the order in which one is independent of those before it."""
-        relation = self.scenery.evidence.relation
-        return sorted(self.equations, key=lambda name: relation(name).kind != "finite")
+        return self.accounted(self.equations)
 
     @cached_property
     def finite_standing(self) -> Standing | None:
         """The same for the finite relations."""
-        names = [name for name in self.equations if self.scenery.evidence.relation(name).kind == "finite"]
-        return self.standing if names == self.equations else self.accounted(names)
+        return self.accounted(self.scenery.evidence.finite) if self.scenery.evidence.moving else self.standing
 
     def accounted(self, names: Sequence[str]) -> Standing | None:
         """Independent rows in an order of their own, the others by steps where that is possible."""
@@ -182,6 +182,5 @@ class Context:
 
 def states_of(context: Context) -> tuple[list[str], list[str]]:
     """The relations that hold of a configuration with its velocities, and the symbols of both."""
-    rates = [step for name in context.scenery.evidence.finite if (step := rate_of(context.scenery, name))]
     symbols = [*context.problem.coordinates, *context.problem.world.generic]
-    return [*context.finite_first, *rates], [*symbols, *(f"{q}dot" for q in context.problem.coordinates)]
+    return [*context.equations, *context.rates], [*symbols, *(f"{q}dot" for q in context.problem.coordinates)]

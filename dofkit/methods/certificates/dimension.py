@@ -189,8 +189,6 @@ def _of_set(context: Context, standing: Standing) -> Iterator[Told]:
     if not unordered:
         yield {**claim, "order": order}
     claim["minor"] = context.minor(standing)
-    if not unordered:
-        yield {**claim, "order": order}
     letters = (*context.problem.world.generic, *context.problem.world.signs)
     symbols = {name: letter for name in evidence.finite if (letter := evidence.own_symbol(name, letters))}
     if not standing.dependent or standing.accounted:
@@ -221,8 +219,7 @@ def solving_order(
     )
     held = {name: _moved(context, name) for name in remaining}
     order: Order = []
-    pair: list[str] | None = []
-    while remaining and pair is not None:
+    while True:
         pair = next(
             (
                 [name, q]
@@ -234,10 +231,10 @@ def solving_order(
             ),
             None,
         )
-        if pair is not None:
-            order.insert(0, pair)
-            remaining.remove(pair[0])
-    return order, remaining
+        if pair is None:
+            return order, remaining
+        order.insert(0, pair)
+        remaining.remove(pair[0])
 
 
 def _moved(context: Context, name: str) -> set[str]:

@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
-from dofkit.checker.trees import MINUS
+from dofkit.checker.trees import MINUS, Tree, add, number, power, times
 from dofkit.methods.certificates.context import Context, Told
 from dofkit.methods.certificates.scenery import number_text, text_of
-from dofkit.methods.certificates.steps import constant_cofactors, positive_sum, rate_of
+from dofkit.methods.certificates.steps import constant_cofactors, operands, rate_of
+
+HALF, EVEN = number(Fraction(1, 2)), range(2, 20, 2)
 
 
 def conflicting(context: Context) -> Iterator[Told]:
@@ -19,35 +21,29 @@ def conflicting(context: Context) -> Iterator[Told]:
         minimal: Told = {}
         for name in members:
             others = [relation for other in members if other != name for relation in evidence.owned(other)]
-            if others and (witness := _met(context, name, others)):
+            if others and (witness := _met(context, others)):
                 minimal[name] = witness
         yield {"rule": "conflict", "refutation": refutation, "minimal": minimal}
 
 
-def _met(context: Context, name: str, others: Sequence[str]) -> Told | None:
-    """What shows that the others can be met without one."""
+def _met(context: Context, others: Sequence[str]) -> Told | None:
+    """What shows that the others can be met."""
     relation = context.scenery.evidence.relation
     finite = [other for other in others if relation(other).kind == "finite"]
-    point = context.search.somewhere(finite, context.problem.coordinates, 300)
+    point = next(context.search.points(finite, context.problem.coordinates, 300), None)
     if point is None:
         return None
-    point.name = f"without {name}"
-    context.add_point(point)
     standing = context.standing_of(others, point=point)
     if standing is not None and standing.rows and not standing.dependent:
         return {"rule": "regular", "minor": context.minor(standing)}
-    return {"rule": "point", "at": point.name}
+    return {"rule": "point", "at": context.add_point(point)}
 
 
 def refutations(context: Context, names: Sequence[str]) -> Iterator[Told]:
     """Ways in which relations cannot be met."""
     evidence = context.scenery.evidence
     equations = [name for name in names if evidence.relation(name).kind != "inequality"]
-    rates = [
-        rate
-        for name in equations
-        if evidence.relation(name).kind == "finite" and (rate := rate_of(context.scenery, name))
-    ]
+    rates = [step for name in equations if (step := rate_of(context.scenery, name))]
     for chosen in (equations, [*equations, *rates]):
         if (factors := constant_cofactors(context.scenery, MINUS, chosen)) is not None:
             yield {"rule": "nullstellensatz", "c": factors, "number": "1"}
@@ -57,10 +53,22 @@ def refutations(context: Context, names: Sequence[str]) -> Iterator[Told]:
 
 def _by_squares(context: Context, name: str) -> Iterator[Told]:
     """Yield evidence that one relation is never satisfied: it is a positive number and squares, or their negative."""
-    checked = context.scenery.evidence.relation(name)
+    evidence = context.scenery.evidence
+    *factors, whole = operands(evidence.relation(name).tree, "product")
     for sign in (1, -1):
-        positive = positive_sum(context.scenery, checked.tree, Fraction(sign))
-        if positive is not None:
-            squares = [[c, text_of(base)] for c, base in positive[1]]
-            factor = {name: number_text(-sign)}
-            yield {"rule": "nullstellensatz", "number": positive[0], "sos": squares, "c": factor}
+        terms = [times(number(sign), *factors, term) for term in operands(whole, "sum")]
+        plain = [term for term in terms if term.symbols <= evidence.chosen]
+        squares = [_square(term) for term in terms if term not in plain]
+        if None not in squares:
+            rest = {"number": text_of(add(*plain)), "sos": squares}
+            yield {"rule": "nullstellensatz", **rest, "c": {name: number_text(-sign)}}
+
+
+def _square(term: Tree) -> list[str] | None:
+    """A coefficient, and the root of what it is multiplied with; None where that is no product of even powers."""
+    factors = operands(term, "product")
+    powers = [factor for factor in factors if factor.symbols]
+    if any(factor.head != "power" or factor.below[1].value not in EVEN for factor in powers):
+        return None
+    roots = [power(factor.below[0], times(factor.below[1], HALF)) for factor in powers]
+    return [text_of(times(*(factor for factor in factors if not factor.symbols))), text_of(times(*roots))]

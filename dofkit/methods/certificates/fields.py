@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from itertools import combinations
 from typing import Any
@@ -144,25 +145,21 @@ def by_cramer(matrix: Sequence[Sequence[Tree]], right: Sequence[Tree]) -> tuple[
 def _touched(context: Context, standing: Standing, free: str) -> list[str]:
     """The rows that move together when one free coordinate moves."""
     evidence, groups = context.scenery.evidence, parts_of(context.scenery, standing.rows)
-    moved = [part for part in groups if any(_holds(evidence.relation(row).tree, free) for row in part)]
+    names = {free, f"{free}dot"}
+    moved = [part for part in groups if any(names & evidence.relation(row).tree.symbols for row in part)]
     return [row for row in standing.rows if any(row in part for part in moved)]
-
-
-def _holds(tree: Tree, name: str) -> bool:
-    return not {name, f"{name}dot"}.isdisjoint(tree.symbols)
 
 
 def words_of(context: Context, standing: Standing, most: int) -> Words | None:
     """Left-normed brackets, level by level, until ``most`` are independent at the point or nothing new comes."""
-    key = (*standing.rows, "", *standing.columns, str(most))
-    if key not in context.words:
-        try:
+
+    def grown() -> Words | None:
+        with suppress(CheckError, NoEstimateError, RecursionError):
             fields = tangent_fields(context, standing)
-            context.words[key] = _grown(context, standing, fields, most) if fields else None
-        except (CheckError, NoEstimateError, RecursionError):
-            context.words[key] = None
-    grown: Words | None = context.words[key]
-    return grown
+            return _grown(context, standing, fields, most) if fields else None
+        return None
+
+    return context.scenery.evidence.once(("words", *standing.rows, "", *standing.columns, most), grown)
 
 
 def reach(context: Context) -> int:
@@ -231,12 +228,8 @@ def _least(context: Context, standing: Standing, dof: int) -> Told | None:
         "fields": words.fields,
         "rows": words.rows,
         "words": words.words[: dof + moves],
-        "columns": _columns(words, dof + moves),
+        "columns": words.columns[: dof + moves],
     }
-
-
-def _columns(words: Words, count: int) -> list[str]:
-    return [p.column for p in echelon(words.vectors[:count]).pivots]
 
 
 def _most(context: Context, dof: int) -> Iterator[Told]:
@@ -279,7 +272,7 @@ def growth_vector(context: Context) -> Iterator[Told]:
     claim["minor"] = context.minor(standing)
     for steps in sorted({len(vector), len(words.levels)}, reverse=True):
         levels = [*words.levels, *words.levels[-1:] * steps][:steps]
-        yield {**claim, "spans": [{"words": words.words[:k], "columns": _columns(words, k)} for k in levels]}
+        yield {**claim, "spans": [{"words": words.words[:k], "columns": words.columns[:k]} for k in levels]}
 
 
 def pairing(context: Context, name: str, point: FoundPoint, vector: dict[str, float]) -> float:

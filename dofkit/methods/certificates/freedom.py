@@ -33,19 +33,19 @@ def _inequalities(context: Context) -> dict[str, str] | None:
     places: dict[str, str] = {}
     for relation in context.problem.relations:
         if relation.kind == "inequality":
-            point = _meeting(context, [relation.name]) or context.search.touching(relation.name, 70)
+            point = _meeting(context, [relation.name]) or next(context.search.touching(relation.name), None)
             if point is None:
                 return None
             places[relation.name] = context.add_point(point)
     return places
 
 
-def _meeting(context: Context, inequalities: list[str], seed: int = 100) -> FoundPoint | None:
+def _meeting(context: Context, inequalities: list[str]) -> FoundPoint | None:
     """Return a point at which inequalities hold, and the finite relations; if they hold velocities, all relations."""
     evidence = context.scenery.evidence
     moving = any(evidence.met_by(evidence.relation(name).tree) for name in inequalities)
     names, unknowns = states_of(context) if moving else (evidence.finite, context.problem.coordinates)
-    return context.search.meeting(inequalities, names, unknowns, seed)
+    return context.search.meeting(inequalities, names, unknowns)
 
 
 def dof(context: Context) -> Iterator[Told]:
@@ -62,10 +62,9 @@ def _near(context: Context) -> Iterator[Told]:
     if context.scenery.evidence.moving:
         yield from orbit(context)
         return
-    standing = context.standing
-    if standing is not None and (backed := backing(context, standing)) is not None:
-        yield {"rule": "regular", "minor": context.minor(standing), "about": context.about, **backed}
+    yield from _regular(context)
     yield from stationary(context)
+    standing = context.standing
     if standing is not None and standing.dependent:
         most = {"rule": "minor", "minor": context.minor(standing)}
         for least in families(context, len(context.problem.coordinates) - len(standing.rows)):
@@ -79,6 +78,11 @@ def velocity_dof(context: Context) -> Iterator[Told]:
         return
     if context.report.verdicts["velocity_dof"].about == "everywhere":
         yield from velocities_everywhere(context)
+    yield from _regular(context)
+
+
+def _regular(context: Context) -> Iterator[Told]:
+    """The rank at the main point, where all relations follow from the rows."""
     standing = context.standing
     if standing is not None and (backed := backing(context, standing)) is not None:
         yield {"rule": "regular", "minor": context.minor(standing), "about": context.about, **backed}
@@ -150,7 +154,7 @@ def independent(context: Context, entry: ConstraintEntry, field: str) -> Iterato
     if entry.form == "inequality":
         yield {"rule": "inequality"}
         return
-    standing, order = context.standing, context.finite_first
+    standing, order = context.standing, context.equations
     last = max((k for k, name in enumerate(order) if context.owner(name) == entry.name), default=-1)
     rows = order[: last + 1]
     if standing is None or not rows:
@@ -189,7 +193,7 @@ def circuit(context: Context, entry: ConstraintEntry, field: str) -> Iterator[To
 def feasible(context: Context) -> Iterator[Told]:
     """A point at which everything holds."""
     inequalities = [relation.name for relation in context.problem.relations if relation.kind == "inequality"]
-    for point in (context.point, _meeting(context, inequalities, 200)) if context.report.feasible else ():
+    for point in (context.point, _meeting(context, inequalities)) if context.report.feasible else ():
         standing = None if point is None else context.standing_of(context.equations, point=point)
         if standing is not None:
             minor = {"minor": context.minor(standing)}

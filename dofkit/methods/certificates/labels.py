@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from itertools import combinations
 
 from dofkit.checker.label_rules import exterior_part, form_of
-from dofkit.checker.trees import ZERO, CheckError, Tree, add, derivative, negative, number, symbol, times
+from dofkit.checker.trees import ZERO, CheckError, Tree, add, derivative, difference, symbol, times
 from dofkit.methods.certificates.context import Context, Told
 from dofkit.methods.certificates.fields import (
     LARGEST_CRAMER,
@@ -45,17 +45,8 @@ def combined_integral(context: Context, function: str, alone: str = "") -> str |
         return None
     target = {v: derivative(tree, v) for v in context.scenery.evidence.variables}
     step = {"id": name, "by": "integral", "function": function}
-    return name if _combined(context, step, target, [alone] if alone else moving_rows(context)) else None
-
-
-def moving_rows(context: Context) -> list[str]:
-    """The velocity relations, and the rates of the finite ones."""
-    rows = []
-    for name in context.equations:
-        finite = context.scenery.evidence.relation(name).kind == "finite"
-        row = rate_of(context.scenery, name) if finite else name
-        rows += [row] if row else []
-    return rows
+    sources = [alone] if alone else [*context.rates, *context.scenery.evidence.moving]
+    return name if _combined(context, step, target, sources) else None
 
 
 def add_step_from_integrals(context: Context, name: str, steps: Sequence[str], alone: bool = False) -> bool:
@@ -107,11 +98,6 @@ def form_or_none(context: Context, name: str) -> Components | None:
         return None
 
 
-def variables_of(form: Components) -> frozenset[str]:
-    """Return the variables of a form: those it moves and those it mentions."""
-    return frozenset(form).union(*(tree.symbols for tree in form.values()))
-
-
 def components(context: Context, name: str) -> Components:
     """The components of a linear relation of velocities."""
     tree = context.scenery.evidence.relation(name).tree
@@ -119,9 +105,7 @@ def components(context: Context, name: str) -> Components:
 
 
 def cofactors(context: Context, target: Components, rows: dict[str, Components]) -> tuple[Tree, dict[str, Tree]] | None:
-    """h and c_i with h target = sum c_i row_i identically; None where a few rows do not do."""
-    if context.point is None:
-        return None
+    """h and c_i with h target = sum c_i row_i in as many columns as there are rows; None where a few do not do."""
     try:
         chosen, columns = _chosen(context, target, rows)
     except NoEstimateError:
@@ -130,13 +114,7 @@ def cofactors(context: Context, target: Components, rows: dict[str, Components])
         return None
     matrix = [[rows[row][column] for row in chosen] for column in columns]
     h, numerators = by_cramer(matrix, [target[column] for column in columns])
-    multipliers = dict(zip(chosen, numerators, strict=True))
-    ring = context.scenery.evidence.ring
-    for v in context.scenery.evidence.variables:
-        total = add(*(times(factor, rows[row][v]) for row, factor in multipliers.items()))
-        if not ring.vanishes(add(times(h, target[v]), negative(total))):
-            return None
-    return h, multipliers
+    return h, dict(zip(chosen, numerators, strict=True))
 
 
 def _chosen(context: Context, target: Components, rows: dict[str, Components]) -> tuple[list[str], list[str]]:
@@ -250,7 +228,7 @@ def exact(context: Context, entry: ConstraintEntry, field: str) -> Iterator[Told
     for name in names:
         form = form_or_none(context, name) or {}
         which = {"relation": name} if len(names) > 1 else {}
-        for pair in combinations([v for v in evidence.variables if v in variables_of(form)], 2):
+        for pair in combinations(evidence.variables, 2):
             if context.scenery.differs(exterior_part(form, *pair), point.estimates):
                 yield {"rule": "not exact", "at": point.name, "pair": list(pair), **which}
 
@@ -260,45 +238,32 @@ def time_evidence(context: Context, entry: ConstraintEntry, field: str) -> Itera
     if getattr(entry, field):
         yield {"rule": "timeless"}
         return
-    evidence = context.scenery.evidence
-    for name in evidence.owned(entry.name, ("finite", "velocity", "inequality")):
+    for name in context.scenery.evidence.owned(entry.name, ("finite", "velocity", "inequality")):
         for place in _time_dependence(context, name, field):
             yield {"rule": "time-dependent", "relation": name, **place}
 
 
 def _time_dependence(context: Context, name: str, field: str) -> Iterator[Told]:
-    if context.scenery.evidence.relation(name).kind == "velocity":
-        yield from _time_dependent_form(context, name, field)
-        return
-    turned = derivative(context.scenery.tree(name), "t")
-    if turned == number(0):
-        return
-    for point in _points_of(context, name):
-        if point is not None and context.scenery.differs(turned, point.estimates):
-            yield {"at": context.add_point(point)}
+    """Yield points at which time is in a relation, or in the quotient of two components of a form."""
+    scenery, tree, form = context.scenery, context.scenery.tree(name), form_or_none(context, name)
+    turned = derivative(tree, "t") if form is None else form.get("t", ZERO)
+    velocities = [v for v in scenery.evidence.velocities if v in tree.symbols]
+    if field == "catastatic" and form is None and velocities:
+        turned = add(*(times(symbol(v), derivative(tree, v)) for v in velocities))
+    changes: list[tuple[Tree, Told]] = [(turned, {})]
+    for a, b in combinations(form or (), 2) if field == "scleronomic" else ():
+        parts = [times(form[i], derivative(form[j], "t")) for i, j in ((a, b), (b, a))] if form else []
+        changes.append((difference(*parts), {"pair": [a, b]}))
+    changes = [change for change in changes if change[0] != ZERO]
+    for point in _points_of(context, name) if changes else ():
+        for change, pair in changes:
+            if point is not None and scenery.differs(change, point.estimates):
+                yield {"at": context.add_point(point), **pair}
 
 
 def _points_of(context: Context, name: str) -> Iterator[FoundPoint | None]:
     """The main point, where it is one of the relation, and others."""
     if context.scenery.evidence.relation(name).kind != "inequality":
         yield context.point
-    yield from (context.search.touching(name, seed) for seed in (50, 60))
-
-
-def _time_dependent_form(context: Context, name: str, field: str) -> Iterator[Told]:
-    form, point = form_or_none(context, name), context.point
-    if point is None:
-        return
-    tree = context.scenery.tree(name)
-    rates = {v: times(symbol(v), derivative(tree, v)) for v in context.scenery.evidence.velocities if v in tree.symbols}
-    turned = form.get("t", number(0)) if form else derivative(tree, "t")
-    if field == "catastatic" and form is None:
-        turned = add(*rates.values())
-    if context.scenery.differs(turned, point.estimates):
-        yield {"at": point.name}
-    if form is None:
-        return
-    for a, b in combinations(form, 2) if field == "scleronomic" else ():
-        back = negative(times(form[b], derivative(form[a], "t")))
-        if context.scenery.differs(add(times(form[a], derivative(form[b], "t")), back), point.estimates):
-            yield {"at": point.name, "pair": [a, b]}
+    if context.scenery.evidence.relation(name).kind != "velocity":
+        yield from context.search.touching(name)

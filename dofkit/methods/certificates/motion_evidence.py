@@ -3,22 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from contextlib import suppress
 from fractions import Fraction
 from typing import Any
 
 from dofkit.checker.motion import MOTION_FIELDS
 from dofkit.checker.problem import CheckedProblem as Problem
-from dofkit.checker.problem import canonical, problem_of_canonical
-from dofkit.checker.relations import FAULTS
 from dofkit.checker.trees import MINUS, ONE, Tree, along, number, power, substituted, symbol, times
-from dofkit.checker.verification import Verifier
-from dofkit.methods.certificates.certificate import HINDRANCES, without_spare_parts
-from dofkit.methods.certificates.context import Context, Told, empty_certificate
+from dofkit.methods.certificates.certificate import HINDRANCES, Certifying, without_spare_parts
+from dofkit.methods.certificates.context import Context, Told
 from dofkit.methods.certificates.lowering import scene_of_checker
 from dofkit.methods.certificates.numerics import Estimates
 from dofkit.methods.certificates.points import FoundPoint
-from dofkit.methods.certificates.scenery import Scenery, number_text, text_of
+from dofkit.methods.certificates.scenery import number_text, text_of
 from dofkit.report import Report
 from dofkit.scene.scene import Scene
 
@@ -32,22 +28,12 @@ def certificate_of_motion(scene: Scene, motion: Mapping[str, Any], report: Repor
 
     ``report``: what the equations rest on.
     """
-    written, readings = scene_of_checker(scene)
-    document = canonical(written)
-    certificate = empty_certificate(report.scene, document, readings) | {"uncovered": [PATH]}
-    try:
-        problem = problem_of_canonical(document)
-        context = Context(report, Scenery(problem, False, certificate))
-        verifier = Verifier(document, certificate, problem)
-        verifier.evidences[context.scenery.cayley] = context.scenery.evidence
-        for evidence in MotionEvidence(context, {name: motion[name] for name in MOTION_FIELDS}).claims():
-            with suppress(*FAULTS):
-                verifier.check(evidence)
-                certificate |= {"claims": [evidence], "uncovered": []}
-                break
-    except HINDRANCES:
-        pass
-    return without_spare_parts(certificate)
+    told = {name: motion[name] for name in MOTION_FIELDS}
+    document, readings = scene_of_checker(scene)
+    making = Certifying(document, report, readings)
+    claim = making.confirmed(PATH, told, lambda context: MotionEvidence(context, told).claims(), True)
+    making.certificate |= {"claims": [claim]} if claim else {"uncovered": [PATH]}
+    return without_spare_parts(making.certificate)
 
 
 class MotionEvidence:
@@ -63,13 +49,10 @@ class MotionEvidence:
 
     def _constants(self) -> dict[str, str]:
         """Names in the eliminated coordinates that are none of the scene's: constants of integration."""
-        constants: dict[str, str] = {}
-        for text in self.motion["eliminated"].values():
-            for k in range(1, 5):
-                for name in (f"C{k}", f"C_{k}", "C"):
-                    if name in text and name not in (*self.problem.world.signs, *self.problem.coordinates):
-                        constants[name] = "0"
-        return constants
+        names = ["C", *(f"{letter}{k}" for letter in ("C", "C_") for k in range(1, 5))]
+        known = {*self.problem.world.signs, *self.problem.coordinates}
+        texts = self.motion["eliminated"].values()
+        return {name: "0" for name in names if name not in known and any(name in text for text in texts)}
 
     def read(self, text: str) -> Tree:
         """A text of the report."""
@@ -78,13 +61,12 @@ class MotionEvidence:
 
     def claims(self) -> Iterator[Told]:
         """Claims, one point after another."""
-        claim: Told = {"path": PATH, "value": self.motion, "rule": "lagrange", "c": self.cofactors()}
+        claim: Told = {"rule": "lagrange", "c": self.cofactors()}
         claim |= {"constants": self.constants} if self.constants else {}
         size = len(self.eliminated) + len(self.constraint_of_multiplier)
         for point in self.points() if size else ():
             standing = self.context.standing_of(self.context.equations, point=point)
             if standing is not None and len(standing.rows) == size:
-                self.context.add_point(point)
                 for factors in self.factors():
                     yield {**claim, **factors, "minor": self.context.minor(standing)}
         if not size:
@@ -112,13 +94,8 @@ class MotionEvidence:
         return multiples
 
     def points(self) -> Iterator[FoundPoint]:
-        """The configuration; else points whose eliminated coordinates are put in, or any."""
-        search = self.context.search
-        if self.problem.reference:
-            if (configuration := search.reference()) is not None:
-                yield configuration
-            return
-        if not self.constraint_of_multiplier:
+        """The main point; without a configuration and multipliers points whose eliminated coordinates are put in."""
+        if not self.problem.reference and not self.constraint_of_multiplier:
             yield from filter(None, map(self._put_in, range(MOST_POINTS)))
         elif self.context.point is not None:
             yield self.context.point
@@ -137,7 +114,7 @@ class MotionEvidence:
                 floats[q] = Estimates(floats).value(self.context.scenery.chosen(tree))
         except HINDRANCES:
             return None
-        return FoundPoint(f"T{attempt}", texts, floats, self.context.scenery.functions)
+        return FoundPoint(texts, floats)
 
 
 def _exponentials(tree: Tree) -> set[str]:

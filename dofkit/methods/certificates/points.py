@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
-from flint import arb, fmpq
-
-from dofkit.checker.point import CheckedPoint
-from dofkit.checker.trees import CheckError, derivative, number
+from dofkit.checker.trees import ONE, CheckError, derivative, number, substituted
 from dofkit.methods.certificates.numerics import Estimates, NoEstimateError, Pivot, echelon, least_step
 from dofkit.methods.certificates.scenery import Scenery, floats_of, number_text, text_of
 
@@ -22,15 +20,14 @@ RADIUS = "1e-9"
 
 @dataclass
 class FoundPoint:
-    """A point of a certificate: ``values`` as texts, ``floats`` to look with, ``rows`` and ``columns`` of its box."""
+    """A point: ``values`` as texts, ``floats`` to look with, ``rows`` and ``columns`` of its box, ``name`` if any."""
 
-    name: str
     values: dict[str, str]
     floats: dict[str, float]
-    functions: dict[str, dict[str, Any]]
     rows: list[str] = field(default_factory=list)
     columns: list[str] = field(default_factory=list)
     rank: int = 0
+    name: str = ""
 
     @cached_property
     def estimates(self) -> Estimates:
@@ -39,9 +36,7 @@ class FoundPoint:
 
     def entry(self) -> dict[str, Any]:
         """The point as a certificate writes it."""
-        entry_of_point: dict[str, Any] = {"id": self.name, "values": self.values}
-        if self.functions:
-            entry_of_point["functions"] = self.functions
+        entry_of_point: dict[str, Any] = {"values": self.values}
         if self.columns:
             entry_of_point |= {"rows": self.rows, "columns": self.columns, "radius": RADIUS}
         return entry_of_point
@@ -83,73 +78,47 @@ class PointSearch:
                 values[name], floats[name] = text_of(tree), Estimates(floats).value(tree)
             if self.scenery.timed:
                 values["t"], floats["t"] = "0", 0.0
-            point = FoundPoint("P", values, floats, self.scenery.functions)
+            point = FoundPoint(values, floats)
             return point if residual(self.scenery, floats, self.scenery.evidence.finite) < NEAR else None
         except NoEstimateError:
             return None
 
-    def somewhere(
-        self, names: Sequence[str], unknowns: Sequence[str], seed: int = 0, rank: int | None = None
-    ) -> FoundPoint | None:
-        """A point of the relations ``names``, the ``unknowns`` free; best where so many rows are independent."""
-        wanted = len(names) if rank is None else rank
-        best: FoundPoint | None = None
-        for attempt in range(seed, seed + ATTEMPTS):
-            try:
-                start = self._start(attempt, unknowns)
-                reached = self.approached(floats_of(start), names, set(unknowns))
+    def points(
+        self, names: Sequence[str], unknowns: Sequence[str], seed: int = 0, attempts: int = ATTEMPTS
+    ) -> Iterator[FoundPoint]:
+        """Points of the relations ``names``, the ``unknowns`` free: one for each start from which one is reached."""
+        for attempt in range(seed, seed + attempts):
+            with suppress(NoEstimateError, CheckError):
+                reached = self.approached(floats_of(self._start(attempt, unknowns)), names, set(unknowns))
                 point = self.settled(reached, names, set(unknowns)) if reached is not None else None
-            except (NoEstimateError, CheckError):
-                continue
-            if point is not None and (best is None or point.rank == wanted):
-                best = point
-                if point.rank == wanted:
-                    break
-        if best is not None:
-            best.name = "P" if seed == 0 else f"P{seed}"
-        return best
+                if point is not None:
+                    yield point
 
-    def meeting(
-        self, inequalities: Sequence[str], names: Sequence[str], unknowns: Sequence[str], seed: int
-    ) -> FoundPoint | None:
+    def meeting(self, inequalities: Sequence[str], names: Sequence[str], unknowns: Sequence[str]) -> FoundPoint | None:
         """Return a point at which inequalities hold, and the relations ``names``."""
-        for attempt in range(seed, seed + AFAR + 6):
-            point = self.somewhere(names, unknowns, attempt)
-            if point is None:
-                return None
-            if all(self._is_positive(point, name) for name in inequalities):
-                point.name = f"P{attempt} {' '.join(inequalities)}"
+        trees = [self.scenery.tree(name) for name in inequalities]
+        for point in self.points(names, unknowns, 100, AFAR + 6):
+            if all(self.scenery.estimated(tree, point.estimates) > NEAR for tree in trees):
                 return point
         return None
 
-    def _is_positive(self, point: FoundPoint, name: str) -> bool:
-        try:
-            return Estimates(point.floats).value(self.scenery.tree(name)) > NEAR
-        except NoEstimateError:
-            return False
-
-    def touching(self, name: str, seed: int) -> FoundPoint | None:
-        """A point at which a relation is 0, an inequality too, whatever the others say."""
+    def touching(self, name: str) -> Iterator[FoundPoint]:
+        """Points at which a relation is 0, an inequality too, whatever the others say."""
         checked = self.scenery.evidence.relation(name)
         names = [name] if checked.kind == "inequality" else self.scenery.evidence.finite
-        point = self.somewhere(names, self.problem.coordinates, seed)
-        if point is not None:
-            point.name = f"P{seed} {name}"
-        return point
+        return self.points(names, self.problem.coordinates, 50)
 
     def _start(self, attempt: int, unknowns: Sequence[str]) -> dict[str, Fraction]:
         drawn = random.Random(1000 + attempt)
         values = dict(self.scenery.parameters)
-        if attempt == 0:
-            values |= {name: self.witness[name].limit_denominator(64) for name in values if name in self.witness}
         if self.scenery.timed:
-            witnessed = attempt == 0 and "t" in self.witness
-            values["t"] = self.witness["t"].limit_denominator(64) if witnessed else Fraction(drawn.randint(1, 8), 4)
+            values["t"] = Fraction(drawn.randint(1, 8), 4)
         for name in (*self.problem.coordinates, *self.problem.world.generic, *unknowns):
             if name not in values:
                 values[name] = Fraction(drawn.choice([-1, 1]) * drawn.randint(3, 24), 8)
         if attempt == 0:
-            values |= {name: self.witness[name] for name in self.problem.coordinates if name in self.witness}
+            placed = values.keys() - self.scenery.evidence.velocities
+            values |= {name: value for name, value in self.witness.items() if name in placed}
         elif attempt == 1:
             values |= {name: abs(values[name]) for name in self.problem.coordinates}
         elif attempt >= 100 and attempt % 100 >= AFAR:
@@ -211,8 +180,6 @@ class PointSearch:
                 name: Fraction(round(value * most), most) for name, value in reached.items() if name not in columns
             }
             exact |= {name: value for name, value in self.scenery.parameters.items() if name in exact}
-            if any(s != "real" and exact.get(n, 1) <= 0 for n, s in self.problem.world.signs.items()):
-                continue
             floats = {**reached, **floats_of(exact)}
             try:
                 floats_again = self.approached(floats, rows, set(columns))
@@ -233,18 +200,17 @@ class PointSearch:
             values = {**exact, **short}
             if self._holds(values, rows):
                 texts = {name: number_text(value) for name, value in values.items()}
-                return FoundPoint("P", texts, dict(floats), self.scenery.functions, rank=len(rows))
+                return FoundPoint(texts, dict(floats), rank=len(rows))
         texts = {name: number_text(value) for name, value in exact.items()}
         centre = {name: number_text(Fraction(repr(floats[name]))) for name in columns}
-        return FoundPoint("P", texts | centre, dict(floats), self.scenery.functions, rows, columns, len(rows))
+        return FoundPoint(texts | centre, dict(floats), rows, columns, len(rows))
 
     def _holds(self, values: Mapping[str, Fraction], names: Sequence[str]) -> bool:
-        """Whether relations have the value 0 at rational values, and the checker can show that they are exactly 0."""
-        balls = {name: arb(fmpq(v.numerator, v.denominator)) for name, v in values.items()} | {"tdot": arb(1)}
-        point = CheckedPoint("", {n: number(v) for n, v in values.items()}, {}, self.scenery.effort, balls)
-        trees = [self.scenery.tree(name) for name in names]
-        is_near = all(point.value(tree).contains(0) for tree in trees)
-        return is_near and all(map(self.scenery.evidence.ring.vanishes, map(point.prepared, trees)))
+        """Whether the checker can show that relations are exactly 0 at rational values."""
+        put = {name: number(value) for name, value in values.items()} | {"tdot": ONE}
+        with suppress(CheckError):
+            return all(self.scenery.evidence.ring.vanishes(substituted(self.scenery.tree(name), put)) for name in names)
+        return False
 
 
 def _fraction(text: str) -> Fraction:

@@ -133,12 +133,16 @@ class Scenery:
         }
         return substituted(tree, {}, bodies_of_functions)
 
+    def estimated(self, tree: Tree, estimates: Estimates) -> float:
+        """The value of a tree at a point in floats; 0 where it has none."""
+        try:
+            return estimates.value(self.chosen(tree))
+        except NoEstimateError:
+            return 0.0
+
     def differs(self, tree: Tree, estimates: Estimates) -> bool:
         """Return whether a tree is not 0 at a point, by far."""
-        try:
-            return abs(estimates.value(self.chosen(tree))) > FAR
-        except NoEstimateError:
-            return False
+        return abs(self.estimated(tree, estimates)) > FAR
 
     def add_step(self, step: dict[str, Any]) -> None:
         """A further step, if it stands up; `CheckError` where it does not."""

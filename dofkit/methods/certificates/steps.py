@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from fractions import Fraction
 from functools import partial, reduce
 from itertools import combinations
 
@@ -15,18 +14,15 @@ from dofkit.checker.trees import (
     ZERO,
     CheckError,
     Tree,
-    add,
     difference,
     linear_in,
     negative,
-    number,
-    power,
     put_in,
     substituted,
     times,
 )
 from dofkit.methods.certificates.points import FoundPoint
-from dofkit.methods.certificates.scenery import Scenery, number_text, text_of
+from dofkit.methods.certificates.scenery import Scenery, text_of
 
 Step = dict[str, object]
 
@@ -42,43 +38,9 @@ def _is_accepted(scenery: Scenery, *steps: Step) -> bool:
     return True
 
 
-def _square(term: Tree) -> tuple[Fraction, Tree, int] | None:
-    """A term as a number times an even power of what is no number."""
-    factors = operands(term, "product")
-    coefficient, base, exponent = Fraction(1), None, 0
-    for factor in factors:
-        if isinstance(factor.value, Fraction):
-            coefficient *= factor.value
-        elif base is None and factor.head == "power" and isinstance(factor.below[1].value, Fraction):
-            base, exponent = factor.below[0], int(factor.below[1].value)
-            if factor.below[1] != number(exponent) or exponent < 2 or exponent % 2:
-                return None
-        else:
-            return None
-    return None if base is None or not base.symbols else (coefficient, base, exponent)
-
-
 def operands(tree: Tree, head: str) -> list[Tree]:
     """Return the terms of a sum or the factors of a product, those of sums in sums and products in products too."""
     return [operand for part in tree.below for operand in operands(part, head)] if tree.head == head else [tree]
-
-
-def positive_sum(
-    scenery: Scenery, tree: Tree, sign: Fraction = Fraction(1)
-) -> tuple[str, list[tuple[str, Tree]]] | None:
-    """Return a sum (times a number) as what is positive by itself and squares with positive coefficients."""
-    if tree.head == "product" and isinstance(tree.below[0].value, Fraction) and len(tree.below) == 2:
-        return positive_sum(scenery, tree.below[1], sign * tree.below[0].value)
-    terms = [times(number(sign), term) for term in operands(tree, "sum")]
-    plain = [term for term in terms if term.symbols <= scenery.evidence.chosen]
-    squares = [_square(term) for term in terms if term not in plain]
-    positive = [
-        (number_text(square[0]), power(square[1], number(square[2] // 2)))
-        for square in squares
-        if square is not None and square[0] > 0
-    ]
-    fits = len(positive) == len(squares) and scenery.evidence.is_nowhere_zero(add(*plain), True)
-    return (text_of(add(*plain)), positive) if fits else None
 
 
 # Coordinates that finite relations give by others: put into a relation, they may leave nothing of it.
@@ -115,11 +77,8 @@ def puts(scenery: Scenery, names: Sequence[str]) -> Order:
 def _gives(scenery: Scenery, name: str, q: str) -> bool:
     """Return whether an equation is linear in a coordinate with a factor that is nowhere 0."""
     evidence = scenery.evidence
-
-    def is_refuted() -> bool:
-        return evidence.is_nowhere_zero(put_in(ZERO, q, evidence.relation(name).tree)[0])
-
-    return evidence.once(("gives", name, q), is_refuted)
+    tree = evidence.relation(name).tree
+    return evidence.once(("gives", name, q), lambda: evidence.is_nowhere_zero(put_in(ZERO, q, tree)[0]))
 
 
 def with_puts(scenery: Scenery, tree: Tree, order: Order) -> Tree:
