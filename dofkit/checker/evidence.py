@@ -95,17 +95,19 @@ class CheckedEvidence(CheckedRelations):
         A nonlinear relation speaks of a state, as all do where ``states``: velocity relations and rates hold there.
         """
         wanted = [self.relation(name) for name in names if not self.relation(name).leaf]
-        finite = {one.name for one in wanted if one.kind == "finite"}
+        finite = {relation.name for relation in wanted if relation.kind == "finite"}
         self.follow(finite, {*point.rows, *(name for name in finite if self.holds(name, point))}, point, "what holds")
-        states |= not all(self.is_linear(one.name) for one in wanted)
-        for one in wanted:
-            still = one.name in finite
-            for velocity in self.met_by(one.tree):
-                point.value(self.slope(one.name, velocity[:-3]))
-            wrong = still and not_zero(point.value(one.tree))
+        states |= not all(self.is_linear(relation.name) for relation in wanted)
+        for relation in wanted:
+            still = relation.name in finite
+            for velocity in self.met_by(relation.tree):
+                point.value(self.slope(relation.name, velocity[:-3]))
+            wrong = still and not_zero(point.value(relation.tree))
             if states:
-                wrong |= not self.is_zero(total_derivative(one.tree, self.variables) if still else one.tree, point)
-            refuse(wrong, f"`{one.name}` is not satisfied at the point `{point.name}`, or not by its velocities")
+                wrong |= not self.is_zero(
+                    total_derivative(relation.tree, self.variables) if still else relation.tree, point
+                )
+            refuse(wrong, f"`{relation.name}` is not satisfied at the point `{point.name}`, or not by its velocities")
 
     def minor(self, entry: Any, allowed: Collection[str] | None = None) -> CheckedMinor:
         """A minor, by its id or itself: rows that follow from ``allowed`` (or all relations), and are independent."""

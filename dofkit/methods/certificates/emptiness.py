@@ -60,8 +60,8 @@ def _by_squares(context: Context, name: str) -> Iterator[Told]:
         plain = [term for term in terms if term.symbols <= evidence.chosen]
         squares = [_square(term) for term in terms if term not in plain]
         if None not in squares:
-            rest = {"number": text_of(add(*plain)), "sos": squares}
-            yield {"rule": "nullstellensatz", **rest, "c": {name: number_text(-sign)}}
+            plus = {"number": text_of(add(*plain)), "sos": squares}
+            yield {"rule": "nullstellensatz", **plus, "c": {name: number_text(-sign)}}
 
 
 def _square(term: Tree) -> list[str] | None:

@@ -252,8 +252,8 @@ def _time_dependence(context: Context, name: str, field: str) -> Iterator[Told]:
         turned = add(*(times(symbol(v), derivative(tree, v)) for v in velocities))
     changes: list[tuple[Tree, Told]] = [(turned, {})]
     for a, b in combinations(form or (), 2) if field == "scleronomic" else ():
-        parts = [times(form[i], derivative(form[j], "t")) for i, j in ((a, b), (b, a))] if form else []
-        changes.append((difference(*parts), {"pair": [a, b]}))
+        products = [times(form[i], derivative(form[j], "t")) for i, j in ((a, b), (b, a))] if form else []
+        changes.append((difference(*products), {"pair": [a, b]}))
     changes = [change for change in changes if change[0] != ZERO]
     for point in _points_of(context, name) if changes else ():
         for change, pair in changes:

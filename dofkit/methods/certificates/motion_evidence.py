@@ -28,10 +28,10 @@ def certificate_of_motion(scene: Scene, motion: Mapping[str, Any], report: Repor
 
     ``report``: what the equations rest on.
     """
-    told = {name: motion[name] for name in MOTION_FIELDS}
+    fields = {name: motion[name] for name in MOTION_FIELDS}
     document, readings = scene_of_checker(scene)
     making = Certifying(document, report, readings)
-    claim = making.confirmed(PATH, told, lambda context: MotionEvidence(context, told).claims(), True)
+    claim = making.confirmed(PATH, fields, lambda context: MotionEvidence(context, fields).claims(), True)
     making.certificate |= {"claims": [claim]} if claim else {"uncovered": [PATH]}
     return without_spare_parts(making.certificate)
 
@@ -50,9 +50,9 @@ class MotionEvidence:
     def _constants(self) -> dict[str, str]:
         """Names in the eliminated coordinates that are none of the scene's: constants of integration."""
         names = ["C", *(f"{letter}{k}" for letter in ("C", "C_") for k in range(1, 5))]
-        known = {*self.problem.world.signs, *self.problem.coordinates}
+        declared = {*self.problem.world.signs, *self.problem.coordinates}
         texts = self.motion["eliminated"].values()
-        return {name: "0" for name in names if name not in known and any(name in text for text in texts)}
+        return {name: "0" for name in names if name not in declared and any(name in text for text in texts)}
 
     def read(self, text: str) -> Tree:
         """A text of the report."""
