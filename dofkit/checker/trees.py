@@ -9,10 +9,11 @@ Every operation on balls encloses the true one, where it is defined and smooth a
 from __future__ import annotations
 
 import operator
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import lru_cache, reduce
+from itertools import chain
 from typing import Any, TypeVar
 
 from flint import arb, ctx, fmpq
@@ -316,11 +317,35 @@ def in_velocities(tree: Tree, coordinates: Collection[str]) -> Tree:
     degree = homogeneous_degree(tree, ["dt"])
     refuse(degree is None, "differentials and finite terms are added together")
     tree = substituted(tree, {"dt": ONE})
-    linear = linear_in(tree, [f"{q}dot" for q in coordinates])
+    rates = [f"{q}dot" for q in coordinates]
+    linear = linear_in(tree, rates) or linear_in(_cleared(tree, rates), rates)
     if linear is None:
         return tree
     form = [times(slope, symbol(rate)) for rate, slope in linear[0].items()]
     return add(*form, times(linear[1], symbol("tdot"))) if form or degree else linear[1]
+
+
+def _cleared(tree: Tree, rates: Collection[str]) -> Tree:
+    """A relation times the velocities that its terms are divided by, so that dy/dx = f says dy = f dx."""
+    terms = [list(_flat(term, "product")) for term in _flat(tree, "sum")]
+    inverses = {
+        factor: factor.below[0]
+        for factor in chain(*terms)
+        if factor.head == "power" and factor.below[1] == MINUS and factor.symbols and factor.symbols.issubset(rates)
+    }
+    cleared = []
+    for term in terms:
+        others = [base for inverse, base in inverses.items() if inverse not in term]
+        cleared.append(times(*(factor for factor in term if factor not in inverses), *others))
+    return add(*cleared)
+
+
+def _flat(tree: Tree, head: str) -> Iterator[Tree]:
+    """The terms of a sum, or the factors of a product, those of the parts included."""
+    if tree.head != head:
+        yield tree
+    for part in tree.below if tree.head == head else ():
+        yield from _flat(part, head)
 
 
 def not_zero(ball: Any) -> bool:

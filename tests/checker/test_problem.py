@@ -72,7 +72,7 @@ constraints:
     assert problem.world.signs == {"R": "positive", "v": "real"}
     texts = {
         **{"sphere": "x^2 + y^2 - 9/4", "c2": "xdot - R cos(phi) phidot", "c3": "x ydot + tdot", "c4": "xdot - v tdot"},
-        **{"c5": "xdot^2 + ydot^2 - v^2", "c6": "xdot^2 + ydot^2 - v^2", "c7": "ydot/xdot - tan(phi)"},
+        **{"c5": "xdot^2 + ydot^2 - v^2", "c6": "xdot^2 + ydot^2 - v^2", "c7": "ydot - tan(phi) xdot"},
         **{"c8.1": "x", "c8.2": "3/2 - x", "c9": "xdot - v tdot", "c10": "x"},
     }
     for name, text in texts.items():

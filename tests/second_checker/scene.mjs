@@ -362,6 +362,16 @@ export class Scene {
 
 // -- the constraint types --------------------------------------------------------------------------
 
+/** A relation times the velocities that its terms are divided by, so that dy/dx = f says dy = f dx. */
+function cleared(tree, rates) {
+  const terms = (tree.head === "sum" ? tree.args : [tree]).map((t) => (t.head === "product" ? t.args : [t]));
+  const isRate = (f) => f.symbols.size > 0 && [...f.symbols].every((name) => rates.includes(name));
+  const isInverse = (f) => f.head === "power" && isNumber(f.args[1], -1) && isRate(f);
+  const inverses = new Set(terms.flat().filter(isInverse));
+  const whole = (term) => [...inverses].filter((f) => !term.includes(f)).map((f) => f.args[0]);
+  return add(...terms.map((term) => mul(...term.filter((f) => !inverses.has(f)), ...whole(term))));
+}
+
 /** A relation in velocities: without dt, and what is linear in velocities as a form with tdot. */
 function inVelocities(scene, tree) {
   let degree = 0;
@@ -374,7 +384,8 @@ function inVelocities(scene, tree) {
     refuse(degree === null, "differentials and finite terms are added together");
   }
   const plain = substitute(tree, new Map([["dt", number(1)]]));
-  const parts = linearIn(plain, scene.coordinates.map((q) => `${q}dot`));
+  const rates = scene.coordinates.map((q) => `${q}dot`);
+  const parts = linearIn(plain, rates) ?? linearIn(cleared(plain, rates), rates);
   if (!parts) return plain;
   const form = [...parts.slope].filter(([, s]) => !isNumber(s, 0)).map(([rate, s]) => mul(s, symbol(rate)));
   return form.length || degree ? add(...form, mul(parts.rest, symbol("tdot"))) : parts.rest;
