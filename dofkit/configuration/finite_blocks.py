@@ -23,10 +23,6 @@ from dofkit.relations.answer import Answer, RealRows
 from dofkit.relations.blocks import Block, Chart, is_measured, make_chart
 from dofkit.relations.setting import Setting
 
-OFF_REFERENCE = (
-    "the reference configuration does not satisfy all geometric equations: the answer is for configurations that do, "
-    "not for the reference configuration itself"
-)
 #: Measured numbers are not exact: away from where they were measured they prove nothing.
 NOT_DRAWN = (
     "with a tolerance the geometry is valid only near the reference configuration, and not everything "
@@ -73,8 +69,6 @@ def _finite_answer(chart: Chart) -> Answer:
     result.separating = variety.separating
     if variety.argument in ("cases", "regular point"):
         result.real = _real_rows(chart, variety.real)
-    if setting.reference is not None:
-        result.reasons.append(OFF_REFERENCE)
     result.method = "rank over GF(p)" + (" and balls" if variety.real else "")
     if variety.samples:
         _finite_matrix(chart, variety, result)

@@ -298,3 +298,14 @@ def test_coordinates_that_occur_in_one_sum_only(names: str, written: str, dof: i
     assert report.consistent is not False, why
     assert report.dof in (dof, None), why
     assert report.holonomic in (True, None), why
+
+
+@pytest.mark.parametrize("more", [[], ["dx_b/dt = v"]])
+def test_what_is_not_drawn_where_it_stands_is_not_told_of_the_drawing(more: list[str]) -> None:
+    """A ladder along the floor, whose end is not on the wall where it is drawn."""
+    ends = ([0, 0], "y = 0"), ([2, 0], "x = 0")
+    walls = [{"type": "on", "members": [{"on": "b", "at": at}], "curve": [line]} for at, line in ends]
+    report = dofkit.classify({"dimension": 2, "bodies": ["b"], "parameters": ["v"], "constraints": [*walls, *more]})
+    assert (report.dof, report.consistent, report.instantaneous_dof) == (1 - len(more), True, None)
+    assert "reference" not in {told.about for told in report.verdicts.values()}
+    assert any("reference configuration does not satisfy" in warning for warning in report.warnings)

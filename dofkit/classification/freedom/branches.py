@@ -16,6 +16,7 @@ from dofkit.classification.freedom.preparation import (
     branches_at_reference,
     copies,
     has_kink_at_reference,
+    passes_reference,
     reductions_at_reference,
 )
 from dofkit.classification.freedom.velocity_domain import with_values_in_motion
@@ -44,6 +45,10 @@ _LEFT_OUT = (
     f"of more than {MAX_CHOICES} combinations of branches, not all were examined, so the largest dimension is not known"
 )
 
+OFF_REFERENCE = (
+    "the reference configuration does not satisfy all geometric equations: the answer is for configurations that do, "
+    "not for the reference configuration itself"
+)
 KINKED = "the argument of an absolute value vanishes at the reference configuration, so there is no derivative"
 
 
@@ -173,6 +178,7 @@ def solve(reduced: Sequence[Reduced], setting: Setting, answered: AnsweredBlocks
     best = _largest(outcomes, why, setting) if outcomes else Outcome([], [], [], names)
     if len(outcomes) == 1:
         best.answers = _confirmed(best, setting)
+    best.answers = _at_the_reference(best, setting)
     best.copies = copied if outcomes else {}
     best.unsettled = [*unsettled, *best.unsettled]
     if setting.reference is not None and any(len(normal.branches) > 1 for _, normal in normals):
@@ -180,6 +186,23 @@ def solve(reduced: Sequence[Reduced], setting: Setting, answered: AnsweredBlocks
     if any(has_kink_at_reference(normal, setting) for _, normal in normals) and best.consistent is not False:
         best.answers = [Answer(None, verdict="undecided", reasons=[KINKED]) for _ in best.answers]
     return best
+
+
+def _at_the_reference(best: Outcome, setting: Setting) -> list[Answer]:
+    """The answers; told of a component where the reference configuration does not satisfy all geometric equations."""
+    if setting.reference is None or setting.tolerance is not None or best.consistent is not True:
+        return best.answers
+    off = [
+        a.instantaneous is None and not passes_reference([row.piece for row in block.rows], setting)
+        for block, a in zip(best.blocks, best.answers, strict=True)
+    ]
+    if not any(off):
+        return best.answers
+    scoped = [replace(a, about="component", exists=False) if a.about == "reference" else a for a in best.answers]
+    return [
+        replace(a, reasons=list(dict.fromkeys([*a.reasons, OFF_REFERENCE]))) if missed else a
+        for a, missed in zip(scoped, off, strict=True)
+    ]
 
 
 def _one_sided(reduced: Sequence[Reduced], positive: frozenset[Expr]) -> tuple[list[int], list[int]]:

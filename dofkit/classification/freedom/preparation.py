@@ -38,7 +38,7 @@ from dofkit.relations.normal.pieces import (
 )
 from dofkit.relations.normal.polynomial_zeros import PRODUCT_NOTE
 from dofkit.relations.setting import ALL, Reductions, Setting
-from dofkit.relations.velocity_reductions import Alternative
+from dofkit.relations.velocity_reductions import Alternative, RewrittenRow
 from dofkit.system import System
 
 #: The kinds of symbols that no finite relation holds.
@@ -155,7 +155,7 @@ def branches_at_reference(normal: Normal, setting: Setting) -> Normal:
     """Return the branches through the reference configuration; all of them if there is none, or none passes there."""
     if setting.reference is None or len(normal.branches) < 2:
         return normal
-    through = tuple(b for b in normal.branches if _passes(b, setting))
+    through = tuple(b for b in normal.branches if passes_reference(b, setting))
     return normal._replace(branches=through) if through else normal
 
 
@@ -163,10 +163,11 @@ def reductions_at_reference(alternatives: Sequence[Alternative], setting: Settin
     """Return the reductions of rows that are valid at the reference; all if there is none, or none is valid."""
     if setting.reference is None or len(alternatives) < 2:
         return alternatives
-    valid = [
-        a for a in alternatives if all(s.unchanged or _passes([r.piece for r in s.rows], setting) for s in a.slots)
-    ]
-    return valid or alternatives
+
+    def is_valid(rewritten: RewrittenRow) -> bool:
+        return rewritten.unchanged or passes_reference([row.piece for row in rewritten.rows], setting)
+
+    return [a for a in alternatives if all(map(is_valid, a.slots))] or alternatives
 
 
 def has_kink_at_reference(normal: Normal, setting: Setting) -> bool:
@@ -188,7 +189,8 @@ def has_kink_at_reference(normal: Normal, setting: Setting) -> bool:
         return False
 
 
-def _passes(branch: Sequence[Piece], setting: Setting) -> bool:
+def passes_reference(branch: Sequence[Piece], setting: Setting) -> bool:
+    """Return whether the finite relations of a branch hold at the reference configuration."""
     finite = [p for p in branch if isinstance(p, Finite)]
     configuration = {**(setting.reference or {}), ex.TIME: ex.ZERO}
     chart = make_chart(_block(finite), setting)
