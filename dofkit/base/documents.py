@@ -120,7 +120,10 @@ def _decoded(data: bytes | str) -> tuple[str, tuple[int, Fault] | None]:
 
 
 def _offset_of_column(source: str, column: int) -> int:
-    """Return the offset of a column of a text from where it begins in the file; 0 where it has several lines."""
+    """Return where a column of a value stands in its source, quotes and escapes counted: 1 is 1 in ``"x"``.
+
+    0 for a block scalar and where the value has several lines.
+    """
     if source[:1] in ("|", ">"):
         return 0
     if source[:1] not in ('"', "'"):

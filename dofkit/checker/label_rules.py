@@ -263,7 +263,7 @@ def moves(evidence: CheckedEvidence, claim: Told, wanted: Sequence[str]) -> Chec
 
 
 def refuted(evidence: CheckedEvidence, refutation: Told, verified: Told, names: Sequence[str] | None = None) -> bool:
-    """No motion meets equations: a positive number plus squares plus multiples of what is 0 cannot be 0.
+    """Return False, the value of `consistent`: a positive number plus squares plus multiples of what is 0 cannot be 0.
 
     An inequality is refuted by itself, times a positive number (Krivine 1964, Stengle 1974).
     """

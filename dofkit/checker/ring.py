@@ -113,7 +113,7 @@ class QuotientRing:
         return tuple(map(tuple, coefficients))
 
     def value_of(self, quotient: Quotient) -> Any:
-        """The rational number that a quotient is, or None."""
+        """The rational number that a quotient is, or None; a constant denominator is 1 in normal form."""
         above, below = quotient
         if above == 0:
             return fmpq(0)

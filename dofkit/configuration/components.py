@@ -173,12 +173,12 @@ def _most(choice: Iterable[all_cases.BoundedCase]) -> int:
 
 
 def _larger(chart: Chart, best: Variety, other: Variety, most: int) -> tuple[Variety, bool]:
-    """Return the larger of two varieties, and whether the other is known to be as large as it can be."""
+    """Return the larger of two varieties, and whether the other has the dimension ``most``: none can be larger."""
     samples = [p for p in other.samples if on_variety(chart, p)]
     if not other.consistent or other.dimension is None or not samples:
         return best, False
     larger = other.dimension > (best.dimension or 0)
-    return replace(other, samples=samples) if larger else best, other.dimension >= most
+    return (replace(other, samples=samples) if larger else best), other.dimension >= most
 
 
 def _restricted(chart: Chart, relations: Sequence[Expr]) -> Chart:

@@ -158,7 +158,7 @@ def on_variety(chart: Chart, point: FieldPoint) -> bool:
 
 
 def pose_point(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> FieldPoint | None:
-    """Return a point where the symbols have the given exact values, the others random ones, and the program runs."""
+    """Return a point over GF(p): given symbols have their exact values, others random ones; everything has a value."""
     occurring = {s: v for s, v in pose.items() if chart.ring.var_index(s) is not None}
     fixed = _values_of_generators(chart.ring, occurring)
     if fixed is None:

@@ -67,9 +67,10 @@ FLAT = "the admissible velocities form linear subspaces, which were not written 
 
 
 def set_velocity_freedom(block: Block, setting: Setting, result: Answer) -> None:
-    """The velocity freedom: a Jacobian's rank by the velocities, at states of motion.
+    """Set the velocity freedom to the rank of the Jacobian by the velocities, at states of motion.
 
-    Constraints that determine all velocities integrate: one equation on a line of others, or several on a component.
+    The ranks: by coordinates and velocities (``whole``), by velocities, and of the finite relations. Constraints that
+    determine all velocities integrate: one equation where others leave a curve, or several on a component.
     """
     if not block.nonlinear or result.velocity_dof is None:
         return

@@ -121,7 +121,7 @@ def _points_of(scene: Scene | System) -> tuple[SampledPoints, Decider] | Reply:
 
 
 def _is_clear(sampled: SampledPoints, numbers: Decider) -> bool:
-    """Return whether the equations are satisfied and no singular value lies between rounding and the smallest signal.
+    """Return whether a rank is clear: residuals vanish, no singular value lies between rounding and the least signal.
 
     A tolerance for the geometry, or a sign that rounding may turn, leaves nothing clear.
     """

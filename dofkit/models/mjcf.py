@@ -157,6 +157,7 @@ class _MjcfScene:
             self.draft.leave_out(f"{name}: of kind {kind}, which only MuJoCo defines", binding=True)
 
     def _coupling(self, name: str, kind: str, entry: Mapping[str, Any], line: int | None) -> None:
+        """Write an equality between joints or tendons, or of one tendon's length, where it can be written."""
         of = [i for i in entry["of"] if i >= 0]
         if kind == "tendon" and len(of) == 1 and self._string(name, of[0], entry["polynomial"][0], line):
             return

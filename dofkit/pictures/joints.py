@@ -80,6 +80,7 @@ def _frame(stage: StagedScene, connection: Connection) -> Array:
 
 
 def _stroke(stage: StagedScene, stroke: Stroke, carrier: str, position: Array, frame: Array) -> Shape:
+    """Return a stroke of a joint's symbol as a shape that its body carries; in the plane, one not filled is a guide."""
     role: Role = "joint" if stroke.filled or not stage.flat else "guide"
     points = [position + stage.unit * (np.array((*at, 0.0, 0.0)[:3]) @ frame) for at in stroke.positions]
     vertices = carried_by(carrier, points)

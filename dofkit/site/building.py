@@ -104,6 +104,7 @@ def settings(catalog: Sequence[ShownScene]) -> Any:
 
 
 def _filled(entry: Any, lists: dict[str, Any]) -> Any:
+    """Return the navigation with lists of generated pages in place of their names."""
     if isinstance(entry, str):
         return lists.get(entry, entry)
     if isinstance(entry, dict):

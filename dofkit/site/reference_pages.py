@@ -64,7 +64,7 @@ def _pages_of(kind: str, cls: type[ConstraintBase], scenes: Sequence[ShownScene]
 
 
 def scene_of(cls: type[ConstraintBase]) -> str:
-    """A whole scene around the type's example, in the first space that it names or is defined in.
+    """A whole scene around the type's example, in the plane where it has one; only names that occur are declared.
 
     >>> print(scene_of(TYPES["coincident"]))
     dimension: 2

@@ -25,12 +25,12 @@ def rheonomic() -> Iterator[KnownScene]:
 
 
 def hidden_by_time() -> Iterator[KnownScene]:
-    """Each coordinate the rate of the last: one finite relation at the start fixes all, and none leaves all free."""
+    """Chains ``xk' = x(k+1)``: one finite relation of x0 or of the last fixes all, and none leaves all free."""
     for n in (2, 3, 4, 6):
         names = [f"x{k}" for k in range(n)]
         rates = [f"x{k}dot = x{k + 1}" for k in range(n - 1)]
         last = f"x{n - 1}"
-        # name, rows before, rows after, dof, because
+        # name, rows before, rows after, dof (-1: they contradict each other), because
         rows: list[tuple[str, list[str], list[str], int, str]] = [
             ("nothing held", [], [], n, "Goursat's normal form in (t, x)"),
             ("the last held", [], [f"{last} = 2"], 0, "polynomials in t"),

@@ -71,7 +71,7 @@ def _entire(ring: Ring) -> bool:
 
 
 def _written(r: Reduced) -> list[list[tuple[str, Expr]]]:
-    """The equations of a constraint before anything was taken out of them; an empty one for what is not looked at."""
+    """The equations of a constraint as written, each as `_terms` has it; one without terms where any was reduced."""
     if len(r.normals) != len(r.constraint.relations) or any(n.notes for n in r.normals):
         return [[]]
     result = []

@@ -212,7 +212,10 @@ def _moved(witness: Mapping[str, str] | None, at: Mapping[str, str]) -> dict[str
 
 
 def _texts(system: System, at: Values) -> dict[str, str]:
-    """The values of the scene's symbols, coordinates first; of angles that no text names only those drawn."""
+    """The values of the scene's symbols, coordinates first.
+
+    Gibbs vectors, which no text names, are left out; a vector that is 0 stands for the angles of the drawing.
+    """
     answer = {_name(s): v for s, v in at.items()}
     for rotation in system.rotations:
         if rotation.chart == "gibbs":

@@ -42,7 +42,7 @@ class Likenesses:
         self._reference = None if setting.reference is None else _by_name(setting.reference)
 
     def of(self, block: Block) -> Likeness:
-        """What one block is compared by."""
+        """A key that is the same for blocks that are alike but for names, and the names in their order."""
         shapes = [piece_shape(p) for p in (*(row.piece for row in block.rows), *block.conditions)]
         numbers = self._generic
         mentioned = {n for shape in shapes for n in shape.names if n in numbers}

@@ -177,7 +177,10 @@ _OTHER_FORM = re.compile(r"(?<![A-Za-z])d[A-Za-zα-ωΑ-Ω]")
 
 
 def with_differentials(script: Script) -> Script:
-    """``d theta`` joined to ``dtheta``, and ``d/dt (...)`` and ``d(...)`` as derivatives by time."""
+    """``d theta`` joined to ``dtheta``, and ``d/dt (...)`` and ``d(...)`` as derivatives by time.
+
+    Beside other differentials ``d(x y)`` is one itself and stays: ``d(x y) = z dz``.
+    """
     for pattern, by in _JOINED:
         script = script.replaced(pattern, by)
     place = 0

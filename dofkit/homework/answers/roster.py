@@ -126,7 +126,7 @@ class Roster:
 
 
 def own_name(claim: str) -> str:
-    """Return the name of a student who is identified by a file or a folder only: never that of another.
+    """Return the student named by a file or folder of Moodle or PrairieLearn; any other name is kept whole.
 
     >>> own_name("Ada Lovelace_123_assignsubmission_file_"), own_name("sheet_1_2_ada")
     ('Ada Lovelace_123', 'sheet_1_2_ada')

@@ -105,7 +105,7 @@ def _owners(constraint: Constraint, system: System) -> frozenset[str | None]:
 
 
 def _held(entry: ConstraintEntry, constraint: Constraint) -> list[str]:
-    """Return the coordinates that equations of a constraint of its own hold at numbers."""
+    """Return the coordinates that the equations of a constraint, such as ``x = 2``, fix at a number."""
     facts, held = constraint.facts, []
     if not facts.written or not facts.surface or facts.shared or entry.form != "finite":
         return []

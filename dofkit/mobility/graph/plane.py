@@ -150,7 +150,7 @@ class PebbleGame:
         return True
 
     def _fixing(self, v: int, other: int) -> int:
-        """Return the block that holds both ends, neither of them ``other``, of the links with v's pebbles, or NONE."""
+        """Return the rigid block to which v's two links fix it, neither leading to ``other``; or NONE."""
         of, w, x = self.blocks.of, self.first[v], self.second[v]
         if x < 0 or w == other or x == other:
             return NONE

@@ -236,7 +236,10 @@ class _Linearization:
 
 
 def _squares(polynomial: Any, s: Any, damping: Any) -> list[Any]:
-    """Return omega^2 with s = i omega, from the factors of the polynomial in s^2, or nothing where C is not 0."""
+    """Return the squares of the angular frequencies, s = i omega, from the factors of the polynomial in s^2.
+
+    Nothing with damping, and where a factor has no formula for its roots.
+    """
     import sympy
 
     if not damping.is_zero_matrix or not damping.rows:

@@ -187,7 +187,7 @@ class PolynomialZeros:
         return branches_of(branches, notes)
 
     def _undefined(self, factor: Any, bottom: Any) -> bool:
-        """Return whether a denominator vanishes wherever the factor does."""
+        """Return whether a denominator vanishes where the factor does: by a common factor, or at a drawn point."""
         if bottom.is_constant():
             return False
         if not factor.gcd(bottom).is_constant():

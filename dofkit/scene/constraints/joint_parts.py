@@ -259,7 +259,7 @@ def _displacement(first: Frame, second: Frame, drawn: JointGeometry) -> Expr:
 
 
 def _displacement_law(first: Frame, second: Frame, drawn: JointGeometry, law: Expr) -> Expr:
-    """Displacement along the axis less the law: n.X - |n| f = 0, cleared."""
+    """Displacement along the axis less the law, n.X - |n| f = 0 with X the displacement, times its denominator."""
     n = drawn.axis.vector
     moved, under = slide(first, second, drawn, n)
     return difference(moved, mul(length(n), under, law))
