@@ -114,16 +114,6 @@ SAME: Mapping[tuple[str, str, str], str] = {
         "enters = {_time_enters(entries[r.constraint]) for r in block.rows} if shared else {True}",
     ): "what does not use time has no part in either count",
     (
-        "dofkit/classification/dependence/comparison.py",
-        "size = rng.randint(1, 2**20)",
-        "size = rng.randint(0, 2**20)",
-    ): "0 is drawn once in a million times, and a point where it is drawn is passed over",
-    (
-        "dofkit/integrability/lie_algebra.py",
-        "enough = n - free + 2 + (BEYOND if drawn else 0)",
-        "enough = n - free + 2 + (BEYOND if drawn else 1)",
-    ): "one more order than is needed",
-    (
         "dofkit/configuration/local/manifold.py",
         "zero, unity = self.sample, self.sample + 1",
         "zero, unity = self.sample, self.sample - 1",

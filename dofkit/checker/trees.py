@@ -81,7 +81,7 @@ class Tree:
         return self.hashed
 
     def __eq__(self, other: object) -> bool:
-        """Whether both are written the same; what has another hash is told apart at once."""
+        """Whether both are written the same; with different hashes they are not."""
         if self is other or not isinstance(other, Tree) or self.hashed != other.hashed:
             return self is other
         same = self.head == other.head and self.value == other.value and self.orders == other.orders
@@ -326,13 +326,15 @@ def in_velocities(tree: Tree, coordinates: Collection[str]) -> Tree:
 
 
 def _cleared(tree: Tree, rates: Collection[str]) -> Tree:
-    """A relation times the velocities that its terms are divided by, so that dy/dx = f says dy = f dx."""
+    """A relation times the velocities that its terms are divided by, each once, so that dy/dx = f says dy = f dx."""
     terms = [list(_flat(term, "product")) for term in _flat(tree, "sum")]
     inverses = {
         factor: factor.below[0]
         for factor in chain(*terms)
         if factor.head == "power" and factor.below[1] == MINUS and factor.symbols and factor.symbols.issubset(rates)
     }
+    if any(term.count(inverse) > 1 for term in terms for inverse in inverses):
+        return tree
     cleared = []
     for term in terms:
         others = [base for inverse, base in inverses.items() if inverse not in term]

@@ -151,7 +151,7 @@ def vanishes_on(
 
     A certified point where it is not is a proof that it is not. With ``regular_in``, for a slope along a direction, g
     must not be stationary in these symbols there: otherwise that slope does not tell whether the set is the same along
-    it. What one factor, one branch of a root or one sign of an absolute value tells is not told of the others.
+    it. What one factor, one branch of a root or one sign of an absolute value shows is not claimed of others.
     """
     still, sure = zero_and_verdict(slope, positive, engines)
     if still:

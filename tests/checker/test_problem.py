@@ -55,6 +55,7 @@ constraints:
 - dy/dx = tan(phi)
 - 0 <= x < b
 - dx/dt - v
+- {name: twice, text: 1/xdot/xdot = 4}
 - xdot + x - xdot = 0
 """)
     assert said(problem) == {
@@ -65,7 +66,8 @@ constraints:
             "c8.1": "inequality",
             "c8.2": "inequality",
             "c9": "velocity",
-            "c10": "finite",
+            "twice": "velocity",
+            "c11": "finite",
         },
     }
     assert [relation.strict for relation in problem.relations if relation.kind == "inequality"] == [False, True]
@@ -73,7 +75,7 @@ constraints:
     texts = {
         **{"sphere": "x^2 + y^2 - 9/4", "c2": "xdot - R cos(phi) phidot", "c3": "x ydot + tdot", "c4": "xdot - v tdot"},
         **{"c5": "xdot^2 + ydot^2 - v^2", "c6": "xdot^2 + ydot^2 - v^2", "c7": "ydot - tan(phi) xdot"},
-        **{"c8.1": "x", "c8.2": "3/2 - x", "c9": "xdot - v tdot", "c10": "x"},
+        **{"c8.1": "x", "c8.2": "3/2 - x", "c9": "xdot - v tdot", "c11": "x", "twice": "1/xdot^2 - 4"},
     }
     for name, text in texts.items():
         agrees(problem, name, text)

@@ -56,6 +56,9 @@ def test_a_set_that_may_not_be_minimal_is_no_sure_answer() -> None:
     assert report.consistent is False
     assert {"c1", "c3", "c4"} <= {*report.conflicting}
     assert report.verdicts["conflicting"].verdict == "undecided" or report.conflicting == ["c1", "c3", "c4"]
+    walled = classified(list("xyzw"), [*texts, "y >= 0"])
+    assert (walled.feasible, walled.infeasible) == (False, walled.conflicting)
+    assert walled.verdicts["infeasible"].verdict == walled.verdicts["conflicting"].verdict
 
 
 def test_unrelated_constraints_are_left_alone() -> None:

@@ -581,6 +581,8 @@ export class Rules {
 
   growth(claim) {
     refuse(claim.rule !== "span", "another rule");
+    const forms = this.e.relations.filter((r) => r.kind === "velocity");
+    refuse(!forms.length || forms.some((r) => !this.e.form(r)), "a growth vector is of forms");
     const value = list(claim.value);
     const spans = list(claim.spans);
     refuse(value.length !== spans.length || !value.length || !value.every(whole), "a span for each entry is needed");

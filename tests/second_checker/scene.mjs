@@ -362,12 +362,13 @@ export class Scene {
 
 // -- the constraint types --------------------------------------------------------------------------
 
-/** A relation times the velocities that its terms are divided by, so that dy/dx = f says dy = f dx. */
+/** A relation times the velocities that its terms are divided by, each once, so that dy/dx = f says dy = f dx. */
 function cleared(tree, rates) {
   const terms = (tree.head === "sum" ? tree.args : [tree]).map((t) => (t.head === "product" ? t.args : [t]));
   const isRate = (f) => f.symbols.size > 0 && [...f.symbols].every((name) => rates.includes(name));
   const isInverse = (f) => f.head === "power" && isNumber(f.args[1], -1) && isRate(f);
   const inverses = new Set(terms.flat().filter(isInverse));
+  if (terms.some((term) => new Set(term.filter(isInverse)).size < term.filter(isInverse).length)) return tree;
   const whole = (term) => [...inverses].filter((f) => !term.includes(f)).map((f) => f.args[0]);
   return add(...terms.map((term) => mul(...term.filter((f) => !inverses.has(f)), ...whole(term))));
 }

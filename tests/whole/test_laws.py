@@ -375,6 +375,8 @@ def growth(report: Report) -> list[int] | None:
 @on("copied", COPIED)
 def test_two_copies_have_twice_the_freedom(path: Path) -> None:
     report, other = report_of(path), classified(beside(path))
+    if other.consistent is None and scene_of(path).functions:
+        return  # two unknown functions of time may be 0 at no common time
     for key in NUMBERS:
         assert getattr(other, key) == doubled(getattr(report, key)), key
     assert nullities(other) == sorted(2 * nullities(report))

@@ -64,7 +64,9 @@ def feasibility(study: Study) -> Feasibility:
     """Of a system with inequalities."""
     if study.outcome.consistent is False:
         answer = weakest(*(a.verdict for a in study.outcome.answers if a.consistent is False))
-        return Feasibility(False, tuple(study.dependence.conflicting.members), verdict=answer)
+        members, claim = study.dependence.conflicting
+        reasons = (NOT_MINIMAL.format(names="all of them"),) if claim.verdict != "proved" else ()
+        return Feasibility(False, tuple(members), verdict=answer, reasons=reasons)
     if study.setting.engines != BOTH:
         return Feasibility(None)
     repeated = copies(study.reduced)
@@ -203,7 +205,8 @@ def _claims(feasibility: Feasibility) -> dict[str, FieldVerdict]:
         return {"feasible": FieldVerdict.of(Claim("undecided"))}
     argument: ArgumentKey = "met at a point" if feasibility.feasible else "excluded together"
     claim = FieldVerdict.of(Claim(feasibility.verdict, argument, BITS, GAP))
-    return {"feasible": claim} | ({"infeasible": claim} if feasibility.infeasible and not feasibility.reasons else {})
+    minimal = FieldVerdict.of(Claim("undecided")) if feasibility.reasons else claim
+    return {"feasible": claim} | ({"infeasible": minimal} if feasibility.infeasible else {})
 
 
 def _moved(witness: Mapping[str, str] | None, at: Mapping[str, str]) -> dict[str, str] | None:

@@ -189,7 +189,7 @@ def solve(reduced: Sequence[Reduced], setting: Setting, answered: AnsweredBlocks
 
 
 def _at_the_reference(best: Outcome, setting: Setting) -> list[Answer]:
-    """The answers; told of a component where the reference configuration does not satisfy all geometric equations."""
+    """The answers; about a component where the reference configuration does not satisfy all geometric equations."""
     if setting.reference is None or setting.tolerance is not None or best.consistent is not True:
         return best.answers
     off = [

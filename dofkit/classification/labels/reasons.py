@@ -336,7 +336,7 @@ BY_FORM: Mapping[Form, ArgumentKey] = {
     "inequality": "inequality",
     "nonlinear": "curved velocities",
 }
-#: The arguments for what integrates beside others only.
+#: The arguments for what integrates only together with other constraints.
 _IN_SYSTEM: tuple[ArgumentKey, ArgumentKey] = ("line field", "in the integrable part")
 
 
