@@ -45,9 +45,9 @@ OPEN: dict[MethodName, str] = {
         four-bar-stretched four-wheels-with-ackermann hoist
         isosceles-slider-crank jansen-leg kite-folded linear-triple-in-3d measured-bennett miura-vertex-flat
         omnidirectional-robot parallel-velocities parallelogram-flattened perpendicular-velocities
-        plate-on-four-threads platform-on-parallel-legs rhombus-folded sarrus-folded sarrus-stretched speed-by-height
-        spherical-four-bar-stretched three-cranks-in-line three-masses-on-one-rod trap_circles_tangent
-        two-particles-on-sphere waterbomb-vertex-flat wren-platform
+        plate-on-four-threads platform-on-parallel-legs pursuit-at-constant-speed rhombus-folded sarrus-folded
+        sarrus-stretched speed-by-height spherical-four-bar-stretched three-cranks-in-line three-masses-on-one-rod
+        trap_circles_tangent two-particles-on-sphere waterbomb-vertex-flat wren-platform
     """,
     "balls": """
         double-watt double-watt-alike holonomic-definition miura-vertex-flat plate-on-four-threads

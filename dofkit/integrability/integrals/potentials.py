@@ -160,7 +160,7 @@ def antiderivative(work: Algebra, e: Expr, x: Expr) -> Expr | None:
         integral = _termwise(work, expand(integrand), x)
         if integral is not None:
             return integral
-    return _by_sympy(work, work.tidy(e), x)
+    return _by_sympy(work, min(e, work.tidy(e), key=size), x)
 
 
 def _termwise(work: Algebra, e: Expr, x: Expr) -> Expr | None:
