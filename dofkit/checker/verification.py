@@ -28,7 +28,7 @@ TABLE: tuple[tuple[str, str, Rule], ...] = (
     ("/consistent", "nullstellensatz", labels.refuted), ("/conflicting", "conflict", labels.conflict),
     ("/dof, /velocity_dof", "squeeze, regular", numbers.bounds), ("circuit", "cofactors", numbers.circuit),
     ("/velocity_dof, /redundant_equations, /redundancies", "count", numbers.counted),
-    ("/holonomic, /scleronomic, /singular", "count", numbers.counted),
+    ("/holonomic, /scleronomic, /singular, /generalized_coordinates", "count", numbers.counted),
     ("/instantaneous_dof", "rank", numbers.instantaneous), ("/redundant", "cofactors", numbers.redundant),
     ("independent", "independent", numbers.independence), ("independent", "inequality", labels.by_kind),
     ("/integrable_part", "integrals", labels.integrable_part), ("/growth_vector", "span", numbers.growth),

@@ -531,8 +531,12 @@ export class Rules {
 
   coordinates(claim) {
     const value = list(claim.value);
-    const minor = this.e.minor(claim.minor);
     const dof = this.before("/dof");
+    if (claim.rule === "count") {
+      refuse(value.length || dof.value !== 0, "some are needed");
+      return {};
+    }
+    const minor = this.e.minor(claim.minor);
     refuse(value.length !== dof.value || new Set(value).size < value.length, "as many coordinates as dof are needed");
     if (claim.rule === "minor") refuse(minor.rows.some((r) => r.kind !== "finite"), "all rows are finite or integrals");
     else if (claim.rule === "frobenius") this.frobenius(claim, minor);

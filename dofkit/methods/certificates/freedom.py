@@ -133,7 +133,9 @@ def generalized_coordinates(context: Context) -> Iterator[Told]:
     """
     chosen = context.report.generalized_coordinates
     finite = context.finite_standing
-    if chosen is None or finite is None:
+    if chosen == []:
+        yield from counted(context)
+    if not chosen or finite is None:
         return
     others = [q for q in context.problem.coordinates if q not in chosen]
     solving = context.standing_of(finite.rows, others) if len(others) == len(finite.rows) else None
