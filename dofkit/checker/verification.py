@@ -13,7 +13,7 @@ from dofkit.checker import label_rules as labels
 from dofkit.checker.evidence import CheckedEvidence, take_cover
 from dofkit.checker.motion import motion
 from dofkit.checker.problem import CheckedProblem as Problem
-from dofkit.checker.problem import canonical, document_of, problem_of_canonical, sha256_of_canonical
+from dofkit.checker.problem import canonical, problem_of_canonical, sha256_of_canonical
 from dofkit.checker.relations import FAULTS, fault_text
 from dofkit.checker.trees import CheckError, Effort, refuse
 
@@ -63,15 +63,14 @@ class Verification(NamedTuple):
     trusted: dict[str, str]
 
 
-def verify(scene: Any, certificate: Mapping[str, Any] | str | bytes) -> Verification:
-    """Recheck every claim of a certificate about a scene (its document, or its text).
+def verify(document: Any, certificate: Mapping[str, Any] | str | bytes) -> Verification:
+    """Recheck every claim of a certificate about the scene of a document.
 
-    Without a scene, the document in the certificate is taken. A certificate that cannot be read, or that is of another
+    Without one, the document in the certificate is taken. A certificate that cannot be read, or that is of another
     scene, raises `CheckError`; a claim that is not shown is told in ``failed``.
     """
     content = certificate_of(certificate)
-    scene = content["scene"].get("document") if scene is None else scene
-    return Verifier(document_of(scene) if isinstance(scene, str) else scene, content).run()
+    return Verifier(content["scene"].get("document") if document is None else document, content).run()
 
 
 def certificate_of(content: Any) -> dict[str, Any]:
