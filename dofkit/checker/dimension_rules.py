@@ -10,7 +10,7 @@ from flint import fmpq_mat
 from dofkit.checker.evidence import MOST, CheckedEvidence, CheckedMinor, Told, admissible, independent, of_word, span
 from dofkit.checker.geometry import determinant, dot
 from dofkit.checker.point import CheckedPoint
-from dofkit.checker.trees import ONE, derivative, not_zero, refuse, times
+from dofkit.checker.trees import ONE, derivative, not_zero, refuse
 
 MOST_FORMS = 6
 
@@ -336,7 +336,7 @@ def _independent_everywhere(evidence: CheckedEvidence, gram: Told, ordered: list
     positive = all(evidence.is_nowhere_zero(tree, True) for tree in (value, *scales.values()))
     refuse(not positive, "the determinant or a scale is not positive by itself")
     rows = [[evidence.slope(name, q) for q in coordinates] for name in forms]
-    scaled = [[times(scales.get(q, ONE), slope) for q, slope in zip(coordinates, row, strict=True)] for row in rows]
+    scaled = [[scales.get(q, ONE) * slope for q, slope in zip(coordinates, row, strict=True)] for row in rows]
     matrix = [[dot(row, other) for other in scaled] for row in rows]
     evidence.identity(determinant(matrix), value, "the determinant of the forms")
 

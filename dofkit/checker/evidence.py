@@ -21,7 +21,6 @@ from dofkit.checker.trees import (
     along,
     call,
     derivative,
-    difference,
     evaluated,
     linear_in,
     not_zero,
@@ -220,7 +219,7 @@ def bracket(evidence: CheckedEvidence, x: VelocityField, y: VelocityField) -> Ve
     sizes = [sum(tree.size for tree in field.values()) for field in (x, y)]
     evidence.effort.spend(sizes[0] * len(y) + sizes[1] * len(x) + 1)
     refuse(max(sizes) > LARGEST_FIELD, "a bracket is too large")
-    return {q: difference(along(x, y.get(q, ZERO)), along(y, x.get(q, ZERO))) for q in {**x, **y}}
+    return {q: along(x, y.get(q, ZERO)) - along(y, x.get(q, ZERO)) for q in {**x, **y}}
 
 
 def on_row(evidence: CheckedEvidence, row: str, field: VelocityField) -> Tree:

@@ -20,7 +20,6 @@ from dofkit.checker.trees import (
     add,
     call,
     keeps_values,
-    negative,
     number,
     power,
     refuse,
@@ -115,7 +114,7 @@ class KnownNames:
             match = pattern.fullmatch(word)
             base = self.words.get("".join(match.groups(""))) if match else None
             if base and base.name in self.coordinates:
-                return Lexeme("value" if "'" in word else "moving", times(symbol(f"{base.name}dot"), step))
+                return Lexeme("value" if "'" in word else "moving", symbol(f"{base.name}dot") * step)
         return None
 
     def meaning(self, word: str) -> Lexeme:
@@ -161,7 +160,7 @@ def parse_relations(text: object, names: KnownNames, signs: bool = True) -> list
     side, relations = reader.sum(), []
     while signs and (sign := reader.accepted("relation").name):
         right = reader.sum()
-        tree = add(right, negative(side)) if sign[0] in "<≤" else add(side, negative(right))
+        tree = add(right, -side) if sign[0] in "<≤" else add(side, -right)
         relations.append(Sided(tree, "=" if sign[0] == "=" else ">" if sign in "<>" else ">="))
         side = right
     reader.needed("end")
@@ -222,7 +221,7 @@ class _Reader:
             of_time = self.next.kind == "(" and self.next.touching and self.tokens[self.at + 1].tree == _TIME
             refuse(of_time, "it may be a power or a factor")
         self.depth -= 1
-        return negative(tree) if minus else tree
+        return -tree if minus else tree
 
     def primary(self) -> Tree:
         """A number, a name, a group, or a function of something."""

@@ -13,13 +13,11 @@ from dofkit.checker.trees import (
     Tree,
     add,
     derivative,
-    difference,
     homogeneous_degree,
     not_zero,
     refuse,
     substituted,
     symbol,
-    times,
 )
 
 Form = dict[str, Tree]
@@ -112,7 +110,7 @@ def exact(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
 
 def exterior_part(form: Form, i: str, j: str) -> Tree:
     """A component of the derivative of a form."""
-    return difference(derivative(form.get(j, ZERO), i), derivative(form.get(i, ZERO), j))
+    return derivative(form.get(j, ZERO), i) - derivative(form.get(i, ZERO), j)
 
 
 def timeless(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
@@ -147,10 +145,7 @@ def time_dependent(evidence: CheckedEvidence, claim: Told, verified: Told) -> bo
     name, point, catastatic = claim["relation"], evidence.point(claim["at"]), claim["field"] == "catastatic"
     names, checked = constraint_relations(evidence, claim, EVERY), evidence.relation(claim["relation"])
     plain = len(names) == 1 or all(evidence.relation(other).kind == "finite" for other in names)
-    refuse(
-        name not in names or not plain,
-        "one relation of the constraint is needed, or finite ones",
-    )
+    refuse(name not in names or not plain, "one relation of the constraint is needed, or finite ones")
     turned = derivative(checked.tree, "t")
     if checked.kind == "velocity" and evidence.is_linear(name):
         turned = evidence.slope(name, "t")
@@ -158,7 +153,7 @@ def time_dependent(evidence: CheckedEvidence, claim: Told, verified: Told) -> bo
         refuse(not catastatic and "pair" not in claim and not integrates, "it is not shown to integrate")
         if not catastatic and "pair" in claim:
             a, b = (evidence.slope(name, v) for v in claim["pair"])
-            turned = difference(times(a, derivative(b, "t")), times(b, derivative(a, "t")))
+            turned = a * derivative(b, "t") - b * derivative(a, "t")
     else:
         if checked.kind == "finite":
             evidence.on_set(point, names)
@@ -168,7 +163,7 @@ def time_dependent(evidence: CheckedEvidence, claim: Told, verified: Told) -> bo
             v: derivative(checked.tree, v) for v in sorted(checked.tree.symbols.difference(evidence.chosen, ["t"]))
         }
         if catastatic:
-            turned = add(*(times(symbol(v), slopes[v]) for v in slopes if v in evidence.velocities))
+            turned = add(*(symbol(v) * slopes[v] for v in slopes if v in evidence.velocities))
         stationary = not any(not_zero(point.value(slope)) for slope in slopes.values())
         refuse(stationary and checked.kind != "inequality", "the relation may be stationary at the point")
     refuse(not not_zero(point.value(turned)), "time may not enter at the point")
@@ -278,7 +273,7 @@ def refuted(evidence: CheckedEvidence, refutation: Told, verified: Told, names: 
         refuse(checked.kind == "inequality" and not alone, "an inequality is refuted by itself, times what is positive")
         whole = name in held and not checked.leaf and evidence.has_value_everywhere(factor)
         refuse(not whole, f"`{name}` is not shown to follow everywhere, or has a cofactor without a value")
-        total.append(times(factor, checked.tree))
+        total.append(factor * checked.tree)
     evidence.identity(substituted(add(*total), {"tdot": ONE}), ZERO, "what is left over")
     return False
 

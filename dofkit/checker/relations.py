@@ -16,7 +16,6 @@ from dofkit.checker.point import CheckedPoint
 from dofkit.checker.problem import CheckedProblem, CheckedRelation
 from dofkit.checker.ring import CheckedRing
 from dofkit.checker.trees import (
-    TWO,
     CheckError,
     Effort,
     Tree,
@@ -24,13 +23,10 @@ from dofkit.checker.trees import (
     along,
     evaluated,
     keeps_values,
-    negative,
     not_zero,
-    power,
     put_in,
     refuse,
     symbol,
-    times,
 )
 
 #: What a certificate of another form, or a hostile one, may raise.
@@ -79,7 +75,7 @@ class CheckedTexts:
 
     def same(self, first: Tree, second: Tree) -> bool:
         """Whether two trees are the same in the ring."""
-        return self.ring.vanishes(add(first, negative(second)))
+        return self.ring.vanishes(add(first, -second))
 
     def squares(self, terms: Any) -> Tree:
         """A sum of squares, which have a value everywhere, with positive coefficients."""
@@ -89,7 +85,7 @@ class CheckedTexts:
                 not self.is_nowhere_zero(c, True) or not self.has_value_everywhere(a),
                 "no square, or times what is <= 0",
             )
-        return add(*(times(c, power(a, TWO)) for c, a in pairs))
+        return add(*(c * a**2 for c, a in pairs))
 
     def is_open(self, tree: Tree) -> bool:
         """Whether parameters, generic lengths or unknown functions occur, for which a point chooses values.
@@ -185,8 +181,8 @@ class CheckedRelations(CheckedTexts):
         cofactors, h = [self.text(text) for text in step["c"].values()], self.text(step.get("h", "1"))
         refuse(self.met_by(h) or (leaf and self.met_by(tree)), "the factor or integral holds velocities")
         change = total_derivative(tree, self.variables) if leaf else tree
-        combination = add(*(times(c, source.tree) for c, source in zip(cofactors, sources, strict=True)))
-        total = add(times(h, change), negative(combination))
+        combination = add(*(c * source.tree for c, source in zip(cofactors, sources, strict=True)))
+        total = add(h * change, -combination)
         for name, q in substitutions:
             source, (slope, total) = self.relation(name), put_in(total, q, self.relation(name).tree)
             refuse(

@@ -87,6 +87,30 @@ class Tree:
         same = self.head == other.head and self.value == other.value and self.orders == other.orders
         return same and self.below == other.below
 
+    def __add__(self, other: Tree) -> Tree:
+        """The sum."""
+        return add(self, other)
+
+    def __sub__(self, other: Tree) -> Tree:
+        """The difference, 0 where both are the same."""
+        return ZERO if self == other else add(self, -other)
+
+    def __neg__(self) -> Tree:
+        """Times -1."""
+        return times(MINUS, self)
+
+    def __mul__(self, other: Tree) -> Tree:
+        """The product."""
+        return times(self, other)
+
+    def __truediv__(self, other: Tree) -> Tree:
+        """The product with the inverse."""
+        return times(self, power(other, MINUS))
+
+    def __pow__(self, exponent: int) -> Tree:
+        """A whole power."""
+        return power(self, number(exponent))
+
 
 ZERO, ONE, TWO, MINUS = (Tree("number", (), Fraction(k)) for k in (0, 1, 2, -1))
 HALF = Tree("number", (), Fraction(1, 2))
@@ -132,16 +156,6 @@ def times(*factors: Tree) -> Tree:
     return others[0] if len(others) == 1 else Tree("product", tuple(others))
 
 
-def negative(term: Tree) -> Tree:
-    """Times -1."""
-    return times(MINUS, term)
-
-
-def difference(a: Tree, b: Tree) -> Tree:
-    """a - b, 0 where they are the same."""
-    return ZERO if a == b else add(a, negative(b))
-
-
 def power(base: Tree, exponent: Tree) -> Tree:
     """A power; exponents 0 and 1, and powers of 1, are carried out."""
     if exponent == ONE:
@@ -156,14 +170,13 @@ def call(name: str, *arguments: Tree) -> Tree:
 
 #: Each is the same real number, and has a value and is smooth at the same places.
 _MEANINGS: dict[str, Callable[..., Tree]] = {
-    "tan": lambda u: times(call("sin", u), call("sec", u)), "sec": lambda u: power(call("cos", u), MINUS),
-    "cot": lambda u: times(call("cos", u), call("csc", u)), "csc": lambda u: power(call("sin", u), MINUS),
-    "sqrt": lambda u: power(u, HALF), "abs": lambda u: power(power(u, TWO), HALF),
-    "asin": lambda u: call("atan2", u, call("cos asin", u)), "acos": lambda u: call("atan2", call("cos asin", u), u),
-    "cos asin": lambda u: call("sqrt", difference(ONE, power(u, TWO))), "atan": lambda u: call("atan2", u, ONE),
-    "sinh": lambda u: times(HALF, difference(call("exp", u), call("exp", negative(u)))),
-    "cosh": lambda u: times(HALF, add(call("exp", u), call("exp", negative(u)))),
-    "tanh": lambda u: times(call("sinh", u), power(call("cosh", u), MINUS)),
+    "tan": lambda u: call("sin", u) / call("cos", u), "sec": lambda u: call("cos", u) ** -1,
+    "cot": lambda u: call("cos", u) / call("sin", u), "csc": lambda u: call("sin", u) ** -1,
+    "sqrt": lambda u: power(u, HALF), "abs": lambda u: power(u**2, HALF), "atan": lambda u: call("atan2", u, ONE),
+    "asin": lambda u: call("atan2", u, call("sqrt", ONE - u**2)),
+    "acos": lambda u: call("atan2", call("sqrt", ONE - u**2), u),
+    "sinh": lambda u: HALF * (call("exp", u) - call("exp", -u)),
+    "cosh": lambda u: HALF * (call("exp", u) + call("exp", -u)), "tanh": lambda u: call("sinh", u) / call("cosh", u),
 }  # fmt: skip
 
 
@@ -237,24 +250,23 @@ def derivative(tree: Tree, name: str) -> Tree:
     def by(node: Tree, inner: tuple[Tree, ...]) -> Tree:
         if not inner:
             return ONE
-        return add(*(times(_partial(node, i), part) for i, part in enumerate(inner) if part != ZERO))
+        return add(*(_partial(node, i) * part for i, part in enumerate(inner) if part != ZERO))
 
     return folded(tree, by, lambda node: None if name in node.symbols else ZERO)
 
 
 def _partial(node: Tree, place: int) -> Tree:
     """The derivative of a node by what stands at one place below it."""
-    u, *others = below = node.below
+    u, *_ = below = node.below
     if node.head == "product":
         return times(*below[:place], *below[place + 1 :])
     if node.head == "power":
-        return times(node, call("log", u)) if place else times(below[1], power(u, add(below[1], MINUS)))
+        return node * call("log", u) if place else below[1] * power(u, below[1] + MINUS)
     if node.head == "apply":
         return replace(node, orders=tuple(k + (i == place) for i, k in enumerate(node.orders)))
     if node.head == "atan2":
-        size = add(power(u, TWO), *(power(v, TWO) for v in others))
-        return times(MINUS if place else ONE, below[1 - place], power(size, MINUS))
-    slopes = {"sum": ONE, "exp": node, "log": power(u, MINUS), "sin": call("cos", u), "cos": negative(call("sin", u))}
+        return (-u if place else below[1]) / add(*(v**2 for v in below))
+    slopes = {"sum": ONE, "exp": node, "log": u**-1, "sin": call("cos", u), "cos": -call("sin", u)}
     return slopes[node.head]
 
 
@@ -271,7 +283,7 @@ def keeps_values(node: Tree, poles: bool = False) -> bool:
 def along(field: Mapping[str, Tree], tree: Tree) -> Tree:
     """The derivative of a tree along a field."""
     held = tree.symbols
-    return add(*(times(value, derivative(tree, name)) for name, value in field.items() if name in held))
+    return add(*(value * derivative(tree, name) for name, value in field.items() if name in held))
 
 
 def linear_in(tree: Tree, names: Collection[str]) -> tuple[dict[str, Tree], Tree] | None:
@@ -287,7 +299,7 @@ def put_in(tree: Tree, name: str, relation: Tree) -> tuple[Tree, Tree]:
     """The slope (or 0) of what is linear in a symbol, and a tree with the value of it at which that is 0."""
     slopes, remainder = linear_in(relation, [name]) or ({}, ZERO)
     slope = slopes.get(name, ZERO)
-    return slope, substituted(tree, {name: times(MINUS, remainder, power(slope, MINUS))})
+    return slope, substituted(tree, {name: -remainder / slope})
 
 
 def homogeneous_degree(tree: Tree, names: Collection[str]) -> Fraction | None:
@@ -321,8 +333,8 @@ def in_velocities(tree: Tree, coordinates: Collection[str]) -> Tree:
     linear = linear_in(tree, rates) or linear_in(_cleared(tree, rates), rates)
     if linear is None:
         return tree
-    form = [times(slope, symbol(rate)) for rate, slope in linear[0].items()]
-    return add(*form, times(linear[1], symbol("tdot"))) if form or degree else linear[1]
+    form = [slope * symbol(rate) for rate, slope in linear[0].items()]
+    return add(*form, linear[1] * symbol("tdot")) if form or degree else linear[1]
 
 
 def _cleared(tree: Tree, rates: Collection[str]) -> Tree:

@@ -15,7 +15,7 @@ from dofkit.checker.dimension_rules import free_coordinates
 from dofkit.checker.evidence import HIGHEST_ORDER, along_curve
 from dofkit.checker.geometry import determinant, dot
 from dofkit.checker.ring import CheckedRing
-from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, number, power, symbol, times
+from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, symbol, times
 from dofkit.methods.certificates.context import Context, Standing, Told
 from dofkit.methods.certificates.fields import LARGEST_CRAMER, backing, kept_motions, orbit
 from dofkit.methods.certificates.numerics import echelon, least_step
@@ -147,11 +147,9 @@ def _gram(context: Context, forms: list[str]) -> Told | None:
     for q, column in zip(coordinates, zip(*rows, strict=True), strict=True):
         shared = [{*operands(entry, "product")} for entry in column if entry != ZERO]
         letters = [symbol(name) for name, sign in context.problem.world.signs.items() if sign == "positive"]
-        common = [
-            power(letter, number(-2)) for letter in letters if shared and all(letter in factors for factors in shared)
-        ]
+        common = [letter ** (-2) for letter in letters if shared and all(letter in factors for factors in shared)]
         scales |= {q: times(*common)} if common else {}
-    scaled = [[times(scales.get(q, ONE), slope) for q, slope in zip(coordinates, row, strict=True)] for row in rows]
+    scaled = [[scales.get(q, ONE) * slope for q, slope in zip(coordinates, row, strict=True)] for row in rows]
     try:
         value = evidence.ring.read(determinant([[dot(row, other) for other in scaled] for row in rows]))
     except CheckError:

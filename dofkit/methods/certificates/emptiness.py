@@ -70,5 +70,5 @@ def _square(term: Tree) -> list[str] | None:
     powers = [factor for factor in factors if factor.symbols]
     if any(factor.head != "power" or factor.below[1].value not in EVEN for factor in powers):
         return None
-    roots = [power(factor.below[0], times(factor.below[1], HALF)) for factor in powers]
+    roots = [power(factor.below[0], factor.below[1] * HALF) for factor in powers]
     return [text_of(times(*(factor for factor in factors if not factor.symbols))), text_of(times(*roots))]

@@ -13,7 +13,7 @@ from networkx.utils import UnionFind
 from dofkit.checker.constraints import Surroundings
 from dofkit.checker.evidence import VelocityField, bracket, field_named, tangent
 from dofkit.checker.geometry import determinant
-from dofkit.checker.trees import ZERO, CheckError, Tree, negative
+from dofkit.checker.trees import ZERO, CheckError, Tree
 from dofkit.methods.certificates.context import Context, Standing, Told
 from dofkit.methods.certificates.numerics import Estimates, NoEstimateError, echelon
 from dofkit.methods.certificates.points import FoundPoint
@@ -128,7 +128,7 @@ def tangent_fields(context: Context, standing: Standing) -> list[str] | None:
         columns = [pairs[row] for row in touched]
         matrix = [[evidence.slope(row, column) for column in columns] for row in touched]
         h, numerators = by_cramer(matrix, [evidence.slope(row, coordinate) for row in touched])
-        components = {coordinate: h, **dict(zip(columns, map(negative, numerators), strict=True))}
+        components = {coordinate: h, **dict(zip(columns, (-tree for tree in numerators), strict=True))}
         texts = {name: text_of(tree) for name, tree in components.items() if tree != ZERO}
         ids.append(scenery.entry_id("fields", {"components": texts}))
     return ids

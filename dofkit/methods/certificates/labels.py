@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from itertools import combinations
 
 from dofkit.checker.label_rules import exterior_part, form_of
-from dofkit.checker.trees import ZERO, CheckError, Tree, add, derivative, difference, symbol, times
+from dofkit.checker.trees import ZERO, CheckError, Tree, add, derivative, symbol
 from dofkit.methods.certificates.context import Context, Told
 from dofkit.methods.certificates.fields import (
     LARGEST_CRAMER,
@@ -249,11 +249,11 @@ def _time_dependence(context: Context, name: str, field: str) -> Iterator[Told]:
     turned = derivative(tree, "t") if form is None else form.get("t", ZERO)
     velocities = [v for v in scenery.evidence.velocities if v in tree.symbols]
     if field == "catastatic" and form is None and velocities:
-        turned = add(*(times(symbol(v), derivative(tree, v)) for v in velocities))
+        turned = add(*(symbol(v) * derivative(tree, v) for v in velocities))
     changes: list[tuple[Tree, Told]] = [(turned, {})]
-    for a, b in combinations(form or (), 2) if field == "scleronomic" else ():
-        products = [times(form[i], derivative(form[j], "t")) for i, j in ((a, b), (b, a))] if form else []
-        changes.append((difference(*products), {"pair": [a, b]}))
+    for (a, first), (b, other) in combinations((form or {}).items(), 2) if field == "scleronomic" else ():
+        turn = first * derivative(other, "t") - other * derivative(first, "t")
+        changes.append((turn, {"pair": [a, b]}))
     changes = [change for change in changes if change[0] != ZERO]
     for point in _points_of(context, name) if changes else ():
         for change, pair in changes:

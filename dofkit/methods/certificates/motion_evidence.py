@@ -8,7 +8,7 @@ from typing import Any
 
 from dofkit.checker.motion import MOTION_FIELDS
 from dofkit.checker.problem import CheckedProblem as Problem
-from dofkit.checker.trees import MINUS, ONE, Tree, along, number, power, substituted, symbol, times
+from dofkit.checker.trees import ONE, Tree, along, number, substituted, symbol
 from dofkit.methods.certificates.certificate import HINDRANCES, Certifying, without_spare_parts
 from dofkit.methods.certificates.context import Context, Told
 from dofkit.methods.certificates.lowering import scene_of_checker
@@ -88,7 +88,7 @@ class MotionEvidence:
         for name in self.evidence.equations:
             residue = substituted(self.evidence.relation(name).tree, put)
             for multiplier, tree in self.constraint_of_multiplier.items() if not ring.vanishes(residue) else ():
-                ratio = ring.rational(times(residue, power(tree, MINUS)))
+                ratio = ring.rational(residue / tree)
                 if ratio is not None:
                     multiples[name] = {multiplier: number_text(Fraction(int(ratio.p), int(ratio.q)))}
         return multiples

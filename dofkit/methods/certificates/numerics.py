@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from dofkit.checker.trees import Tree
+from dofkit.checker.trees import Tree, derivative
 
 Row = Mapping[str, float]
 SMALL = 1e-8
@@ -86,7 +86,6 @@ class Estimates:
     def __init__(self, values: Mapping[str, float]) -> None:
         self.values = values
         self._done: dict[int, tuple[Tree, float]] = {}
-        self._slopes: dict[int, tuple[Tree, Gradient]] = {}
 
     def value(self, tree: Tree) -> float:
         """The value; `NoEstimateError` where there is none."""
@@ -98,19 +97,8 @@ class Estimates:
         return self._done[id(tree)][1]
 
     def gradient(self, tree: Tree) -> Gradient:
-        """The derivatives by the symbols that occur, by the chain rule."""
-        if id(tree) not in self._slopes:
-            slopes: Gradient = {str(tree.value): 1.0} if tree.head == "symbol" else dict.fromkeys(tree.symbols, 0.0)
-            try:
-                for place, part in enumerate(tree.below):
-                    if part.symbols:
-                        factor = SLOPES[tree.head](place, *map(self.value, tree.below))
-                        for name, slope in self.gradient(part).items():
-                            slopes[name] += factor * slope
-            except (ValueError, OverflowError, ZeroDivisionError, KeyError, TypeError):
-                raise NoEstimateError(tree.head) from None
-            self._slopes[id(tree)] = tree, slopes
-        return self._slopes[id(tree)][1]
+        """The derivatives by the symbols that occur."""
+        return {name: self.value(derivative(tree, name)) for name in tree.symbols}
 
     def _read(self, tree: Tree) -> float:
         if isinstance(tree.value, Fraction):
@@ -127,15 +115,4 @@ VALUES: dict[str, Callable[..., Any]] = {
     "power": pow,
     "pi": lambda: math.pi,
     **{name: getattr(math, name) for name in ("sin", "cos", "exp", "log", "atan2")},
-}
-#: Their derivatives by the argument at a place.
-SLOPES: dict[str, Callable[..., Any]] = {
-    "sum": lambda place, *terms: 1.0,
-    "product": lambda place, *factors: math.prod(factors[:place] + factors[place + 1 :]),
-    "power": lambda place, u, k: math.log(u) * u**k if place else k * u ** (k - 1),
-    "sin": lambda place, u: math.cos(u),
-    "cos": lambda place, u: -math.sin(u),
-    "exp": lambda place, u: math.exp(u),
-    "log": lambda place, u: 1 / u,
-    "atan2": lambda place, u, v: (-u if place else v) / (u * u + v * v),
 }

@@ -9,18 +9,7 @@ from itertools import combinations
 from flint import fmpq, fmpq_mat
 
 from dofkit.checker.ring import Quotient
-from dofkit.checker.trees import (
-    ONE,
-    ZERO,
-    CheckError,
-    Tree,
-    difference,
-    linear_in,
-    negative,
-    put_in,
-    substituted,
-    times,
-)
+from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, linear_in, put_in, substituted
 from dofkit.methods.certificates.points import FoundPoint
 from dofkit.methods.certificates.scenery import Scenery, text_of
 
@@ -121,10 +110,10 @@ def _pair_steps(scenery: Scenery, pair: tuple[str, str], point: FoundPoint) -> I
         if any(part is None or not scenery.evidence.ring.vanishes(part[1]) for part in linear):
             continue
         (a, b), (c, d) = ([part[0].get(q, ZERO) for q in (first, other)] for part in linear if part is not None)
-        h = difference(times(a, d), times(b, c))
+        h = a * d - b * c
         if not scenery.differs(h, point.estimates):
             continue
-        for q, factors in ((first, (d, negative(b))), (other, (negative(c), a))):
+        for q, factors in ((first, (d, -b)), (other, (-c, a))):
             multipliers = {
                 "h": text_of(h),
                 "c": {name: text_of(part) for name, part in zip(pair, factors, strict=True)},
