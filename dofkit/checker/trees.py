@@ -9,7 +9,7 @@ Every operation on balls encloses the true one, where it is defined and smooth a
 from __future__ import annotations
 
 import operator
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import lru_cache, reduce
@@ -127,13 +127,13 @@ def symbol(name: str) -> Tree:
     return Tree("symbol", (), name)
 
 
-def _split(operands: Sequence[Tree]) -> tuple[list[Fraction], list[Tree]]:
+def _split(parts: Sequence[Tree]) -> tuple[list[Fraction], list[Tree]]:
     """The numbers among terms or factors, and the others."""
-    numbers = [operand for operand in operands if operand.head == "number"]
+    numbers = [part for part in parts if part.head == "number"]
     if not numbers:
-        return [], [*operands]
+        return [], [*parts]
     refuse(sum([p.size - 1 for p in numbers]) > LARGEST_NUMBER, "a number is too large")
-    others = [operand for operand in operands if operand.head != "number"]
+    others = [part for part in parts if part.head != "number"]
     return [p.value for p in numbers if isinstance(p.value, Fraction)], others
 
 
@@ -339,7 +339,7 @@ def in_velocities(tree: Tree, coordinates: Collection[str]) -> Tree:
 
 def _cleared(tree: Tree, rates: Collection[str]) -> Tree:
     """A relation times the velocities that its terms are divided by, each once, so that dy/dx = f says dy = f dx."""
-    terms = [list(_flat(term, "product")) for term in _flat(tree, "sum")]
+    terms = [operands(term, "product") for term in operands(tree, "sum")]
     inverses = {
         factor: factor.below[0]
         for factor in chain(*terms)
@@ -354,12 +354,9 @@ def _cleared(tree: Tree, rates: Collection[str]) -> Tree:
     return add(*cleared)
 
 
-def _flat(tree: Tree, head: str) -> Iterator[Tree]:
+def operands(tree: Tree, head: str) -> list[Tree]:
     """The terms of a sum, or the factors of a product, those of the parts included."""
-    if tree.head != head:
-        yield tree
-    for part in tree.below if tree.head == head else ():
-        yield from _flat(part, head)
+    return [operand for part in tree.below for operand in operands(part, head)] if tree.head == head else [tree]
 
 
 def not_zero(ball: Any) -> bool:

@@ -127,10 +127,6 @@ class Context:
         """All finite relations, then those of velocities: the order in which one is independent of those before it."""
         return self.scenery.evidence.equations
 
-    def owner(self, name: str) -> str:
-        """The constraint of a relation."""
-        return self.scenery.evidence.relation(name).owner
-
     def standing_of(
         self, names: Sequence[str], columns: Sequence[str] | None = None, point: FoundPoint | None = None
     ) -> Standing | None:
@@ -144,10 +140,10 @@ class Context:
                 matrix = [{q: value for q, value in row.items() if q in columns} for row in matrix]
         except (NoEstimateError, CheckError):
             return None
-        reduction = echelon(matrix)
-        rows = [names[p.row] for p in reduction.pivots]
-        dependent = [names[i] for i in reduction.dependent]
-        return Standing(point, rows, [p.column for p in reduction.pivots], dependent)
+        pivots = echelon(matrix)
+        rows = [names[p.row] for p in pivots]
+        dependent = [name for name in names if name not in rows]
+        return Standing(point, rows, [p.column for p in pivots], dependent)
 
     def row(self, name: str, point: FoundPoint) -> dict[str, float]:
         """The entries of a row in floats: by coordinates, or by their velocities."""

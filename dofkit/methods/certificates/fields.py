@@ -73,7 +73,7 @@ def kept_motions(context: Context, names: Sequence[str], point: FoundPoint) -> d
     kept = [motion for motion in ids if _is_kept(scenery, motion, names)]
     components = [field_named(scenery.evidence, motion) for motion in kept]
     rows = [{q: point.estimates.value(tree) for q, tree in field.items()} for field in components]
-    return {kept[p.row]: p.column for p in echelon(rows).pivots}
+    return {kept[p.row]: p.column for p in echelon(rows)}
 
 
 def parts_of(scenery: Scenery, names: Sequence[str]) -> list[list[str]]:
@@ -183,7 +183,7 @@ def _grown(context: Context, standing: Standing, fields: list[str], most: int) -
         fresh = []
         for word, value in level:
             vector = {q: estimates.value(tree) for q, tree in value.items()}
-            pivots = echelon([*vectors, vector]).pivots
+            pivots = echelon([*vectors, vector])
             if len(pivots) > len(vectors):
                 words.append(word)
                 vectors.append(vector)

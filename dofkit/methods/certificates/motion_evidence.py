@@ -64,14 +64,11 @@ class MotionEvidence:
         claim: Told = {"rule": "lagrange", "c": self.cofactors()}
         claim |= {"constants": self.constants} if self.constants else {}
         size = len(self.eliminated) + len(self.constraint_of_multiplier)
-        for point in self.points() if size else ():
-            standing = self.context.standing_of(self.context.equations, point=point)
-            if standing is not None and len(standing.rows) == size:
-                for factors in self.factors():
-                    yield {**claim, **factors, "minor": self.context.minor(standing)}
-        if not size:
+        found = (self.context.standing_of(self.context.equations, point=point) for point in self.points())
+        fit = (standing for standing in found if standing is not None and len(standing.rows) == size)
+        for minor in ({"minor": self.context.minor(standing)} for standing in fit) if size else [{}]:
             for factors in self.factors():
-                yield {**claim, **factors}
+                yield {**claim, **factors, **minor}
 
     def factors(self) -> Iterator[Told]:
         """None, or exponentials that the equations were divided by."""

@@ -22,22 +22,14 @@ class Pivot(NamedTuple):
     column: str
 
 
-class FloatEchelon(NamedTuple):
-    """The pivots in the order of the rows, and the rows that depend on those before."""
-
-    pivots: list[Pivot]
-    dependent: list[int]
-
-
-def echelon(rows: Sequence[Row], prefer: Callable[[int, str], float] | None = None) -> FloatEchelon:
-    """Rows in their order, each kept where it is not in the span of those kept before.
+def echelon(rows: Sequence[Row], prefer: Callable[[int, str], float] | None = None) -> list[Pivot]:
+    """The pivots of rows in their order, each kept where it is not in the span of those kept before.
 
     ``prefer`` gives a weight to a row's column: of those that are not tiny the one of largest size times weight is
     the pivot.
     """
     kept: list[tuple[str, dict[str, float]]] = []
     pivots: list[Pivot] = []
-    dependent: list[int] = []
     for place, entries in enumerate(rows):
         row = {name: value for name, value in entries.items() if value}
         size = max(map(abs, row.values()), default=0.0)
@@ -49,14 +41,13 @@ def echelon(rows: Sequence[Row], prefer: Callable[[int, str], float] | None = No
                 row[column] = 0.0
         largest = max(map(abs, row.values()), default=0.0)
         if largest <= SMALL * max(size, 1e-3):
-            dependent.append(place)
             continue
         fit = [name for name in sorted(row) if abs(row[name]) > 1e-3 * largest]
         column = max(fit, key=lambda name: abs(row[name]) * (prefer(place, name) if prefer else 1.0))
         lead = row[column]
         kept.append((column, {name: value / lead for name, value in row.items() if value}))
         pivots.append(Pivot(place, column))
-    return FloatEchelon(pivots, dependent)
+    return pivots
 
 
 def least_step(rows: Sequence[Row], right: Sequence[float]) -> dict[str, float]:
@@ -72,8 +63,6 @@ def least_step(rows: Sequence[Row], right: Sequence[float]) -> dict[str, float]:
 
 
 # Values and gradients of trees in floats: good for looking, never for deciding.
-
-Gradient = dict[str, float]
 
 
 class NoEstimateError(Exception):
@@ -96,7 +85,7 @@ class Estimates:
                 raise NoEstimateError(tree.head) from None
         return self._done[id(tree)][1]
 
-    def gradient(self, tree: Tree) -> Gradient:
+    def gradient(self, tree: Tree) -> dict[str, float]:
         """The derivatives by the symbols that occur."""
         return {name: self.value(derivative(tree, name)) for name in tree.symbols}
 
