@@ -266,7 +266,11 @@ def refuted(evidence: CheckedEvidence, refutation: Told, verified: Told, names: 
     number = evidence.text(refutation["number"])
     refuse(not evidence.is_nowhere_zero(number, True), "what is left over is not positive")
     factors = {name: evidence.text(text) for name, text in refutation.get("c", {}).items()}
-    total = [number, evidence.squares(refutation.get("sos", []))]
+    total = [number]
+    for c, a in ((evidence.text(c), evidence.text(a)) for c, a in refutation.get("sos", [])):
+        square = evidence.is_nowhere_zero(c, True) and evidence.has_value_everywhere(a)
+        refuse(not square, "no square, or times what is <= 0")
+        total.append(c * a**2)
     for name, factor in factors.items():
         checked = evidence.relation(name)
         alone = len(factors) == 1 and evidence.is_nowhere_zero(factor, True)

@@ -80,12 +80,7 @@ def _canonical(value: Any, key: str, depth: int) -> Any:
 
 def sha256_of(document: object) -> str:
     """The hash of the canonical JSON of a document."""
-    return sha256_of_canonical(canonical(document))
-
-
-def sha256_of_canonical(scene: Entry) -> str:
-    """The hash of a document in its canonical form."""
-    text = json.dumps(scene, sort_keys=True, separators=(",", ":"), ensure_ascii=False)
+    text = json.dumps(canonical(document), sort_keys=True, separators=(",", ":"), ensure_ascii=False)
     return sha256(text.encode("utf-8", "surrogatepass")).hexdigest()
 
 

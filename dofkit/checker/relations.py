@@ -35,17 +35,42 @@ LONGEST_TEXT, MOST_SYMBOLS = 40_000, 2000
 Looked = TypeVar("Looked")
 
 
-class CheckedTexts:
-    """The texts that a certificate may write about a problem, their signs, and where they have a value."""
+class Consequence(NamedTuple):
+    """``target`` holds where all ``sources`` do, where the ``nonzero`` are not 0 and the ``defined`` have a value.
 
-    def __init__(self, problem: CheckedProblem, effort: Effort) -> None:
-        self.problem, self.effort = problem, effort
+    Near the point ``at`` only, where one is named.
+    """
+
+    target: str
+    sources: tuple[str, ...]
+    nonzero: tuple[Tree, ...] = ()
+    defined: tuple[Tree, ...] = ()
+    at: str | None = None
+
+
+def total_derivative(tree: Tree, names: Sequence[str]) -> Tree:
+    """The derivative by time along a motion."""
+    return along({name: symbol(name + "dot") for name in names}, tree)
+
+
+class CheckedRelations:
+    """The relations of the scene and of the steps, each step looked at once, and the texts that speak of them."""
+
+    def __init__(self, problem: CheckedProblem, entries: Mapping[str, list[dict[str, Any]]], effort: Effort) -> None:
+        self.problem, self.entries, self.effort = problem, entries, effort
         count = 2 * len(problem.coordinates) + len(problem.world.signs) + len(problem.world.generic)
         self.ring = CheckedRing(effort, min(count, MOST_SYMBOLS))
         self.seen, self.variables = dict[Any, Any](), (*problem.coordinates, "t")
         self.velocities = frozenset(name + "dot" for name in self.variables)
         self.chosen = frozenset((*problem.world.signs, *problem.world.generic))
         self.names = self._known_names()
+        self.by_name = {relation.name: relation for relation in problem.relations}
+        self.finite, self.moving = self.owned(None, ("finite",)), self.owned(None, ("velocity",))
+        self.equations = (*self.finite, *self.moving)
+        self.timed = self.holds_time(self.equations)
+        self.consequences: list[Consequence] = []
+        self.faults: dict[str, str] = {}
+        self._take_steps()
 
     def once(self, key: Any, evaluate: Callable[[], Looked]) -> Looked:
         """What was looked at under a key before, or is now."""
@@ -77,16 +102,6 @@ class CheckedTexts:
         """Whether two trees are the same in the ring."""
         return self.ring.vanishes(add(first, -second))
 
-    def squares(self, terms: Any) -> Tree:
-        """A sum of squares, which have a value everywhere, with positive coefficients."""
-        pairs = [(self.text(c), self.text(a)) for c, a in terms]
-        for c, a in pairs:
-            refuse(
-                not self.is_nowhere_zero(c, True) or not self.has_value_everywhere(a),
-                "no square, or times what is <= 0",
-            )
-        return add(*(c * a**2 for c, a in pairs))
-
     def is_open(self, tree: Tree) -> bool:
         """Whether parameters, generic lengths or unknown functions occur, for which a point chooses values.
 
@@ -112,39 +127,6 @@ class CheckedTexts:
         plain = keeps_values(tree, poles) or (tree.head == "atan2" and self.is_nowhere_zero(tree.below[1], True))
         poles &= tree.head in ("sum", "product", "power")
         return plain and all(self.has_value_everywhere(part, poles) for part in tree.below)
-
-
-class Consequence(NamedTuple):
-    """``target`` holds where all ``sources`` do, where the ``nonzero`` are not 0 and the ``defined`` have a value.
-
-    Near the point ``at`` only, where one is named.
-    """
-
-    target: str
-    sources: tuple[str, ...]
-    nonzero: tuple[Tree, ...] = ()
-    defined: tuple[Tree, ...] = ()
-    at: str | None = None
-
-
-def total_derivative(tree: Tree, names: Sequence[str]) -> Tree:
-    """The derivative by time along a motion."""
-    return along({name: symbol(name + "dot") for name in names}, tree)
-
-
-class CheckedRelations(CheckedTexts):
-    """The relations of the scene and of the steps, each step looked at once."""
-
-    def __init__(self, problem: CheckedProblem, entries: Mapping[str, list[dict[str, Any]]], effort: Effort) -> None:
-        super().__init__(problem, effort)
-        self.entries = entries
-        self.by_name = {relation.name: relation for relation in problem.relations}
-        self.finite, self.moving = self.owned(None, ("finite",)), self.owned(None, ("velocity",))
-        self.equations = (*self.finite, *self.moving)
-        self.timed = self.holds_time(self.equations)
-        self.consequences: list[Consequence] = []
-        self.faults: dict[str, str] = {}
-        self._take_steps()
 
     def _take_steps(self) -> None:
         makers = {"rate": self._rate, "implied": self._implied, "integral": self._implied}

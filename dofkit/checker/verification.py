@@ -13,7 +13,7 @@ from dofkit.checker import label_rules as labels
 from dofkit.checker.evidence import CheckedEvidence, take_cover
 from dofkit.checker.motion import motion
 from dofkit.checker.problem import CheckedProblem as Problem
-from dofkit.checker.problem import canonical, problem_of_canonical, sha256_of_canonical
+from dofkit.checker.problem import canonical, problem_of_canonical, sha256_of
 from dofkit.checker.relations import FAULTS, fault_text
 from dofkit.checker.trees import CheckError, Effort, refuse
 
@@ -100,7 +100,7 @@ class Verifier:
     def __init__(self, document: Any, certificate: Any, problem: Any = None) -> None:
         self.document, self.certificate, self.effort = canonical(document), certificate, Effort()
         self.name = str(certificate["scene"].get("name", document.get("name")))[:200]
-        other = certificate["scene"].get("sha256") != sha256_of_canonical(self.document)
+        other = certificate["scene"].get("sha256") != sha256_of(self.document)
         refuse(other, "the certificate is of another scene, or of this one before it was edited")
         self.problem: Problem = problem or problem_of_canonical(self.document)
         refuse("tolerance" in self.document, "what is measured up to a tolerance is not proved")

@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import Any
 
 from dofkit.checker.problem import CheckedProblem as Problem
-from dofkit.checker.problem import sha256_of_canonical
+from dofkit.checker.problem import sha256_of
 from dofkit.checker.trees import CheckError
 from dofkit.checker.verification import PARTS
 from dofkit.methods.certificates.numerics import NoEstimateError, echelon
@@ -20,7 +20,7 @@ from dofkit.report import Report
 
 def empty_certificate(name: str, document: Mapping[str, Any], readings: Mapping[str, str]) -> dict[str, Any]:
     """Return a certificate of a scene without parts, claims, or what is uncovered."""
-    scene = {"name": name, "sha256": sha256_of_canonical(document), "document": dict(document)}
+    scene = {"name": name, "sha256": sha256_of(document), "document": dict(document)}
     scene |= {"readings": dict(readings)} if readings else {}
     lists: dict[str, list[dict[str, Any]]] = {part: [] for part in PARTS}
     return {"certificate": 1, "scene": scene, "cayley": [], **lists, "claims": [], "uncovered": []}
