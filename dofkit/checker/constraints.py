@@ -8,21 +8,8 @@ from typing import Any
 
 from dofkit.checker.geometry import CheckedFrame, MaterialPoint, Vector, apart, cross, dot, length, less, scaled, square
 from dofkit.checker.grammar import KnownNames, Sided, parse, parse_relations
-from dofkit.checker.trees import (
-    ONE,
-    TWO,
-    ZERO,
-    Effort,
-    Tree,
-    add,
-    call,
-    evaluated,
-    in_velocities,
-    not_zero,
-    refuse,
-    substituted,
-    symbol,
-)
+from dofkit.checker.point import evaluated, not_zero
+from dofkit.checker.trees import ONE, TWO, ZERO, Effort, Tree, add, call, in_velocities, refuse, substituted, symbol
 
 Entry = Mapping[str, Any]
 

@@ -9,8 +9,8 @@ from flint import fmpq_mat
 
 from dofkit.checker.evidence import MOST, CheckedEvidence, CheckedMinor, Told, admissible, independent, of_word, span
 from dofkit.checker.geometry import determinant, dot
-from dofkit.checker.point import CheckedPoint
-from dofkit.checker.trees import ONE, derivative, not_zero, refuse
+from dofkit.checker.point import CheckedPoint, not_zero
+from dofkit.checker.trees import ONE, derivative, refuse
 
 MOST_FORMS = 6
 

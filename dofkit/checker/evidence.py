@@ -11,23 +11,9 @@ from typing import Any, NamedTuple
 
 from flint import arb, arb_mat, ctx
 
-from dofkit.checker.point import CheckedPoint
+from dofkit.checker.point import PRECISION, CheckedPoint, evaluated, not_zero
 from dofkit.checker.relations import CheckedRelations, Consequence, total_derivative
-from dofkit.checker.trees import (
-    ONE,
-    PRECISION,
-    ZERO,
-    Tree,
-    along,
-    call,
-    derivative,
-    evaluated,
-    linear_in,
-    not_zero,
-    refuse,
-    substituted,
-    symbol,
-)
+from dofkit.checker.trees import ONE, ZERO, Tree, along, call, derivative, linear_in, refuse, substituted, symbol
 
 LARGEST_MINOR, LONGEST_WORD, LARGEST_FIELD, HIGHEST_ORDER = 250, 12, 100_000, 8
 Told = dict[str, Any]

@@ -6,19 +6,8 @@ from typing import Any
 
 from dofkit.checker.dimension_rules import names_told, verified_rank
 from dofkit.checker.evidence import CheckedEvidence, Told, admissible, involutive, of_word
-from dofkit.checker.point import CheckedPoint
-from dofkit.checker.trees import (
-    ONE,
-    ZERO,
-    Tree,
-    add,
-    derivative,
-    homogeneous_degree,
-    not_zero,
-    refuse,
-    substituted,
-    symbol,
-)
+from dofkit.checker.point import CheckedPoint, not_zero
+from dofkit.checker.trees import ONE, ZERO, Tree, add, derivative, homogeneous_degree, refuse, substituted, symbol
 
 Form = dict[str, Tree]
 EQUATIONS, EVERY = ("finite", "velocity"), ("finite", "velocity", "inequality")

@@ -12,22 +12,10 @@ from flint import arb
 
 from dofkit.checker.constraints import nowhere_zero
 from dofkit.checker.grammar import KnownNames, parse
-from dofkit.checker.point import CheckedPoint
+from dofkit.checker.point import CheckedPoint, evaluated, not_zero
 from dofkit.checker.problem import CheckedProblem, CheckedRelation
 from dofkit.checker.ring import CheckedRing
-from dofkit.checker.trees import (
-    CheckError,
-    Effort,
-    Tree,
-    add,
-    along,
-    evaluated,
-    keeps_values,
-    not_zero,
-    put_in,
-    refuse,
-    symbol,
-)
+from dofkit.checker.trees import CheckError, Effort, Tree, add, along, keeps_values, put_in, refuse, symbol
 
 #: What a certificate of another form, or a hostile one, may raise.
 FAULTS = (CheckError, KeyError, TypeError, ValueError, AttributeError, IndexError, ArithmeticError, RecursionError)

@@ -1,9 +1,8 @@
-"""Expression trees, node by node, with exact numbers: their derivatives, values in balls, and what work may cost.
+"""Expression trees, node by node, with exact numbers: their derivatives, what is put in, and what work may cost.
 
 Heads: ``number`` (``value`` a Fraction), ``symbol`` (``value`` its name), ``sum``, ``product``, ``power`` (base and
 exponent), the name of an elementary function (``sin``, ``atan2``, ...), and ``apply`` (``value`` the name of a declared
 function, ``orders`` how often it is differentiated by each argument). ``pi`` is a head of its own; E is ``exp(1)``.
-Every operation on balls encloses the true one, where it is defined and smooth around.
 """
 
 from __future__ import annotations
@@ -14,9 +13,7 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import lru_cache, reduce
 from itertools import chain
-from typing import Any, TypeVar
-
-from flint import arb, ctx, fmpq
+from typing import TypeVar
 
 _NAMES = "sin cos tan cot sec csc asin acos atan atan2 sinh cosh tanh exp log sqrt abs"
 FUNCTIONS = tuple(_NAMES.split())
@@ -194,8 +191,6 @@ def repeated(unit: Factor, base: Factor, exponent: int, product: Callable[[Facto
     return product_so_far
 
 
-#: Bits of every ball.
-PRECISION = 320
 Made = TypeVar("Made")
 MAKERS: Mapping[str, Callable[..., Tree]] = {"sum": add, "product": times, "power": power}
 #: A choice for a declared function: its arguments, and a text of them.
@@ -357,48 +352,3 @@ def _cleared(tree: Tree, rates: Collection[str]) -> Tree:
 def operands(tree: Tree, head: str) -> list[Tree]:
     """The terms of a sum, or the factors of a product, those of the parts included."""
     return [operand for part in tree.below for operand in operands(part, head)] if tree.head == head else [tree]
-
-
-def not_zero(ball: Any) -> bool:
-    """Whether 0 is certainly not in a ball."""
-    return bool(ball.is_finite() and (ball > 0 or ball < 0))
-
-
-def evaluated(tree: Tree, values: Mapping[str, Any], effort: Effort) -> Any:
-    """The ball of a tree, where every part of it, as written, has a value and is smooth around; else `CheckError`."""
-
-    def value(node: Tree, below: tuple[Any, ...]) -> Any:
-        effort.spend(1)
-        ball = _value(node, values, below)
-        refuse(not ball.is_finite(), "a value is not finite at the point")
-        return ball
-
-    with ctx.workprec(PRECISION):
-        return folded(tree, value)
-
-
-def _value(node: Tree, values: Mapping[str, Any], below: tuple[Any, ...]) -> Any:
-    """Return the ball of a node from the values of the nodes below it; refuse where it may have no smooth value."""
-    head = node.head
-    if isinstance(node.value, Fraction):
-        return arb(fmpq(node.value.numerator, node.value.denominator))
-    if head == "symbol":
-        refuse(node.value not in values, f"`{node.value}` has no value at the point")
-        return values[str(node.value)]
-    if head == "pi":
-        return arb.pi()
-    if head in ("sum", "product"):
-        return reduce(operator.add if head == "sum" else operator.mul, below)
-    u, other = below[0], below[-1]
-    if head in ("sin", "cos", "exp") or (head == "log" and u > 0):
-        return getattr(u, head)()
-    if head == "atan2" and (other > 0 or not_zero(u)):
-        return arb.atan2(u, other)
-    # a power: of what is positive; a whole one, of what is not 0 where it is negative; a constant root of 0
-    exponent = node.below[1].value if head == "power" else Fraction(1, 2)
-    if isinstance(exponent, Fraction) and exponent.denominator == 1 and (exponent > 0 or not_zero(u)):
-        ball = repeated(arb(1), u, abs(int(exponent)), operator.mul)
-        return ball if exponent > 0 else 1 / ball
-    zero = u == 0 and other > 0 and not node.symbols
-    refuse(head != "power" or not (u > 0 or zero), f"a {head} has no smooth value at the point, or may have none")
-    return u if zero else u**other
