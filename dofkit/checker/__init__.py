@@ -1,8 +1,8 @@
 """The checker: does the evidence of a certificate prove the claims that it names?
 
 A second, small program that rechecks every claim of a certificate from the scene's document alone. It shares nothing
-with the engines that made the claims, and imports nothing of dofkit outside this room; every constraint type is defined a
-second time here, on purpose.
+with the engines that made the claims, and imports nothing of dofkit outside this room; every constraint type is defined
+a second time here, on purpose.
 
 Types
     `Verification` is the result: claims that hold, claims that fail, and what is not covered. `CheckError` refuses

@@ -84,10 +84,8 @@ class Surroundings:
         refuse(not isinstance(texts, list), "a curve is a list of texts")
         known_names = KnownNames(self.names.coordinates.union(letters), self.names.values, self.names.functions)
         relations = [relation for text in texts for relation in parse_relations(text, known_names)]
-        allowed = known_names.coordinates.union(self.signs, "t")
-        refuse(
-            any(not sided.tree.symbols <= allowed for sided in relations), "a text mentions places, parameters and t"
-        )
+        held = frozenset().union(*(sided.tree.symbols for sided in relations))
+        refuse(held - {*known_names.coordinates, *self.signs, "t"}, "a text mentions places, parameters and t")
         return relations
 
 

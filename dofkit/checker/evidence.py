@@ -89,9 +89,8 @@ class CheckedEvidence(CheckedRelations):
                 point.value(self.slope(relation.name, velocity[:-3]))
             wrong = still and not_zero(point.value(relation.tree))
             if states:
-                wrong |= not self.is_zero(
-                    total_derivative(relation.tree, self.variables) if still else relation.tree, point
-                )
+                rate = total_derivative(relation.tree, self.variables) if still else relation.tree
+                wrong |= not self.is_zero(rate, point)
             refuse(wrong, f"`{relation.name}` is not satisfied at the point `{point.name}`, or not by its velocities")
 
     def minor(self, entry: Any, allowed: Collection[str] | None = None) -> CheckedMinor:
@@ -152,10 +151,9 @@ class CheckedEvidence(CheckedRelations):
     def reference(self) -> Mapping[str, Tree]:
         """The scene's configuration; nothing where a relation of numbers is certainly not 0 there."""
         values = (self.at_reference(self.relation(name).tree) for name in self.finite) if self.problem.reference else ()
-        missed = (
-            not tree.symbols and not tree.applied and not_zero(evaluated(tree, {}, self.effort)) for tree in values
-        )
-        return {} if any(missed) else self.problem.reference
+        plain = (tree for tree in values if not tree.symbols and not tree.applied)
+        missed = any(not_zero(evaluated(tree, {}, self.effort)) for tree in plain)
+        return {} if missed else self.problem.reference
 
     def is_about(self, about: Any, point: CheckedPoint, exempt: Collection[tuple[str, ...]] = ()) -> Any:
         """The point's name, or ``reference``; `CheckError` unless it is one of those that a claim is about.
@@ -294,9 +292,8 @@ def take_cover(evidence: CheckedEvidence, name: Any) -> list[str]:
         fields = [field_named(evidence, field) for field in block["fields"]]
         held = frozenset().union(*(evidence.relation(row).tree.symbols for row in block["rows"]))
         variables = held & set(evidence.problem.coordinates)
-        refuse(
-            not set(block["columns"]) <= variables or any("t" in field for field in fields), "a column of no coordinate"
-        )
+        unmoved = set(block["columns"]) <= variables and not any("t" in field for field in fields)
+        refuse(not unmoved, "a column of no coordinate, or a field that moves t")
         tangent(evidence, ([name] for name in block["fields"]), block["rows"])
         independent(evidence, fields, block["columns"], minor.point)
         total += min(len(variables) - len(fields), len(block["rows"]))

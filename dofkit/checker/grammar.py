@@ -15,7 +15,6 @@ from dofkit.checker.trees import (
     FUNCTIONS,
     ONE,
     ZERO,
-    CheckError,
     Tree,
     add,
     call,
@@ -121,9 +120,8 @@ class KnownNames:
         """What a word means."""
         refuse(len(word) > LONGEST_NAME, f"a name of {len(word)} letters is too long")
         plain = spelled_out(word)
-        lexeme = self.words.get(plain) or self.moved(plain) or (_E if plain == "E" else None)
-        if lexeme is None:
-            raise CheckError(f"`{word}` is not declared")
+        lexeme = self.words.get(plain) or self.moved(plain) or (_E if plain == "E" else Lexeme(""))
+        refuse(not lexeme.kind, f"`{word}` is not declared")
         return lexeme
 
 
@@ -233,10 +231,7 @@ class _Reader:
         if token.kind in ("function", "declared"):
             return self.function(token) if token.kind == "function" else self.declared(token)
         after = self.tokens[self.at : self.at + 3]
-        called = token.kind != "number" and [lexeme.kind for lexeme in after] in (
-            ["(", "value", ")"],
-            ["(", "number", ")"],
-        )
+        called = " ".join(lexeme.kind for lexeme in after) in ("( value )", "( number )") and token.kind != "number"
         refuse(called and (self.next.touching or after[1].tree == _TIME), "it may be a factor or a function")
         return token.tree
 

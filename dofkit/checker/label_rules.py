@@ -113,11 +113,8 @@ def timeless(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
     refuse(catastatic and all(checked.kind != "velocity" for checked in ones), "there is no form")
     apart = not catastatic and len(names) == 1 and verified.get(f"holonomic {claim['owner']}") is False
     for checked in ones:
-        mixed = not apart and homogeneous_degree(checked.tree, evidence.velocities) is None
-        refuse(
-            mixed and not evidence.is_linear(checked.name),
-            f"`{checked.name}` is no form, or not homogeneous in velocities",
-        )
+        mixed = homogeneous_degree(checked.tree, evidence.velocities) is None and not evidence.is_linear(checked.name)
+        refuse(mixed and not apart, f"`{checked.name}` is no form, or not homogeneous in velocities")
         for name in ["tdot"] if catastatic else ["t"] if apart else ["t", "tdot"]:
             evidence.identity(derivative(checked.tree, name), ZERO, f"the derivative of `{checked.name}` by {name}")
     return True
@@ -148,9 +145,8 @@ def time_dependent(evidence: CheckedEvidence, claim: Told, verified: Told) -> bo
             evidence.on_set(point, names)
         held = checked.kind == "finite" or evidence.holds(name, point)
         refuse((catastatic and checked.kind != "velocity") or not held, "it holds no velocities, or is not 0 there")
-        slopes = {
-            v: derivative(checked.tree, v) for v in sorted(checked.tree.symbols.difference(evidence.chosen, ["t"]))
-        }
+        moved = sorted(checked.tree.symbols.difference(evidence.chosen, ["t"]))
+        slopes = {v: derivative(checked.tree, v) for v in moved}
         if catastatic:
             turned = add(*(symbol(v) * slopes[v] for v in slopes if v in evidence.velocities))
         stationary = not any(not_zero(point.value(slope)) for slope in slopes.values())

@@ -133,26 +133,16 @@ class CheckedEnergies:
     def vector(self, entry: Entry, key: str, last: Tree) -> Vector:
         """A vector from its components, or from its size and direction (the last axis, or down)."""
         written, axis = entry[key], entry.get("direction")
-        refuse(
-            key == "value" and self.d > 1 and axis is None and not isinstance(written, list), "no direction is given"
-        )
-        texts = written if isinstance(written, list) else axis or [*[ZERO] * (self.d - 1), last]
+        listed = isinstance(written, list)
+        refuse(key == "value" and self.d > 1 and axis is None and not listed, "no direction is given")
+        texts = written if listed else axis or [*[ZERO] * (self.d - 1), last]
         components = tuple(map(self.text, texts))
         refuse(len(components) != self.d, "a vector has as many components as space")
         return components if texts is written else scaled(self.text(written) / length(components), components)
 
 
 #: What a claim tells: the fields of a report of the motion.
-MOTION_FIELDS = (
-    "coordinates",
-    "lagrangian",
-    "momenta",
-    "forces",
-    "equations",
-    "constraints",
-    "multipliers",
-    "eliminated",
-)
+MOTION_FIELDS = "coordinates lagrangian momenta forces equations constraints multipliers eliminated".split()
 
 
 def motion(evidence: CheckedEvidence, claim: Told, verified: Told) -> Told:
@@ -212,26 +202,18 @@ def _leaves(evidence: CheckedEvidence, claim: Told, put: Told, places: Told, lim
     for checked in map(evidence.relation, evidence.equations):
         factors = {name: evidence.text(text) for name, text in claim.get("c", {}).get(checked.name, {}).items()}
         moving = [*factors.values(), *(limits[name] for name in factors if checked.kind == "finite")]
-        refuse(
-            any(map(evidence.met_by, moving)),
-            "a cofactor contains velocities, or a holonomic equation depends on others",
-        )
+        refuse(any(map(evidence.met_by, moving)), "a cofactor holds velocities, or a holonomic equation rests on such")
         total = add(*(tree * limits[name] for name, tree in factors.items()))
         evidence.identity(substituted(checked.tree, put), total, f"`{checked.name}` where coordinates are put in")
         used += factors.values()
     if places or limits:
         minor = evidence.minor(claim["minor"])
         evidence.is_about("here", minor.point)
-        refuse(
-            len(minor.rows) != len(places) + len(limits),
-            "one row for each eliminated coordinate and claimed constraint is needed",
-        )
+        refuse(len(minor.rows) != len(places) + len(limits), "a row for each elimination and constraint is needed")
         chosen = {name: evidence.text(text) for name, text in claim.get("constants", {}).items()}
         met = [symbol(q) - substituted(tree, chosen) for q, tree in places.items()]
         met += [tree for tree in limits.values() if not evidence.met_by(tree)]
-        refuse(
-            not all(evidence.is_zero(tree, minor.point) for tree in met),
-            "the point does not satisfy the claimed relations",
-        )
+        missed = [tree for tree in met if not evidence.is_zero(tree, minor.point)]
+        refuse(missed, "the point does not satisfy the claimed relations")
         for tree in used:
             minor.point.value(tree)

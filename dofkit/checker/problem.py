@@ -27,10 +27,8 @@ LONGEST_VALUE, DEEPEST, MOST_RELATIONS = 400, 40, 8_000
 _NULLS = (None, "", "~", "null", "Null", "NULL")
 _VALUE = re.compile(rf"\s*([-+]?{DECIMAL})(?:\s*/\s*(\d*[1-9]\d*))?\s*", re.ASCII)
 #: Keys that say nothing of the mathematics, and values that are as good as left out.
-_SILENT, _DEFAULTS = (
-    ("name", "title", "source", "notes", "left_out", "expect", "picture"),
-    {"dimension": 3, "tolerance": 0},
-)
+_SILENT = ("name", "title", "source", "notes", "left_out", "expect", "picture")
+_DEFAULTS = {"dimension": 3, "tolerance": 0}
 #: What a text alone stands for in these lists.
 _SHORT = {"particles": ("name", {}), "bodies": ("name", {}), "constraints": ("text", {"type": "equation"})}
 SIGNS = ("real", "positive", "nonzero")
@@ -151,9 +149,8 @@ def _surroundings(scene: Entry, cayley: frozenset[str]) -> tuple[Surroundings, t
     for name in (*names, *map(spelled_out, coordinates)):
         word = re.fullmatch("[A-Za-z][A-Za-z0-9_]*", name) and name not in _NULLS
         refuse(twice or not word or every.moved(name), "a name is taken, or is not made of letters")
-    refuse(
-        not all(isinstance(arguments, list) for arguments in functions.values()), "a function has a list of arguments"
-    )
+    listed = all(isinstance(arguments, list) for arguments in functions.values())
+    refuse(not listed, "a function has a list of arguments")
     configured = {q: world.expression(value) for q, value in scene.get("configuration", {}).items()}
     refuse(not configured.keys() <= {*written}, "the configuration mentions what is no coordinate")
     world.names = KnownNames(frozenset(written).intersection(coordinates), values, functions)

@@ -144,10 +144,8 @@ class CheckedRelations:
         new = leaf or "function" in step
         tree = self.text(step["function"]) if new else self.relation(step["of"]).tree
         sources, substitutions = [self.relation(name) for name in step["c"]], step.get("put", [])
-        refuse(
-            any(source.leaf or source.kind == "inequality" for source in sources),
-            "an inequality or integral to start from",
-        )
+        unfit = any(source.leaf or source.kind == "inequality" for source in sources)
+        refuse(unfit, "an inequality or integral to start from")
         cofactors, h = [self.text(text) for text in step["c"].values()], self.text(step.get("h", "1"))
         refuse(self.met_by(h) or (leaf and self.met_by(tree)), "the factor or integral holds velocities")
         change = total_derivative(tree, self.variables) if leaf else tree
@@ -155,15 +153,11 @@ class CheckedRelations:
         total = add(h * change, -combination)
         for name, q in substitutions:
             source, (slope, total) = self.relation(name), put_in(total, q, self.relation(name).tree)
-            refuse(
-                source.kind != "finite" or source.leaf or not self.is_nowhere_zero(slope),
-                f"`{name}` does not give `{q}`",
-            )
+            gives = source.kind == "finite" and not source.leaf and self.is_nowhere_zero(slope)
+            refuse(not gives, f"`{name}` does not give `{q}`")
         refuse(not self.ring.vanishes(total), "the cofactors: the two sides are not the same")
-        needs, defined = (
-            () if self.is_nowhere_zero(h) else (h,),
-            (h, *cofactors, *([tree] if new or substitutions else [])),
-        )
+        needs = () if self.is_nowhere_zero(h) else (h,)
+        defined = (h, *cofactors, *([tree] if new or substitutions else []))
         used = *step["c"], *(name for name, _ in substitutions)
         return tree if new else None, Consequence(step["id" if new else "of"], used, needs, defined)
 
@@ -213,11 +207,8 @@ class CheckedRelations:
         """Whether the conditions of a consequence hold near a point, at all velocities; without a point, everywhere."""
         consequence = self.consequences[number]
         if point is None:
-            return (
-                consequence.at is None
-                and not consequence.nonzero
-                and all(map(self.has_value_everywhere, consequence.defined))
-            )
+            bare = consequence.at is None and not consequence.nonzero
+            return bare and all(map(self.has_value_everywhere, consequence.defined))
         # a ball that holds all velocities, as near as a ball can: a motion may be slowed down
         wide = {v: arb(0, 10**30) for v in self.velocities}
 
