@@ -225,20 +225,10 @@ def moves(evidence: CheckedEvidence, claim: Told, wanted: Sequence[str]) -> Chec
     """A point through which a motion meets equations: a regular one, or one at which all may rest."""
     if claim["rule"] == "regular":
         return evidence.accounts(evidence.minor(claim["minor"]), wanted).point
-    point, still = evidence.point(claim["at"]), [name for name in wanted if evidence.relation(name).kind == "finite"]
-    evidence.on_set(point, still)
-    evidence.settled(point, still, claim)
-    chosen = any(evidence.is_open(evidence.relation(name).tree) for name in still)
-    exact = {} if chosen else {name: tree for name, tree in point.exact.items() if name != "t"}
-    still_values = {**dict.fromkeys(evidence.velocities, ZERO), "tdot": ONE}
-    balls = {rate: point.value(tree) for rate, tree in still_values.items()}
-    for name in wanted:
-        equation = evidence.relation(name).tree
-        if name not in still or "t" in equation.symbols:
-            for tree in (equation, *(derivative(equation, v) for v in evidence.met_by(equation))):
-                point.value_with(tree, balls)
-            put_in = substituted(equation, {**({} if evidence.is_open(equation) else exact), **still_values})
-            evidence.identity(put_in, ZERO, f"`{name}` at rest")
+    point = evidence.point(claim["at"])
+    refuse({*wanted} - {*evidence.finite} or evidence.holds_time(wanted), "it may not rest where velocities or t occur")
+    evidence.on_set(point, wanted)
+    evidence.settled(point, wanted, claim)
     return point
 
 

@@ -11,6 +11,7 @@ from flint import arb
 
 from dofkit.base.errors import TextError
 from dofkit.checker.grammar import EULER, PI, KnownNames, parse, parse_relations
+from dofkit.checker.point import evaluated
 from dofkit.checker.trees import FUNCTIONS as HEADS
 from dofkit.checker.trees import (
     ONE,
@@ -21,7 +22,6 @@ from dofkit.checker.trees import (
     add,
     call,
     derivative,
-    evaluated,
     number,
     power,
     symbol,
