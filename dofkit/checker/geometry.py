@@ -89,7 +89,7 @@ class MaterialPoint(NamedTuple):
     @property
     def place(self) -> Vector:
         """X."""
-        return self.over if self.under == ONE else scaled(self.under ** (-1), self.over)
+        return scaled(self.under**-1, self.over)
 
 
 def apart(first: MaterialPoint, second: MaterialPoint) -> tuple[Vector, Tree]:

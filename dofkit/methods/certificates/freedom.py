@@ -118,9 +118,9 @@ def redundant(context: Context) -> Iterator[Told]:
 
 def _needed(context: Context) -> Iterator[Told]:
     """For every constraint a minor of all rows of the others."""
-    minors, owned = {}, context.scenery.evidence.owned
-    for owner in dict.fromkeys(relation.owner for relation in context.problem.relations if owned(relation.owner)):
-        standing = context.standing_of([name for name in context.equations if name not in owned(owner)])
+    minors, relation = {}, context.scenery.evidence.relation
+    for owner in dict.fromkeys(relation(name).owner for name in context.equations):
+        standing = context.standing_of([name for name in context.equations if relation(name).owner != owner])
         if standing is None or standing.dependent:
             return
         minors[owner] = context.minor(standing)
