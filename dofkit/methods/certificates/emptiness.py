@@ -8,7 +8,7 @@ from fractions import Fraction
 from dofkit.checker.trees import MINUS, Tree, add, number, operands, power, times
 from dofkit.methods.certificates.context import Context, Told
 from dofkit.methods.certificates.scenery import number_text, text_of
-from dofkit.methods.certificates.steps import constant_cofactors
+from dofkit.methods.certificates.steps import constant_cofactors, rate_of
 
 HALF, EVEN = number(Fraction(1, 2)), range(2, 20, 2)
 
@@ -43,7 +43,8 @@ def refutations(context: Context, names: Sequence[str]) -> Iterator[Told]:
     """Ways in which relations cannot be met."""
     evidence = context.scenery.evidence
     equations = [name for name in names if evidence.relation(name).kind != "inequality"]
-    if (factors := constant_cofactors(context.scenery, MINUS, equations)) is not None:
+    rates = [step for name in equations if (step := rate_of(context.scenery, name))]
+    if (factors := constant_cofactors(context.scenery, MINUS, [*equations, *rates])) is not None:
         yield {"rule": "nullstellensatz", "c": factors, "number": "1"}
     for name in names:
         yield from _by_squares(context, name)
