@@ -186,9 +186,9 @@ def _depend_plainly(evidence: CheckedEvidence, minor: CheckedMinor, others: set[
         return
     for name in others:
         used = [
-            (*way.defined, *way.nonzero)
-            for i, way in enumerate(evidence.consequences)
-            if way.target == name and way.defined and {*way.sources} <= {*minor.rows}
+            (*step.defined, *step.nonzero)
+            for i, step in enumerate(evidence.consequences)
+            if step.target == name and step.defined and {*step.sources} <= {*minor.rows}
             if evidence.applies(i, minor.point)
         ]
         plain = any(not any(tree.symbols for tree in trees) for trees in used)

@@ -124,13 +124,13 @@ def symbol(name: str) -> Tree:
     return Tree("symbol", (), name)
 
 
-def _split(parts: Sequence[Tree]) -> tuple[list[Fraction], list[Tree]]:
+def _split(terms: Sequence[Tree]) -> tuple[list[Fraction], list[Tree]]:
     """The numbers among terms or factors, and the others."""
-    numbers = [part for part in parts if part.head == "number"]
+    numbers = [term for term in terms if term.head == "number"]
     if not numbers:
-        return [], [*parts]
+        return [], [*terms]
     refuse(sum([p.size - 1 for p in numbers]) > LARGEST_NUMBER, "a number is too large")
-    others = [part for part in parts if part.head != "number"]
+    others = [term for term in terms if term.head != "number"]
     return [p.value for p in numbers if isinstance(p.value, Fraction)], others
 
 

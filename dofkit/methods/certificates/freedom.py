@@ -156,8 +156,8 @@ def independent(context: Context, entry: ConstraintEntry, field: str) -> Iterato
         yield {"rule": "inequality"}
         return
     standing, order = context.standing, context.equations
-    own = context.scenery.evidence.owned(entry.name)
-    last = max((k for k, name in enumerate(order) if name in own), default=-1)
+    equations = context.scenery.evidence.owned(entry.name)
+    last = max((k for k, name in enumerate(order) if name in equations), default=-1)
     rows = order[: last + 1]
     if standing is None or not rows:
         return
@@ -209,8 +209,8 @@ def integrable_part(context: Context) -> Iterator[Told]:
     if part is None or finite is None:
         return
     yield {"rule": "integrals", "minor": context.minor(finite), "steps": []}
-    told = filter(None, map(function_in, part.basis or []))
-    steps = [step for text in told if (step := combined_integral(context, text))]
+    functions = filter(None, map(function_in, part.basis or []))
+    steps = [step for function in functions if (step := combined_integral(context, function))]
     standing = context.standing_of([*finite.rows, *steps])
     if steps and standing is not None:
         yield {"rule": "integrals", "minor": context.minor(standing), "steps": steps}

@@ -114,10 +114,10 @@ def cofactors(context: Context, target: Components, rows: dict[str, Components])
 def _chosen(context: Context, target: Components, rows: dict[str, Components]) -> tuple[list[str], list[str]]:
     """The sources that matter beside the point, and columns in which they are independent at it."""
     floats = context.point.floats if context.point is not None else {}
-    beside = Estimates({name: value + (1 + i % 5) / 16 for i, (name, value) in enumerate(floats.items())})
-    numbers = {row: _floats(context, beside, components) for row, components in rows.items()}
+    nearby = Estimates({name: value + (1 + i % 5) / 16 for i, (name, value) in enumerate(floats.items())})
+    numbers = {row: _floats(context, nearby, components) for row, components in rows.items()}
     pivots = echelon(list(numbers.values()))
-    kept, goal = [list(rows)[p.row] for p in pivots], _floats(context, beside, target)
+    kept, goal = [list(rows)[p.row] for p in pivots], _floats(context, nearby, target)
     square = [{row: numbers[row].get(p.column, 0.0) for row in kept} for p in pivots]
     solution = least_step(square, [goal.get(p.column, 0.0) for p in pivots])
     chosen = [row for row in rows if abs(solution.get(row, 0.0)) > FAR]
@@ -194,8 +194,8 @@ def integral(context: Context, entry: ConstraintEntry, field: str) -> Iterator[T
         yield {**claim, "step": alone}
     if (step := combined_integral(context, function)) is None:
         return
-    told = dict.fromkeys(function_in(other.integral) for other in context.report.constraints)
-    others = [other for text in told if text and (other := combined_integral(context, text)) and other != step]
+    texts = dict.fromkeys(function_in(other.integral) for other in context.report.constraints)
+    others = [other for text in texts if text and (other := combined_integral(context, text)) and other != step]
     standing = context.standing_of([*context.scenery.evidence.finite, *others, names[0]])
     if (
         add_step_from_integrals(context, names[0], [step, *others])

@@ -45,7 +45,7 @@ def solving_order(
     that holds most is left over; else all are.
     """
     held = {name: moved_by(scenery, name) for name in names}
-    order, left = Order(), list[str]()
+    order, skipped = Order(), list[str]()
     while held:
         alone = {q for q, often in Counter(chain(*held.values())).items() if often == 1}
         free = ([name, q] for q in columns if q in alone for name in held if q in held[name] and gives(name, q))
@@ -54,9 +54,9 @@ def solving_order(
         elif not skips:
             return order, [*held]
         else:
-            left.append(max(held, key=lambda name: len(held[name])))
-        del held[pair[0] if pair else left[-1]]
-    return order, left
+            skipped.append(max(held, key=lambda name: len(held[name])))
+        del held[pair[0] if pair else skipped[-1]]
+    return order, skipped
 
 
 def moved_by(scenery: Scenery, name: str) -> set[str]:
