@@ -8,25 +8,8 @@ from typing import Any
 
 from dofkit.checker.geometry import CheckedFrame, MaterialPoint, Vector, apart, cross, dot, length, less, scaled, square
 from dofkit.checker.grammar import KnownNames, Sided, parse, parse_relations
-from dofkit.checker.trees import (
-    ONE,
-    TWO,
-    ZERO,
-    Effort,
-    Tree,
-    add,
-    call,
-    difference,
-    evaluated,
-    in_velocities,
-    not_zero,
-    number,
-    power,
-    refuse,
-    substituted,
-    symbol,
-    times,
-)
+from dofkit.checker.point import evaluated, not_zero
+from dofkit.checker.trees import ONE, TWO, ZERO, Effort, Tree, add, call, in_velocities, refuse, substituted, symbol
 
 Entry = Mapping[str, Any]
 
@@ -93,7 +76,7 @@ class Surroundings:
         sure = [i for i in every if nowhere_zero(n[i], self.signs, Effort())]
         refuse(not sure and (self.dimension == 3 or not any(part.symbols for part in n)), "a direction may be 0")
         k = min(sure, key=lambda i: n[i].head != "number", default=0)
-        rows = [{i: n[k], k: difference(ZERO, n[i])} for i in every if i != k]
+        rows = [{i: n[k], k: -n[i]} for i in every if i != k]
         return n, tuple(tuple(row.get(j, ZERO) for j in every) for row in rows)
 
     def between(self, texts: Any, letters: Iterable[str]) -> list[Sided]:
@@ -101,10 +84,8 @@ class Surroundings:
         refuse(not isinstance(texts, list), "a curve is a list of texts")
         known_names = KnownNames(self.names.coordinates.union(letters), self.names.values, self.names.functions)
         relations = [relation for text in texts for relation in parse_relations(text, known_names)]
-        allowed = known_names.coordinates.union(self.signs, "t")
-        refuse(
-            any(not sided.tree.symbols <= allowed for sided in relations), "a text mentions places, parameters and t"
-        )
+        held = frozenset().union(*(sided.tree.symbols for sided in relations))
+        refuse(held - {*known_names.coordinates, *self.signs, "t"}, "a text mentions places, parameters and t")
         return relations
 
 
@@ -155,7 +136,7 @@ def cam(world: Surroundings, entry: Entry) -> Iterator[Tree]:
 def link(world: Surroundings, entry: Entry) -> Iterator[Tree]:
     """|A - B|^2 - length^2, times the square of the denominator of A - B."""
     first, second = map(world.point, entry["between"])
-    yield distance(world, first, second, power(world.moving(entry["length"]), TWO) if "length" in entry else None)
+    yield distance(world, first, second, world.moving(entry["length"]) ** 2 if "length" in entry else None)
 
 
 def rigid(world: Surroundings, entry: Entry) -> Iterator[Tree]:
@@ -170,7 +151,7 @@ def distance(world: Surroundings, first: MaterialPoint, second: MaterialPoint, s
         drawn = first.start and second.start and square(less(first.start, second.start))
         squared = drawn or world.fresh("square")
     arm, under = apart(first, second)
-    return difference(square(arm), times(squared, under, under))
+    return square(arm) - squared * under * under
 
 
 def string(world: Surroundings, entry: Entry) -> Iterator[Tree]:
@@ -179,7 +160,7 @@ def string(world: Surroundings, entry: Entry) -> Iterator[Tree]:
     drawn = [length(less(b.start, a.start)) for a, b in pairs if a.start and b.start]
     prescribed = world.moving(entry["length"]) if "length" in entry else None
     total = prescribed or (add(*drawn) if len(drawn) == len(pairs) else world.fresh("length"))
-    yield difference(add(*(length(less(b.place, a.place)) for a, b in pairs)), total)
+    yield add(*(length(less(b.place, a.place)) for a, b in pairs)) - total
 
 
 def fixed(world: Surroundings, entry: Entry) -> Iterator[Tree]:
@@ -187,7 +168,7 @@ def fixed(world: Surroundings, entry: Entry) -> Iterator[Tree]:
     refuse(("point" in entry) == ("body" in entry), "either a point or a body is fixed")
     if "body" in entry:
         world.drawn.add(entry["body"])
-        yield from (difference(symbol(q), value) for q, value in world.frames[entry["body"]].reference.items())
+        yield from (symbol(q) - value for q, value in world.frames[entry["body"]].reference.items())
     else:
         point = world.point(entry["point"])
         yield from less(point.over, scaled(point.under, point.start or world.place(None)))
@@ -212,25 +193,25 @@ def roll(world: Surroundings, entry: Entry) -> Iterator[Tree]:
     """Contact, and no velocity of the lowest point: v + w x (0, 0, -r) = 0, in the plane xdot + r thetadot = 0."""
     frame, radius = world.frames[entry["body"]], world.expression(entry["radius"])
     rates = [symbol(f"{q}dot") for q in frame.reference]
-    yield difference(frame.position[-1], radius)
+    yield frame.position[-1] - radius
     if world.dimension == 2:
-        yield add(rates[0], times(radius, rates[2]))
+        yield rates[0] + radius * rates[2]
         return
     if frame.cayley:
         spin = scaled(TWO, tuple(map(add, rates[3:], cross(frame.cayley, rates[3:]))))
     else:
         phi, theta, _ = map(symbol, list(frame.reference)[3:])
-        c, s, tilt = call("cos", phi), call("sin", phi), times(rates[5], call("sin", theta))
-        spin = add(times(rates[4], c), times(s, tilt)), difference(times(rates[4], s), times(c, tilt))
-    yield difference(times(frame.under, rates[0]), times(radius, spin[1]))
-    yield add(times(frame.under, rates[1]), times(radius, spin[0]))
+        c, s, tilt = call("cos", phi), call("sin", phi), rates[5] * call("sin", theta)
+        spin = rates[4] * c + s * tilt, rates[4] * s - c * tilt
+    yield frame.under * rates[0] - radius * spin[1]
+    yield frame.under * rates[1] + radius * spin[0]
 
 
 def gear(world: Surroundings, entry: Entry) -> Iterator[Tree]:
     """theta2 - ratio theta1 = 0 for angles from the reference, against the carrier if there is one."""
     arm = world.frames[entry.get("carrier", "ground")].angle
-    first, second = (difference(world.frames[name].angle, arm) for name in entry["between"])
-    yield difference(second, times(world.expression(entry["ratio"]), first))
+    first, second = (world.frames[name].angle - arm for name in entry["between"])
+    yield second - world.expression(entry["ratio"]) * first
 
 
 def joint(world: Surroundings, entry: Entry, keeps: str) -> Iterator[Tree]:
@@ -256,30 +237,30 @@ def joint(world: Surroundings, entry: Entry, keeps: str) -> Iterator[Tree]:
         "line": lambda: (first.offset(moved, place, u) for u in across),
         "plane": lambda: [first.offset(moved, place, n)],
         "cross": lambda: [dot(first.carry(a), second.carry(b)) for a, b in [map(world.vector, entry["axes"])]],
-        "thread": lambda: [difference(slid(), times(world.expression(entry["pitch"]), TURN, turn()))],
+        "thread": lambda: [slid() - world.expression(entry["pitch"]) * TURN * turn()],
     }
     for kept in keeps.split():
         yield from equations[kept]()
     if "drive" in entry:
         law = world.expression(entry["drive"], "t")
         if keeps in ("turn line", "axis line"):
-            yield difference(slid(), law)
+            yield slid() - law
         elif not across:
-            yield difference(difference(second.angle, first.angle), law)
+            yield second.angle - first.angle - law
         else:
             sine, cosine = turned(first, second, n, across[0])
-            yield difference(times(sine, call("cos", law)), times(cosine, call("sin", law)))
+            yield sine * call("cos", law) - cosine * call("sin", law)
 
 
 def turned(first: CheckedFrame, second: CheckedFrame, n: Vector, u: Vector) -> tuple[Tree, Tree]:
     """The sine and cosine of the angle about n, times one positive factor; u is across n."""
     now = second.carry(u)
-    return dot(first.carry(cross(n, u)), now), times(length(n), dot(first.carry(u), now))
+    return dot(first.carry(cross(n, u)), now), length(n) * dot(first.carry(u), now)
 
 
 def displaced(frame: CheckedFrame, point: MaterialPoint, place: Vector, n: Vector) -> Tree:
     """How far a point has moved from a place of a body, along n."""
-    return times(frame.offset(point, place, n), power(times(frame.under, point.under, length(n)), number(-1)))
+    return frame.offset(point, place, n) / (frame.under * point.under * length(n))
 
 
 def coupling(world: Surroundings, entry: Entry) -> Iterator[Sided]:
@@ -298,7 +279,7 @@ def measured(world: Surroundings, written: str) -> Tree:
     refuse((what or only) not in ("angle", "displacement") or only not in ("", what or only), f"`{written}` is unclear")
     first, second = (world.frames[end] for end in entry["between"])
     if world.dimension == 2 and only == "angle":
-        return difference(second.angle, first.angle)
+        return second.angle - first.angle
     n, across = world.direction([*entry["axis"]])
     if (what or only) == "angle":
         return turn_about(first, second, n, across)
@@ -314,12 +295,12 @@ def turn_about(first: CheckedFrame, second: CheckedFrame, n: Vector, across: Seq
 def parallel(first: CheckedFrame, second: CheckedFrame) -> Iterable[Tree]:
     """No turn of one against the other: the angle; Cayley parameters, those of B = A1^T A2 by B - B^T over 1 + tr B."""
     if len(first.position) == 2:
-        return [difference(second.angle, first.angle)]
+        return [second.angle - first.angle]
     if first.cayley is not None and second.cayley is not None:
         return less(second.cayley, first.cayley)
     a, b = (tuple(zip(*frame.turn, strict=True)) for frame in (first, second))
-    half = power(add(times(first.under, second.under), *(dot(a[i], b[i]) for i in range(3))), difference(ZERO, ONE))
-    return [times(half, difference(dot(a[i], b[j]), dot(a[j], b[i]))) for i, j in ((0, 1), (1, 2), (2, 0))]
+    half = add(first.under * second.under, *(dot(a[i], b[i]) for i in range(3))) ** -1
+    return [half * (dot(a[i], b[j]) - dot(a[j], b[i])) for i, j in ((0, 1), (1, 2), (2, 0))]
 
 
 #: What a coupling tells of a joint; "" where it has to say which. How many turns a radian is.

@@ -9,19 +9,16 @@ from flint import fmpq_mat
 
 from dofkit.checker.evidence import MOST, CheckedEvidence, CheckedMinor, Told, admissible, independent, of_word, span
 from dofkit.checker.geometry import determinant, dot
-from dofkit.checker.point import CheckedPoint
-from dofkit.checker.trees import ONE, derivative, not_zero, refuse, times
+from dofkit.checker.point import CheckedPoint, not_zero
+from dofkit.checker.trees import ONE, derivative, refuse
 
 MOST_FORMS = 6
 
 
 def bounds(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     """dof or velocity_dof near a point, between two bounds."""
-    path, size, minor_of_claim = claim["path"], len(evidence.problem.coordinates), {"minor": claim.get("minor")}
-    most, least = (
-        claim.get("most", {**minor_of_claim, "rule": "minor"}),
-        claim.get("least", {**minor_of_claim, "rule": "regular"}),
-    )
+    path, size = claim["path"], len(evidence.problem.coordinates)
+    most, least = claim.get("most", {**claim, "rule": "minor"}), claim.get("least", {**claim, "rule": "regular"})
     refuse(path != "/dof" and most["rule"] != "minor", "an upper bound of velocities is `minor`")
     minor = MOST[most["rule"]](evidence, most) if path == "/dof" else evidence.minor(most["minor"])
     above = size - len(minor.rows) - (most["rule"] == "isolated")
@@ -81,15 +78,11 @@ def _groups(evidence: CheckedEvidence, verified: Told) -> list[Told]:
 
     So it is where what can be dropped was verified at the same point: there the dependent equation is a regular one.
     """
-    surplus, constrained = (
-        verified["/redundant_equations"],
-        [owner for owner in owners(evidence) if evidence.owned(owner)],
-    )
-    place, whole = verified.get("at /redundant", object()), len(constrained) == 1 or "apart" in verified
-    around = [
-        {owner, *verified[f"circuit {owner}"]} for owner in constrained if verified.get(f"at circuit {owner}") == place
-    ]
-    around = [set(constrained)] if whole else around
+    surplus, place = verified["/redundant_equations"], verified.get("at /redundant", object())
+    constrained = [owner for owner in owners(evidence) if evidence.owned(owner)]
+    whole = len(constrained) == 1 or "apart" in verified
+    tied = [owner for owner in constrained if verified.get(f"at circuit {owner}") == place]
+    around = [{*constrained}] if whole else [{owner, *verified[f"circuit {owner}"]} for owner in tied]
     refuse(surplus and (len(around) != 1 or (surplus > 1 and not whole)), "several groups, or none that is shown")
     return [{"nullity": surplus, "members": [owner for owner in constrained if owner in around[0]]}] if surplus else []
 
@@ -195,17 +188,12 @@ def _depend_plainly(evidence: CheckedEvidence, minor: CheckedMinor, others: set[
     if not others or (not evidence.moving and all(_is_general(evidence, name) for name in evidence.finite)):
         return
     for name in others:
-        ways = [
-            (i, consequence)
-            for i, consequence in enumerate(evidence.consequences)
-            if consequence.target == name and consequence.defined
+        used = [
+            (*step.defined, *step.nonzero)
+            for i, step in enumerate(evidence.consequences)
+            if step.target == name and step.defined and {*step.sources} <= {*minor.rows}
+            if evidence.applies(i, minor.point)
         ]
-        ways = [
-            (i, consequence)
-            for i, consequence in ways
-            if {*consequence.sources} <= {*minor.rows} and evidence.applies(i, minor.point)
-        ]
-        used = [(*consequence.defined, *consequence.nonzero) for _, consequence in ways]
         plain = any(not any(tree.symbols for tree in trees) for trees in used)
         single = len(others) == 1 and any(all(not_zero(minor.point.value(t)) for t in trees) for trees in used)
         refuse(not plain and not single, f"`{name}` does not depend on the rows by numbers")
@@ -253,11 +241,7 @@ def growth(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[int]:
 
     Directions are those of (q, t) where a constraint was verified to be rheonomic or not catastatic.
     """
-    labels = [
-        f"{field} {relation.owner}"
-        for field in ("scleronomic", "catastatic")
-        for relation in evidence.problem.relations
-    ]
+    labels = [f"{field} {owner}" for field in ("scleronomic", "catastatic") for owner in owners(evidence)]
     refuse(evidence.timed and not any(verified.get(label) is False for label in labels), "time may be divided out")
     minor = evidence.accounts(evidence.minor(claim["minor"]), evidence.equations)
     whole = len(evidence.problem.coordinates) - verified_rank(evidence, minor.point, verified) + evidence.timed
@@ -339,7 +323,7 @@ def _independent_everywhere(evidence: CheckedEvidence, gram: Told, ordered: list
     positive = all(evidence.is_nowhere_zero(tree, True) for tree in (value, *scales.values()))
     refuse(not positive, "the determinant or a scale is not positive by itself")
     rows = [[evidence.slope(name, q) for q in coordinates] for name in forms]
-    scaled = [[times(scales.get(q, ONE), slope) for q, slope in zip(coordinates, row, strict=True)] for row in rows]
+    scaled = [[scales.get(q, ONE) * slope for q, slope in zip(coordinates, row, strict=True)] for row in rows]
     matrix = [[dot(row, other) for other in scaled] for row in rows]
     evidence.identity(determinant(matrix), value, "the determinant of the forms")
 

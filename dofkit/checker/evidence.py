@@ -11,24 +11,9 @@ from typing import Any, NamedTuple
 
 from flint import arb, arb_mat, ctx
 
-from dofkit.checker.point import CheckedPoint
+from dofkit.checker.point import PRECISION, CheckedPoint, evaluated, not_zero
 from dofkit.checker.relations import CheckedRelations, Consequence, total_derivative
-from dofkit.checker.trees import (
-    ONE,
-    PRECISION,
-    ZERO,
-    Tree,
-    along,
-    call,
-    derivative,
-    difference,
-    evaluated,
-    linear_in,
-    not_zero,
-    refuse,
-    substituted,
-    symbol,
-)
+from dofkit.checker.trees import ONE, ZERO, Tree, along, call, derivative, linear_in, refuse, substituted, symbol
 
 LARGEST_MINOR, LONGEST_WORD, LARGEST_FIELD, HIGHEST_ORDER = 250, 12, 100_000, 8
 Told = dict[str, Any]
@@ -104,9 +89,8 @@ class CheckedEvidence(CheckedRelations):
                 point.value(self.slope(relation.name, velocity[:-3]))
             wrong = still and not_zero(point.value(relation.tree))
             if states:
-                wrong |= not self.is_zero(
-                    total_derivative(relation.tree, self.variables) if still else relation.tree, point
-                )
+                rate = total_derivative(relation.tree, self.variables) if still else relation.tree
+                wrong |= not self.is_zero(rate, point)
             refuse(wrong, f"`{relation.name}` is not satisfied at the point `{point.name}`, or not by its velocities")
 
     def minor(self, entry: Any, allowed: Collection[str] | None = None) -> CheckedMinor:
@@ -167,10 +151,9 @@ class CheckedEvidence(CheckedRelations):
     def reference(self) -> Mapping[str, Tree]:
         """The scene's configuration; nothing where a relation of numbers is certainly not 0 there."""
         values = (self.at_reference(self.relation(name).tree) for name in self.finite) if self.problem.reference else ()
-        missed = (
-            not tree.symbols and not tree.applied and not_zero(evaluated(tree, {}, self.effort)) for tree in values
-        )
-        return {} if any(missed) else self.problem.reference
+        plain = (tree for tree in values if not tree.symbols and not tree.applied)
+        missed = any(not_zero(evaluated(tree, {}, self.effort)) for tree in plain)
+        return {} if missed else self.problem.reference
 
     def is_about(self, about: Any, point: CheckedPoint, exempt: Collection[tuple[str, ...]] = ()) -> Any:
         """The point's name, or ``reference``; `CheckError` unless it is one of those that a claim is about.
@@ -220,7 +203,7 @@ def bracket(evidence: CheckedEvidence, x: VelocityField, y: VelocityField) -> Ve
     sizes = [sum(tree.size for tree in field.values()) for field in (x, y)]
     evidence.effort.spend(sizes[0] * len(y) + sizes[1] * len(x) + 1)
     refuse(max(sizes) > LARGEST_FIELD, "a bracket is too large")
-    return {q: difference(along(x, y.get(q, ZERO)), along(y, x.get(q, ZERO))) for q in {**x, **y}}
+    return {q: along(x, y.get(q, ZERO)) - along(y, x.get(q, ZERO)) for q in {**x, **y}}
 
 
 def on_row(evidence: CheckedEvidence, row: str, field: VelocityField) -> Tree:
@@ -309,9 +292,8 @@ def take_cover(evidence: CheckedEvidence, name: Any) -> list[str]:
         fields = [field_named(evidence, field) for field in block["fields"]]
         held = frozenset().union(*(evidence.relation(row).tree.symbols for row in block["rows"]))
         variables = held & set(evidence.problem.coordinates)
-        refuse(
-            not set(block["columns"]) <= variables or any("t" in field for field in fields), "a column of no coordinate"
-        )
+        unmoved = set(block["columns"]) <= variables and not any("t" in field for field in fields)
+        refuse(not unmoved, "a column of no coordinate, or a field that moves t")
         tangent(evidence, ([name] for name in block["fields"]), block["rows"])
         independent(evidence, fields, block["columns"], minor.point)
         total += min(len(variables) - len(fields), len(block["rows"]))

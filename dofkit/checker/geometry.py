@@ -5,10 +5,11 @@ the rotation by the angle less its reference value; in space it is R R_ref^T wit
 read with Cayley parameters g = (a, b, c), A = ((1 - g.g) I + 2 g g^T + 2 [g]) / (1 + g.g).
 """
 
+import operator
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
-from dofkit.checker.trees import ONE, TWO, ZERO, Tree, add, call, difference, negative, number, power, symbol, times
+from dofkit.checker.trees import ONE, TWO, ZERO, Tree, add, call, number, symbol, times
 
 Vector = tuple[Tree, ...]
 Matrix = tuple[Vector, ...]
@@ -21,22 +22,22 @@ def dot(a: Sequence[Tree], b: Sequence[Tree]) -> Tree:
 
 def cross(a: Sequence[Tree], b: Sequence[Tree]) -> Vector:
     """The vector product."""
-    return tuple(difference(times(a[i], b[j]), times(a[j], b[i])) for i, j in ((1, 2), (2, 0), (0, 1)))
+    return tuple(a[i] * b[j] - a[j] * b[i] for i, j in ((1, 2), (2, 0), (0, 1)))
 
 
 def less(a: Sequence[Tree], b: Sequence[Tree]) -> Vector:
     """a - b."""
-    return tuple(map(difference, a, b))
+    return tuple(map(operator.sub, a, b))
 
 
 def scaled(factor: Tree, a: Sequence[Tree]) -> Vector:
     """factor a."""
-    return tuple(times(factor, part) for part in a)
+    return tuple(factor * part for part in a)
 
 
 def square(a: Sequence[Tree]) -> Tree:
     """a . a."""
-    return add(*(times(part, part) if part.head == "number" else power(part, TWO) for part in a))
+    return add(*(part * part if part.head == "number" else part**2 for part in a))
 
 
 def length(a: Sequence[Tree]) -> Tree:
@@ -50,12 +51,7 @@ def determinant(rows: Sequence[Sequence[Tree]]) -> Tree:
     if not rows:
         return ONE
     minors = (determinant([[*row[:j], *row[j + 1 :]] for row in rows[1:]]) for j in range(len(rows)))
-    return add(
-        *(
-            times(entry, negative(minor) if j % 2 else minor)
-            for j, (entry, minor) in enumerate(zip(rows[0], minors, strict=True))
-        )
-    )
+    return add(*(rows[0][j] * (-minor if j % 2 else minor) for j, minor in enumerate(minors)))
 
 
 def product(a: Matrix, b: Matrix) -> Matrix:
@@ -66,7 +62,7 @@ def product(a: Matrix, b: Matrix) -> Matrix:
 def rotation(d: int, i: int, j: int, angle: Tree = ZERO) -> Matrix:
     """The rotation by an angle in the plane of two axes; by 0 it is the identity."""
     c, s = (ONE, ZERO) if angle == ZERO else (call("cos", angle), call("sin", angle))
-    turned = {(i, i): c, (i, j): negative(s), (j, i): s, (j, j): c}
+    turned = {(i, i): c, (i, j): -s, (j, i): s, (j, j): c}
     return tuple(tuple(turned.get((k, m), ONE if k == m else ZERO) for m in range(d)) for k in range(d))
 
 
@@ -77,10 +73,10 @@ def euler_turn(phi: Tree, theta: Tree, psi: Tree) -> Matrix:
 
 def cayley_turn(g: Vector) -> Matrix:
     """(1 - g.g) I + 2 g g^T + 2 [g], which is 1 + g.g times a rotation."""
-    (x, y, z), kept = g, difference(ONE, square(g))
-    skew = ((ZERO, negative(z), y), (z, ZERO, negative(x)), (negative(y), x, ZERO))
-    doubled = [[times(TWO, add(times(g[i], g[j]), skew[i][j])) for j in range(3)] for i in range(3)]
-    return tuple(tuple(add(kept if i == j else ZERO, doubled[i][j]) for j in range(3)) for i in range(3))
+    (x, y, z), kept = g, ONE - square(g)
+    skew = ((ZERO, -z, y), (z, ZERO, -x), (-y, x, ZERO))
+    doubled = [[TWO * (g[i] * g[j] + skew[i][j]) for j in range(3)] for i in range(3)]
+    return tuple(tuple((kept if i == j else ZERO) + doubled[i][j] for j in range(3)) for i in range(3))
 
 
 class MaterialPoint(NamedTuple):
@@ -93,14 +89,14 @@ class MaterialPoint(NamedTuple):
     @property
     def place(self) -> Vector:
         """X."""
-        return self.over if self.under == ONE else scaled(power(self.under, number(-1)), self.over)
+        return scaled(self.under**-1, self.over)
 
 
 def apart(first: MaterialPoint, second: MaterialPoint) -> tuple[Vector, Tree]:
     """second - first as numerator and denominator."""
     if first.under == second.under:
         return less(second.over, first.over), first.under
-    return less(scaled(first.under, second.over), scaled(second.under, first.over)), times(first.under, second.under)
+    return less(scaled(first.under, second.over), scaled(second.under, first.over)), first.under * second.under
 
 
 class CheckedFrame(NamedTuple):
@@ -137,7 +133,7 @@ class CheckedFrame(NamedTuple):
     def offset(self, point: MaterialPoint, place: Vector, direction: Vector) -> Tree:
         """How far a point is from a place of this body, along a direction of it, times both denominators."""
         now = dot(self.carry(direction), less(point.over, scaled(point.under, self.position)))
-        return difference(now, times(self.under, point.under, dot(direction, less(place, self.start))))
+        return now - self.under * point.under * dot(direction, less(place, self.start))
 
 
 def ground(d: int) -> CheckedFrame:
@@ -151,9 +147,9 @@ def body_frame(name: str, d: int, reference: Mapping[str, Tree], cayley: bool) -
     moving, values = tuple(map(symbol, reference)), tuple(reference.values())
     turning, initial, under, angle, turn = moving[d:], values[d:], ONE, ZERO, rotation(d, 0, 1)
     if cayley:
-        turn, under = cayley_turn(turning), add(ONE, square(turning))
+        turn, under = cayley_turn(turning), ONE + square(turning)
     elif d == 2:
-        angle = difference(turning[0], initial[0])
+        angle = turning[0] - initial[0]
         turn = rotation(2, 0, 1, angle)
     elif d == 3:
         turn = product(euler_turn(*turning), tuple(zip(*euler_turn(*initial), strict=True)))

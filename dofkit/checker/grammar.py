@@ -15,12 +15,10 @@ from dofkit.checker.trees import (
     FUNCTIONS,
     ONE,
     ZERO,
-    CheckError,
     Tree,
     add,
     call,
     keeps_values,
-    negative,
     number,
     power,
     refuse,
@@ -115,16 +113,15 @@ class KnownNames:
             match = pattern.fullmatch(word)
             base = self.words.get("".join(match.groups(""))) if match else None
             if base and base.name in self.coordinates:
-                return Lexeme("value" if "'" in word else "moving", times(symbol(f"{base.name}dot"), step))
+                return Lexeme("value" if "'" in word else "moving", symbol(f"{base.name}dot") * step)
         return None
 
     def meaning(self, word: str) -> Lexeme:
         """What a word means."""
         refuse(len(word) > LONGEST_NAME, f"a name of {len(word)} letters is too long")
         plain = spelled_out(word)
-        lexeme = self.words.get(plain) or self.moved(plain) or (_E if plain == "E" else None)
-        if lexeme is None:
-            raise CheckError(f"`{word}` is not declared")
+        lexeme = self.words.get(plain) or self.moved(plain) or (_E if plain == "E" else Lexeme(""))
+        refuse(not lexeme.kind, f"`{word}` is not declared")
         return lexeme
 
 
@@ -161,7 +158,7 @@ def parse_relations(text: object, names: KnownNames, signs: bool = True) -> list
     side, relations = reader.sum(), []
     while signs and (sign := reader.accepted("relation").name):
         right = reader.sum()
-        tree = add(right, negative(side)) if sign[0] in "<≤" else add(side, negative(right))
+        tree = add(right, -side) if sign[0] in "<≤" else add(side, -right)
         relations.append(Sided(tree, "=" if sign[0] == "=" else ">" if sign in "<>" else ">="))
         side = right
     reader.needed("end")
@@ -222,7 +219,7 @@ class _Reader:
             of_time = self.next.kind == "(" and self.next.touching and self.tokens[self.at + 1].tree == _TIME
             refuse(of_time, "it may be a power or a factor")
         self.depth -= 1
-        return negative(tree) if minus else tree
+        return -tree if minus else tree
 
     def primary(self) -> Tree:
         """A number, a name, a group, or a function of something."""
@@ -234,10 +231,7 @@ class _Reader:
         if token.kind in ("function", "declared"):
             return self.function(token) if token.kind == "function" else self.declared(token)
         after = self.tokens[self.at : self.at + 3]
-        called = token.kind != "number" and [lexeme.kind for lexeme in after] in (
-            ["(", "value", ")"],
-            ["(", "number", ")"],
-        )
+        called = " ".join(lexeme.kind for lexeme in after) in ("( value )", "( number )") and token.kind != "number"
         refuse(called and (self.next.touching or after[1].tree == _TIME), "it may be a factor or a function")
         return token.tree
 

@@ -6,21 +6,8 @@ from typing import Any
 
 from dofkit.checker.dimension_rules import names_told, verified_rank
 from dofkit.checker.evidence import CheckedEvidence, Told, admissible, involutive, of_word
-from dofkit.checker.point import CheckedPoint
-from dofkit.checker.trees import (
-    ONE,
-    ZERO,
-    Tree,
-    add,
-    derivative,
-    difference,
-    homogeneous_degree,
-    not_zero,
-    refuse,
-    substituted,
-    symbol,
-    times,
-)
+from dofkit.checker.point import CheckedPoint, not_zero
+from dofkit.checker.trees import ONE, ZERO, Tree, add, derivative, homogeneous_degree, refuse, substituted, symbol
 
 Form = dict[str, Tree]
 EQUATIONS, EVERY = ("finite", "velocity"), ("finite", "velocity", "inequality")
@@ -112,7 +99,7 @@ def exact(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
 
 def exterior_part(form: Form, i: str, j: str) -> Tree:
     """A component of the derivative of a form."""
-    return difference(derivative(form.get(j, ZERO), i), derivative(form.get(i, ZERO), j))
+    return derivative(form.get(j, ZERO), i) - derivative(form.get(i, ZERO), j)
 
 
 def timeless(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
@@ -126,11 +113,8 @@ def timeless(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
     refuse(catastatic and all(checked.kind != "velocity" for checked in ones), "there is no form")
     apart = not catastatic and len(names) == 1 and verified.get(f"holonomic {claim['owner']}") is False
     for checked in ones:
-        mixed = not apart and homogeneous_degree(checked.tree, evidence.velocities) is None
-        refuse(
-            mixed and not evidence.is_linear(checked.name),
-            f"`{checked.name}` is no form, or not homogeneous in velocities",
-        )
+        mixed = homogeneous_degree(checked.tree, evidence.velocities) is None and not evidence.is_linear(checked.name)
+        refuse(mixed and not apart, f"`{checked.name}` is no form, or not homogeneous in velocities")
         for name in ["tdot"] if catastatic else ["t"] if apart else ["t", "tdot"]:
             evidence.identity(derivative(checked.tree, name), ZERO, f"the derivative of `{checked.name}` by {name}")
     return True
@@ -147,10 +131,7 @@ def time_dependent(evidence: CheckedEvidence, claim: Told, verified: Told) -> bo
     name, point, catastatic = claim["relation"], evidence.point(claim["at"]), claim["field"] == "catastatic"
     names, checked = constraint_relations(evidence, claim, EVERY), evidence.relation(claim["relation"])
     plain = len(names) == 1 or all(evidence.relation(other).kind == "finite" for other in names)
-    refuse(
-        name not in names or not plain,
-        "one relation of the constraint is needed, or finite ones",
-    )
+    refuse(name not in names or not plain, "one relation of the constraint is needed, or finite ones")
     turned = derivative(checked.tree, "t")
     if checked.kind == "velocity" and evidence.is_linear(name):
         turned = evidence.slope(name, "t")
@@ -158,17 +139,16 @@ def time_dependent(evidence: CheckedEvidence, claim: Told, verified: Told) -> bo
         refuse(not catastatic and "pair" not in claim and not integrates, "it is not shown to integrate")
         if not catastatic and "pair" in claim:
             a, b = (evidence.slope(name, v) for v in claim["pair"])
-            turned = difference(times(a, derivative(b, "t")), times(b, derivative(a, "t")))
+            turned = a * derivative(b, "t") - b * derivative(a, "t")
     else:
         if checked.kind == "finite":
             evidence.on_set(point, names)
         held = checked.kind == "finite" or evidence.holds(name, point)
         refuse((catastatic and checked.kind != "velocity") or not held, "it holds no velocities, or is not 0 there")
-        slopes = {
-            v: derivative(checked.tree, v) for v in sorted(checked.tree.symbols.difference(evidence.chosen, ["t"]))
-        }
+        moved = sorted(checked.tree.symbols.difference(evidence.chosen, ["t"]))
+        slopes = {v: derivative(checked.tree, v) for v in moved}
         if catastatic:
-            turned = add(*(times(symbol(v), slopes[v]) for v in slopes if v in evidence.velocities))
+            turned = add(*(symbol(v) * slopes[v] for v in slopes if v in evidence.velocities))
         stationary = not any(not_zero(point.value(slope)) for slope in slopes.values())
         refuse(stationary and checked.kind != "inequality", "the relation may be stationary at the point")
     refuse(not not_zero(point.value(turned)), "time may not enter at the point")
@@ -245,20 +225,10 @@ def moves(evidence: CheckedEvidence, claim: Told, wanted: Sequence[str]) -> Chec
     """A point through which a motion meets equations: a regular one, or one at which all may rest."""
     if claim["rule"] == "regular":
         return evidence.accounts(evidence.minor(claim["minor"]), wanted).point
-    point, still = evidence.point(claim["at"]), [name for name in wanted if evidence.relation(name).kind == "finite"]
-    evidence.on_set(point, still)
-    evidence.settled(point, still, claim)
-    chosen = any(evidence.is_open(evidence.relation(name).tree) for name in still)
-    exact = {} if chosen else {name: tree for name, tree in point.exact.items() if name != "t"}
-    still_values = {**dict.fromkeys(evidence.velocities, ZERO), "tdot": ONE}
-    balls = {rate: point.value(tree) for rate, tree in still_values.items()}
-    for name in wanted:
-        equation = evidence.relation(name).tree
-        if name not in still or "t" in equation.symbols:
-            for tree in (equation, *(derivative(equation, v) for v in evidence.met_by(equation))):
-                point.value_with(tree, balls)
-            put_in = substituted(equation, {**({} if evidence.is_open(equation) else exact), **still_values})
-            evidence.identity(put_in, ZERO, f"`{name}` at rest")
+    point = evidence.point(claim["at"])
+    refuse({*wanted} - {*evidence.finite} or evidence.holds_time(wanted), "it may not rest where velocities or t occur")
+    evidence.on_set(point, wanted)
+    evidence.settled(point, wanted, claim)
     return point
 
 
@@ -271,14 +241,18 @@ def refuted(evidence: CheckedEvidence, refutation: Told, verified: Told, names: 
     number = evidence.text(refutation["number"])
     refuse(not evidence.is_nowhere_zero(number, True), "what is left over is not positive")
     factors = {name: evidence.text(text) for name, text in refutation.get("c", {}).items()}
-    total = [number, evidence.squares(refutation.get("sos", []))]
+    total = [number]
+    for c, a in ((evidence.text(c), evidence.text(a)) for c, a in refutation.get("sos", [])):
+        square = evidence.is_nowhere_zero(c, True) and evidence.has_value_everywhere(a)
+        refuse(not square, "no square, or times what is <= 0")
+        total.append(c * a**2)
     for name, factor in factors.items():
         checked = evidence.relation(name)
         alone = len(factors) == 1 and evidence.is_nowhere_zero(factor, True)
         refuse(checked.kind == "inequality" and not alone, "an inequality is refuted by itself, times what is positive")
         whole = name in held and not checked.leaf and evidence.has_value_everywhere(factor)
         refuse(not whole, f"`{name}` is not shown to follow everywhere, or has a cofactor without a value")
-        total.append(times(factor, checked.tree))
+        total.append(factor * checked.tree)
     evidence.identity(substituted(add(*total), {"tdot": ONE}), ZERO, "what is left over")
     return False
 

@@ -17,20 +17,16 @@ from dofkit.checker.trees import (
     HALF,
     MINUS,
     ONE,
-    TWO,
     ZERO,
     Tree,
     add,
     along,
     call,
     derivative,
-    difference,
     homogeneous_degree,
-    power,
     refuse,
     substituted,
     symbol,
-    times,
 )
 
 #: What pulls, and the fields that it has.
@@ -60,7 +56,7 @@ class CheckedEnergies:
             known_fields(entry, f"type name notes {ENTRIES[entry['type']]}")
         texts = {key: self.text(value) for key, value in energies.items() if key != "forces"}
         stored = texts.get("potential") or add(*self.of("spring"), *self.of("gravity"))
-        self.lagrangian = difference(texts.get("kinetic") or add(*self.kinetic()), stored)
+        self.lagrangian = (texts.get("kinetic") or add(*self.kinetic())) - stored
         self.dissipation = texts.get("dissipation") or add(*self.of("damper"))
         self.pushes = [(self.text(text), symbol(q)) for q, text in pushed.items()]
         self.pushes = self.pushes or [pair for pairs in self.of("force") for pair in pairs]
@@ -86,12 +82,12 @@ class CheckedEnergies:
     def kinetic(self) -> Iterator[Tree]:
         """m v.v/2 of all, and w.J w/2 of bodies; an inertia is a number, three moments, or three rows."""
         for mass, place in self.masses():
-            yield times(HALF, mass, square([self.rates[str(q.value)] for q in place]))
+            yield HALF * mass * square([self.rates[str(q.value)] for q in place])
         for entry in self.scene.get("bodies", []) if self.d > 1 else ():
             spin, inertia = self.spin(entry["name"]), entry.get("inertia", symbol(f"inertia of {entry['name']}"))
             for w, row in zip(spin, inertia if isinstance(inertia, list) else [inertia] * len(spin), strict=True):
                 whole = isinstance(row, list)
-                yield times(HALF, w, dot([*map(self.text, row)], spin) if whole else times(self.text(row), w))
+                yield HALF * w * (dot([*map(self.text, row)], spin) if whole else self.text(row) * w)
 
     def spin(self, body: str) -> Vector:
         """The angular velocity; in space by its components in the body's axes."""
@@ -99,16 +95,16 @@ class CheckedEnergies:
         rates = [self.rates[q] for q in angles]
         if self.d == 2:
             return tuple(rates)
-        tilt, (_, theta, psi) = times(rates[0], call("sin", symbol(angles[1]))), map(symbol, angles)
+        tilt, (_, theta, psi) = rates[0] * call("sin", symbol(angles[1])), map(symbol, angles)
         s, c = call("sin", psi), call("cos", psi)
-        turned = add(times(tilt, s), times(rates[1], c)), difference(times(tilt, c), times(rates[1], s))
-        return *turned, add(times(rates[0], call("cos", theta)), rates[2])
+        turned = tilt * s + rates[1] * c, tilt * c - rates[1] * s
+        return *turned, rates[0] * call("cos", theta) + rates[2]
 
     def extent(self, entry: Entry) -> tuple[Tree, Tree | None]:
         """How far two points are apart, now and in the drawing; of bodies of the plane the angle between them."""
         ends, frames = entry["between"], self.world.frames
         if self.d == 2 and all(isinstance(end, str) and end in frames for end in ends):
-            return difference(frames[ends[1]].angle, frames[ends[0]].angle), ZERO
+            return frames[ends[1]].angle - frames[ends[0]].angle, ZERO
         first, second = map(self.world.point, ends)
         drawn = length(less(second.start, first.start)) if first.start and second.start else None
         return length(less(second.place, first.place)), drawn
@@ -117,16 +113,16 @@ class CheckedEnergies:
         """k (d - d0)^2/2, d0 as it is drawn where it is not given."""
         now, drawn = self.extent(entry)
         rest_length = self.text(entry.get("rest_length", drawn))
-        return times(HALF, self.text(entry["stiffness"]), power(difference(now, rest_length), TWO))
+        return HALF * self.text(entry["stiffness"]) * (now - rest_length) ** 2
 
     def damper(self, entry: Entry) -> Tree:
         """c ddot^2/2."""
-        return times(HALF, self.text(entry["damping"]), power(along(self.rates, self.extent(entry)[0]), TWO))
+        return HALF * self.text(entry["damping"]) * along(self.rates, self.extent(entry)[0]) ** 2
 
     def gravity(self, entry: Entry) -> Tree:
         """-sum m g.r."""
         pull = self.vector(entry, "acceleration", MINUS)
-        return times(MINUS, add(*(times(mass, dot(pull, place)) for mass, place in self.masses())))
+        return -add(*(mass * dot(pull, place) for mass, place in self.masses()))
 
     def force(self, entry: Entry) -> list[tuple[Tree, Tree]]:
         """A force, at a point or at the origin of a body."""
@@ -137,29 +133,18 @@ class CheckedEnergies:
     def vector(self, entry: Entry, key: str, last: Tree) -> Vector:
         """A vector from its components, or from its size and direction (the last axis, or down)."""
         written, axis = entry[key], entry.get("direction")
-        refuse(
-            key == "value" and self.d > 1 and axis is None and not isinstance(written, list), "no direction is given"
-        )
-        texts = written if isinstance(written, list) else axis or [*[ZERO] * (self.d - 1), last]
+        listed = isinstance(written, list)
+        refuse(key == "value" and self.d > 1 and axis is None and not listed, "no direction is given")
+        texts = written if listed else axis or [*[ZERO] * (self.d - 1), last]
         components = tuple(map(self.text, texts))
         refuse(len(components) != self.d, "a vector has as many components as space")
-        return (
-            components
-            if texts is written
-            else scaled(times(self.text(written), power(length(components), MINUS)), components)
-        )
+        return components if texts is written else scaled(self.text(written) / length(components), components)
 
 
 #: What a claim tells: the fields of a report of the motion.
 MOTION_FIELDS = (
-    "coordinates",
-    "lagrangian",
-    "momenta",
-    "forces",
-    "equations",
-    "constraints",
-    "multipliers",
-    "eliminated",
+    *("coordinates", "lagrangian", "momenta", "forces"),
+    *("equations", "constraints", "multipliers", "eliminated"),
 )
 
 
@@ -194,16 +179,16 @@ def motion(evidence: CheckedEvidence, claim: Told, verified: Told) -> Told:
     evidence.identity(whole, lagrangian, "the Lagrangian")
     for q, text in zip(kept, claimed["equations"], strict=True):
         rate, momentum, force = f"{q}dot", read(claimed["momenta"][q]), read(claimed["forces"][q])
-        work = [times(push, derivative(place, q)) for push, place in pushes]
-        outer = add(*work, times(MINUS, derivative(lost, rate)))
+        work = [push * derivative(place, q) for push, place in pushes]
+        outer = add(*work, -derivative(lost, rate))
         evidence.identity(momentum, derivative(whole, rate), f"the momentum of {q}")
-        evidence.identity(force, add(derivative(whole, q), outer), f"the force along {q}")
+        evidence.identity(force, derivative(whole, q) + outer, f"the force along {q}")
         ways = {name: derivative(limit, rate if evidence.met_by(limit) else q) for name, limit in limits.items()}
-        held = add(*(times(symbol(name), slope) for name, slope in ways.items()))
+        held = add(*(symbol(name) * slope for name, slope in ways.items()))
         factor = evidence.text(claim.get("factors", {}).get(q, "1"))
         refuse(not evidence.is_nowhere_zero(factor), f"the factor of the equation of {q} may be 0")
-        equation = difference(along(energies.rates, momentum), add(force, held))
-        evidence.identity(times(factor, read(text)), equation, f"the equation of {q}")
+        equation = along(energies.rates, momentum) - (force + held)
+        evidence.identity(factor * read(text), equation, f"the equation of {q}")
     fields = {part: {q: claimed[part][q] for q in kept} for part in ("momenta", "forces")}
     return {name: fields.get(name, claimed[name]) for name in MOTION_FIELDS}
 
@@ -220,26 +205,18 @@ def _leaves(evidence: CheckedEvidence, claim: Told, put: Told, places: Told, lim
     for checked in map(evidence.relation, evidence.equations):
         factors = {name: evidence.text(text) for name, text in claim.get("c", {}).get(checked.name, {}).items()}
         moving = [*factors.values(), *(limits[name] for name in factors if checked.kind == "finite")]
-        refuse(
-            any(map(evidence.met_by, moving)),
-            "a cofactor contains velocities, or a holonomic equation depends on others",
-        )
-        total = add(*(times(tree, limits[name]) for name, tree in factors.items()))
+        refuse(any(map(evidence.met_by, moving)), "a cofactor holds velocities, or a holonomic equation rests on such")
+        total = add(*(tree * limits[name] for name, tree in factors.items()))
         evidence.identity(substituted(checked.tree, put), total, f"`{checked.name}` where coordinates are put in")
         used += factors.values()
     if places or limits:
         minor = evidence.minor(claim["minor"])
         evidence.is_about("here", minor.point)
-        refuse(
-            len(minor.rows) != len(places) + len(limits),
-            "one row for each eliminated coordinate and claimed constraint is needed",
-        )
+        refuse(len(minor.rows) != len(places) + len(limits), "a row for each elimination and constraint is needed")
         chosen = {name: evidence.text(text) for name, text in claim.get("constants", {}).items()}
-        met = [difference(symbol(q), substituted(tree, chosen)) for q, tree in places.items()]
+        met = [symbol(q) - substituted(tree, chosen) for q, tree in places.items()]
         met += [tree for tree in limits.values() if not evidence.met_by(tree)]
-        refuse(
-            not all(evidence.is_zero(tree, minor.point) for tree in met),
-            "the point does not satisfy the claimed relations",
-        )
+        missed = [tree for tree in met if not evidence.is_zero(tree, minor.point)]
+        refuse(missed, "the point does not satisfy the claimed relations")
         for tree in used:
             minor.point.value(tree)

@@ -1,25 +1,68 @@
-"""Points that were checked: exact values, or balls around the only zero of equations in a box."""
+"""Values in balls, and points that were checked: exact, or balls around the only zero of equations in a box.
+
+Every operation on balls encloses the true one, where it is defined and smooth around.
+"""
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from fractions import Fraction
+from functools import reduce
 from typing import Any
 
-from flint import arb, arb_mat, ctx
+from flint import arb, arb_mat, ctx, fmpq
 
-from dofkit.checker.trees import (
-    ONE,
-    PRECISION,
-    Choices,
-    Effort,
-    Tree,
-    derivative,
-    evaluated,
-    not_zero,
-    refuse,
-    substituted,
-)
+from dofkit.checker.trees import ONE, Choices, Effort, Tree, derivative, folded, refuse, repeated, substituted
+
+#: Bits of every ball.
+PRECISION = 320
+
+
+def not_zero(ball: Any) -> bool:
+    """Whether 0 is certainly not in a ball."""
+    return bool(ball.is_finite() and (ball > 0 or ball < 0))
+
+
+def evaluated(tree: Tree, values: Mapping[str, Any], effort: Effort) -> Any:
+    """The ball of a tree, where every part of it, as written, has a value and is smooth around; else `CheckError`."""
+
+    def value(node: Tree, below: tuple[Any, ...]) -> Any:
+        effort.spend(1)
+        ball = _value(node, values, below)
+        refuse(not ball.is_finite(), "a value is not finite at the point")
+        return ball
+
+    with ctx.workprec(PRECISION):
+        return folded(tree, value)
+
+
+def _value(node: Tree, values: Mapping[str, Any], below: tuple[Any, ...]) -> Any:
+    """Return the ball of a node from the values of the nodes below it; refuse where it may have no smooth value."""
+    head = node.head
+    if isinstance(node.value, Fraction):
+        return arb(fmpq(node.value.numerator, node.value.denominator))
+    if head == "symbol":
+        refuse(node.value not in values, f"`{node.value}` has no value at the point")
+        return values[str(node.value)]
+    if head == "pi":
+        return arb.pi()
+    if head in ("sum", "product"):
+        return reduce(operator.add if head == "sum" else operator.mul, below)
+    u, other = below[0], below[-1]
+    if head in ("sin", "cos", "exp") or (head == "log" and u > 0):
+        return getattr(u, head)()
+    if head == "atan2" and (other > 0 or not_zero(u)):
+        return arb.atan2(u, other)
+    # a power: of what is positive; a whole one, of what is not 0 where it is negative; a constant root of 0
+    exponent = node.below[1].value if head == "power" else Fraction(1, 2)
+    if isinstance(exponent, Fraction) and exponent.denominator == 1 and (exponent > 0 or not_zero(u)):
+        ball = repeated(arb(1), u, abs(int(exponent)), operator.mul)
+        return ball if exponent > 0 else 1 / ball
+    zero = u == 0 and other > 0 and not node.symbols
+    refuse(head != "power" or not (u > 0 or zero), f"a {head} has no smooth value at the point, or may have none")
+    return u if zero else u**other
 
 
 @dataclass

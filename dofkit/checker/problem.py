@@ -1,7 +1,8 @@
 """A scene's document as a problem: coordinates, scalar relations with their owners, and the reference.
 
-A document is YAML 1.2 or JSON, safe and bounded. Its canonical form leaves out what says nothing of the mathematics, so
-that one scene has one hash however it is written; in it whole numbers are numbers, others texts such as ``1/2``.
+A document is what YAML or JSON writes: mappings, lists, texts, numbers. Its canonical form leaves out what says nothing
+of the mathematics, so that one scene has one hash however it is written; in it whole numbers are numbers, others texts
+such as ``1/2``.
 
 This reads the contract a second time and shares nothing with the engines. Velocities of q are the symbols ``qdot``, the
 rate of time is ``tdot``. A generic symbol ``square_c3`` is the square of a length that was left out by the third
@@ -16,22 +17,18 @@ from hashlib import sha256
 from itertools import chain, islice
 from typing import Any, NamedTuple
 
-import yaml
-
 from dofkit.checker.constraints import TYPES, Entry, Surroundings, known_fields
 from dofkit.checker.geometry import MaterialPoint, body_frame, ground
 from dofkit.checker.grammar import BUILT_IN, DECIMAL, KnownNames, Sided, spelled_out
 from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, refuse, symbol
 
-MOST_CHARACTERS, LONGEST_VALUE, DEEPEST, MOST_RELATIONS = 2_000_000, 400, 40, 8_000
+LONGEST_VALUE, DEEPEST, MOST_RELATIONS = 400, 40, 8_000
 #: What is as good as left out; no name is one of these.
 _NULLS = (None, "", "~", "null", "Null", "NULL")
 _VALUE = re.compile(rf"\s*([-+]?{DECIMAL})(?:\s*/\s*(\d*[1-9]\d*))?\s*", re.ASCII)
 #: Keys that say nothing of the mathematics, and values that are as good as left out.
-_SILENT, _DEFAULTS = (
-    ("name", "title", "source", "notes", "left_out", "expect", "picture"),
-    {"dimension": 3, "tolerance": 0},
-)
+_SILENT = ("name", "title", "source", "notes", "left_out", "expect", "picture")
+_DEFAULTS = {"dimension": 3, "tolerance": 0}
 #: What a text alone stands for in these lists.
 _SHORT = {"particles": ("name", {}), "bodies": ("name", {}), "constraints": ("text", {"type": "equation"})}
 SIGNS = ("real", "positive", "nonzero")
@@ -40,36 +37,10 @@ KEYS = "dimension parameters functions particles bodies coordinates constraints 
 FIELDS = {"particles": "name coordinates at mass", "bodies": "name coordinates mass inertia"}
 
 
-def document_of(text: str) -> Any:
-    """The document that a text writes in YAML 1.2 or JSON; in YAML numbers stay texts."""
-    refuse(len(text) > MOST_CHARACTERS, f"a document of more than {MOST_CHARACTERS} characters is not read")
-    try:
-        try:
-            return json.loads(text, parse_float=str, object_pairs_hook=_mapping)
-        except json.JSONDecodeError:
-            return _from_yaml(text)
-    except (yaml.YAMLError, RecursionError, ValueError) as error:
-        raise CheckError(f"the document cannot be read: {str(error)[:200]}") from None
-
-
 def _mapping(pairs: list[tuple[Any, Any]]) -> dict[str, Any]:
     mapping = dict(pairs) if all(isinstance(key, str) for key, _ in pairs) else {}
     refuse(len(mapping) < len(pairs), "a key is no text, or stands twice in one mapping")
     return mapping
-
-
-def _from_yaml(text: str) -> Any:
-    """A document from a YAML text: no tags, no aliases, and nothing but texts."""
-    for event in yaml.parse(text, Loader=yaml.BaseLoader):
-        odd = getattr(event, "tag", None) not in (None, "!") or getattr(event, "anchor", None)
-        refuse(odd, "tags and aliases are not read")
-    return _from_node(yaml.compose(text, Loader=yaml.BaseLoader))
-
-
-def _from_node(node: yaml.Node | None) -> Any:
-    if isinstance(node, yaml.MappingNode):
-        return _mapping([(_from_node(key), _from_node(value)) for key, value in node.value])
-    return [_from_node(part) for part in node.value] if isinstance(node, yaml.SequenceNode) else node and node.value
 
 
 def canonical(document: object) -> dict[str, Any]:
@@ -107,12 +78,7 @@ def _canonical(value: Any, key: str, depth: int) -> Any:
 
 def sha256_of(document: object) -> str:
     """The hash of the canonical JSON of a document."""
-    return sha256_of_canonical(canonical(document))
-
-
-def sha256_of_canonical(scene: Entry) -> str:
-    """The hash of a document in its canonical form."""
-    text = json.dumps(scene, sort_keys=True, separators=(",", ":"), ensure_ascii=False)
+    text = json.dumps(canonical(document), sort_keys=True, separators=(",", ":"), ensure_ascii=False)
     return sha256(text.encode("utf-8", "surrogatepass")).hexdigest()
 
 
@@ -183,9 +149,8 @@ def _surroundings(scene: Entry, cayley: frozenset[str]) -> tuple[Surroundings, t
     for name in (*names, *map(spelled_out, coordinates)):
         word = re.fullmatch("[A-Za-z][A-Za-z0-9_]*", name) and name not in _NULLS
         refuse(twice or not word or every.moved(name), "a name is taken, or is not made of letters")
-    refuse(
-        not all(isinstance(arguments, list) for arguments in functions.values()), "a function has a list of arguments"
-    )
+    listed = all(isinstance(arguments, list) for arguments in functions.values())
+    refuse(not listed, "a function has a list of arguments")
     configured = {q: world.expression(value) for q, value in scene.get("configuration", {}).items()}
     refuse(not configured.keys() <= {*written}, "the configuration mentions what is no coordinate")
     world.names = KnownNames(frozenset(written).intersection(coordinates), values, functions)

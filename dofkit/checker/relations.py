@@ -12,26 +12,10 @@ from flint import arb
 
 from dofkit.checker.constraints import nowhere_zero
 from dofkit.checker.grammar import KnownNames, parse
-from dofkit.checker.point import CheckedPoint
+from dofkit.checker.point import CheckedPoint, evaluated, not_zero
 from dofkit.checker.problem import CheckedProblem, CheckedRelation
 from dofkit.checker.ring import CheckedRing
-from dofkit.checker.trees import (
-    TWO,
-    CheckError,
-    Effort,
-    Tree,
-    add,
-    along,
-    evaluated,
-    keeps_values,
-    negative,
-    not_zero,
-    power,
-    put_in,
-    refuse,
-    symbol,
-    times,
-)
+from dofkit.checker.trees import CheckError, Effort, Tree, add, along, keeps_values, put_in, refuse, symbol
 
 #: What a certificate of another form, or a hostile one, may raise.
 FAULTS = (CheckError, KeyError, TypeError, ValueError, AttributeError, IndexError, ArithmeticError, RecursionError)
@@ -39,17 +23,42 @@ LONGEST_TEXT, MOST_SYMBOLS = 40_000, 2000
 Looked = TypeVar("Looked")
 
 
-class CheckedTexts:
-    """The texts that a certificate may write about a problem, their signs, and where they have a value."""
+class Consequence(NamedTuple):
+    """``target`` holds where all ``sources`` do, where the ``nonzero`` are not 0 and the ``defined`` have a value.
 
-    def __init__(self, problem: CheckedProblem, effort: Effort) -> None:
-        self.problem, self.effort = problem, effort
+    Near the point ``at`` only, where one is named.
+    """
+
+    target: str
+    sources: tuple[str, ...]
+    nonzero: tuple[Tree, ...] = ()
+    defined: tuple[Tree, ...] = ()
+    at: str | None = None
+
+
+def total_derivative(tree: Tree, names: Sequence[str]) -> Tree:
+    """The derivative by time along a motion."""
+    return along({name: symbol(name + "dot") for name in names}, tree)
+
+
+class CheckedRelations:
+    """The relations of the scene and of the steps, each step looked at once, and the texts that speak of them."""
+
+    def __init__(self, problem: CheckedProblem, entries: Mapping[str, list[dict[str, Any]]], effort: Effort) -> None:
+        self.problem, self.entries, self.effort = problem, entries, effort
         count = 2 * len(problem.coordinates) + len(problem.world.signs) + len(problem.world.generic)
         self.ring = CheckedRing(effort, min(count, MOST_SYMBOLS))
         self.seen, self.variables = dict[Any, Any](), (*problem.coordinates, "t")
         self.velocities = frozenset(name + "dot" for name in self.variables)
         self.chosen = frozenset((*problem.world.signs, *problem.world.generic))
         self.names = self._known_names()
+        self.by_name = {relation.name: relation for relation in problem.relations}
+        self.finite, self.moving = self.owned(None, ("finite",)), self.owned(None, ("velocity",))
+        self.equations = (*self.finite, *self.moving)
+        self.timed = self.holds_time(self.equations)
+        self.consequences: list[Consequence] = []
+        self.faults: dict[str, str] = {}
+        self._take_steps()
 
     def once(self, key: Any, evaluate: Callable[[], Looked]) -> Looked:
         """What was looked at under a key before, or is now."""
@@ -79,17 +88,7 @@ class CheckedTexts:
 
     def same(self, first: Tree, second: Tree) -> bool:
         """Whether two trees are the same in the ring."""
-        return self.ring.vanishes(add(first, negative(second)))
-
-    def squares(self, terms: Any) -> Tree:
-        """A sum of squares, which have a value everywhere, with positive coefficients."""
-        pairs = [(self.text(c), self.text(a)) for c, a in terms]
-        for c, a in pairs:
-            refuse(
-                not self.is_nowhere_zero(c, True) or not self.has_value_everywhere(a),
-                "no square, or times what is <= 0",
-            )
-        return add(*(times(c, power(a, TWO)) for c, a in pairs))
+        return self.ring.vanishes(add(first, -second))
 
     def is_open(self, tree: Tree) -> bool:
         """Whether parameters, generic lengths or unknown functions occur, for which a point chooses values.
@@ -116,39 +115,6 @@ class CheckedTexts:
         plain = keeps_values(tree, poles) or (tree.head == "atan2" and self.is_nowhere_zero(tree.below[1], True))
         poles &= tree.head in ("sum", "product", "power")
         return plain and all(self.has_value_everywhere(part, poles) for part in tree.below)
-
-
-class Consequence(NamedTuple):
-    """``target`` holds where all ``sources`` do, where the ``nonzero`` are not 0 and the ``defined`` have a value.
-
-    Near the point ``at`` only, where one is named.
-    """
-
-    target: str
-    sources: tuple[str, ...]
-    nonzero: tuple[Tree, ...] = ()
-    defined: tuple[Tree, ...] = ()
-    at: str | None = None
-
-
-def total_derivative(tree: Tree, names: Sequence[str]) -> Tree:
-    """The derivative by time along a motion."""
-    return along({name: symbol(name + "dot") for name in names}, tree)
-
-
-class CheckedRelations(CheckedTexts):
-    """The relations of the scene and of the steps, each step looked at once."""
-
-    def __init__(self, problem: CheckedProblem, entries: Mapping[str, list[dict[str, Any]]], effort: Effort) -> None:
-        super().__init__(problem, effort)
-        self.entries = entries
-        self.by_name = {relation.name: relation for relation in problem.relations}
-        self.finite, self.moving = self.owned(None, ("finite",)), self.owned(None, ("velocity",))
-        self.equations = (*self.finite, *self.moving)
-        self.timed = self.holds_time(self.equations)
-        self.consequences: list[Consequence] = []
-        self.faults: dict[str, str] = {}
-        self._take_steps()
 
     def _take_steps(self) -> None:
         makers = {"rate": self._rate, "implied": self._implied, "integral": self._implied}
@@ -178,26 +144,20 @@ class CheckedRelations(CheckedTexts):
         new = leaf or "function" in step
         tree = self.text(step["function"]) if new else self.relation(step["of"]).tree
         sources, substitutions = [self.relation(name) for name in step["c"]], step.get("put", [])
-        refuse(
-            any(source.leaf or source.kind == "inequality" for source in sources),
-            "an inequality or integral to start from",
-        )
+        unfit = any(source.leaf or source.kind == "inequality" for source in sources)
+        refuse(unfit, "an inequality or integral to start from")
         cofactors, h = [self.text(text) for text in step["c"].values()], self.text(step.get("h", "1"))
         refuse(self.met_by(h) or (leaf and self.met_by(tree)), "the factor or integral holds velocities")
         change = total_derivative(tree, self.variables) if leaf else tree
-        combination = add(*(times(c, source.tree) for c, source in zip(cofactors, sources, strict=True)))
-        total = add(times(h, change), negative(combination))
+        combination = add(*(c * source.tree for c, source in zip(cofactors, sources, strict=True)))
+        total = add(h * change, -combination)
         for name, q in substitutions:
             source, (slope, total) = self.relation(name), put_in(total, q, self.relation(name).tree)
-            refuse(
-                source.kind != "finite" or source.leaf or not self.is_nowhere_zero(slope),
-                f"`{name}` does not give `{q}`",
-            )
+            gives = source.kind == "finite" and not source.leaf and self.is_nowhere_zero(slope)
+            refuse(not gives, f"`{name}` does not give `{q}`")
         refuse(not self.ring.vanishes(total), "the cofactors: the two sides are not the same")
-        needs, defined = (
-            () if self.is_nowhere_zero(h) else (h,),
-            (h, *cofactors, *([tree] if new or substitutions else [])),
-        )
+        needs = () if self.is_nowhere_zero(h) else (h,)
+        defined = (h, *cofactors, *([tree] if new or substitutions else []))
         used = *step["c"], *(name for name, _ in substitutions)
         return tree if new else None, Consequence(step["id" if new else "of"], used, needs, defined)
 
@@ -247,11 +207,8 @@ class CheckedRelations(CheckedTexts):
         """Whether the conditions of a consequence hold near a point, at all velocities; without a point, everywhere."""
         consequence = self.consequences[number]
         if point is None:
-            return (
-                consequence.at is None
-                and not consequence.nonzero
-                and all(map(self.has_value_everywhere, consequence.defined))
-            )
+            bare = consequence.at is None and not consequence.nonzero
+            return bare and all(map(self.has_value_everywhere, consequence.defined))
         # a ball that holds all velocities, as near as a ball can: a motion may be slowed down
         wide = {v: arb(0, 10**30) for v in self.velocities}
 

@@ -1,22 +1,19 @@
-"""Expression trees, node by node, with exact numbers: their derivatives, values in balls, and what work may cost.
+"""Expression trees, node by node, with exact numbers: their derivatives, what is put in, and what work may cost.
 
 Heads: ``number`` (``value`` a Fraction), ``symbol`` (``value`` its name), ``sum``, ``product``, ``power`` (base and
 exponent), the name of an elementary function (``sin``, ``atan2``, ...), and ``apply`` (``value`` the name of a declared
 function, ``orders`` how often it is differentiated by each argument). ``pi`` is a head of its own; E is ``exp(1)``.
-Every operation on balls encloses the true one, where it is defined and smooth around.
 """
 
 from __future__ import annotations
 
 import operator
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import lru_cache, reduce
 from itertools import chain
-from typing import Any, TypeVar
-
-from flint import arb, ctx, fmpq
+from typing import TypeVar
 
 _NAMES = "sin cos tan cot sec csc asin acos atan atan2 sinh cosh tanh exp log sqrt abs"
 FUNCTIONS = tuple(_NAMES.split())
@@ -87,6 +84,30 @@ class Tree:
         same = self.head == other.head and self.value == other.value and self.orders == other.orders
         return same and self.below == other.below
 
+    def __add__(self, other: Tree) -> Tree:
+        """The sum."""
+        return add(self, other)
+
+    def __sub__(self, other: Tree) -> Tree:
+        """The difference, 0 where both are the same."""
+        return ZERO if self == other else add(self, -other)
+
+    def __neg__(self) -> Tree:
+        """Times -1."""
+        return times(MINUS, self)
+
+    def __mul__(self, other: Tree) -> Tree:
+        """The product."""
+        return times(self, other)
+
+    def __truediv__(self, other: Tree) -> Tree:
+        """The product with the inverse."""
+        return times(self, power(other, MINUS))
+
+    def __pow__(self, exponent: int) -> Tree:
+        """A whole power."""
+        return power(self, number(exponent))
+
 
 ZERO, ONE, TWO, MINUS = (Tree("number", (), Fraction(k)) for k in (0, 1, 2, -1))
 HALF = Tree("number", (), Fraction(1, 2))
@@ -103,13 +124,13 @@ def symbol(name: str) -> Tree:
     return Tree("symbol", (), name)
 
 
-def _split(operands: Sequence[Tree]) -> tuple[list[Fraction], list[Tree]]:
+def _split(terms: Sequence[Tree]) -> tuple[list[Fraction], list[Tree]]:
     """The numbers among terms or factors, and the others."""
-    numbers = [operand for operand in operands if operand.head == "number"]
+    numbers = [term for term in terms if term.head == "number"]
     if not numbers:
-        return [], [*operands]
+        return [], [*terms]
     refuse(sum([p.size - 1 for p in numbers]) > LARGEST_NUMBER, "a number is too large")
-    others = [operand for operand in operands if operand.head != "number"]
+    others = [term for term in terms if term.head != "number"]
     return [p.value for p in numbers if isinstance(p.value, Fraction)], others
 
 
@@ -132,16 +153,6 @@ def times(*factors: Tree) -> Tree:
     return others[0] if len(others) == 1 else Tree("product", tuple(others))
 
 
-def negative(term: Tree) -> Tree:
-    """Times -1."""
-    return times(MINUS, term)
-
-
-def difference(a: Tree, b: Tree) -> Tree:
-    """a - b, 0 where they are the same."""
-    return ZERO if a == b else add(a, negative(b))
-
-
 def power(base: Tree, exponent: Tree) -> Tree:
     """A power; exponents 0 and 1, and powers of 1, are carried out."""
     if exponent == ONE:
@@ -156,14 +167,13 @@ def call(name: str, *arguments: Tree) -> Tree:
 
 #: Each is the same real number, and has a value and is smooth at the same places.
 _MEANINGS: dict[str, Callable[..., Tree]] = {
-    "tan": lambda u: times(call("sin", u), call("sec", u)), "sec": lambda u: power(call("cos", u), MINUS),
-    "cot": lambda u: times(call("cos", u), call("csc", u)), "csc": lambda u: power(call("sin", u), MINUS),
-    "sqrt": lambda u: power(u, HALF), "abs": lambda u: power(power(u, TWO), HALF),
-    "asin": lambda u: call("atan2", u, call("cos asin", u)), "acos": lambda u: call("atan2", call("cos asin", u), u),
-    "cos asin": lambda u: call("sqrt", difference(ONE, power(u, TWO))), "atan": lambda u: call("atan2", u, ONE),
-    "sinh": lambda u: times(HALF, difference(call("exp", u), call("exp", negative(u)))),
-    "cosh": lambda u: times(HALF, add(call("exp", u), call("exp", negative(u)))),
-    "tanh": lambda u: times(call("sinh", u), power(call("cosh", u), MINUS)),
+    "tan": lambda u: call("sin", u) / call("cos", u), "sec": lambda u: call("cos", u) ** -1,
+    "cot": lambda u: call("cos", u) / call("sin", u), "csc": lambda u: call("sin", u) ** -1,
+    "sqrt": lambda u: power(u, HALF), "abs": lambda u: power(u**2, HALF), "atan": lambda u: call("atan2", u, ONE),
+    "asin": lambda u: call("atan2", u, call("sqrt", ONE - u**2)),
+    "acos": lambda u: call("atan2", call("sqrt", ONE - u**2), u),
+    "sinh": lambda u: HALF * (call("exp", u) - call("exp", -u)),
+    "cosh": lambda u: HALF * (call("exp", u) + call("exp", -u)), "tanh": lambda u: call("sinh", u) / call("cosh", u),
 }  # fmt: skip
 
 
@@ -181,8 +191,6 @@ def repeated(unit: Factor, base: Factor, exponent: int, product: Callable[[Facto
     return product_so_far
 
 
-#: Bits of every ball.
-PRECISION = 320
 Made = TypeVar("Made")
 MAKERS: Mapping[str, Callable[..., Tree]] = {"sum": add, "product": times, "power": power}
 #: A choice for a declared function: its arguments, and a text of them.
@@ -237,24 +245,23 @@ def derivative(tree: Tree, name: str) -> Tree:
     def by(node: Tree, inner: tuple[Tree, ...]) -> Tree:
         if not inner:
             return ONE
-        return add(*(times(_partial(node, i), part) for i, part in enumerate(inner) if part != ZERO))
+        return add(*(_partial(node, i) * part for i, part in enumerate(inner) if part != ZERO))
 
     return folded(tree, by, lambda node: None if name in node.symbols else ZERO)
 
 
 def _partial(node: Tree, place: int) -> Tree:
     """The derivative of a node by what stands at one place below it."""
-    u, *others = below = node.below
+    u, *_ = below = node.below
     if node.head == "product":
         return times(*below[:place], *below[place + 1 :])
     if node.head == "power":
-        return times(node, call("log", u)) if place else times(below[1], power(u, add(below[1], MINUS)))
+        return node * call("log", u) if place else below[1] * power(u, below[1] + MINUS)
     if node.head == "apply":
         return replace(node, orders=tuple(k + (i == place) for i, k in enumerate(node.orders)))
     if node.head == "atan2":
-        size = add(power(u, TWO), *(power(v, TWO) for v in others))
-        return times(MINUS if place else ONE, below[1 - place], power(size, MINUS))
-    slopes = {"sum": ONE, "exp": node, "log": power(u, MINUS), "sin": call("cos", u), "cos": negative(call("sin", u))}
+        return (-u if place else below[1]) / add(*(v**2 for v in below))
+    slopes = {"sum": ONE, "exp": node, "log": u**-1, "sin": call("cos", u), "cos": -call("sin", u)}
     return slopes[node.head]
 
 
@@ -271,7 +278,7 @@ def keeps_values(node: Tree, poles: bool = False) -> bool:
 def along(field: Mapping[str, Tree], tree: Tree) -> Tree:
     """The derivative of a tree along a field."""
     held = tree.symbols
-    return add(*(times(value, derivative(tree, name)) for name, value in field.items() if name in held))
+    return add(*(value * derivative(tree, name) for name, value in field.items() if name in held))
 
 
 def linear_in(tree: Tree, names: Collection[str]) -> tuple[dict[str, Tree], Tree] | None:
@@ -287,7 +294,7 @@ def put_in(tree: Tree, name: str, relation: Tree) -> tuple[Tree, Tree]:
     """The slope (or 0) of what is linear in a symbol, and a tree with the value of it at which that is 0."""
     slopes, remainder = linear_in(relation, [name]) or ({}, ZERO)
     slope = slopes.get(name, ZERO)
-    return slope, substituted(tree, {name: times(MINUS, remainder, power(slope, MINUS))})
+    return slope, substituted(tree, {name: -remainder / slope})
 
 
 def homogeneous_degree(tree: Tree, names: Collection[str]) -> Fraction | None:
@@ -321,13 +328,13 @@ def in_velocities(tree: Tree, coordinates: Collection[str]) -> Tree:
     linear = linear_in(tree, rates) or linear_in(_cleared(tree, rates), rates)
     if linear is None:
         return tree
-    form = [times(slope, symbol(rate)) for rate, slope in linear[0].items()]
-    return add(*form, times(linear[1], symbol("tdot"))) if form or degree else linear[1]
+    form = [slope * symbol(rate) for rate, slope in linear[0].items()]
+    return add(*form, linear[1] * symbol("tdot")) if form or degree else linear[1]
 
 
 def _cleared(tree: Tree, rates: Collection[str]) -> Tree:
     """A relation times the velocities that its terms are divided by, each once, so that dy/dx = f says dy = f dx."""
-    terms = [list(_flat(term, "product")) for term in _flat(tree, "sum")]
+    terms = [operands(term, "product") for term in operands(tree, "sum")]
     inverses = {
         factor: factor.below[0]
         for factor in chain(*terms)
@@ -342,54 +349,6 @@ def _cleared(tree: Tree, rates: Collection[str]) -> Tree:
     return add(*cleared)
 
 
-def _flat(tree: Tree, head: str) -> Iterator[Tree]:
+def operands(tree: Tree, head: str) -> list[Tree]:
     """The terms of a sum, or the factors of a product, those of the parts included."""
-    if tree.head != head:
-        yield tree
-    for part in tree.below if tree.head == head else ():
-        yield from _flat(part, head)
-
-
-def not_zero(ball: Any) -> bool:
-    """Whether 0 is certainly not in a ball."""
-    return bool(ball.is_finite() and (ball > 0 or ball < 0))
-
-
-def evaluated(tree: Tree, values: Mapping[str, Any], effort: Effort) -> Any:
-    """The ball of a tree, where every part of it, as written, has a value and is smooth around; else `CheckError`."""
-
-    def value(node: Tree, below: tuple[Any, ...]) -> Any:
-        effort.spend(1)
-        ball = _value(node, values, below)
-        refuse(not ball.is_finite(), "a value is not finite at the point")
-        return ball
-
-    with ctx.workprec(PRECISION):
-        return folded(tree, value)
-
-
-def _value(node: Tree, values: Mapping[str, Any], below: tuple[Any, ...]) -> Any:
-    """Return the ball of a node from the values of the nodes below it; refuse where it may have no smooth value."""
-    head = node.head
-    if isinstance(node.value, Fraction):
-        return arb(fmpq(node.value.numerator, node.value.denominator))
-    if head == "symbol":
-        refuse(node.value not in values, f"`{node.value}` has no value at the point")
-        return values[str(node.value)]
-    if head == "pi":
-        return arb.pi()
-    if head in ("sum", "product"):
-        return reduce(operator.add if head == "sum" else operator.mul, below)
-    u, other = below[0], below[-1]
-    if head in ("sin", "cos", "exp") or (head == "log" and u > 0):
-        return getattr(u, head)()
-    if head == "atan2" and (other > 0 or not_zero(u)):
-        return arb.atan2(u, other)
-    # a power: of what is positive; a whole one, of what is not 0 where it is negative; a constant root of 0
-    exponent = node.below[1].value if head == "power" else Fraction(1, 2)
-    if isinstance(exponent, Fraction) and exponent.denominator == 1 and (exponent > 0 or not_zero(u)):
-        ball = repeated(arb(1), u, abs(int(exponent)), operator.mul)
-        return ball if exponent > 0 else 1 / ball
-    zero = u == 0 and other > 0 and not node.symbols
-    refuse(head != "power" or not (u > 0 or zero), f"a {head} has no smooth value at the point, or may have none")
-    return u if zero else u**other
+    return [operand for part in tree.below for operand in operands(part, head)] if tree.head == head else [tree]

@@ -13,7 +13,7 @@ from dofkit.checker import label_rules as labels
 from dofkit.checker.evidence import CheckedEvidence, take_cover
 from dofkit.checker.motion import motion
 from dofkit.checker.problem import CheckedProblem as Problem
-from dofkit.checker.problem import canonical, document_of, problem_of_canonical, sha256_of_canonical
+from dofkit.checker.problem import canonical, problem_of_canonical, sha256_of
 from dofkit.checker.relations import FAULTS, fault_text
 from dofkit.checker.trees import CheckError, Effort, refuse
 
@@ -63,15 +63,14 @@ class Verification(NamedTuple):
     trusted: dict[str, str]
 
 
-def verify(scene: Any, certificate: Mapping[str, Any] | str | bytes) -> Verification:
-    """Recheck every claim of a certificate about a scene (its document, or its text).
+def verify(document: Any, certificate: Mapping[str, Any] | str | bytes) -> Verification:
+    """Recheck every claim of a certificate about the scene of a document.
 
-    Without a scene, the document in the certificate is taken. A certificate that cannot be read, or that is of another
+    Without one, the document in the certificate is taken. A certificate that cannot be read, or that is of another
     scene, raises `CheckError`; a claim that is not shown is told in ``failed``.
     """
     content = certificate_of(certificate)
-    scene = content["scene"].get("document") if scene is None else scene
-    return Verifier(document_of(scene) if isinstance(scene, str) else scene, content).run()
+    return Verifier(content["scene"].get("document") if document is None else document, content).run()
 
 
 def certificate_of(content: Any) -> dict[str, Any]:
@@ -101,7 +100,7 @@ class Verifier:
     def __init__(self, document: Any, certificate: Any, problem: Any = None) -> None:
         self.document, self.certificate, self.effort = canonical(document), certificate, Effort()
         self.name = str(certificate["scene"].get("name", document.get("name")))[:200]
-        other = certificate["scene"].get("sha256") != sha256_of_canonical(self.document)
+        other = certificate["scene"].get("sha256") != sha256_of(self.document)
         refuse(other, "the certificate is of another scene, or of this one before it was edited")
         self.problem: Problem = problem or problem_of_canonical(self.document)
         refuse("tolerance" in self.document, "what is measured up to a tolerance is not proved")

@@ -5,10 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from dofkit.base.documents import read_document
 from dofkit.checker.problem import sha256_of
 from dofkit.checker.verification import verify
 
 Parts = dict[str, Any]
+
+
+def document_of(text: str) -> Any:
+    """What a text writes in YAML or JSON."""
+    return read_document(text, "scene").value
 
 
 def certificate(document: Mapping[str, Any], claims: list[Parts], **parts: Any) -> Parts:

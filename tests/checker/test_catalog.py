@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
+from checker.certified import document_of
 from shared.known_scenes import CATALOG, OURS, few, report_of, scene_of, stem, strict_report_of
 
 import dofkit
@@ -31,7 +32,7 @@ LEAST = 0.94
 def _shown(path: Path) -> tuple[int, set[str]]:
     """How many proved claims verify, and what is uncovered; none fails, and nothing contradicts the report."""
     report = strict_report_of(path)
-    scene = path.read_text(encoding="utf-8") if path in CATALOG else document_of_scene(scene_of(path))
+    scene = document_of(path.read_text("utf-8")) if path in CATALOG else document_of_scene(scene_of(path))
     verification = verify(scene, json.dumps(report.certificate))
     assert not verification.failed
     assert not any("a second program" in warning for warning in report.warnings)

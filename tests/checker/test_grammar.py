@@ -11,6 +11,7 @@ from flint import arb
 
 from dofkit.base.errors import TextError
 from dofkit.checker.grammar import EULER, PI, KnownNames, parse, parse_relations
+from dofkit.checker.point import evaluated
 from dofkit.checker.trees import FUNCTIONS as HEADS
 from dofkit.checker.trees import (
     ONE,
@@ -21,8 +22,6 @@ from dofkit.checker.trees import (
     add,
     call,
     derivative,
-    evaluated,
-    negative,
     number,
     power,
     symbol,
@@ -80,8 +79,8 @@ READ: dict[str, Tree] = {
     "x·y×R": times(x, y, R),
     "x**2": squared(x),
     "x²": squared(x),
-    "-x^2": negative(squared(x)),
-    "−x": negative(x),
+    "-x^2": -squared(x),
+    "−x": -x,
     "x - -y": add(x, y),
     "x^y^R": power(x, power(y, R)),
     # a space decides how a quotient reads
@@ -123,7 +122,7 @@ READ: dict[str, Tree] = {
     "(x dy + y dx)/dt": times(add(times(x, dy), times(y, dx)), over(dt)),
     "dy/dx": times(dy, over(dx)),
     # declared functions
-    "h(x - f(t))": h(add(x, negative(Tree("apply", (t,), "f", (0,))))),
+    "h(x - f(t))": h(add(x, -Tree("apply", (t,), "f", (0,)))),
     "h'(s)": h(s, 1),
     "h''(x)": h(x, 2),
     "h'(2x)": h(times(two, x), 1),

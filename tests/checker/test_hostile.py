@@ -6,16 +6,15 @@ import json
 import random
 import time
 from collections.abc import Iterable, Iterator
-from itertools import pairwise
 from typing import Any
 
 import pytest
-from checker.certified import certificate, faults
+from checker.certified import certificate, document_of, faults
 from shared.known_scenes import CATALOG, few, scene_of, spread, stem, strict_report_of, swept
 from shared.tampering import put
 
 from dofkit.checker import CheckError, verify
-from dofkit.checker.problem import canonical, document_of, sha256_of
+from dofkit.checker.problem import canonical, sha256_of
 from dofkit.checker.ring import CheckedRing
 from dofkit.checker.trees import Effort
 from dofkit.methods.certificates.lowering import document_of_scene
@@ -166,32 +165,22 @@ def test_what_is_no_certificate_is_refused(name: str) -> None:
     assert fate(CIRCLE, NO_CERTIFICATES[name]) == "refused"
 
 
-def _powers_of_aliases() -> str:
-    lines = ["a: &a [x, x, x, x, x, x, x, x, x]"]
-    letters = "abcdefghij"
-    return "\n".join([*lines, *(f"{b}: &{b} [{', '.join([f'*{a}'] * 9)}]" for a, b in pairwise(letters))])
-
-
 def _named(text: str, count: int) -> str:
     return ", ".join(text.format(i) for i in range(count))
 
 
+def _nested(levels: int) -> Any:
+    return [_nested(levels - 1)] if levels else []
+
+
 NO_DOCUMENTS = {
-    "aliases of aliases": _powers_of_aliases(),
-    "an alias of itself": "&a [*a]",
-    "a tag": "!!python/object/apply:os.getpid []",
-    "lists in lists": "[" * 10**5,
-    "mappings in mappings": "{a: " * 10**4,
-    "far to the right": "\n".join(" " * i + "a:" for i in range(1500)),
-    "a long key": "? " + "x" * 10**6 + "\n: 1",
-    "infinity": "coordinates: [x]\nconfiguration: {x: .inf}",
-    "not a number": "coordinates: [x]\nconfiguration: {x: .nan}",
-    "a power of ten": "coordinates: [x]\nconfiguration: {x: 1e999999}",
-    "digits": "coordinates: [x]\nconfiguration: {x: " + "9" * 10**6 + "}",
-    "a key twice": "coordinates: [x]\ncoordinates: [y]",
-    "long": "x" * 3 * 10**6,
-    "empty": " " * 10**6,
-    "a number": "7",
+    "lists in lists": {"coordinates": _nested(500)},
+    "infinity": {"coordinates": ["x"], "configuration": {"x": float("inf")}},
+    "not a number": {"coordinates": ["x"], "configuration": {"x": float("nan")}},
+    "a power of ten": {"coordinates": ["x"], "configuration": {"x": "1e999999"}},
+    "digits": {"coordinates": ["x"], "configuration": {"x": "9" * 10**6}},
+    "a text": "coordinates: [x]",
+    "a number": 7,
 }
 
 
@@ -232,7 +221,7 @@ def test_a_large_scene_is_read_or_refused_in_time(name: str) -> None:
         given = certificate(document, claims)
     except CheckError:
         return
-    assert fate(LARGE_SCENES[name], given) != "verified"
+    assert fate(document, given) != "verified"
 
 
 ODD: list[Any] = [

@@ -10,11 +10,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+from checker.certified import document_of
 from checker.values import of_engine, of_tree, rows_of_engine, rows_of_trees
 from shared.known_scenes import SCENES, few, scene_of, stem
 
 from dofkit.checker.problem import CheckedProblem as Problem
-from dofkit.checker.problem import canonical, document_of, problem_of_canonical
+from dofkit.checker.problem import canonical, problem_of_canonical
 from dofkit.expressions.calculus import in_velocities
 from dofkit.expressions.tree import Expr, coordinate, parameter, sym, velocity
 from dofkit.scene.lowering import lower

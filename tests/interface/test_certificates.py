@@ -7,11 +7,12 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from checker.certified import document_of
 from shared.command_line import called
 from shared.known_scenes import OURS, spread
 
 import dofkit
-from dofkit.checker.problem import document_of, sha256_of
+from dofkit.checker.problem import sha256_of
 
 
 @pytest.fixture

@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import Any
 
 from dofkit.checker.problem import CheckedProblem as Problem
-from dofkit.checker.problem import sha256_of_canonical
+from dofkit.checker.problem import sha256_of
 from dofkit.checker.trees import CheckError
 from dofkit.checker.verification import PARTS
 from dofkit.methods.certificates.numerics import NoEstimateError, echelon
@@ -20,7 +20,7 @@ from dofkit.report import Report
 
 def empty_certificate(name: str, document: Mapping[str, Any], readings: Mapping[str, str]) -> dict[str, Any]:
     """Return a certificate of a scene without parts, claims, or what is uncovered."""
-    scene = {"name": name, "sha256": sha256_of_canonical(document), "document": dict(document)}
+    scene = {"name": name, "sha256": sha256_of(document), "document": dict(document)}
     scene |= {"readings": dict(readings)} if readings else {}
     lists: dict[str, list[dict[str, Any]]] = {part: [] for part in PARTS}
     return {"certificate": 1, "scene": scene, "cayley": [], **lists, "claims": [], "uncovered": []}
@@ -127,10 +127,6 @@ class Context:
         """All finite relations, then those of velocities: the order in which one is independent of those before it."""
         return self.scenery.evidence.equations
 
-    def owner(self, name: str) -> str:
-        """The constraint of a relation."""
-        return self.scenery.evidence.relation(name).owner
-
     def standing_of(
         self, names: Sequence[str], columns: Sequence[str] | None = None, point: FoundPoint | None = None
     ) -> Standing | None:
@@ -144,10 +140,10 @@ class Context:
                 matrix = [{q: value for q, value in row.items() if q in columns} for row in matrix]
         except (NoEstimateError, CheckError):
             return None
-        reduction = echelon(matrix)
-        rows = [names[p.row] for p in reduction.pivots]
-        dependent = [names[i] for i in reduction.dependent]
-        return Standing(point, rows, [p.column for p in reduction.pivots], dependent)
+        pivots = echelon(matrix)
+        rows = [names[p.row] for p in pivots]
+        dependent = [name for name in names if name not in rows]
+        return Standing(point, rows, [p.column for p in pivots], dependent)
 
     def row(self, name: str, point: FoundPoint) -> dict[str, float]:
         """The entries of a row in floats: by coordinates, or by their velocities."""

@@ -15,12 +15,12 @@ from dofkit.checker.dimension_rules import free_coordinates
 from dofkit.checker.evidence import HIGHEST_ORDER, along_curve
 from dofkit.checker.geometry import determinant, dot
 from dofkit.checker.ring import CheckedRing
-from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, number, power, symbol, times
+from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, operands, symbol, times
 from dofkit.methods.certificates.context import Context, Standing, Told
 from dofkit.methods.certificates.fields import LARGEST_CRAMER, backing, kept_motions, orbit
 from dofkit.methods.certificates.numerics import echelon, least_step
 from dofkit.methods.certificates.scenery import FAR, number_text, text_of
-from dofkit.methods.certificates.steps import Order, accounted, given_in_order, operands
+from dofkit.methods.certificates.steps import Order, accounted, solving_order
 
 #: The size of a step along a motion, of what is added by chance, and the largest denominator of a coefficient.
 STEP, NOISE, DENOMINATOR = 0.25, 0.05, 60
@@ -73,7 +73,7 @@ def _linear_relations(context: Context, samples: Samples) -> Iterator[str]:
     if point is None or not samples:
         return
     rows = [{q: sample[q] - point.floats[q] for q in coordinates} for sample in samples]
-    pivots = echelon(rows).pivots
+    pivots = echelon(rows)
     columns = [p.column for p in pivots]
     for q in coordinates:
         if q in columns:
@@ -124,7 +124,8 @@ def _of_forms(context: Context) -> Iterator[Told]:
     if standing is None or not standing.accounted:
         return
     claim = {"rule": "everywhere", "about": "everywhere", "minor": context.minor(standing)}
-    order, unordered = solving_order(context, _needed(standing, evidence.equations))
+    chart = context.scenery, context.problem.coordinates, partial(_gives, context)
+    order, unordered = solving_order(_needed(standing, evidence.equations), *chart)
     moving = _needed(standing, evidence.moving)
     if not unordered:
         yield {**claim, "order": order}
@@ -132,7 +133,7 @@ def _of_forms(context: Context) -> Iterator[Told]:
     if {*unordered} <= {*moving} and (gram := _gram(context, unordered)):
         yield {**claim, "order": order, "gram": gram}
     if len(moving) == 1:
-        order, unordered = solving_order(context, _needed(standing, evidence.finite))
+        order, unordered = solving_order(_needed(standing, evidence.finite), *chart)
         if not unordered:
             yield {**claim, "order": order, "blocks": moving}
 
@@ -147,11 +148,9 @@ def _gram(context: Context, forms: list[str]) -> Told | None:
     for q, column in zip(coordinates, zip(*rows, strict=True), strict=True):
         shared = [{*operands(entry, "product")} for entry in column if entry != ZERO]
         letters = [symbol(name) for name, sign in context.problem.world.signs.items() if sign == "positive"]
-        common = [
-            power(letter, number(-2)) for letter in letters if shared and all(letter in factors for factors in shared)
-        ]
+        common = [letter**-2 for letter in letters if shared and all(letter in factors for factors in shared)]
         scales |= {q: times(*common)} if common else {}
-    scaled = [[times(scales.get(q, ONE), slope) for q, slope in zip(coordinates, row, strict=True)] for row in rows]
+    scaled = [[scales.get(q, ONE) * slope for q, slope in zip(coordinates, row, strict=True)] for row in rows]
     try:
         value = evidence.ring.read(determinant([[dot(row, other) for other in scaled] for row in rows]))
     except CheckError:
@@ -183,8 +182,8 @@ def _needed(standing: Standing, names: Sequence[str]) -> list[str]:
 def _of_set(context: Context, standing: Standing) -> Iterator[Told]:
     """What the geometric equations define."""
     evidence = context.scenery.evidence
-    finite = _needed(standing, evidence.finite)
-    order, unordered = solving_order(context, finite, columns=["t"])
+    finite, gives = _needed(standing, evidence.finite), partial(_gives, context)
+    order, unordered = solving_order(finite, context.scenery, evidence.variables, gives)
     claim: Told = {"rule": "everywhere", "about": "everywhere"}
     if not unordered:
         yield {**claim, "order": order}
@@ -192,7 +191,8 @@ def _of_set(context: Context, standing: Standing) -> Iterator[Told]:
     letters = (*context.problem.world.generic, *context.problem.world.signs)
     symbols = {name: letter for name in evidence.finite if (letter := evidence.own_symbol(name, letters))}
     if not standing.dependent or standing.accounted:
-        for tried in (order, given_in_order(finite, context.scenery, partial(_gives, context)), []):
+        longer, _ = solving_order(finite, context.scenery, context.problem.coordinates, gives, skips=True)
+        for tried in (order, longer, []):
             remaining = [name for name in finite if all(name != chosen for chosen, _ in tried)]
             blocks, generic = _split(context, tried, remaining)
             if all(name in symbols for name in generic):
@@ -204,46 +204,6 @@ def _of_set(context: Context, standing: Standing) -> Iterator[Told]:
                 }
     if all(name in symbols for name in evidence.finite) and (backed := backing(context, standing)):
         yield {**claim, "generic": [[name, symbols[name]] for name in evidence.finite], **backed}
-
-
-def solving_order(
-    context: Context, names: Sequence[str] | None = None, columns: Sequence[str] = ()
-) -> tuple[Order, list[str]]:
-    """Return [relation, coordinate that it gives] in an order of solving, and the relations left over.
-
-    ``names``: the finite ones where it is left out; ``columns``: what may be given besides coordinates.
-    """
-    remaining, columns = (
-        list(context.scenery.evidence.finite if names is None else names),
-        [*context.problem.coordinates, *columns],
-    )
-    held = {name: _moved(context, name) for name in remaining}
-    order: Order = []
-    while True:
-        pair = next(
-            (
-                [name, q]
-                for q in columns
-                for name in remaining
-                if q in held[name]
-                and not any(q in held[other] for other in remaining if other != name)
-                and _gives(context, name, q)
-            ),
-            None,
-        )
-        if pair is None:
-            return order, remaining
-        order.insert(0, pair)
-        remaining.remove(pair[0])
-
-
-def _moved(context: Context, name: str) -> set[str]:
-    """The variables of a finite relation; those with velocities in another."""
-    equation = context.scenery.evidence.relation(name)
-    held = equation.tree.symbols
-    if equation.kind == "finite":
-        return set(held) & set(context.scenery.evidence.variables)
-    return {q for q in context.problem.coordinates if f"{q}dot" in held}
 
 
 def _gives(context: Context, name: str, q: str) -> bool:

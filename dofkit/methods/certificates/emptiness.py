@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
-from dofkit.checker.trees import MINUS, Tree, add, number, power, times
+from dofkit.checker.trees import MINUS, Tree, add, number, operands, power, times
 from dofkit.methods.certificates.context import Context, Told
 from dofkit.methods.certificates.scenery import number_text, text_of
-from dofkit.methods.certificates.steps import constant_cofactors, operands, rate_of
+from dofkit.methods.certificates.steps import constant_cofactors, rate_of
 
 HALF, EVEN = number(Fraction(1, 2)), range(2, 20, 2)
 
@@ -44,9 +44,8 @@ def refutations(context: Context, names: Sequence[str]) -> Iterator[Told]:
     evidence = context.scenery.evidence
     equations = [name for name in names if evidence.relation(name).kind != "inequality"]
     rates = [step for name in equations if (step := rate_of(context.scenery, name))]
-    for chosen in (equations, [*equations, *rates]):
-        if (factors := constant_cofactors(context.scenery, MINUS, chosen)) is not None:
-            yield {"rule": "nullstellensatz", "c": factors, "number": "1"}
+    if (factors := constant_cofactors(context.scenery, MINUS, [*equations, *rates])) is not None:
+        yield {"rule": "nullstellensatz", "c": factors, "number": "1"}
     for name in names:
         yield from _by_squares(context, name)
 
@@ -70,5 +69,5 @@ def _square(term: Tree) -> list[str] | None:
     powers = [factor for factor in factors if factor.symbols]
     if any(factor.head != "power" or factor.below[1].value not in EVEN for factor in powers):
         return None
-    roots = [power(factor.below[0], times(factor.below[1], HALF)) for factor in powers]
+    roots = [power(factor.below[0], factor.below[1] * HALF) for factor in powers]
     return [text_of(times(*(factor for factor in factors if not factor.symbols))), text_of(times(*roots))]

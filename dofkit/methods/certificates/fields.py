@@ -13,7 +13,7 @@ from networkx.utils import UnionFind
 from dofkit.checker.constraints import Surroundings
 from dofkit.checker.evidence import VelocityField, bracket, field_named, tangent
 from dofkit.checker.geometry import determinant
-from dofkit.checker.trees import ZERO, CheckError, Tree, negative
+from dofkit.checker.trees import ZERO, CheckError, Tree
 from dofkit.methods.certificates.context import Context, Standing, Told
 from dofkit.methods.certificates.numerics import Estimates, NoEstimateError, echelon
 from dofkit.methods.certificates.points import FoundPoint
@@ -73,7 +73,7 @@ def kept_motions(context: Context, names: Sequence[str], point: FoundPoint) -> d
     kept = [motion for motion in ids if _is_kept(scenery, motion, names)]
     components = [field_named(scenery.evidence, motion) for motion in kept]
     rows = [{q: point.estimates.value(tree) for q, tree in field.items()} for field in components]
-    return {kept[p.row]: p.column for p in echelon(rows).pivots}
+    return {kept[p.row]: p.column for p in echelon(rows)}
 
 
 def parts_of(scenery: Scenery, names: Sequence[str]) -> list[list[str]]:
@@ -128,7 +128,7 @@ def tangent_fields(context: Context, standing: Standing) -> list[str] | None:
         columns = [pairs[row] for row in touched]
         matrix = [[evidence.slope(row, column) for column in columns] for row in touched]
         h, numerators = by_cramer(matrix, [evidence.slope(row, coordinate) for row in touched])
-        components = {coordinate: h, **dict(zip(columns, map(negative, numerators), strict=True))}
+        components = {coordinate: h, **dict(zip(columns, (-tree for tree in numerators), strict=True))}
         texts = {name: text_of(tree) for name, tree in components.items() if tree != ZERO}
         ids.append(scenery.entry_id("fields", {"components": texts}))
     return ids
@@ -183,7 +183,7 @@ def _grown(context: Context, standing: Standing, fields: list[str], most: int) -
         fresh = []
         for word, value in level:
             vector = {q: estimates.value(tree) for q, tree in value.items()}
-            pivots = echelon([*vectors, vector]).pivots
+            pivots = echelon([*vectors, vector])
             if len(pivots) > len(vectors):
                 words.append(word)
                 vectors.append(vector)

@@ -10,7 +10,7 @@ from dofkit.methods.certificates.context import Context, Told, states_of
 from dofkit.methods.certificates.dimension import everywhere, families, stationary, velocities_everywhere
 from dofkit.methods.certificates.emptiness import refutations
 from dofkit.methods.certificates.fields import backing, integrable_names, involutive_rows, orbit
-from dofkit.methods.certificates.labels import integral_of_text
+from dofkit.methods.certificates.labels import combined_integral, function_in
 from dofkit.methods.certificates.points import FoundPoint
 from dofkit.report import ConstraintEntry
 
@@ -107,7 +107,8 @@ def counted(context: Context) -> Iterator[Told]:
 def redundant(context: Context) -> Iterator[Told]:
     """What is dropped follows from the rest."""
     dropped = set(context.report.redundant or [])
-    names = sorted(context.equations, key=lambda name: context.owner(name) in dropped)
+    relation = context.scenery.evidence.relation
+    names = sorted(context.equations, key=lambda name: relation(name).owner in dropped)
     standing = context.accounted(names)
     if standing is not None and (backed := backing(context, standing)) is not None:
         yield {"rule": "cofactors", "minor": context.minor(standing), **backed}
@@ -117,9 +118,9 @@ def redundant(context: Context) -> Iterator[Told]:
 
 def _needed(context: Context) -> Iterator[Told]:
     """For every constraint a minor of all rows of the others."""
-    minors = {}
-    for owner in dict.fromkeys(map(context.owner, context.equations)):
-        standing = context.standing_of([name for name in context.equations if context.owner(name) != owner])
+    minors, relation = {}, context.scenery.evidence.relation
+    for owner in dict.fromkeys(relation(name).owner for name in context.equations):
+        standing = context.standing_of([name for name in context.equations if relation(name).owner != owner])
         if standing is None or standing.dependent:
             return
         minors[owner] = context.minor(standing)
@@ -157,7 +158,8 @@ def independent(context: Context, entry: ConstraintEntry, field: str) -> Iterato
         yield {"rule": "inequality"}
         return
     standing, order = context.standing, context.equations
-    last = max((k for k, name in enumerate(order) if context.owner(name) == entry.name), default=-1)
+    equations = context.scenery.evidence.owned(entry.name)
+    last = max((k for k, name in enumerate(order) if name in equations), default=-1)
     rows = order[: last + 1]
     if standing is None or not rows:
         return
@@ -209,7 +211,8 @@ def integrable_part(context: Context) -> Iterator[Told]:
     if part is None or finite is None:
         return
     yield {"rule": "integrals", "minor": context.minor(finite), "steps": []}
-    steps = [step for text in part.basis or [] if (step := integral_of_text(context, text))]
+    functions = filter(None, map(function_in, part.basis or []))
+    steps = [step for function in functions if (step := combined_integral(context, function))]
     standing = context.standing_of([*finite.rows, *steps])
     if steps and standing is not None:
         yield {"rule": "integrals", "minor": context.minor(standing), "steps": steps}

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from itertools import combinations
 
 from dofkit.checker.label_rules import exterior_part, form_of
-from dofkit.checker.trees import ZERO, CheckError, Tree, add, derivative, difference, symbol, times
+from dofkit.checker.trees import ZERO, CheckError, Tree, add, derivative, symbol
 from dofkit.methods.certificates.context import Context, Told
 from dofkit.methods.certificates.fields import (
     LARGEST_CRAMER,
@@ -24,12 +24,6 @@ from dofkit.methods.certificates.steps import Order, needed_puts, puts, rate_of,
 from dofkit.report import ConstraintEntry
 
 Components = dict[str, Tree]
-
-
-def integral_of_text(context: Context, text: str) -> str | None:
-    """A step for a text such as ``x*y = C`` or ``g = 0``."""
-    function, _, right = text.rpartition("=")
-    return combined_integral(context, function.strip()) if right.strip() != "0" else None
 
 
 def combined_integral(context: Context, function: str, alone: str = "") -> str | None:
@@ -61,7 +55,7 @@ def add_step_from_integrals(context: Context, name: str, steps: Sequence[str], a
 
 def integral_alone(context: Context, entry: ConstraintEntry, name: str) -> str | None:
     """Return the step of the integral that is claimed of a form, where each follows from the other alone."""
-    function = integral_text(entry)
+    function = function_in(entry.integral)
     step = combined_integral(context, function, name) if function and form_or_none(context, name) is not None else None
     return step if step and add_step_from_integrals(context, name, [step], alone=True) else None
 
@@ -118,22 +112,17 @@ def cofactors(context: Context, target: Components, rows: dict[str, Components])
 
 
 def _chosen(context: Context, target: Components, rows: dict[str, Components]) -> tuple[list[str], list[str]]:
-    """The sources that matter, at the point or beside it, and columns in which they are independent."""
-    used: set[str] = set()
+    """The sources that matter beside the point, and columns in which they are independent at it."""
     floats = context.point.floats if context.point is not None else {}
-    for shift in (0.0, 0.0625):
-        moved = {name: value + shift * (1 + i % 5) for i, (name, value) in enumerate(floats.items())}
-        estimates = Estimates(moved)
-        numbers = {row: _floats(context, estimates, components) for row, components in rows.items()}
-        pivots = echelon(list(numbers.values())).pivots
-        kept = [list(rows)[p.row] for p in pivots]
-        goal = _floats(context, estimates, target)
-        square = [{row: numbers[row].get(p.column, 0.0) for row in kept} for p in pivots]
-        solution = least_step(square, [goal.get(p.column, 0.0) for p in pivots])
-        used |= {row for row, value in solution.items() if abs(value) > FAR}
-    chosen = [row for row in rows if row in used]
+    nearby = Estimates({name: value + (1 + i % 5) / 16 for i, (name, value) in enumerate(floats.items())})
+    numbers = {row: _floats(context, nearby, components) for row, components in rows.items()}
+    pivots = echelon(list(numbers.values()))
+    kept, goal = [list(rows)[p.row] for p in pivots], _floats(context, nearby, target)
+    square = [{row: numbers[row].get(p.column, 0.0) for row in kept} for p in pivots]
+    solution = least_step(square, [goal.get(p.column, 0.0) for p in pivots])
+    chosen = [row for row in rows if abs(solution.get(row, 0.0)) > FAR]
     estimates = Estimates(floats)
-    pivots = echelon([_floats(context, estimates, rows[row]) for row in chosen]).pivots
+    pivots = echelon([_floats(context, estimates, rows[row]) for row in chosen])
     return [chosen[p.row] for p in pivots], [p.column for p in pivots]
 
 
@@ -188,25 +177,25 @@ def _integrated(context: Context, entry: ConstraintEntry) -> Iterator[Told]:
         yield {"rule": "integral", "at": context.point.name, "integrals": [step]}
 
 
-def integral_text(entry: ConstraintEntry) -> str | None:
-    """The function that is said to be constant."""
-    return entry.integral.rpartition("=")[0].strip() if entry.integral else None
+def function_in(text: str | None) -> str:
+    """The function that a text such as ``x*y = C`` says to be constant; none where it is 0."""
+    function, _, constant = (text or "").rpartition("=")
+    return function.strip() if constant.strip() != "0" else ""
 
 
 def integral(context: Context, entry: ConstraintEntry, field: str) -> Iterator[Told]:
     """The integral that is told: of the form alone, or in the system."""
     names = context.scenery.evidence.owned(entry.name, ("velocity",))
-    function = integral_text(entry)
-    if len(names) != 1 or context.point is None or function is None:
+    function = function_in(entry.integral)
+    if len(names) != 1 or context.point is None or not function:
         return
     claim = {"rule": "integral", "at": context.point.name}
     if alone := integral_alone(context, entry, names[0]):
         yield {**claim, "step": alone}
     if (step := combined_integral(context, function)) is None:
         return
-    texts = [step_id for other in context.report.constraints if (step_id := integral_text(other))]
-    others = [step_id for text in texts if (step_id := combined_integral(context, text)) and step_id != step]
-    others = list(dict.fromkeys(others))
+    texts = dict.fromkeys(function_in(other.integral) for other in context.report.constraints)
+    others = [other for text in texts if text and (other := combined_integral(context, text)) and other != step]
     standing = context.standing_of([*context.scenery.evidence.finite, *others, names[0]])
     if (
         add_step_from_integrals(context, names[0], [step, *others])
@@ -249,11 +238,11 @@ def _time_dependence(context: Context, name: str, field: str) -> Iterator[Told]:
     turned = derivative(tree, "t") if form is None else form.get("t", ZERO)
     velocities = [v for v in scenery.evidence.velocities if v in tree.symbols]
     if field == "catastatic" and form is None and velocities:
-        turned = add(*(times(symbol(v), derivative(tree, v)) for v in velocities))
+        turned = add(*(symbol(v) * derivative(tree, v) for v in velocities))
     changes: list[tuple[Tree, Told]] = [(turned, {})]
-    for a, b in combinations(form or (), 2) if field == "scleronomic" else ():
-        products = [times(form[i], derivative(form[j], "t")) for i, j in ((a, b), (b, a))] if form else []
-        changes.append((difference(*products), {"pair": [a, b]}))
+    for (a, first), (b, other) in combinations((form or {}).items(), 2) if field == "scleronomic" else ():
+        turn = first * derivative(other, "t") - other * derivative(first, "t")
+        changes.append((turn, {"pair": [a, b]}))
     changes = [change for change in changes if change[0] != ZERO]
     for point in _points_of(context, name) if changes else ():
         for change, pair in changes:

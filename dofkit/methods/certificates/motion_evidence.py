@@ -8,7 +8,7 @@ from typing import Any
 
 from dofkit.checker.motion import MOTION_FIELDS
 from dofkit.checker.problem import CheckedProblem as Problem
-from dofkit.checker.trees import MINUS, ONE, Tree, along, number, power, substituted, symbol, times
+from dofkit.checker.trees import ONE, Tree, along, number, substituted, symbol
 from dofkit.methods.certificates.certificate import HINDRANCES, Certifying, without_spare_parts
 from dofkit.methods.certificates.context import Context, Told
 from dofkit.methods.certificates.lowering import scene_of_checker
@@ -64,14 +64,11 @@ class MotionEvidence:
         claim: Told = {"rule": "lagrange", "c": self.cofactors()}
         claim |= {"constants": self.constants} if self.constants else {}
         size = len(self.eliminated) + len(self.constraint_of_multiplier)
-        for point in self.points() if size else ():
-            standing = self.context.standing_of(self.context.equations, point=point)
-            if standing is not None and len(standing.rows) == size:
-                for factors in self.factors():
-                    yield {**claim, **factors, "minor": self.context.minor(standing)}
-        if not size:
+        standings = (self.context.standing_of(self.context.equations, point=point) for point in self.points())
+        fit = (standing for standing in standings if standing is not None and len(standing.rows) == size)
+        for minor in ({"minor": self.context.minor(standing)} for standing in fit) if size else [{}]:
             for factors in self.factors():
-                yield {**claim, **factors}
+                yield {**claim, **factors, **minor}
 
     def factors(self) -> Iterator[Told]:
         """None, or exponentials that the equations were divided by."""
@@ -88,7 +85,7 @@ class MotionEvidence:
         for name in self.evidence.equations:
             residue = substituted(self.evidence.relation(name).tree, put)
             for multiplier, tree in self.constraint_of_multiplier.items() if not ring.vanishes(residue) else ():
-                ratio = ring.rational(times(residue, power(tree, MINUS)))
+                ratio = ring.rational(residue / tree)
                 if ratio is not None:
                     multiples[name] = {multiplier: number_text(Fraction(int(ratio.p), int(ratio.q)))}
         return multiples

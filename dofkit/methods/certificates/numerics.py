@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from dofkit.checker.trees import Tree
+from dofkit.checker.trees import Tree, derivative
 
 Row = Mapping[str, float]
 SMALL = 1e-8
@@ -22,22 +22,14 @@ class Pivot(NamedTuple):
     column: str
 
 
-class FloatEchelon(NamedTuple):
-    """The pivots in the order of the rows, and the rows that depend on those before."""
-
-    pivots: list[Pivot]
-    dependent: list[int]
-
-
-def echelon(rows: Sequence[Row], prefer: Callable[[int, str], float] | None = None) -> FloatEchelon:
-    """Rows in their order, each kept where it is not in the span of those kept before.
+def echelon(rows: Sequence[Row], prefer: Callable[[int, str], float] | None = None) -> list[Pivot]:
+    """The pivots of rows in their order, each kept where it is not in the span of those kept before.
 
     ``prefer`` gives a weight to a row's column: of those that are not tiny the one of largest size times weight is
     the pivot.
     """
     kept: list[tuple[str, dict[str, float]]] = []
     pivots: list[Pivot] = []
-    dependent: list[int] = []
     for place, entries in enumerate(rows):
         row = {name: value for name, value in entries.items() if value}
         size = max(map(abs, row.values()), default=0.0)
@@ -49,14 +41,13 @@ def echelon(rows: Sequence[Row], prefer: Callable[[int, str], float] | None = No
                 row[column] = 0.0
         largest = max(map(abs, row.values()), default=0.0)
         if largest <= SMALL * max(size, 1e-3):
-            dependent.append(place)
             continue
         fit = [name for name in sorted(row) if abs(row[name]) > 1e-3 * largest]
         column = max(fit, key=lambda name: abs(row[name]) * (prefer(place, name) if prefer else 1.0))
         lead = row[column]
         kept.append((column, {name: value / lead for name, value in row.items() if value}))
         pivots.append(Pivot(place, column))
-    return FloatEchelon(pivots, dependent)
+    return pivots
 
 
 def least_step(rows: Sequence[Row], right: Sequence[float]) -> dict[str, float]:
@@ -73,8 +64,6 @@ def least_step(rows: Sequence[Row], right: Sequence[float]) -> dict[str, float]:
 
 # Values and gradients of trees in floats: good for looking, never for deciding.
 
-Gradient = dict[str, float]
-
 
 class NoEstimateError(Exception):
     """A tree has no value in floats here."""
@@ -86,7 +75,6 @@ class Estimates:
     def __init__(self, values: Mapping[str, float]) -> None:
         self.values = values
         self._done: dict[int, tuple[Tree, float]] = {}
-        self._slopes: dict[int, tuple[Tree, Gradient]] = {}
 
     def value(self, tree: Tree) -> float:
         """The value; `NoEstimateError` where there is none."""
@@ -97,20 +85,9 @@ class Estimates:
                 raise NoEstimateError(tree.head) from None
         return self._done[id(tree)][1]
 
-    def gradient(self, tree: Tree) -> Gradient:
-        """The derivatives by the symbols that occur, by the chain rule."""
-        if id(tree) not in self._slopes:
-            slopes: Gradient = {str(tree.value): 1.0} if tree.head == "symbol" else dict.fromkeys(tree.symbols, 0.0)
-            try:
-                for place, part in enumerate(tree.below):
-                    if part.symbols:
-                        factor = SLOPES[tree.head](place, *map(self.value, tree.below))
-                        for name, slope in self.gradient(part).items():
-                            slopes[name] += factor * slope
-            except (ValueError, OverflowError, ZeroDivisionError, KeyError, TypeError):
-                raise NoEstimateError(tree.head) from None
-            self._slopes[id(tree)] = tree, slopes
-        return self._slopes[id(tree)][1]
+    def gradient(self, tree: Tree) -> dict[str, float]:
+        """The derivatives by the symbols that occur."""
+        return {name: self.value(derivative(tree, name)) for name in tree.symbols}
 
     def _read(self, tree: Tree) -> float:
         if isinstance(tree.value, Fraction):
@@ -127,15 +104,4 @@ VALUES: dict[str, Callable[..., Any]] = {
     "power": pow,
     "pi": lambda: math.pi,
     **{name: getattr(math, name) for name in ("sin", "cos", "exp", "log", "atan2")},
-}
-#: Their derivatives by the argument at a place.
-SLOPES: dict[str, Callable[..., Any]] = {
-    "sum": lambda place, *terms: 1.0,
-    "product": lambda place, *factors: math.prod(factors[:place] + factors[place + 1 :]),
-    "power": lambda place, u, k: math.log(u) * u**k if place else k * u ** (k - 1),
-    "sin": lambda place, u: math.cos(u),
-    "cos": lambda place, u: -math.sin(u),
-    "exp": lambda place, u: math.exp(u),
-    "log": lambda place, u: 1 / u,
-    "atan2": lambda place, u, v: (-u if place else v) / (u * u + v * v),
 }

@@ -169,7 +169,7 @@ class PointSearch:
                 return 1e6
             return 1e3 if derivative(lefts[place], column).head == "number" else 1.0
 
-        return echelon(rows, weight).pivots
+        return echelon(rows, weight)
 
     def settled(self, reached: dict[str, float], names: Sequence[str], unknowns: set[str]) -> FoundPoint | None:
         """All that is no column rounded to short numbers, the columns found again."""

@@ -2,67 +2,68 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial, reduce
-from itertools import combinations
+from itertools import chain, combinations
 
 from flint import fmpq, fmpq_mat
 
 from dofkit.checker.ring import Quotient
-from dofkit.checker.trees import (
-    ONE,
-    ZERO,
-    CheckError,
-    Tree,
-    difference,
-    linear_in,
-    negative,
-    put_in,
-    substituted,
-    times,
-)
+from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, linear_in, put_in, substituted
 from dofkit.methods.certificates.points import FoundPoint
 from dofkit.methods.certificates.scenery import Scenery, text_of
 
 Step = dict[str, object]
 
 
-def _is_accepted(scenery: Scenery, *steps: Step) -> bool:
-    """Return whether steps stand up, one after the other; those that are there already do."""
+def _is_accepted(scenery: Scenery, step: Step) -> bool:
+    """Return whether a step stands up; one that is there already does."""
     try:
-        for step in steps:
-            if str(step["id"]) not in scenery.steps:
-                scenery.add_step(step)
+        if str(step["id"]) not in scenery.steps:
+            scenery.add_step(step)
     except CheckError:
         return False
     return True
 
 
-def operands(tree: Tree, head: str) -> list[Tree]:
-    """Return the terms of a sum or the factors of a product, those of sums in sums and products in products too."""
-    return [operand for part in tree.below for operand in operands(part, head)] if tree.head == head else [tree]
-
-
 # Coordinates that finite relations give by others: put into a relation, they may leave nothing of it.
 
-#: A relation and the coordinate that it gives.
+#: Relations, each with the coordinate that it gives; whether it gives it.
 Order = list[list[str]]
+Gives = Callable[[str, str], bool]
 #: Relations that are longer are not solved in pairs.
 LARGEST_OF_PAIR = 30
 
 
-def given_in_order(names: Iterable[str], scenery: Scenery, gives: Callable[[str, str], bool]) -> Order:
-    """Return relations with a coordinate each that those before do not hold, the ones with few coordinates first."""
-    coordinates, evidence = scenery.problem.coordinates, scenery.evidence
-    held = {name: evidence.relation(name).tree.symbols.intersection(coordinates) for name in names}
-    order: Order = []
-    taken: set[str] = set()
-    for name in sorted(held, key=lambda name: len(held[name])):
-        fit = next((q for q in coordinates if q in held[name] - taken and gives(name, q)), None)
-        if fit is not None:
-            order.append([name, fit])
-            taken |= held[name]
-    return order
+def solving_order(
+    names: Iterable[str], scenery: Scenery, columns: Sequence[str], gives: Gives, skips: bool = False
+) -> tuple[Order, list[str]]:
+    """Return relations with a coordinate each that those before do not hold, and the relations left over.
+
+    The last alone holds its coordinate, of the others again the last, and so on. ``skips``: where none does, the one
+    that holds most is left over; else all are.
+    """
+    held = {name: moved_by(scenery, name) for name in names}
+    order, skipped = Order(), list[str]()
+    while held:
+        alone = {q for q, often in Counter(chain(*held.values())).items() if often == 1}
+        free = ([name, q] for q in columns if q in alone for name in held if q in held[name] and gives(name, q))
+        if (pair := next(free, None)) is not None:
+            order.insert(0, pair)
+        elif not skips:
+            return order, [*held]
+        else:
+            skipped.append(max(held, key=lambda name: len(held[name])))
+        del held[pair[0] if pair else skipped[-1]]
+    return order, skipped
+
+
+def moved_by(scenery: Scenery, name: str) -> set[str]:
+    """The variables of a finite relation; those with velocities in another."""
+    equation, variables = scenery.evidence.relation(name), scenery.evidence.variables
+    dot = "" if equation.kind == "finite" else "dot"
+    return {q for q in variables if q + dot in equation.tree.symbols}
 
 
 def puts(scenery: Scenery, names: Sequence[str]) -> Order:
@@ -71,7 +72,8 @@ def puts(scenery: Scenery, names: Sequence[str]) -> Order:
     The later one is put in, the fewer coordinates its relation holds that another one gives.
     """
     finite = [name for name in names if scenery.evidence.relation(name).kind == "finite"]
-    return given_in_order(finite, scenery, partial(_gives, scenery))[::-1]
+    order, _ = solving_order(finite, scenery, scenery.problem.coordinates, partial(_gives, scenery), skips=True)
+    return order[::-1]
 
 
 def _gives(scenery: Scenery, name: str, q: str) -> bool:
@@ -121,10 +123,10 @@ def _pair_steps(scenery: Scenery, pair: tuple[str, str], point: FoundPoint) -> I
         if any(part is None or not scenery.evidence.ring.vanishes(part[1]) for part in linear):
             continue
         (a, b), (c, d) = ([part[0].get(q, ZERO) for q in (first, other)] for part in linear if part is not None)
-        h = difference(times(a, d), times(b, c))
+        h = a * d - b * c
         if not scenery.differs(h, point.estimates):
             continue
-        for q, factors in ((first, (d, negative(b))), (other, (negative(c), a))):
+        for q, factors in ((first, (d, -b)), (other, (-c, a))):
             multipliers = {
                 "h": text_of(h),
                 "c": {name: text_of(part) for name, part in zip(pair, factors, strict=True)},

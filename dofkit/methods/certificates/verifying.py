@@ -8,10 +8,11 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
+from dofkit.base.documents import read_document
 from dofkit.base.errors import ArgumentError
 from dofkit.base.wording import description_of
 from dofkit.checker import CheckError, Verification
-from dofkit.checker.problem import document_of, sha256_of
+from dofkit.checker.problem import sha256_of
 from dofkit.checker.verification import Verifier, certificate_of
 from dofkit.methods.certificates.lowering import document_of_scene
 from dofkit.scene.catalog import find
@@ -61,8 +62,8 @@ def _document(scene: SceneLike, certificate: Mapping[str, Any]) -> Mapping[str, 
     with suppress(CheckError, ValueError):
         written: Any = None if isinstance(scene, Scene) else scene
         if written is not None and not isinstance(written, Mapping):
-            data = find(written).data
-            written = document_of(data if isinstance(data, str) else data.decode("utf-8"))
+            read = read_document(find(written).data, "scene")
+            written = None if read.faults else read.value
         if written is not None and sha256_of(written) == certificate["scene"].get("sha256"):
             return dict(written)
     return document_of_scene(load(scene))
