@@ -132,8 +132,7 @@ def generalized_coordinates(context: Context) -> Iterator[Told]:
 
     Where the second angle of a body is tied to others, a second minor shows the rank without it as well.
     """
-    chosen = context.report.generalized_coordinates
-    finite = context.finite_standing
+    chosen, finite = context.report.generalized_coordinates, context.finite_standing
     if chosen == []:
         yield from counted(context)
     if not chosen or finite is None:
