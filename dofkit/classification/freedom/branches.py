@@ -29,7 +29,7 @@ from dofkit.relations.blocks import Block, Row, blocks_of
 from dofkit.relations.normal.domain import DomainCondition, is_always_satisfied
 from dofkit.relations.normal.no_solution import holds_somewhere
 from dofkit.relations.normal.normal_form import velocities_of
-from dofkit.relations.normal.pieces import JointEquation, Nonlinear, Pfaffian, Reduced
+from dofkit.relations.normal.pieces import Finite, JointEquation, Nonlinear, Pfaffian, Reduced
 from dofkit.relations.setting import Setting
 from dofkit.relations.velocity_reductions import (
     MAX_ALTERNATIVES,
@@ -193,7 +193,8 @@ def _at_the_reference(best: Outcome, setting: Setting) -> list[Answer]:
     if setting.reference is None or setting.tolerance is not None or best.consistent is not True:
         return best.answers
     off = [
-        a.instantaneous is None and not passes_reference([row.piece for row in block.rows], setting)
+        a.instantaneous is None
+        and not passes_reference([*(row.piece for row in block.rows), *map(Finite, a.hidden)], setting)
         for block, a in zip(best.blocks, best.answers, strict=True)
     ]
     if not any(off):
