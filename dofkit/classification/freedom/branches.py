@@ -236,13 +236,13 @@ def _largest(outcomes: Sequence[Outcome], why: str | None, setting: Setting) -> 
 
 
 def _of_its_part(best: Outcome, others: Sequence[Outcome]) -> list[Answer]:
-    """The answers, told of their own part only where a part that was not seen of another branch may be larger."""
+    """The answers, of their own part only where an unseen part of another may be larger, or has other velocities."""
     shared = [{_identity(block) for block in o.blocks} for o in others]
     answers = [
         a if all(_identity(block) in blocks for blocks in shared) else replace(a, one_branch=True)
         for block, a in zip(best.blocks, best.answers, strict=True)
     ]
-    if best.dof is None or all(o.unseen <= best.dof for o in others):
+    if best.dof is None or all(o.unseen <= best.dof and (o.dof != best.dof or o.size == best.size) for o in others):
         return answers
     return [replace(a, about="component") if a.about == "everywhere" else a for a in answers]
 
