@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Collection, Hashable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from itertools import product as cartesian
@@ -149,7 +149,9 @@ def _bound(block: Block, a: Answer) -> int:
 
 def solve(reduced: Sequence[Reduced], setting: Setting, answered: AnsweredBlocks | None = None) -> Outcome:
     """The largest of the branches, answered block by block; ``answered``: blocks that were answered before."""
-    normals = [(i, branches_at_reference(normal, setting)) for i, r in enumerate(reduced) for normal in r.normals]
+    written = [(i, normal) for i, r in enumerate(reduced) for normal in r.normals]
+    normals = [(i, branches_at_reference(normal, setting)) for i, normal in written]
+    chosen = {i for (i, n), (_, kept) in zip(written, normals, strict=True) if len(kept.branches) < len(n.branches)}
     options = [range(len(normal.branches)) or (None,) for _, normal in normals]
     positive = setting.positive
     never, unsettled = _one_sided(reduced, positive)
@@ -171,14 +173,17 @@ def solve(reduced: Sequence[Reduced], setting: Setting, answered: AnsweredBlocks
         plain = not any(isinstance(row.piece, Nonlinear | DomainCondition) for row in rows)
         alternatives = [Alternative(rows)] if plain else alternatives_of(with_boundaries(rows), positive)
         why = _LEFT_OUT if len(alternatives) >= MAX_ALTERNATIVES else why
-        for alternative in reductions_at_reference(alternatives, setting):
+        through = reductions_at_reference(alternatives, setting)
+        if len(through) < len(alternatives):
+            chosen |= {slot.written.constraint for a in alternatives for slot in a.slots if not slot.unchanged}
+        for alternative in through:
             outcome = _answered(names, alternative.rows, impossible, domain, answered)
             outcome.reduced, outcome.divided = alternative.reduced, alternative.divided
             outcomes.append(outcome)
     best = _largest(outcomes, why, setting) if outcomes else Outcome([], [], [], names)
     if len(outcomes) == 1:
         best.answers = _confirmed(best, setting)
-    best.answers = _at_the_reference(best, setting)
+    best.answers = _of_chosen_branches(_at_the_reference(best, setting), best.blocks, chosen)
     best.copies = copied if outcomes else {}
     best.unsettled = [*unsettled, *best.unsettled]
     if setting.reference is not None and any(len(normal.branches) > 1 for _, normal in normals):
@@ -203,6 +208,16 @@ def _at_the_reference(best: Outcome, setting: Setting) -> list[Answer]:
     return [
         replace(a, reasons=list(dict.fromkeys([*a.reasons, OFF_REFERENCE]))) if missed else a
         for a, missed in zip(scoped, off, strict=True)
+    ]
+
+
+def _of_chosen_branches(answers: Sequence[Answer], blocks: Sequence[Block], chosen: Collection[int]) -> list[Answer]:
+    """Return the answers, of their own part where a branch of a ``chosen`` constraint was left out."""
+    return [
+        replace(a, about="component")
+        if a.about == "everywhere" and any(row.constraint in chosen for row in block.rows)
+        else a
+        for block, a in zip(blocks, answers, strict=True)
     ]
 
 
