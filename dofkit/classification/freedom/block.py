@@ -53,8 +53,8 @@ MANY_BRANCHES = (
     f"hidden relations have more than {MAX_HIDDEN_BRANCHES} branches, so the branch of largest dimension is not known"
 )
 HIDDEN_BRANCHES = (
-    "the hidden relations are satisfied on several branches; the degrees of freedom are those of the largest, and the "
-    "hidden equations are those of one branch"
+    "the hidden relations are satisfied on several branches; the degrees of freedom and the hidden equations are those "
+    "of the largest one (through the reference configuration, if there is one)"
 )
 
 IRREGULAR = (
