@@ -163,7 +163,7 @@ def _mixed_answer(block: Block, setting: Setting) -> Answer:
     if block.finite and is_measured(block, setting):
         return Answer(None, verdict="undecided", reasons=[MEASURED])
     result = _prolonged(block, setting, Answer())
-    if setting.reference is not None and _passes_reference(result.hidden, setting):
+    if setting.reference is not None and (not result.hidden or _passes_reference(block, result.hidden, setting)):
         if block.nonlinear:
             answers = first_order_beside_bends(block, setting, result)
         else:
@@ -197,8 +197,12 @@ def _prolonged(block: Block, setting: Setting, result: Answer, relations: Sequen
             result.reasons.append("the constraints allow no motion through an interval of time")
             return result
         if len(outcome) > 1 and len(extra) < MAX_ROUNDS:
-            through = [branch for branch in outcome if setting.reference and _passes_reference(branch, setting)]
-            alternatives = [_prolonged(block, setting, Answer(), [*extra, *b]) for b in through or outcome]
+            hidden = [[*extra, *branch] for branch in outcome]
+            through = [h for h in hidden if setting.reference and _passes_reference(block, h, setting)]
+            for choices in (through, hidden):
+                alternatives = [_prolonged(block, setting, Answer(), h) for h in choices]
+                if any(a.consistent is not False for a in alternatives):
+                    break
             return _of_hidden_branches(alternatives)
         fresh = [g for g in outcome[0] if g not in extra]
         if not fresh:
@@ -209,8 +213,9 @@ def _prolonged(block: Block, setting: Setting, result: Answer, relations: Sequen
     return result
 
 
-def _passes_reference(hidden: Sequence[Expr], setting: Setting) -> bool:
-    return not hidden or passes_reference([Finite(g) for g in hidden], setting)
+def _passes_reference(block: Block, hidden: Sequence[Expr], setting: Setting) -> bool:
+    """Return whether the reference configuration satisfies a block's geometric equations and the hidden ones."""
+    return passes_reference([*(row.piece for row in block.finite), *map(Finite, hidden)], setting)
 
 
 def _of_hidden_branches(alternatives: Sequence[Answer]) -> Answer:

@@ -148,7 +148,10 @@ def _bound(block: Block, a: Answer) -> int:
 
 
 def solve(reduced: Sequence[Reduced], setting: Setting, answered: AnsweredBlocks | None = None) -> Outcome:
-    """The largest of the branches, answered block by block; ``answered``: blocks that were answered before."""
+    """The largest of the branches, answered block by block; ``answered``: blocks that were answered before.
+
+    Of those through the reference configuration, unless it does not satisfy all constraints.
+    """
     written = [(i, normal) for i, r in enumerate(reduced) for normal in r.normals]
     normals = [(i, branches_at_reference(normal, setting)) for i, normal in written]
     chosen = {i for (i, n), (_, kept) in zip(written, normals, strict=True) if len(kept.branches) < len(n.branches)}
@@ -181,6 +184,10 @@ def solve(reduced: Sequence[Reduced], setting: Setting, answered: AnsweredBlocks
             outcome.reduced, outcome.divided = alternative.reduced, alternative.divided
             outcomes.append(outcome)
     best = _largest(outcomes, why, setting) if outcomes else Outcome([], [], [], names)
+    if chosen and (best.consistent is False or any(_off_reference(best, setting))):
+        anywhere = solve(reduced, replace(setting, reference=None))
+        anywhere.answers = _at_the_reference(anywhere, setting)
+        return anywhere
     if len(outcomes) == 1:
         best.answers = _confirmed(best, setting)
     best.answers = _of_chosen_branches(_at_the_reference(best, setting), best.blocks, chosen)
@@ -193,15 +200,20 @@ def solve(reduced: Sequence[Reduced], setting: Setting, answered: AnsweredBlocks
     return best
 
 
-def _at_the_reference(best: Outcome, setting: Setting) -> list[Answer]:
-    """The answers; about a component where the reference configuration does not satisfy all geometric equations."""
+def _off_reference(best: Outcome, setting: Setting) -> list[bool]:
+    """Return whether the reference configuration does not satisfy the geometric equations, for each block."""
     if setting.reference is None or setting.tolerance is not None or best.consistent is not True:
-        return best.answers
-    off = [
+        return [False for _ in best.blocks]
+    return [
         a.instantaneous is None
         and not passes_reference([*(row.piece for row in block.rows), *map(Finite, a.hidden)], setting)
         for block, a in zip(best.blocks, best.answers, strict=True)
     ]
+
+
+def _at_the_reference(best: Outcome, setting: Setting) -> list[Answer]:
+    """The answers; about a component where the reference configuration does not satisfy all geometric equations."""
+    off = _off_reference(best, setting)
     if not any(off):
         return best.answers
     scoped = [replace(a, about="component", exists=False) if a.about == "reference" else a for a in best.answers]
