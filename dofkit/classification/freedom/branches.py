@@ -29,7 +29,7 @@ from dofkit.relations.blocks import Block, Row, blocks_of
 from dofkit.relations.normal.domain import DomainCondition, is_always_satisfied
 from dofkit.relations.normal.no_solution import holds_somewhere
 from dofkit.relations.normal.normal_form import velocities_of
-from dofkit.relations.normal.pieces import Finite, JointEquation, Nonlinear, Pfaffian, Reduced
+from dofkit.relations.normal.pieces import Finite, JointEquation, Nonlinear, Normal, Pfaffian, Reduced
 from dofkit.relations.setting import Setting
 from dofkit.relations.velocity_reductions import (
     MAX_ALTERNATIVES,
@@ -152,15 +152,24 @@ def solve(reduced: Sequence[Reduced], setting: Setting, answered: AnsweredBlocks
 
     Of those through the reference configuration, unless it does not satisfy all constraints.
     """
-    written = [(i, normal) for i, r in enumerate(reduced) for normal in r.normals]
-    normals = [(i, branches_at_reference(normal, setting)) for i, normal in written]
-    chosen = {i for (i, n), (_, kept) in zip(written, normals, strict=True) if len(kept.branches) < len(n.branches)}
+    best, chosen = _through_reference(reduced, setting, answered or AnsweredBlocks(setting))
+    if chosen and (best.consistent is False or any(_off_reference(best, setting))):
+        anywhere = replace(setting, reference=None)
+        best, chosen = _through_reference(reduced, anywhere, AnsweredBlocks(anywhere))
+    best.answers = _of_chosen_branches(_at_the_reference(best, setting), best.blocks, chosen)
+    return best
+
+
+def _through_reference(
+    reduced: Sequence[Reduced], setting: Setting, answered: AnsweredBlocks
+) -> tuple[Outcome, set[int]]:
+    """Return the largest of the branches through the reference, and the constraints of which others were left out."""
+    normals, chosen = _normals_at_reference(reduced, setting)
     options = [range(len(normal.branches)) or (None,) for _, normal in normals]
     positive = setting.positive
     never, unsettled = _one_sided(reduced, positive)
     copied = copies(reduced) if "copies" in setting.reductions else {}
     outcomes, why = list[Outcome](), None
-    answered = answered or AnsweredBlocks(setting)
     domain = [(i, c) for i, r in enumerate(reduced) for c in r.domain if c.expr.op != "num"]
     names = [c.name for c in setting.roles]
     for number, choice in enumerate(cartesian(*options)):
@@ -184,20 +193,22 @@ def solve(reduced: Sequence[Reduced], setting: Setting, answered: AnsweredBlocks
             outcome.reduced, outcome.divided = alternative.reduced, alternative.divided
             outcomes.append(outcome)
     best = _largest(outcomes, why, setting) if outcomes else Outcome([], [], [], names)
-    if chosen and (best.consistent is False or any(_off_reference(best, setting))):
-        anywhere = solve(reduced, replace(setting, reference=None))
-        anywhere.answers = _at_the_reference(anywhere, setting)
-        return anywhere
     if len(outcomes) == 1:
         best.answers = _confirmed(best, setting)
-    best.answers = _of_chosen_branches(_at_the_reference(best, setting), best.blocks, chosen)
     best.copies = copied if outcomes else {}
     best.unsettled = [*unsettled, *best.unsettled]
-    if setting.reference is not None and any(len(normal.branches) > 1 for _, normal in normals):
-        best.crossing = True
+    best.crossing = setting.reference is not None and any(len(normal.branches) > 1 for _, normal in normals)
     if any(has_kink_at_reference(normal, setting) for _, normal in normals) and best.consistent is not False:
         best.answers = [Answer(None, verdict="undecided", reasons=[KINKED]) for _ in best.answers]
-    return best
+    return best, chosen
+
+
+def _normals_at_reference(reduced: Sequence[Reduced], setting: Setting) -> tuple[list[tuple[int, Normal]], set[int]]:
+    """Return the branches through the reference, by constraint, and the constraints of which others were left out."""
+    written = [(i, normal) for i, r in enumerate(reduced) for normal in r.normals]
+    normals = [(i, branches_at_reference(normal, setting)) for i, normal in written]
+    chosen = {i for (i, n), (_, kept) in zip(written, normals, strict=True) if len(kept.branches) < len(n.branches)}
+    return normals, chosen
 
 
 def _off_reference(best: Outcome, setting: Setting) -> list[bool]:
