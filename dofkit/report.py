@@ -20,7 +20,10 @@ Form = Literal["finite", "pfaffian", "nonlinear", "inequality"]
 FORMS: tuple[Form, ...] = ("finite", "pfaffian", "nonlinear", "inequality")
 
 #: Said of a constraint that is a product.
-BRANCH_WARNING = "'{name}' is satisfied on several branches; the degrees of freedom are those of the largest"
+BRANCH_WARNING = (
+    "'{name}' is satisfied on several branches; the degrees of freedom are those of the largest one (through the "
+    "reference configuration, if there is one)"
+)
 
 
 class Companion:

@@ -111,7 +111,7 @@ def claim_of_choice(study: Study, chosen: Sequence[str]) -> Claim:
         elif regular_at_witness(block.coordinates, a, chosen):
             of_blocks.append(replace(a.claim, about="component"))
         else:
-            of_blocks.append(together(a.claim, Claim("probable", "generic points", bits=BITS)))
+            of_blocks.append(together(a.claim, Claim("probable", "generic points", bits=BITS, about=scope)))
     for group in _turned_groups(study, chosen):
         if not are_coordinates(group, chosen, study.setting, study.system.rotations):
             of_blocks.append(Claim("probable", "generic points", bits=BITS, about="component"))

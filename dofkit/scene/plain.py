@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import replace
@@ -17,6 +18,8 @@ from dofkit.scene.names import SIGNS
 from dofkit.scene.scene import Scene
 from dofkit.scene.synonyms import SAID
 
+#: A derivative of a declared function of one name, as `to_text` prints it.
+_DERIVATIVE = re.compile(r"diff\((\w+)(\(\w+\)), \w+(?:, (\d+))?\)")
 #: Whether a text with these names is read as it is.
 Reads = Callable[[str, Names], bool]
 
@@ -60,7 +63,7 @@ def _within(entry: Mapping[str, Any], names: Names) -> Names:
 
 
 def plain_text(text: str, names: Names) -> str | None:
-    """Return a text as `to_text` prints it; None where it cannot be read, or has another domain so."""
+    """Return a text as `to_text` prints it, with primes for `diff`; None where it is not read or has another domain."""
     try:
         relations = parse_relations(text, names)
         signs = [f" {relation.relation} " for relation in relations]
@@ -72,7 +75,8 @@ def plain_text(text: str, names: Names) -> str | None:
     printed = {base for side in sides for required in _required(side) for base in _bases(*required)}
     if not {base for required in relations[0].domain for base in _bases(*required)} <= printed:
         return None
-    return "".join(chain.from_iterable(zip(["", *signs], map(to_text, sides), strict=True)))
+    printed_text = "".join(chain.from_iterable(zip(["", *signs], map(to_text, sides), strict=True)))
+    return _DERIVATIVE.sub(lambda match: match[1] + "'" * int(match[3] or 1) + match[2], printed_text)
 
 
 def _bases(e: Expr, sense: DomainSense) -> Iterator[Requirement]:

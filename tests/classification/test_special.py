@@ -37,6 +37,7 @@ CAR = ["x", "y", "theta", "phi"]
 
 LOCI: list[tuple[str, dict[str, Any], list[Case]]] = [
     ("sin and cos never vanish together", scene(KNIFE, coordinates=CAR[:3]), []),
+    ("dz is the arc length at x = 0 too", scene("x^2 + y^2 = 1", "xdot^2 + ydot^2 = zdot^2"), []),
     ("the contact form has curvature 1", scene("dz = y dx"), []),
     (
         "-2y dy^dx; [X, [X, Y]] = 2 d/dz",

@@ -97,7 +97,7 @@ FAULTS = {
     "contradicts the relation by 0.5": {"joints": ["elbow"], "text": "elbow = 1/2"},
     "`shoulder` is not declared": {"joints": ["elbow"], "text": "elbow = shoulder"},
     "one equation or bounds": {"joints": ["elbow"], "text": "0 = elbow <= 1"},
-    "has no value in the reference configuration": {"joints": ["elbow"], "text": "1/elbow = 1"},
+    "has no value or no derivative in the reference configuration": {"joints": ["elbow"], "text": "1/elbow = 1"},
 }
 
 

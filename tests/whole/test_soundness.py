@@ -456,11 +456,12 @@ def test_independent_equations_are_as_many_as_take_freedom_away(
 SCOPES = [
     (scene("x y", "x = y", "x^2 = y^2"), "everywhere"),
     (scene("x y", "x = y", "2 x = 2 y", configuration={"x": 1, "y": 1}), "reference"),
+    (scene("x y z", "x^2 = y^2", "dz = x dy", configuration={"x": 1, "y": 1, "z": 0}), "component"),
     (cranks("AD", "BE", "CF", "DE", "EF", "DF"), "reference"),
 ]
 
 
-@pytest.mark.parametrize(("made", "about"), SCOPES, ids=["branches", "a copy", "a drawing"])
+@pytest.mark.parametrize(("made", "about"), SCOPES, ids=["branches", "a copy", "a branch", "a drawing"])
 def test_it_is_known_of_which_points_redundancy_is_told(made: dict[str, Any], about: str) -> None:
     assert dofkit.classify(made).verdicts["redundant"].about == about
 

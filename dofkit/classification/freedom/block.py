@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from dofkit.base.verdicts import weakest
 from dofkit.classification.freedom.bridged_blocks import bridged_answer
+from dofkit.classification.freedom.preparation import passes_reference
 from dofkit.configuration import distance_geometry
 from dofkit.configuration.at_reference import at_reference
 from dofkit.configuration.components import is_graph, is_irreducible
@@ -40,6 +41,7 @@ from dofkit.integrability.row_labels import (
 from dofkit.mobility.general_position import framework_answer
 from dofkit.relations.answer import Answer, Size
 from dofkit.relations.blocks import Block, is_measured
+from dofkit.relations.normal.pieces import Finite
 from dofkit.relations.setting import Setting
 
 RELATED = "the functions or numbers that occur may satisfy an identity that arithmetic modulo primes does not detect"
@@ -49,6 +51,10 @@ MAX_ROUNDS = 12
 MAX_HIDDEN_BRANCHES = 12
 MANY_BRANCHES = (
     f"hidden relations have more than {MAX_HIDDEN_BRANCHES} branches, so the branch of largest dimension is not known"
+)
+HIDDEN_BRANCHES = (
+    "the hidden relations are satisfied on several branches; the degrees of freedom and the hidden equations are those "
+    "of the largest one (through the reference configuration, if there is one)"
 )
 
 IRREGULAR = (
@@ -157,7 +163,7 @@ def _mixed_answer(block: Block, setting: Setting) -> Answer:
     if block.finite and is_measured(block, setting):
         return Answer(None, verdict="undecided", reasons=[MEASURED])
     result = _prolonged(block, setting, Answer())
-    if setting.reference is not None:
+    if setting.reference is not None and (not result.hidden or _passes_reference(block, result.hidden, setting)):
         if block.nonlinear:
             answers = first_order_beside_bends(block, setting, result)
         else:
@@ -191,8 +197,13 @@ def _prolonged(block: Block, setting: Setting, result: Answer, relations: Sequen
             result.reasons.append("the constraints allow no motion through an interval of time")
             return result
         if len(outcome) > 1 and len(extra) < MAX_ROUNDS:
-            alternatives = [_prolonged(block, setting, Answer(), [*extra, *branch]) for branch in outcome]
-            return max(alternatives, key=_largest)
+            hidden = [[*extra, *branch] for branch in outcome]
+            through = [h for h in hidden if setting.reference and _passes_reference(block, h, setting)]
+            for choices in (through, hidden):
+                alternatives = [_prolonged(block, setting, Answer(), h) for h in choices]
+                if any(a.consistent is not False for a in alternatives):
+                    break
+            return _of_hidden_branches(alternatives)
         fresh = [g for g in outcome[0] if g not in extra]
         if not fresh:
             break
@@ -200,6 +211,19 @@ def _prolonged(block: Block, setting: Setting, result: Answer, relations: Sequen
     result.verdict, result.consistent = "undecided", None
     result.reasons.append("the motion is confined to a locus for which no equations could be written")
     return result
+
+
+def _passes_reference(block: Block, hidden: Sequence[Expr], setting: Setting) -> bool:
+    """Return whether the reference configuration satisfies a block's geometric equations and the hidden ones."""
+    return passes_reference([*(row.piece for row in block.finite), *map(Finite, hidden)], setting)
+
+
+def _of_hidden_branches(alternatives: Sequence[Answer]) -> Answer:
+    """Return the answer to the largest branch, which is one of that component: on others other equations may depend."""
+    best = max(alternatives, key=_largest)
+    if best.dof is None:
+        return best
+    return replace(best, about="component", reasons=[*best.reasons, HIDDEN_BRANCHES])
 
 
 def _points(forms: Codistribution, setting: Setting) -> Variety:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Collection, Hashable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from itertools import product as cartesian
@@ -29,7 +29,7 @@ from dofkit.relations.blocks import Block, Row, blocks_of
 from dofkit.relations.normal.domain import DomainCondition, is_always_satisfied
 from dofkit.relations.normal.no_solution import holds_somewhere
 from dofkit.relations.normal.normal_form import velocities_of
-from dofkit.relations.normal.pieces import JointEquation, Nonlinear, Pfaffian, Reduced
+from dofkit.relations.normal.pieces import Finite, JointEquation, Nonlinear, Normal, Pfaffian, Reduced
 from dofkit.relations.setting import Setting
 from dofkit.relations.velocity_reductions import (
     MAX_ALTERNATIVES,
@@ -148,14 +148,28 @@ def _bound(block: Block, a: Answer) -> int:
 
 
 def solve(reduced: Sequence[Reduced], setting: Setting, answered: AnsweredBlocks | None = None) -> Outcome:
-    """The largest of the branches, answered block by block; ``answered``: blocks that were answered before."""
-    normals = [(i, branches_at_reference(normal, setting)) for i, r in enumerate(reduced) for normal in r.normals]
+    """The largest of the branches, answered block by block; ``answered``: blocks that were answered before.
+
+    Of those through the reference configuration, unless it does not satisfy all constraints.
+    """
+    best, chosen = _through_reference(reduced, setting, answered or AnsweredBlocks(setting))
+    if chosen and (best.consistent is False or any(_off_reference(best, setting))):
+        anywhere = replace(setting, reference=None)
+        best, chosen = _through_reference(reduced, anywhere, AnsweredBlocks(anywhere))
+    best.answers = _of_chosen_branches(_at_the_reference(best, setting), best.blocks, chosen)
+    return best
+
+
+def _through_reference(
+    reduced: Sequence[Reduced], setting: Setting, answered: AnsweredBlocks
+) -> tuple[Outcome, set[int]]:
+    """Return the largest of the branches through the reference, and the constraints of which others were left out."""
+    normals, chosen = _normals_at_reference(reduced, setting)
     options = [range(len(normal.branches)) or (None,) for _, normal in normals]
     positive = setting.positive
     never, unsettled = _one_sided(reduced, positive)
     copied = copies(reduced) if "copies" in setting.reductions else {}
     outcomes, why = list[Outcome](), None
-    answered = answered or AnsweredBlocks(setting)
     domain = [(i, c) for i, r in enumerate(reduced) for c in r.domain if c.expr.op != "num"]
     names = [c.name for c in setting.roles]
     for number, choice in enumerate(cartesian(*options)):
@@ -171,37 +185,62 @@ def solve(reduced: Sequence[Reduced], setting: Setting, answered: AnsweredBlocks
         plain = not any(isinstance(row.piece, Nonlinear | DomainCondition) for row in rows)
         alternatives = [Alternative(rows)] if plain else alternatives_of(with_boundaries(rows), positive)
         why = _LEFT_OUT if len(alternatives) >= MAX_ALTERNATIVES else why
-        for alternative in reductions_at_reference(alternatives, setting):
+        through = reductions_at_reference(alternatives, setting)
+        if len(through) < len(alternatives):
+            chosen |= {slot.written.constraint for a in alternatives for slot in a.slots if not slot.unchanged}
+        for alternative in through:
             outcome = _answered(names, alternative.rows, impossible, domain, answered)
             outcome.reduced, outcome.divided = alternative.reduced, alternative.divided
             outcomes.append(outcome)
     best = _largest(outcomes, why, setting) if outcomes else Outcome([], [], [], names)
     if len(outcomes) == 1:
         best.answers = _confirmed(best, setting)
-    best.answers = _at_the_reference(best, setting)
     best.copies = copied if outcomes else {}
     best.unsettled = [*unsettled, *best.unsettled]
-    if setting.reference is not None and any(len(normal.branches) > 1 for _, normal in normals):
-        best.crossing = True
+    best.crossing = setting.reference is not None and any(len(normal.branches) > 1 for _, normal in normals)
     if any(has_kink_at_reference(normal, setting) for _, normal in normals) and best.consistent is not False:
         best.answers = [Answer(None, verdict="undecided", reasons=[KINKED]) for _ in best.answers]
-    return best
+    return best, chosen
+
+
+def _normals_at_reference(reduced: Sequence[Reduced], setting: Setting) -> tuple[list[tuple[int, Normal]], set[int]]:
+    """Return the branches through the reference, by constraint, and the constraints of which others were left out."""
+    written = [(i, normal) for i, r in enumerate(reduced) for normal in r.normals]
+    normals = [(i, branches_at_reference(normal, setting)) for i, normal in written]
+    chosen = {i for (i, n), (_, kept) in zip(written, normals, strict=True) if len(kept.branches) < len(n.branches)}
+    return normals, chosen
+
+
+def _off_reference(best: Outcome, setting: Setting) -> list[bool]:
+    """Return whether the reference configuration does not satisfy the geometric equations, for each block."""
+    if setting.reference is None or setting.tolerance is not None or best.consistent is not True:
+        return [False for _ in best.blocks]
+    return [
+        a.instantaneous is None
+        and not passes_reference([*(row.piece for row in block.rows), *map(Finite, a.hidden)], setting)
+        for block, a in zip(best.blocks, best.answers, strict=True)
+    ]
 
 
 def _at_the_reference(best: Outcome, setting: Setting) -> list[Answer]:
     """The answers; about a component where the reference configuration does not satisfy all geometric equations."""
-    if setting.reference is None or setting.tolerance is not None or best.consistent is not True:
-        return best.answers
-    off = [
-        a.instantaneous is None and not passes_reference([row.piece for row in block.rows], setting)
-        for block, a in zip(best.blocks, best.answers, strict=True)
-    ]
+    off = _off_reference(best, setting)
     if not any(off):
         return best.answers
     scoped = [replace(a, about="component", exists=False) if a.about == "reference" else a for a in best.answers]
     return [
         replace(a, reasons=list(dict.fromkeys([*a.reasons, OFF_REFERENCE]))) if missed else a
         for a, missed in zip(scoped, off, strict=True)
+    ]
+
+
+def _of_chosen_branches(answers: Sequence[Answer], blocks: Sequence[Block], chosen: Collection[int]) -> list[Answer]:
+    """Return the answers, of their own part where a branch of a ``chosen`` constraint was left out."""
+    return [
+        replace(a, about="component")
+        if a.about == "everywhere" and any(row.constraint in chosen for row in block.rows)
+        else a
+        for block, a in zip(blocks, answers, strict=True)
     ]
 
 
@@ -235,13 +274,13 @@ def _largest(outcomes: Sequence[Outcome], why: str | None, setting: Setting) -> 
 
 
 def _of_its_part(best: Outcome, others: Sequence[Outcome]) -> list[Answer]:
-    """The answers, told of their own part only where a part that was not seen of another branch may be larger."""
+    """The answers, of their own part only where an unseen part of another may be larger, or has other velocities."""
     shared = [{_identity(block) for block in o.blocks} for o in others]
     answers = [
         a if all(_identity(block) in blocks for blocks in shared) else replace(a, one_branch=True)
         for block, a in zip(best.blocks, best.answers, strict=True)
     ]
-    if best.dof is None or all(o.unseen <= best.dof for o in others):
+    if best.dof is None or all(o.unseen <= best.dof and (o.dof != best.dof or o.size == best.size) for o in others):
         return answers
     return [replace(a, about="component") if a.about == "everywhere" else a for a in answers]
 

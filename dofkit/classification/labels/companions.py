@@ -48,10 +48,10 @@ class Companionship:
             return Others()
         try:
             kept = self._needed(constraint, block, owners)
-            integral = self._integral(constraint, block, kept)
+            integral = self._integral(constraint, block, kept, a)
             if integral is not None and len(kept) < len(owners) and not self._holds(integral, block, a):
                 kept = self._needed(constraint, block, owners, a)
-                integral = self._integral(constraint, block, owners)
+                integral = self._integral(constraint, block, owners, a)
         except (OutOfTimeError, ArithmeticError):
             return Others()
         companions = tuple(f"'{self.names[o]}'" for o in kept if o != constraint)
@@ -80,7 +80,7 @@ class Companionship:
         if a.dof is None or len(owners) > MAX_CONSTRAINTS or len(block.coordinates) > MAX_COORDINATES:
             return Others()
         try:
-            integral = self._integral(constraint, block, owners)
+            integral = self._integral(constraint, block, owners, a)
         except (OutOfTimeError, ArithmeticError):
             return Others()
         return Others() if integral is None else Others((), equation(integral, block), integral.identically)
@@ -96,7 +96,7 @@ class Companionship:
             fewer = [o for o in kept if o != other]
             if other == constraint or not self._holonomic(constraint, _rows(block, fewer), block):
                 continue
-            integral = None if a is None else self._integral(constraint, block, fewer)
+            integral = None if a is None else self._integral(constraint, block, fewer, a)
             if a is None or integral is None or self._holds(integral, block, a):
                 kept = fewer
         return kept
@@ -125,33 +125,34 @@ class Companionship:
                     return False
         return True
 
-    def _integral(self, constraint: int, block: Block, owners: Sequence[int]) -> FirstIntegral | None:
+    def _integral(self, constraint: int, block: Block, owners: Sequence[int], a: Answer) -> FirstIntegral | None:
         """The integral of the one form that a constraint wrote, among those of some constraints."""
         forms = _forms_of(constraint, block)
-        return self._integrals_of(block, owners).by_row.get(forms[0]) if len(forms) == 1 else None
+        return self._integrals_of(block, owners, a).by_row.get(forms[0]) if len(forms) == 1 else None
 
-    def basis(self, block: Block) -> list[str]:
+    def basis(self, block: Block, a: Answer) -> list[str]:
         """Return independent integrals of all the block's rows together, as text."""
         owners = list(dict.fromkeys(r.constraint for r in block.rows))
         if len(owners) > MAX_CONSTRAINTS or len(block.coordinates) > MAX_COORDINATES or block.nonlinear:
             return []
         try:
-            integrals = self._integrals_of(block, owners).integrals
+            integrals = self._integrals_of(block, owners, a).integrals
         except (OutOfTimeError, ArithmeticError):
             return []
         return [equation(f, block, i if len(integrals) > 1 else None) for i, f in enumerate(integrals)]
 
-    def _integrals_of(self, block: Block, owners: Sequence[int]) -> CompanionIntegrals:
+    def _integrals_of(self, block: Block, owners: Sequence[int], a: Answer) -> CompanionIntegrals:
         """The integrals of a block's rows that some constraints wrote."""
         key = (id(block), *owners)
         if key not in self._integrals:
-            self._integrals[key] = self._searched(block, owners)
+            self._integrals[key] = self._searched(block, owners, a)
         return self._integrals[key]
 
-    def _searched(self, block: Block, owners: Sequence[int]) -> CompanionIntegrals:
+    def _searched(self, block: Block, owners: Sequence[int], a: Answer) -> CompanionIntegrals:
+        """Search for them; the whole block has the answer ``a``, which may be that of one branch."""
         numbers = [i for i, r in enumerate(block.rows) if r.constraint in owners]
         part = Block(block.coordinates, tuple(block.rows[i] for i in numbers))
-        whole = self.answered.of(part)
+        whole = a if len(numbers) == len(block.rows) else self.answered.of(part)
         if whole.dof is None:
             return CompanionIntegrals({}, [])
         forms = codistribution(part, self.answered.setting, whole.hidden)

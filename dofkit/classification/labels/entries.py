@@ -236,7 +236,7 @@ def integrable_part(
         number_finite = len(block.finite) + len(a.hidden)
         finite = rank_of_rows(a.matrix[:number_finite], a.modulus) if a.matrix else number_finite
         remaining = len(block.coordinates) - (a.dof or 0) - finite
-        result = _integrals(block, remaining, entries, company) if remaining > 0 else []
+        result = _integrals(block, a, remaining, entries, company) if remaining > 0 else []
         if result is None or basis is None:
             basis = None
         else:
@@ -245,12 +245,12 @@ def integrable_part(
 
 
 def _integrals(
-    block: Block, number: int, entries: Sequence[ConstraintEntry], company: Companionship
+    block: Block, a: Answer, number: int, entries: Sequence[ConstraintEntry], company: Companionship
 ) -> list[str] | None:
     """So many independent integrals of a block; None where fewer were found."""
     owners = {r.constraint for r in block.rows if isinstance(r.piece, Pfaffian)}
     alone = [entries[i].integral for i in owners]
     if number == len(alone) == 1 and alone[0] is not None:
         return [alone[0]]
-    result = company.basis(block)
+    result = company.basis(block, a)
     return result if len(result) == number else None

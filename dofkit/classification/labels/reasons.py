@@ -126,7 +126,7 @@ def _pfaffian(labels: EntryLabels, proofs: Sequence[Integrability], others: Othe
 def _integrable(proofs: Sequence[Integrability], others: Others) -> str:
     if others.integral:
         return f"It integrates to {others.text}: holonomic; {_INITIAL}."
-    how = next((p.reason for p in proofs if p.reason), "d(omega) ^ omega = 0")
+    how = next((p.reason for p in proofs if p.reason and p.integral is None), "d(omega) ^ omega = 0")
     return f"It is integrable ({how}), though no integral was found in closed form: holonomic; {_INITIAL}."
 
 

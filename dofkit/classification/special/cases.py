@@ -197,8 +197,14 @@ def _is_small(block: Block, a: Answer) -> bool:
 
 
 def _is_plain(block: Block, study: Study) -> bool:
-    """Coordinates that are what their names say, no generic geometry, and no drawing that speaks for itself."""
-    system = study.system
+    """Coordinates that are what their names say, no generic geometry, and no drawing that speaks for itself.
+
+    Nor a relation that was divided by what may vanish: it says something else there.
+    """
+    system, outcome = study.system, study.outcome
+    divided = {reduced.written.constraint for reduced in outcome.reduced if outcome.divided}
+    if not divided.isdisjoint(row.constraint for row in block.rows):
+        return False
     turning = {name for r in system.rotations if r.chart == "gibbs" for name in r.names}
     if not turning.isdisjoint(block.coordinates) or (system.reference is not None and not block.forms):
         return False

@@ -68,7 +68,7 @@ def _bare_argument(parser: Parser, token: Token) -> Expr:
     if first.name == "degrees":
         return factors[0]
     if first.kind == "number":
-        if parser.next.kind == "value":
+        if parser.next.kind == "value" and name != "sqrt":
             factors.append(parser.power())
         elif parser.next.kind in ("^", "superscript", "motion", "function", "call", "(", "root", "frac"):
             _ask_extent(parser, token, first)

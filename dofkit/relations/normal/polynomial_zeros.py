@@ -97,7 +97,7 @@ POWER_NOTE = (
     "a power is zero where its base is zero: the base is used, because the gradient of the power vanishes there"
 )
 SQUARES_NOTE = "a sum of squares is zero over the real numbers only where every term is zero: each term is one equation"
-PRODUCT_NOTE = "a product is zero on several branches; all are considered, and the one of largest dimension counts"
+PRODUCT_NOTE = "a product is zero on several branches"
 EMPTY_NOTE = "no real configuration satisfies it: every term has the same sign and one never vanishes"
 POLE_NOTE = "it has no value where a denominator vanishes: such zeros of the numerator are left out"
 FACTOR_NOTE = "a factor that never vanishes was taken out"

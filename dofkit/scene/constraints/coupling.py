@@ -190,7 +190,8 @@ class Coupling(ConstraintBase):
             gap = substitute(e, at)
             slopes = {letter: substitute(diff(e, letter), at) for letter in measured}
         except NoValueError:
-            world.fault("the relation has no value in the reference configuration, where every joint is at 0", "text")
+            message = "the relation has no value or no derivative in the reference configuration"
+            world.fault(f"{message}, where every joint is at 0", "text")
             return False
         for letter, joint in measured.items():
             if not slopes[letter].is_zero:
