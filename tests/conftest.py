@@ -4,8 +4,8 @@ All tests of one scene run in one process, which works its report out once, and 
 have in common is made once, and groups without end cost pytest-xdist a twentieth of the time. Garbage is looked for
 seldom, and never among what was there before the first test: that took a sixth of the time.
 
-Of the tests in `spread.yaml` one case in so many is run, the others are swept. `--share 1/3` runs a third of the tests
-that are selected, the same on every run; which third is said by `--turn TEXT`, such as a commit's hash.
+Of the tests in `spread.yaml` one case in so many is run, or none; the others are swept. `--share 1/3` runs a third of
+the selected tests, the same on every run; which third is said by `--turn TEXT`, such as a commit's hash.
 
 The time allowed for a scene is processor time of this process here: what else the machine does is of no account.
 
@@ -64,19 +64,18 @@ def pytest_itemcollected(item: pytest.Item) -> None:
     module, test = item.nodeid.split("[")[0].removeprefix("tests/").split(".py::")
     of = SPREAD.get(module, {}).get(test)
     if of is not None and item.get_closest_marker("sweep") is None:
-        if COUNTED[module, test] % of:
+        if of == 0 or COUNTED[module, test] % of:
             item.add_marker(pytest.mark.sweep)
         COUNTED[module, test] += 1
+    if item.get_closest_marker("xdist_group") is None:
+        path = getattr(getattr(item, "callspec", None), "params", {}).get("path")
+        item.add_marker(pytest.mark.xdist_group(path.stem if isinstance(path, Path) else item.path.stem))
 
 
-@pytest.hookimpl(trylast=True)
+@pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     share, first = config.getoption("share"), crc32(config.getoption("turn").encode())
     items[:] = [item for item in items if (crc32(item.nodeid.encode()) - first) % 2**32 < share * 2**32]
-    for item in items:
-        path = getattr(getattr(item, "callspec", None), "params", {}).get("path")
-        if item.get_closest_marker("xdist_group") is None:
-            item.add_marker(pytest.mark.xdist_group(path.stem if isinstance(path, Path) else item.path.stem))
 
 
 def pytest_collection_finish() -> None:

@@ -64,19 +64,14 @@ JOINED: Mapping[type[ast.AST], tuple[str, str]] = {
 #: The file, the line as it is and as it is changed: why no answer is another one.
 SAME: Mapping[tuple[str, str, str], str] = {
     (
-        "dofkit/configuration/measured/continuation.py",
-        "if stages[-1].residual > VIOLATED * 10 * tolerance:",
-        "if stages[-1].residual >= VIOLATED * 10 * tolerance:",
-    ): "a floating point number does not meet a bound exactly",
-    (
         "dofkit/configuration/local/neighbourhood.py",
         "if largest(change) < 1e-12:",
         "if largest(change) <= 1e-12:",
     ): "a floating point number does not meet a bound exactly",
     (
         "dofkit/relations/normal/polynomial_zeros.py",
-        "return [(index, -1 if (weight > 0) == (constant > 0) else 1) for index, weight in weights.items()]",
-        "return [(index, -1 if (weight > 0) == (constant >= 0) else 1) for index, weight in weights.items()]",
+        "extremes = [(f, -1 if (weight > 0) == (constant > 0) else 1) for f, weight in weights.items()]",
+        "extremes = [(f, -1 if (weight > 0) == (constant >= 0) else 1) for f, weight in weights.items()]",
     ): "the constant is not 0: its absolute value is a sum of weights that are not",
     (
         "dofkit/configuration/distance_geometry.py",
@@ -109,15 +104,45 @@ SAME: Mapping[tuple[str, str, str], str] = {
         "for _ in range(STEPS - 1):",
     ): "a bound on the work that is done",
     (
-        "dofkit/classification/study.py",
-        "enters = {_time_enters(entries[r.constraint]) for r in block.rows} if shared else {False}",
-        "enters = {_time_enters(entries[r.constraint]) for r in block.rows} if shared else {True}",
-    ): "what does not use time has no part in either count",
-    (
         "dofkit/configuration/local/manifold.py",
         "zero, unity = self.sample, self.sample + 1",
         "zero, unity = self.sample, self.sample - 1",
     ): "a quadratic form has the same value at -u as at u",
+    (
+        "dofkit/classification/dependence/comparison.py",
+        "size = rng.randint(1, 2**20)",
+        "size = rng.randint(0, 2**20)",
+    ): "once in a million draws another number is drawn",
+    (
+        "dofkit/integrability/lie_algebra.py",
+        "enough = n - free + 2 + (BEYOND if drawn else 0)",
+        "enough = n - free + 2 + (BEYOND if drawn else 1)",
+    ): "an order higher than is enough",
+    (
+        "dofkit/exact/points/real_search.py",
+        "if len(self.nodes) ** 2 * len(self.columns) > MAX_ELIMINATED:",
+        "if len(self.nodes) ** 2 * len(self.columns) >= MAX_ELIMINATED:",
+    ): "a bound on the work that is done",
+    (
+        "dofkit/classification/special/minors.py",
+        "for _ in range(MAX_STEPS):",
+        "for _ in range(MAX_STEPS - 1):",
+    ): "a bound on the work that is done",
+    (
+        "dofkit/integrability/pfaffian_system.py",
+        "return None, False",
+        "return None, True",
+    ): "nothing asks how sure a number is that is not known",
+    (
+        "dofkit/classification/special/minors.py",
+        "even = sum_of_even(poly, self.signs) if len(poly) <= MAX_EVEN else None",
+        "even = sum_of_even(poly, self.signs) if len(poly) < MAX_EVEN else None",
+    ): "a bound on the work that is done",
+    (
+        "dofkit/exact/ring/canonical.py",
+        "if len(poly) > MAX_TERMS:",
+        "if len(poly) >= MAX_TERMS:",
+    ): "a bound on the work that is done",
 }
 
 

@@ -259,11 +259,7 @@ def smaller(chart: Chart) -> tuple[Chart, int]:
     (theta = 0), bodies welded to others (x_B = x_A, theta_B = theta_A), z = 0. Free are those that no relation mentions
     any more: the set is a product with a line for each. The chart itself where none can go.
     """
-    if (
-        len(chart.relations) != len(chart.nodes)
-        or chart.time is not None
-        or "eliminations" not in chart.setting.reductions
-    ):
+    if chart.time is not None or "eliminations" not in chart.setting.reductions:
         return chart, 0
     solved = explicit_relations(chart.relations, _linear_coefficients)
     if not solved.explicit:

@@ -295,8 +295,6 @@ def derived_flag(rows: FormRows, frame: Pivots, base: Any, span: Span) -> tuple[
         if larger is None:
             return None
         flag.append(larger)
-        if larger == terminal:
-            break
         step = dimensions.index(larger) + 1
     return tuple(n - d for d in flag)
 

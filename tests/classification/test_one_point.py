@@ -73,7 +73,7 @@ NEVER += [
 ]
 #: Why it is consistent, the scene, its freedom.
 SOMETIMES: list[tuple[str, dict[str, Any], int]] = [
-    ("1 < t < 2", scene("x y", "exp(x) = t - 1", "exp(y) = 2 - t"), 0),
+    ("cos(x) = 1 where h is 0 at all times", scene("x y", "cos(x) + cos(h(t)) = 2", functions=H), 1),
     ("4 <= t <= 5", scene("x y z", "x^2 = t", "y^2 = 5 - t", "z^2 = t - 4"), 0),
     ("0 <= t <= 4", scene("x y z", "x^2 = t", "y^2 = 5 - t", "z^2 = (t - 4)*(t - 6)"), 0),
     ("3 <= t <= 100: a circle", scene("x y u", "x^2 + y^2 = t - 3", "u^2 = 100 - t"), 1),
@@ -110,6 +110,7 @@ SOMETIMES: list[tuple[str, dict[str, Any], int]] = [
     ("dy/dx of a skate that keeps its heading", scene("x y a", "dy/dx = tan(a)", "a = pi/4"), 1),
     ("three rates of one straight motion", scene("x y z", "dx/dy = 2", "dy/dz = 3", "dz/dx = 1/6"), 1),
     ("x = abs(t)", scene("x", "sqrt(x^2)*x = t^2", "x^2 = t^2"), 0),
+    ("1 < t < 2", scene("x y", "exp(x) = t - 1", "exp(y) = 2 - t"), 0),
 ]
 
 

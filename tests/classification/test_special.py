@@ -140,6 +140,8 @@ def test_it_says_whether_special_cases_were_sought() -> None:
     assert SEARCHED in dofkit.classify(dofkit.load(scene("dz = y dx"))).method
     long = " + ".join(f"x^{k}*y^{30 - k}" for k in range(30))
     assert SEARCHED not in dofkit.classify(dofkit.load(scene(f"dz = ({long})*dx"))).method
+    not_drawn = {"dimension": 2, "bodies": ["b"], "constraints": [{"type": "revolute", "between": ["ground", "b"]}]}
+    assert SEARCHED not in dofkit.classify(dofkit.load(not_drawn)).method
 
 
 def test_measured_and_drawn_scenes_are_left_alone() -> None:

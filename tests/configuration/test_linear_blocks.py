@@ -104,18 +104,3 @@ def test_constraints_of_several_rows() -> None:
     }
     report = dofkit.classify(made)
     assert (report.dof, report.redundant, report.redundant_equations, report.verdict) == (2, ["c3"], 2, "proved")
-
-
-def test_many_dense_rows() -> None:
-    """25 equations in 30 unknowns, of which the last five are sums of three before."""
-    first = [{(7 * i + 3 * j) % 30: (i * j + i + 2 * j) % 9 - 4 for j in range(8)} for i in range(20)]
-    sums: list[dict[int, int]] = []
-    for k in range(5):
-        total: dict[int, int] = {}
-        for row in first[3 * k : 3 * k + 3]:
-            total = {c: total.get(c, 0) + row.get(c, 0) for c in total.keys() | row.keys()}
-        sums.append(total)
-    texts = [" + ".join(f"({v}) x{c}" for c, v in sorted(row.items()) if v) + " = 0" for row in (*first, *sums)]
-    report = dofkit.classify({"coordinates": [f"x{c}" for c in range(30)], "constraints": texts})
-    assert (report.dof, report.redundant, report.verdict) == (10, [f"c{k}" for k in range(21, 26)], "proved")
-    assert report.constraints[20].circuit == ["c1", "c2", "c3"]

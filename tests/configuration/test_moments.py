@@ -12,6 +12,7 @@ LATER = [
     # x^2 + y^2 >= 2 |x y|: from t = 2 |sin t| on, where t is 1.895; two relations for two coordinates
     swept(["x^2 + y^2 = t", "x*y = sin(t)"], (0, 0)),
     (["x^2 + y^2 = t - 10"], (1, 1)),
+    (["x^2 = t - 3", "ydot = t"], (0, 0)),
     (["x^2 + y^2 = -t"], (1, 1)),
     (["sqrt(t - 5) = x", "x^2 = y"], (0, 0)),
     (["xdot^2 + ydot^2 = t - 5"], (2, 1)),

@@ -9,19 +9,15 @@ from fractions import Fraction
 import pytest
 import sympy
 from flint import arb_poly, ctx
-from hypothesis import given, settings
-from hypothesis import strategies as st
 from shared.known_scenes import swept
 
 import dofkit
 from dofkit.base.errors import NoValueError, TextError
-from dofkit.exact.matrices.sparse import rank_of
 from dofkit.exact.points.balls import PRECISION, BallPoint
 from dofkit.exact.points.field import field_point
 from dofkit.exact.points.frames import FormRows, field_frame
 from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.points.series import Series, SeriesPoint
-from dofkit.exact.residues import residue
 from dofkit.exact.ring.canonical import Canon, is_identically_zero
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
@@ -206,20 +202,6 @@ def test_balls_hold_true_values() -> None:
     assert abs(float(at[node].mid()) - (math.exp(-100) + math.atan2(0.25, 0.5) + math.sqrt(2))) < 1e-14
     small = values(ring, BallPoint({X: 0.5, Y: 0.25}, 0))[ring.node(read("exp(-200 x)"))]
     assert not small.contains(0)
-
-
-entries = st.fractions(min_value=-3, max_value=3, max_denominator=4)
-rows_of_four = st.lists(st.lists(entries, min_size=4, max_size=4), min_size=1, max_size=4)
-
-
-@settings(max_examples=60, deadline=None)
-@given(rows_of_four, st.lists(entries, min_size=4, max_size=4))
-def test_ranks_agree_with_sympy(matrix: list[list[Fraction]], weights: list[Fraction]) -> None:
-    """The last row is a combination of the others, so that ranks drop often."""
-    last = [sum((w * row[c] for w, row in zip(weights, matrix, strict=False)), Fraction(0)) for c in range(4)]
-    rows = [*matrix, last]
-    true = sympy.Matrix([[sympy.Rational(v.numerator, v.denominator) for v in row] for row in rows]).rank()
-    assert rank_of([[residue(v.numerator, P) / residue(v.denominator, P) for v in row] for row in rows], P) == true
 
 
 # Points on a variety

@@ -40,8 +40,8 @@ def classified(coordinates: str, *constraints: str, **more: Any) -> dofkit.Repor
         ),
         # x dx - y dy = x y dz - y x dz = 0
         ("x y z", ["dx = y dz", "dy = x dz"], {"x^2 - y^2 = C"}),
-        # on x = y it reads dz = (x + x^2) dx
-        ("x y z", ["x = y", "dz = y dx + x^2 dy"], {"3*x^2/2 + x^3 - 3*z = C"}),
+        # on x = y = u it reads dz = (x + x^2) dx
+        ("x y z u", ["x = y", "u = y", "dz = u dx + x^2 dy"], {"3*x^2/2 + x^3 - 3*z = C"}),
         # d(x sin) = ..., with a heading that stays
         ("x y theta phi", ["dx = cos(theta) dphi", "dtheta = 0"], {"phi*cos(theta) - x = C", "theta = C"}),
         # du + x dv + v dx = d(u + x v), out of two forms in a mixed basis

@@ -103,6 +103,7 @@ def polynomial(text: str, here: dict[str, Any], world: Any) -> Any:
     ("names", "slopes", "expected"),
     [
         # two fields; the slopes are those of the dependent coordinates
+        ("u v a b c", [["0", "0", "a + 1"], ["u", "a + 1", "0"]], [2, 3, 5]),
         ("u v a", [["0"], ["u"]], [2, 3]),
         ("u v a b", [["0", "0"], ["u", "u u"]], [2, 3, 4]),
         ("u v a b", [["0", "0"], ["u", "u v"]], [2, 3, 4]),

@@ -67,6 +67,7 @@ def test_no_motion_at_all(made: dict[str, Any], conflicting: list[str]) -> None:
     "made",
     [
         pytest.param(scene("z w", "zdot^3 + zdot wdot^2 = z wdot^3"), id="zdot = r(z) wdot with r^3 + r = z"),
+        pytest.param(scene("u z w", "zdot^3 + zdot wdot^2 = u^2 wdot^3", "zdot = 1"), id="wdot = 1/r(u)"),
         pytest.param(
             scene("x y z w", "xdot^2 + ydot^2 = z", "zdot^3 + zdot wdot^2 = z wdot^3"),
             id="a bend beside none",

@@ -187,6 +187,7 @@ AT_A_POINT: list[tuple[str, list[str], dict[str, Any], str, dict[str, Any]]] = [
     ("x y", ["x^3 + y^3 = 3 x y"], at(x=0, y=0), "a node", answer(1, instantaneous_dof=2, singular=True)),
     ("x y", ["(x^2 + y^2)^2 = x^2 - y^2"], at(x=0, y=0), "a node", answer(1, instantaneous_dof=2, singular=True)),
     ("x y", ["x^2 y = 0"], at(x=0, y=1), "on the double line", answer(1)),
+    ("x y", ["x^2 + y^2 = 1", "y = 1 - x^2/2 - x^4/8 - x^6/16"], at(x=0, y=1), "contact of order 8", answer(0)),
     ("x y", ["(x^2 + y^2) (x - 1) = 0"], at(x=0, y=0), "an isolated point", answer(0)),
     ("x y z", ["z (x^2 + y^2) = 0"], at(x=0, y=0, z=1), "on the axis", answer(1)),
     ("x y z", ["z (x^2 + y^2) = 0"], at(x=0, y=0, z=0), "the plane is larger", answer(2)),

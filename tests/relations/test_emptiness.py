@@ -70,6 +70,7 @@ SOLVABLE = [
     ("x^4 y^2 + x^2 y^4 + 1 = 3 x^2 y^2", "(1, 1), though it is never negative (Motzkin)"),
     ("asin(x^2 + 1) = y", "(0, pi/2)"),
     ("x^2 + y^2 = k", "where k is positive"),
+    ("sqrt(x^2 y) = 1", "(1, 1)"),
     ("x + abs(x) = 0", "-1"),
     ("h(x) = -1", "for some h"),
     ("x^2 + y^2 = R^2; x = R", "(R, 0)"),

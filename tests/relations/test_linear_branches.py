@@ -21,9 +21,9 @@ BY_PLACE = "xdot^2 - 2 z xdot ydot + ydot^2 = 0"
 
 #: Coordinates, constraints, (dof, velocity_dof), whether each is holonomic in the system and on its own, and why.
 DECIDED: list[tuple[str, list[str], tuple[int, int], list[bool | None] | None, list[bool] | None, str]] = [
+    ("x y z", [BY_ANGLE], (1, 1), [True], None, "x and y are constant; where sin z = 0 so are z and x - y, or x + y"),
     ("x y th", [HEADING, "xdot = cos(th)", "ydot = sin(th)"], (3, 1), [False, False, False], None,
      "forward with speed 1"),
-    ("x y z", [BY_ANGLE], (1, 1), [True], None, "x and y are constant; where sin z = 0 so are z and x - y, or x + y"),
     ("x y z", [BY_PLACE, "z = 1/2"], (0, 0), [True, True], None, "definite: at rest"),
     ("x y z", [BY_PLACE, "z^2 = 1/4"], (0, 0), [True, True], None, "definite at both"),
     ("x y z", [BY_PLACE, "z = 1"], (1, 1), [True, True], None, "(xdot - ydot)^2 = 0"),

@@ -71,14 +71,10 @@ def _entire(ring: Ring) -> bool:
 
 
 def _written(r: Reduced) -> list[list[tuple[str, Expr]]]:
-    """The equations of a constraint as written, each as `_terms` has it; one without terms where any was reduced."""
+    """The equations of a constraint, each as `_terms` has it; one without terms where any was reduced."""
     if len(r.normals) != len(r.constraint.relations) or any(n.notes for n in r.normals):
         return [[]]
-    result = []
-    for normal, relation in zip(r.normals, r.constraint.relations, strict=True):
-        terms = _terms(normal)
-        result.append([("", relation.expr)] if terms and terms[0][0] == "" else terms)
-    return result
+    return [_terms(n) for n in r.normals]
 
 
 def _terms(normal: Normal) -> list[tuple[str, Expr]]:
@@ -181,7 +177,7 @@ class Regularity:
             slopes = [jacobian(chart.ring, at, real, some, columns, arb(0)) for some in nodes]
         except NoValueError:
             return None
-        return [ball_part(j).rank if j else 0 for j in slopes]
+        return [ball_part(j).rank for j in slopes]
 
 
 def _lost(normals: Sequence[Normal], nonlinear: bool) -> bool:

@@ -195,8 +195,7 @@ def _vanishes_on_states(
             answer.append(_some_hold(states, real, branches))
         if False in answer:
             return False
-    sure = bool(seen) and all(seen) and not states.chosen
-    return True if answer and all(answer) and (sure or len(answer) > 1 or not seen) else None
+    return True if answer and all(answer) and (len(answer) > 1 or not seen) else None
 
 
 def _some_hold(states: States, point: BallPoint, branches: Sequence[AskedBranch]) -> bool | None:

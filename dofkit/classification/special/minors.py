@@ -158,7 +158,7 @@ class RowPolynomials:
 
     def _cleared(self, row: Sequence[Expr], nodes: Mapping[Expr, int]) -> list[Poly]:
         quotients = (self.canon.quotient(nodes[e]) for e in row)
-        return cleared(self.canon, [q if q[1].is_constant() else lowest_terms(*q) for q in quotients])[0]
+        return cleared(self.canon, [lowest_terms(*q) for q in quotients])[0]
 
     def _pivot(self) -> tuple[int, int] | None:
         """Return the place of a coefficient of a coordinate that never vanishes; a number where there is one."""
