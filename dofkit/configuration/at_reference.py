@@ -26,6 +26,7 @@ from dofkit.base.libraries import nx
 from dofkit.base.verdicts import VERDICTS
 from dofkit.base.wording import gap_in_words
 from dofkit.configuration.local import conclusions, criteria
+from dofkit.configuration.local.germ import Germ
 from dofkit.configuration.local.manifold import LocalDimension, Manifold
 from dofkit.configuration.rigid_motions import rigid_fields, rigid_motions_real
 from dofkit.configuration.variety import chart_of_rows, field_jacobian, on_variety, pose_point, smaller
@@ -228,20 +229,10 @@ def _by_balls(chart: Chart, pose: Mapping[Expr, Expr]) -> AtReference | None:
     if part.gap > CLEAR:
         frame = Pivots(tuple(part.rows), tuple(part.columns), tuple(c for c in range(columns) if c not in part.columns))
         manifold = Manifold(chart.ring, chart.nodes, chart.columns, frame, ball, chart.scales)
-        local = _at_fixed_time(_dimension_along_curves(manifold, rigid, chart.time), timed)
+        local = _at_fixed_time(criteria.local_dimension(Germ(None, manifold, rigid, chart.time)), timed)
     pattern = sparse(dependencies(matrix, part))
     names = tuple(of_q.columns) if rank == of_q.rank else ()
     return AtReference(n - of_q.rank, local, pattern, 2, rank, rigid, names)
-
-
-def _dimension_along_curves(manifold: Manifold, rigid: int, time: int | None) -> LocalDimension:
-    """Return the numeric local dimension; ``rigid`` motions move the system as one body, ``time`` is its column."""
-    try:
-        return criteria.numeric_dimension(manifold, rigid, time)
-    except NoValueError:
-        return LocalDimension(
-            None, "undecided", "the equations could not be evaluated along a curve through this configuration"
-        )
 
 
 def ball_matrix(chart: Chart, ball: BallPoint, exact: bool) -> list[list[arb]] | None:
