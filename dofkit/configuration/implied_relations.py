@@ -15,14 +15,13 @@ curve.
 
 from __future__ import annotations
 
-import random
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from operator import mul
 
 from dofkit.base.deadline import check
 from dofkit.base.errors import NoValueError
-from dofkit.configuration.at_reference import ball_point
+from dofkit.configuration.at_reference import ball_point, float_point
 from dofkit.configuration.local.criteria import vanish_near
 from dofkit.configuration.local.germ import random_direction
 from dofkit.configuration.local.manifold import Manifold
@@ -102,10 +101,9 @@ class ImpliedRelations:
         Numbers, no proof: for sets that are singular all along, whose branches are found as their points are.
         """
         chart = self.chart
-        ball = ball_point(chart, {**self.drawing, ex.TIME: ex.ZERO}, random.Random("dofkit beside"))
-        if ball is None or "balls" not in chart.setting.engines or chart.setting.tolerance is not None:
+        start = float_point(chart, self.drawing)
+        if start is None or "balls" not in chart.setting.engines or chart.setting.tolerance is not None:
             return False
-        start = {s: float(v.mid()) for s, v in ball.symbols.items()}
         search = RealSearch(chart.ring, [chart.nodes[i] for i in others], chart.unknowns, chart.setting.positive)
         seen = 0
         for seed in range(BESIDE):
@@ -149,7 +147,7 @@ def _on_manifold(chart: Chart, pose: Mapping[Expr, Expr], rank: int, afar: bool)
     if point is None or not on_variety(small, point):
         return None
     rigid = rigid_motions(small, point)
-    ball = ball_point(small, pose, point.rng) if afar and "balls" in chart.setting.engines else None
+    ball = ball_point(small, pose) if afar and "balls" in chart.setting.engines else None
     return vanish_near(small, point, ball, rigid, rank - gone)
 
 
