@@ -36,7 +36,7 @@ from dofkit.exact.zero import excludes_zero, independent_on_set
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Block, Chart, make_chart
-from dofkit.relations.linear_relations import linear, solve_linear
+from dofkit.relations.linear_relations import explicit_relations, linear, number_coefficients, solve_linear
 from dofkit.relations.normal.no_solution import no_solution
 from dofkit.relations.setting import Setting
 
@@ -100,8 +100,13 @@ def _variety(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> Variety:
     if "field" not in chart.setting.engines:
         return near_real_point(chart, real_point(chart, seed, chart.nodes), chart.nodes)
     core = [n for i, n in enumerate(chart.nodes) if i not in solved.implied]
-    others = [n for n, g in zip(chart.nodes, chart.relations, strict=True) if not eliminates or linear(g) is None]
-    reduced = [*(s - value for s, value in solved.by_others.items()), *solved.implicit]
+    given, others = solved, [n for n, g in zip(chart.nodes, chart.relations, strict=True) if linear(g) is None]
+    if not eliminates:
+        others = list(chart.nodes)
+    elif not any(v.kind in ("root", "sign") and chart.ring.var_expr[v.index].symbols for v in chart.ring.vars):
+        # the roots of values that are put in would have signs of their own
+        given, others = explicit_relations(chart.relations, number_coefficients), []
+    reduced = [*(s - value for s, value in given.values.items()), *given.implicit]
     solver = TriangularSolver(chart.ring, [*map(chart.ring.node, reduced), *others], seed=seed)
     refuted = _refuted(chart, solver)
     if refuted is not None:
@@ -130,11 +135,6 @@ def _refuted(chart: Chart, solver: TriangularSolver) -> Variety | None:
         return Variety(False, None, "probable", reasons=[why], argument="number left over")
     if not solver.plan.contradictory or _signed(chart.ring, solver.plan.witness):
         return None
-    if solver.plan.divided:
-        why = (
-            "eliminating the unknowns leaves a number that should be 0 and is not, but divides by a term that may be 0"
-        )
-        return Variety(None, None, "undecided", reasons=[why])
     if "balls" in chart.setting.engines:
         certain = excludes_zero(chart.ring, solver.plan.witness, chart.setting.positive)
     else:
