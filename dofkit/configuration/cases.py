@@ -13,7 +13,7 @@ from dofkit.base.deadline import check
 from dofkit.base.errors import NoValueError
 from dofkit.exact.analyticity import is_analytic
 from dofkit.exact.ideals import dimension_of, echelon_by_degree
-from dofkit.exact.ring.canonical import Canon, is_identically_zero
+from dofkit.exact.ring.canonical import Canon, is_identically_zero, quotients_of
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero import independent_generators
 from dofkit.expressions import tree as ex
@@ -157,11 +157,8 @@ def _same_zeros(e: Expr, other: Expr, positive: frozenset[Expr]) -> bool:
     """Return whether two expressions are the same up to a number."""
     if e.symbols != other.symbols:
         return False
-    ring = Ring([e, other], positive)
     try:
-        nodes = ring.node(e), ring.node(other)
-        canon = Canon(ring)
-        first, second = (canon.quotient(n)[0] for n in nodes)
+        _, [(first, _), (second, _)] = quotients_of([e, other], positive)
     except NoValueError:
         return False
     return bool(first * second.leading_coefficient() == second * first.leading_coefficient())

@@ -22,8 +22,7 @@ from dofkit.configuration import cases as all_cases
 from dofkit.configuration.variety import BRANCHED, Variety, chart_of_relations, field_jacobian, on_variety
 from dofkit.exact.analyticity import is_analytic
 from dofkit.exact.matrices.sparse import components, rank_of_rows
-from dofkit.exact.ring.canonical import Canon, is_identically_zero
-from dofkit.exact.ring.ring import Ring
+from dofkit.exact.ring.canonical import is_identically_zero, quotients_of
 from dofkit.exact.zero import independent_generators
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
@@ -226,14 +225,12 @@ def is_irreducible(chart: Chart) -> bool:
     implicit = explicit_relations(chart.relations).implicit
     if len(implicit) != 1:
         return not implicit
-    ring = Ring(implicit, chart.setting.positive)
     try:
-        node = ring.node(implicit[0])
-        canon = Canon(ring)
-        top = canon.quotient(node)[0]
+        canon, [(top, _)] = quotients_of(implicit, chart.setting.positive)
         factors = canon.factors(top)
     except NoValueError:
         return False
+    ring = canon.ring
     plain = all(ring.vars[i].kind == "symbol" for i in canon.generators_in(top))
     moving = [i for s in chart.symbols if s != ex.TIME and (i := ring.var_index(s)) is not None]
     return plain and sum(not {*canon.generators_in(f)}.isdisjoint(moving) for f, _ in factors) == 1

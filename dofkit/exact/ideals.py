@@ -15,7 +15,7 @@ from flint import Ordering, fmpq, fmpq_mat, fmpz_mpoly_ctx, fmpz_mpoly_vec
 
 from dofkit.base.deadline import check
 from dofkit.base.errors import NoValueError
-from dofkit.exact.ring.canonical import Canon
+from dofkit.exact.ring.canonical import Canon, quotients_of
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions.tree import Expr
 
@@ -57,13 +57,11 @@ def dimension_of(canon: Canon, generators: Sequence[Poly], moving: Sequence[int]
 
 def have_complex_points(relations: Sequence[Expr], positive: frozenset[Expr]) -> bool:
     """Return whether relations are known to be satisfied at some complex point; parameters are generic."""
-    ring = Ring(relations, positive)
-    nodes = [ring.node(e) for e in relations]
     symbols = {s for e in relations for s in e.symbols if s.args[0] != "parameter"}
     try:
-        canon = Canon(ring)
-        moving = [k for s in symbols if (k := ring.var_index(s)) is not None]
-        dimension = dimension_of(canon, [canon.quotient(node)[0] for node in nodes], moving)
+        canon, quotients = quotients_of(relations, positive)
+        moving = [k for s in symbols if (k := canon.ring.var_index(s)) is not None]
+        dimension = dimension_of(canon, [top for top, _ in quotients], moving)
     except NoValueError:
         return False
     return dimension is not None and dimension >= 0

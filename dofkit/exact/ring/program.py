@@ -226,6 +226,15 @@ def value_of(ring: Instructions, point: Point, node: int, through_generators: bo
     return out[node]
 
 
+def vanish(ring: Instructions, point: Point, nodes: Sequence[int]) -> bool:
+    """Return whether all of some instructions are 0 at a point; False where they have no value."""
+    try:
+        at = values(ring, point)
+    except NoValueError:
+        return False
+    return all(at[n] == 0 for n in nodes)
+
+
 @raising_no_value
 def values(ring: Instructions, point: Point, upto: int | None = None) -> list[Scalar]:
     """Return the value of every instruction at ``point``; raises PoleError at a pole.

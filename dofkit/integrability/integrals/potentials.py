@@ -13,7 +13,7 @@ from typing import TypeVar
 
 from dofkit.base.deadline import OutOfTimeError, by_processor, check, checked_calls, remaining_seconds, thread_time
 from dofkit.base.errors import NoValueError
-from dofkit.exact.ring.canonical import Canon
+from dofkit.exact.ring.canonical import Canon, quotients_of
 from dofkit.exact.ring.program import TooLargeError, raising_no_value
 from dofkit.exact.ring.quotients import MAX_TERMS, Quotient, factored, rationalised
 from dofkit.exact.ring.ring import Ring
@@ -74,10 +74,7 @@ class Algebra:
     def lowered(self, expressions: Sequence[Expr]) -> tuple[Canon, list[Quotient]]:
         """Return the expressions as quotients in lowest terms over one set of generators."""
         self.spend(expressions)
-        ring = Ring(expressions, self.positive)
-        nodes = [ring.node(e) for e in expressions]
-        canon = Canon(ring)
-        quotients = [canon.quotient(node) for node in nodes]
+        canon, quotients = quotients_of(expressions, self.positive)
         self.tick(sum(len(p) for quotient in quotients for p in quotient) // 50)
         return canon, [rationalised(canon, quotient) for quotient in quotients]
 
