@@ -129,13 +129,9 @@ def _combined(relations: Sequence[Expr], moving: frozenset[Expr], positive: froz
     """
     if len(relations) < 2:
         return None
-    ring = Ring(relations, positive)
-    nodes = [ring.node(g) for g in relations]
-    canon = Canon(ring)
-    rows = echelon_by_degree(canon, nodes)
-    if rows is None:
+    combinations = echelon_by_degree(relations, positive)
+    if combinations is None:
         return None
-    combinations = tuple(canon.to_expr(canon.ctx.from_dict(row)) for row in rows)
     new = (g for g in combinations if not any(_same_zeros(g, e, positive) for e in relations))
     return combinations if any(linear(g) or zero_set(g, positive, moving)[0] != ((g,),) for g in new) else None
 

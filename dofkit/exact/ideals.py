@@ -145,17 +145,19 @@ def _basis(polynomials: Sequence[Poly]) -> list[Poly] | None:
 # -- linear combinations of lower degree -----------------------------------------------------------
 
 
-def echelon_by_degree(canon: Canon, relations: Sequence[int]) -> list[dict[tuple[int, ...], Any]] | None:
+def echelon_by_degree(relations: Sequence[Expr], positive: frozenset[Expr]) -> tuple[Expr, ...] | None:
     """Return an echelon form of the numerators, or None where it is too large.
 
     Terms of the highest degree are eliminated first: two circles meet on a line.
     """
     try:
-        tables = [canon.quotient(node)[0].to_dict() for node in relations]
+        canon, quotients = quotients_of(relations, positive)
+        tables = [top.to_dict() for top, _ in quotients]
     except NoValueError:
         return None
     monomials = sorted({m for table in tables for m in table}, key=lambda m: (-sum(m), m))
     if not monomials or len(monomials) * len(tables) > COMBINED_ENTRIES:
         return None
     reduced, rank = fmpq_mat([[table.get(m, 0) for m in monomials] for table in tables]).rref()
-    return [{m: reduced[r, c] for c, m in enumerate(monomials) if reduced[r, c] != 0} for r in range(rank)]
+    rows = ({m: reduced[r, c] for c, m in enumerate(monomials) if reduced[r, c] != 0} for r in range(rank))
+    return tuple(canon.to_expr(canon.ctx.from_dict(row)) for row in rows)
