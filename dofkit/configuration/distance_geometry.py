@@ -8,10 +8,11 @@ contradicted.
 from __future__ import annotations
 
 import random
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
+from functools import partial
 from itertools import combinations, pairwise
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from dofkit.base.deadline import check
 from dofkit.base.libraries import nx
@@ -58,20 +59,24 @@ def lengths_unmet(block: Block, setting: Setting) -> Answer | None:
     sides = sorted(_sides(prescribed), key=lambda side: -side.length) if len(prescribed) > 1 else []
     graph: nx.Graph[Node] = nx.Graph()
     for side in sides:  # of several between two points the shortest stays
-        graph.add_edge(side.first, side.second, side=side, length=side.length)
+        graph.add_edge(side.first, side.second, side=side)
     visits = 0
     for side in (side for side in sides if not side.at_most):
         check()
         cutoff = side.length * (1 + SLACK)
-        routes = nx.single_source_dijkstra(graph, side.first, cutoff=cutoff, weight="length")[1]
+        routes = nx.single_source_dijkstra(graph, side.first, cutoff=cutoff, weight=partial(_length_but, side))[1]
         visits += len(routes)
         route = routes.get(side.second, ())
         others = [graph.edges[pair]["side"] for pair in pairwise(route)]
-        if others not in ([], [side]) and _is_longer(side, others, setting.positive):
+        if others and _is_longer(side, others, setting.positive):
             return _unmet(side, others, "-".join(label for _, label in route))
         if visits > MAX_VISITS:
             break
     return None
+
+
+def _length_but(hidden: Side, _u: Node, _v: Node, edge: Mapping[str, Any]) -> float | None:
+    return None if edge["side"] is hidden else edge["side"].length
 
 
 def _unmet(side: Side, others: Sequence[Side], route: str) -> Answer:
