@@ -29,7 +29,7 @@ from dofkit.configuration.measured.dimension import measured_freedom
 from dofkit.configuration.rigid_motions import rigid_motions
 from dofkit.configuration.variety import chart_of_rows, field_jacobian, on_variety, pose_point, smaller
 from dofkit.exact.matrices.dense import length
-from dofkit.exact.matrices.sparse import FactoredMatrix, Pivots, SparseRow, sparse_frame, transposed
+from dofkit.exact.matrices.sparse import Pivots, SparseRow, factored, sparse_frame, transposed
 from dofkit.exact.points.balls import FloatPoint, jacobian
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.real_search import RealSearch
@@ -185,7 +185,7 @@ def needed_along(field: Manifold, other: int) -> list[int]:
     slopes = curve.slopes([*field.rows, other], columns)
     p = modulus(field.sample)
     orders = [[_sparse(row, k) for row in slopes[:-1]] for k in range(ORDER)]
-    turned = FactoredMatrix(transposed(orders[0], len(columns)), p)
+    turned = factored(transposed(orders[0], len(columns)), p)
     multipliers: list[list[int]] = []
     for k in range(ORDER):
         right = [int(v.coefficient(k)) for v in slopes[-1]]
@@ -193,7 +193,7 @@ def needed_along(field: Manifold, other: int) -> list[int]:
             for row, factor in zip(orders[j], multipliers[k - j], strict=True):
                 for c, v in row.items():
                     right[c] = (right[c] - factor * v) % p
-        multipliers.append([int(v) for v in turned.solve(right)])
+        multipliers.append([int(v) for v in turned.solved(right)])
     return [field.frame.rows[i] for i in range(len(field.rows)) if any(row[i] for row in multipliers)]
 
 

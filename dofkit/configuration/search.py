@@ -103,8 +103,8 @@ def _variety(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> Variety:
     given, others = solved, [n for n, g in zip(chart.nodes, chart.relations, strict=True) if linear(g) is None]
     if not eliminates:
         others = list(chart.nodes)
-    elif not any(v.kind in ("root", "sign") and chart.ring.var_expr[v.index].symbols for v in chart.ring.vars):
-        # the roots of values that are put in would have signs of their own
+    elif not any(v.kind in ("root", "sign", "log") and chart.ring.var_expr[v.index].symbols for v in chart.ring.vars):
+        # a root of what is put in for a coordinate would be another generator than the root as written
         given, others = explicit_relations(chart.relations, number_coefficients), []
     reduced = [*(s - value for s, value in given.values.items()), *given.implicit]
     solver = TriangularSolver(chart.ring, [*map(chart.ring.node, reduced), *others], seed=seed)
