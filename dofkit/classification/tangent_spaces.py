@@ -9,8 +9,7 @@ from typing import Any
 from flint import arb
 
 from dofkit.classification.turned_coordinates import ANYWHERE, angle_rates
-from dofkit.configuration.at_reference import ball_point
-from dofkit.configuration.variety import pose_point
+from dofkit.configuration.at_reference import float_point
 from dofkit.exact.matrices.dense import complement, damped, dot, largest, pivoted, rank, unit_rows
 from dofkit.exact.points.balls import FloatPoint, jacobian
 from dofkit.exact.points.real_search import RealSearch
@@ -38,7 +37,8 @@ ROUGH = 1e-5
 def nearby(block: Block, dof: int, setting: Setting, turning: Sequence[Rotation]) -> list[str] | None:
     """From the tangent space at a regular point near the reference, or anywhere where there is none."""
     chart = make_chart(block, setting)
-    start = _start(chart)
+    reference = chart.setting.reference
+    start = {} if reference is None else float_point(chart, reference) or {}
     drawn = _drawn_tangent(chart, start, dof)
     search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.setting.positive, chart.symbols)
     for seed, away in enumerate(AWAY):
@@ -127,16 +127,6 @@ def _settles(search: RealSearch, symbols: dict[Expr, float], seed: int, power: i
         for u, s in zip(search.unknowns, damped(j, f, power), strict=True):
             symbols[u] += s
     return errors[-1] < 1e-13
-
-
-def _start(chart: Chart) -> dict[Expr, float]:
-    reference = chart.setting.reference
-    if reference is None:
-        return {}
-    configuration = {**reference, ex.TIME: ex.ZERO}
-    point = pose_point(chart, configuration, 3)
-    ball = None if point is None else ball_point(chart, configuration, point.rng)
-    return {} if ball is None else {s: float(v.mid()) for s, v in ball.symbols.items()}
 
 
 def _tangent(chart: Chart, symbols: dict[Expr, float], turning: Sequence[Rotation], dof: int) -> Any:

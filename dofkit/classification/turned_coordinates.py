@@ -187,7 +187,7 @@ def _near_reference(chart: Chart, rank: int) -> Iterator[RealPoint | None]:
     if not chart.nodes:
         yield None
         return
-    start = ball_point(chart, {**(chart.setting.reference or {}), ex.TIME: ex.ZERO}, random.Random("dofkit near"))
+    start = ball_point(chart, {**(chart.setting.reference or {}), ex.TIME: ex.ZERO})
     if chart.setting.reference is None or start is None:
         return
     search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.setting.positive, chart.symbols)

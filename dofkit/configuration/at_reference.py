@@ -26,6 +26,7 @@ from dofkit.base.libraries import nx
 from dofkit.base.verdicts import VERDICTS
 from dofkit.base.wording import gap_in_words
 from dofkit.configuration.local import conclusions, criteria
+from dofkit.configuration.local.germ import Germ
 from dofkit.configuration.local.manifold import LocalDimension, Manifold
 from dofkit.configuration.rigid_motions import rigid_fields, rigid_motions_real
 from dofkit.configuration.variety import chart_of_rows, field_jacobian, on_variety, pose_point, smaller
@@ -117,7 +118,7 @@ def _by_field(chart: Chart, pose: Mapping[Expr, Expr]) -> AtReference | None:
         local, spared = _with_fewer(chart, pose, point, fields)
         looked = FollowedClasses(coordinates=n - spared, spared=spared)
         return AtReference(n - rank_q, local, matrix, point.p, rank, rigid, looked=looked)
-    ball = ball_point(chart, pose, point.rng) if rank < len(matrix) and "balls" in chart.setting.engines else None
+    ball = ball_point(chart, pose) if rank < len(matrix) and "balls" in chart.setting.engines else None
     local = _at_fixed_time(criteria.local_at(chart, point, ball, rigid), timed)
     return AtReference(n - rank_q, local, matrix, point.p, rank, rigid)
 
@@ -144,7 +145,7 @@ def _with_fewer(
         return LocalDimension(free, "proved", EXPLICIT, argument="graph"), spared
     kept = [i for i, s in enumerate(chart.symbols) if s in small.symbols]
     rigid = rank_of([[field[i] for i in kept] for field in fields], point.p)
-    ball = ball_point(small, pose, here.rng) if "balls" in chart.setting.engines else None
+    ball = ball_point(small, pose) if "balls" in chart.setting.engines else None
     local = criteria.local_at(small, here, ball, rigid, asked=asked)
     return replace(local, dimension=None if local.dimension is None else local.dimension + free), spared
 
@@ -214,7 +215,7 @@ def _at_fixed_time(local: LocalDimension, timed: int) -> LocalDimension:
 
 def _by_balls(chart: Chart, pose: Mapping[Expr, Expr]) -> AtReference | None:
     """`at_reference` with balls alone: what a tiny ball contains 0 of is taken for 0."""
-    ball = ball_point(chart, pose, random.Random("dofkit reference"))
+    ball = ball_point(chart, pose)
     matrix = None if ball is None else ball_matrix(chart, ball, True)
     if ball is None or matrix is None:
         return None
@@ -228,20 +229,10 @@ def _by_balls(chart: Chart, pose: Mapping[Expr, Expr]) -> AtReference | None:
     if part.gap > CLEAR:
         frame = Pivots(tuple(part.rows), tuple(part.columns), tuple(c for c in range(columns) if c not in part.columns))
         manifold = Manifold(chart.ring, chart.nodes, chart.columns, frame, ball, chart.scales)
-        local = _at_fixed_time(_dimension_along_curves(manifold, rigid, chart.time), timed)
+        local = _at_fixed_time(criteria.local_dimension(Germ(None, manifold, rigid, chart.time)), timed)
     pattern = sparse(dependencies(matrix, part))
     names = tuple(of_q.columns) if rank == of_q.rank else ()
     return AtReference(n - of_q.rank, local, pattern, 2, rank, rigid, names)
-
-
-def _dimension_along_curves(manifold: Manifold, rigid: int, time: int | None) -> LocalDimension:
-    """Return the numeric local dimension; ``rigid`` motions move the system as one body, ``time`` is its column."""
-    try:
-        return criteria.numeric_dimension(manifold, rigid, time)
-    except NoValueError:
-        return LocalDimension(
-            None, "undecided", "the equations could not be evaluated along a curve through this configuration"
-        )
 
 
 def ball_matrix(chart: Chart, ball: BallPoint, exact: bool) -> list[list[arb]] | None:
@@ -258,29 +249,29 @@ def ball_matrix(chart: Chart, ball: BallPoint, exact: bool) -> list[list[arb]] |
     return [[row[place[c]] if c >= 0 else arb(0) for c in chart.columns] for row in slopes]
 
 
-def ball_point(chart: Chart, pose: Mapping[Expr, Expr], rng: random.Random) -> BallPoint | None:
+def ball_point(chart: Chart, pose: Mapping[Expr, Expr]) -> BallPoint | None:
     """Return the reference configuration with balls; symbols without a value get random ones."""
+    rng, symbols = random.Random("dofkit reference"), dict[Expr, Any]()
     with ctx.workprec(precision()):
-        return _ball_point(chart, pose, rng)
-
-
-def _ball_point(chart: Chart, pose: Mapping[Expr, Expr], rng: random.Random) -> BallPoint | None:
-    symbols: dict[Expr, Any] = {}
-    for var in chart.ring.vars:
-        if var.kind != "symbol":
-            continue
-        value = pose.get(var.key)
-        if value is None:
-            symbols[var.key] = arb(rng.randrange(257, 1023)) / 512
-            continue
-        ring = Ring([value])
-        node = ring.node(value)
-        constants = {v.key: arb(3) / 4 for v in ring.vars if v.kind == "symbol"}
-        try:
-            symbols[var.key] = values(ring, BallPoint(constants, 0))[node]
-        except NoValueError:
-            return None
+        for var in (var for var in chart.ring.vars if var.kind == "symbol"):
+            value = pose.get(var.key)
+            if value is None:
+                symbols[var.key] = arb(rng.randrange(257, 1023)) / 512
+                continue
+            ring = Ring([value])
+            node = ring.node(value)
+            constants = {v.key: arb(3) / 4 for v in ring.vars if v.kind == "symbol"}
+            try:
+                symbols[var.key] = values(ring, BallPoint(constants, 0))[node]
+            except NoValueError:
+                return None
     return BallPoint(symbols, 0)
+
+
+def float_point(chart: Chart, pose: Mapping[Expr, Expr]) -> dict[Expr, float] | None:
+    """Return a pose at t = 0 in floating point, symbols without a value at random; None if a value is undefined."""
+    ball = ball_point(chart, {**pose, ex.TIME: ex.ZERO})
+    return None if ball is None else {s: float(v.mid()) for s, v in ball.symbols.items()}
 
 
 # Classes of dependent equations

@@ -13,7 +13,7 @@ from dofkit.base.deadline import check
 from dofkit.base.errors import NoValueError
 from dofkit.exact.analyticity import is_analytic
 from dofkit.exact.ideals import dimension_of, echelon_by_degree
-from dofkit.exact.ring.canonical import Canon, is_identically_zero
+from dofkit.exact.ring.canonical import Canon, is_identically_zero, quotients_of
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero import independent_generators
 from dofkit.expressions import tree as ex
@@ -129,13 +129,9 @@ def _combined(relations: Sequence[Expr], moving: frozenset[Expr], positive: froz
     """
     if len(relations) < 2:
         return None
-    ring = Ring(relations, positive)
-    nodes = [ring.node(g) for g in relations]
-    canon = Canon(ring)
-    rows = echelon_by_degree(canon, nodes)
-    if rows is None:
+    combinations = echelon_by_degree(relations, positive)
+    if combinations is None:
         return None
-    combinations = tuple(canon.to_expr(canon.ctx.from_dict(row)) for row in rows)
     new = (g for g in combinations if not any(_same_zeros(g, e, positive) for e in relations))
     return combinations if any(linear(g) or zero_set(g, positive, moving)[0] != ((g,),) for g in new) else None
 
@@ -157,11 +153,8 @@ def _same_zeros(e: Expr, other: Expr, positive: frozenset[Expr]) -> bool:
     """Return whether two expressions are the same up to a number."""
     if e.symbols != other.symbols:
         return False
-    ring = Ring([e, other], positive)
     try:
-        nodes = ring.node(e), ring.node(other)
-        canon = Canon(ring)
-        first, second = (canon.quotient(n)[0] for n in nodes)
+        _, [(first, _), (second, _)] = quotients_of([e, other], positive)
     except NoValueError:
         return False
     return bool(first * second.leading_coefficient() == second * first.leading_coefficient())

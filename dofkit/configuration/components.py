@@ -5,13 +5,11 @@ but one may be larger: y = (x - 1) u, (x - 1) v = y w, (x - 1) w = y u hold wher
 That none is larger is known where
 
 - the relations but one give a coordinate each as a function of others: the set is a graph over a hypersurface;
-- the others have a parameter each of their own: almost every fibre is a manifold [Sard1942];
 - a Groebner basis shows the dimension of all complex points, or does so for every case [Buchberger1965].
 """
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from itertools import product as cartesian
@@ -24,15 +22,12 @@ from dofkit.configuration import cases as all_cases
 from dofkit.configuration.variety import BRANCHED, Variety, chart_of_relations, field_jacobian, on_variety
 from dofkit.exact.analyticity import is_analytic
 from dofkit.exact.matrices.sparse import components, rank_of_rows
-from dofkit.exact.ring.canonical import Canon, is_identically_zero
-from dofkit.exact.ring.ring import Ring
+from dofkit.exact.ring.canonical import is_identically_zero, quotients_of
 from dofkit.exact.zero import independent_generators
 from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Chart
-from dofkit.relations.linear_relations import explicit_relations
-from dofkit.relations.normal.zero_set import never_vanishes
+from dofkit.relations.linear_relations import Explicit, explicit_relations
 
 #: Relations that are looked at; cases of all parts together that are looked at, and that are listed.
 MAX_RELATIONS, MAX_TOGETHER, MAX_PRODUCTS = 200, 16, 2000
@@ -42,6 +37,8 @@ NEAR = (
     "the freedom is that of the component of the configuration space that contains the witness: a larger "
     "component was not excluded"
 )
+#: A case of each part, which hold together.
+Choice = tuple[all_cases.BoundedCase, ...]
 OTHERS = "whether several components pass through the point that was found was not decided"
 
 
@@ -65,21 +62,17 @@ def of_largest_part(chart: Chart, variety: Variety, find: Callable[[Chart], Vari
     if len(chart.relations) < 2:
         least = chart.coordinates - len(chart.relations)
         return _by(variety, "one relation") if variety.dimension >= least else _near(variety)
-    solved = explicit_relations(chart.relations)
-    groups = parts_of(solved.implicit, [s for s in chart.symbols if s != ex.TIME])
-    fibres = [_is_fibre(part, chart.setting.positive) for part in groups]
-    cases = [_cases(part, chart, fibre) for part, fibre in zip(groups, fibres, strict=True)]
-    if None in cases or prod(len(c or ()) for c in cases) > MAX_PRODUCTS:
+    set_cases = _cases_of_set(chart)
+    if set_cases is None:
         return near(variety)
-    loose = chart.coordinates - len(solved.explicit) - sum(len(part.unknowns) for part in groups)
-    together = sorted(cartesian(*(c for c in cases if c is not None)), key=lambda choice: -_most(choice))
+    solved, loose, together = set_cases
     best, open_, regular = variety, list[bool](), _is_regular(chart, variety)
     for number, choice in enumerate(together):
         if loose + _most(choice) <= (best.dimension or 0):
             break
         if number == MAX_TOGETHER:
             return near(best) if best is variety else _near_its_point(best)
-        larger = _variety_of(chart, [*solved.explicit.values(), *(g for case in choice for g in case.relations)], find)
+        larger = _variety_of(chart, _relations_of(solved, choice), find)
         if larger.consistent is False and larger.verdict == "proved":
             continue
         best, ended = _larger(chart, best, larger, loose + _most(choice))
@@ -89,9 +82,9 @@ def of_largest_part(chart: Chart, variety: Variety, find: Callable[[Chart], Vari
         return replace(best, dimension=None, verdict="undecided", reasons=[*best.reasons, LARGER])
     if open_:
         return near(best) if best is variety else _near_its_point(best)
-    best = _by(best, "graph" if not groups else "generic fibre" if all(fibres) else "cases")
+    best = _by(best, "cases" if solved.implicit else "graph")
     best = replace(best, separating=separating_expressions(together, (best.dimension or 0) - loose))
-    exact = all(case.exact for c in cases for case in c or ())
+    exact = all(case.exact for choice in together for case in choice)
     return best if exact else replace(best, verdict=weakest(best.verdict, "probable"))
 
 
@@ -133,17 +126,15 @@ def by_cases(chart: Chart, variety: Variety, find: Callable[[Chart], Variety]) -
     """What is known of a set of which no regular point was found: the first case with points, or that none has any."""
     if not 0 < len(chart.relations) <= MAX_RELATIONS:
         return variety
-    solved = explicit_relations(chart.relations)
-    groups = parts_of(solved.implicit, [s for s in chart.symbols if s != ex.TIME])
-    cases = [_cases(part, chart, _is_fibre(part, chart.setting.positive)) for part in groups]
-    if [] in cases:
+    set_cases = _cases_of_set(chart)
+    if set_cases is None:
+        return variety
+    solved, _, together = set_cases
+    if not together:
         parametric = [g for g in solved.implicit if any(s.args[0] == "parameter" for s in g.symbols)]
         return Variety(False, None, "probable" if parametric else "proved", reasons=[NO_CASE], argument="cases")
-    if None in cases or prod(len(c or ()) for c in cases) > MAX_PRODUCTS:
-        return variety
-    together = sorted(cartesian(*(c for c in cases if c is not None)), key=lambda choice: -_most(choice))
     for choice in together[:MAX_TOGETHER]:
-        relations = [*solved.explicit.values(), *(g for case in choice for g in case.relations)]
+        relations = _relations_of(solved, choice)
         if set(relations) == set(chart.relations) and not variety.parted:
             continue
         seen = _variety_of(chart, relations, find)
@@ -234,14 +225,12 @@ def is_irreducible(chart: Chart) -> bool:
     implicit = explicit_relations(chart.relations).implicit
     if len(implicit) != 1:
         return not implicit
-    ring = Ring(implicit, chart.setting.positive)
     try:
-        node = ring.node(implicit[0])
-        canon = Canon(ring)
-        top = canon.quotient(node)[0]
+        canon, [(top, _)] = quotients_of(implicit, chart.setting.positive)
         factors = canon.factors(top)
     except NoValueError:
         return False
+    ring = canon.ring
     plain = all(ring.vars[i].kind == "symbol" for i in canon.generators_in(top))
     moving = [i for s in chart.symbols if s != ex.TIME and (i := ring.var_index(s)) is not None]
     return plain and sum(not {*canon.generators_in(f)}.isdisjoint(moving) for f, _ in factors) == 1
@@ -258,18 +247,28 @@ def parts_of(relations: Sequence[Expr], symbols: Sequence[Expr]) -> list[Relatio
     return groups
 
 
-def _cases(part: RelationPart, chart: Chart, fibre: bool) -> list[all_cases.BoundedCase] | None:
-    """Return the cases of a part with the bounds of their dimensions; a ``fibre`` is a generic one."""
-    if fibre:
-        return [all_cases.BoundedCase(part.relations, len(part.unknowns) - len(part.relations), True)]
+def _cases_of_set(chart: Chart) -> tuple[Explicit, int, list[Choice]] | None:
+    """Return what the relations give explicitly, the number of coordinates in no other, and choices of cases of parts.
+
+    The largest choices come first; there is none where a part has no case. None where they are too many.
+    """
+    solved = explicit_relations(chart.relations)
+    groups = parts_of(solved.implicit, [s for s in chart.symbols if s != ex.TIME])
+    cases = [_cases(part, chart) for part in groups]
+    if [] not in cases and (None in cases or prod(len(c or ()) for c in cases) > MAX_PRODUCTS):
+        return None
+    loose = chart.coordinates - len(solved.explicit) - sum(len(part.unknowns) for part in groups)
+    return solved, loose, sorted(cartesian(*(c or () for c in cases)), key=lambda choice: -_most(choice))
+
+
+def _relations_of(solved: Explicit, choice: Choice) -> list[Expr]:
+    return [*solved.explicit.values(), *(g for case in choice for g in case.relations)]
+
+
+def _cases(part: RelationPart, chart: Chart) -> list[all_cases.BoundedCase] | None:
+    """Return the cases of a part with the bounds of their dimensions."""
     try:
         nonzero = [g for g in part.relations if is_identically_zero(g, chart.setting.positive) is not True]
         return all_cases.cases_of(nonzero, part.unknowns, chart.setting.positive)
     except NoValueError:
         return None
-
-
-def _is_fibre(part: RelationPart, positive: frozenset[Expr]) -> bool:
-    """Return whether each relation has a parameter of its own in which it is nowhere stationary [Sard1942]."""
-    times = Counter(s for g in part.relations for s in g.symbols if s.args[0] == "parameter")
-    return all(any(times[s] == 1 and never_vanishes(diff(g, s), positive) for s in g.symbols) for g in part.relations)

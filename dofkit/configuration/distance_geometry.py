@@ -8,13 +8,11 @@ contradicted.
 from __future__ import annotations
 
 import random
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from functools import partial
 from itertools import combinations, pairwise
-
-from flint import arb
+from typing import Any, NamedTuple
 
 from dofkit.base.deadline import check
 from dofkit.base.libraries import nx
@@ -28,8 +26,8 @@ from dofkit.relations.normal.semidefinite import never_holds
 from dofkit.relations.setting import Setting
 from dofkit.system import Distance, Place
 
-#: Precisions at which two lengths are compared, in bits.
-BITS = (64, 256, 1024)
+#: Precision at which two lengths are compared, in bits.
+BITS = 1024
 #: Steps of all searches for short routes, and points of one body that are used.
 MAX_VISITS, MAX_CARRIED = 100_000, 40
 #: Ways that are longer than a distance by more than this fraction are no reason to doubt it.
@@ -40,137 +38,86 @@ DIGITS = 6
 Node = tuple[str | None, str]
 
 
-@dataclass(frozen=True)
-class Side:
+class Side(NamedTuple):
     """A known distance, about ``length``, or a bound from above; ``owner`` None where a body holds both points."""
 
+    first: Node
+    second: Node
     squared: Expr
     length: float
     owner: int | None
-    at_most: bool = False
-
-
-@dataclass(frozen=True)
-class Unmet:
-    """Constraints whose lengths cannot be met together, and why."""
-
-    constraints: tuple[int, ...]
-    reason: str
+    at_most: bool
 
 
 def lengths_unmet(block: Block, setting: Setting) -> Answer | None:
-    """Return the answer to a block whose links cannot close; None where that is not seen."""
+    """Return the answer to a block whose links cannot close; None where that is not seen.
+
+    A distance is longer than a route between its ends (each side of a polygon is at most the others together).
+    """
     owners = sorted({row.constraint for row in block.rows})
     prescribed = [(i, d) for i in owners for d in setting.distances.get(i, ())]
-    unmet_lengths = unmet(prescribed, setting.positive) if len(prescribed) > 1 else None
-    if unmet_lengths is None:
-        return None
-    return Answer(
-        False,
-        reasons=[unmet_lengths.reason],
-        method="lengths compared",
-        argument="lengths compared",
-        conflict=unmet_lengths.constraints,
+    sides = sorted(_sides(prescribed), key=lambda side: -side.length) if len(prescribed) > 1 else []
+    graph: nx.Graph[Node] = nx.Graph()
+    for side in sides:  # of several between two points the shortest stays
+        graph.add_edge(side.first, side.second, side=side)
+    visits = 0
+    for side in (side for side in sides if not side.at_most):
+        check()
+        cutoff = side.length * (1 + SLACK)
+        routes = nx.single_source_dijkstra(graph, side.first, cutoff=cutoff, weight=partial(_length_but, side))[1]
+        visits += len(routes)
+        route = routes.get(side.second, ())
+        others = [graph.edges[pair]["side"] for pair in pairwise(route)]
+        if others and _is_longer(side, others, setting.positive):
+            return _unmet(side, others, "-".join(label for _, label in route))
+        if visits > MAX_VISITS:
+            break
+    return None
+
+
+def _length_but(hidden: Side, _u: Node, _v: Node, edge: Mapping[str, Any]) -> float | None:
+    return None if edge["side"] is hidden else edge["side"].length
+
+
+def _unmet(side: Side, others: Sequence[Side], route: str) -> Answer:
+    most = sum(other.length for other in others)
+    why = (
+        f"the points {side.first[1]} and {side.second[1]} cannot be {side.length:.{DIGITS}g} apart: "
+        f"along {route} they are at most {most:.{DIGITS}g} apart."
     )
+    conflict = tuple(sorted({s.owner for s in (side, *others) if s.owner is not None}))
+    return Answer(False, reasons=[why], method="lengths compared", argument="lengths compared", conflict=conflict)
 
 
-def unmet(distances: Sequence[tuple[int, Distance]], positive: frozenset[Expr]) -> Unmet | None:
-    """A minimal set of distances, each with its constraint, that no points have; None where none is seen."""
-    return _Web(distances, positive).polygon()
+def _sides(distances: Sequence[tuple[int, Distance]]) -> Iterator[Side]:
+    """Yield the distances, with parameters at random, and those between points of one body."""
+    draw = random.Random("dofkit lengths")
+    symbols = sorted({s for _, d in distances for s in d.squared.symbols}, key=repr)
+    values = {s: Fraction(draw.randrange(10**6, 10**7), 10**6) for s in symbols}
+    written = ((d.first, d.second, d.squared, owner, d.at_most) for owner, d in distances)
+    held = ((a, b, square_between(a.reference or (), b.reference or ()), None, False) for a, b in _carried(distances))
+    for first, second, squared, owner, at_most in (*written, *held):
+        about = interval_of(squared, values)
+        if about is not None and about >= 0 and first[:2] != second[:2]:
+            yield Side(first[:2], second[:2], squared, float(about.sqrt().mid()), owner, at_most)
 
 
-class _Web:
-    """A graph of points; each edge is a side, of which two points may have several."""
-
-    def __init__(self, distances: Sequence[tuple[int, Distance]], positive: frozenset[Expr]) -> None:
-        self.positive = positive
-        draw = random.Random("dofkit lengths")
-        symbols = sorted({s for _, d in distances for s in d.squared.symbols}, key=repr)
-        self.values = {s: Fraction(draw.randrange(10**6, 10**7), 10**6) for s in symbols}
-        self.graph: nx.MultiGraph[Node] = nx.MultiGraph()
-        for owner, d in distances:
-            self._add(_node(d.first), _node(d.second), d.squared, owner, d.at_most)
-        for first, second in _carried(distances):
-            self._add(_node(first), _node(second), square_between(first.reference or (), second.reference or ()), None)
-
-    def _add(self, a: Node, b: Node, squared: Expr, owner: int | None, at_most: bool = False) -> None:
-        about = interval_of(squared, self.values, BITS[0])
-        if about is None or not about >= 0:
-            about = arb(0) if squared.is_zero else None
-        if about is not None and a != b:
-            self.graph.add_edge(a, b, side=Side(squared, float(about.sqrt().mid()), owner, at_most))
-
-    def _exact(self) -> list[tuple[Node, Node, Side]]:
-        """Return the sides that are no bounds, with their ends."""
-        return [(a, b, side) for a, b, side in self.graph.edges(data="side") if not side.at_most]
-
-    def _longer(self, longest: Side, others: Sequence[Side]) -> bool:
-        """Return whether a length is certainly more than others together, whatever the positive parameters are."""
-        gap = ex.add(_length(longest), *(ex.mul(ex.MINUS_ONE, _length(o)) for o in others))
-        if gap.symbols:
-            return never_holds(ex.mul(ex.MINUS_ONE, gap), False, self.positive)
-        for bits in BITS:
-            difference = interval_of(gap, None, bits)
-            if difference is not None and not difference.contains(0):
-                return bool(difference > 0)
-        return False
-
-    def polygon(self) -> Unmet | None:
-        """A distance longer than a route between its ends (each side of a polygon is at most the others together)."""
-        visits = 0
-        for a, b, side in sorted(self._exact(), key=lambda edge: -edge[2].length):
-            check()
-            cutoff, weight = side.length * (1 + SLACK), partial(_length_but, side)
-            far, routes = nx.single_source_dijkstra(self.graph, a, cutoff=cutoff, weight=weight)
-            visits += len(far)
-            if b in routes:
-                shortest = (_shortest(side, self.graph[u][v]) for u, v in pairwise(routes[b]))
-                others = [other for other in shortest if other is not None]
-                if self._longer(side, others):
-                    route, most = "-".join(node[1] for node in routes[b]), sum(o.length for o in others)
-                    claim = f"the points {a[1]} and {b[1]} cannot be {_side_text(side)} apart"
-                    return Unmet(
-                        _owners((side, *others)), f"{claim}: along {route} they are at most {most:.{DIGITS}g} apart."
-                    )
-            if visits > MAX_VISITS:
-                return None
-        return None
+def _is_longer(longest: Side, others: Sequence[Side], positive: frozenset[Expr]) -> bool:
+    """Return whether a length is certainly more than others together, whatever the positive parameters are."""
+    gap = ex.add(ex.sqrt(longest.squared), *(ex.mul(ex.MINUS_ONE, ex.sqrt(o.squared)) for o in others))
+    if gap.symbols:
+        return never_holds(ex.mul(ex.MINUS_ONE, gap), False, positive)
+    difference = interval_of(gap, None, BITS)
+    return difference is not None and bool(difference > 0)
 
 
-def _node(place: Place) -> Node:
-    return place.frame, place.label
-
-
-def _carried(distances: Iterable[tuple[int, Distance]]) -> Iterable[tuple[Place, Place]]:
-    """Pairs of points of one body: they keep the distance they are drawn at."""
+def _carried(distances: Iterable[tuple[int, Distance]]) -> Iterator[tuple[Place, Place]]:
+    """Yield pairs of points of one body: they keep the distance they are drawn at."""
     bodies: dict[str, dict[Node, Place]] = {}
     for _, d in distances:
         for place in (d.first, d.second):
             if place.frame is not None and place.reference is not None:
-                bodies.setdefault(place.frame, {})[_node(place)] = place
+                bodies.setdefault(place.frame, {})[place[:2]] = place
     for places in bodies.values():
         if len(places) <= MAX_CARRIED:
             yield from combinations(places.values(), 2)
-
-
-def _length(side: Side) -> Expr:
-    return ex.sqrt(side.squared)
-
-
-def _shortest(hidden: Side, edges: Mapping[int, Mapping[str, Side]]) -> Side | None:
-    """Return the shortest side between two points but one."""
-    others = (edge["side"] for edge in edges.values() if edge["side"] is not hidden)
-    return min(others, key=lambda side: side.length, default=None)
-
-
-def _length_but(hidden: Side, _u: Node, _v: Node, edges: Mapping[int, Mapping[str, Side]]) -> float | None:
-    side = _shortest(hidden, edges)
-    return None if side is None else side.length
-
-
-def _owners(sides: Iterable[Side]) -> tuple[int, ...]:
-    return tuple(sorted({side.owner for side in sides if side.owner is not None}))
-
-
-def _side_text(side: Side) -> str:
-    return f"{side.length:.{DIGITS}g}"

@@ -84,7 +84,7 @@ def _answer_of(variety: Variety) -> Answer:
     answer = Answer(
         variety.consistent, freedom, freedom, variety.verdict, variety.about, variety.argument, gap=variety.gap
     )
-    return replace(answer, reasons=list(variety.reasons), isolated=variety.argument == "isolated zeros")
+    return replace(answer, reasons=list(variety.reasons))
 
 
 def _real_rows(chart: Chart, real: RealPoint | None) -> RealRows | None:

@@ -16,7 +16,7 @@ from dofkit.base.errors import NoValueError
 from dofkit.base.verdicts import ArgumentKey, Verdict, weakest
 from dofkit.base.wording import gap_in_words
 from dofkit.configuration.local import criteria
-from dofkit.configuration.local.criteria import numeric_dimension
+from dofkit.configuration.local.germ import Germ
 from dofkit.configuration.local.manifold import LocalDimension, Manifold
 from dofkit.configuration.rigid_motions import rigid_motions_real
 from dofkit.configuration.variety import Variety, field_jacobian, generators_of, has_same_signs, time_is_free
@@ -222,8 +222,7 @@ def _dimension_near(chart: Chart, real: RealPoint) -> LocalDimension | None:
     free = tuple(i for i in range(len(chart.columns)) if i not in set(dependent))
     frame = Pivots(tuple(rows), dependent, free)
     manifold = Manifold(chart.ring, chart.nodes, chart.columns, frame, point, chart.scales)
-    rigid = rigid_motions_real(chart, point)
-    return numeric_dimension(manifold, rigid, chart.time)
+    return criteria.local_dimension(Germ(None, manifold, rigid_motions_real(chart, point), chart.time))
 
 
 def _converge(chart: Chart, real: RealPoint) -> BallPoint | None:

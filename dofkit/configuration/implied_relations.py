@@ -15,14 +15,13 @@ curve.
 
 from __future__ import annotations
 
-import random
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from operator import mul
 
 from dofkit.base.deadline import check
 from dofkit.base.errors import NoValueError
-from dofkit.configuration.at_reference import ball_point
+from dofkit.configuration.at_reference import ball_point, float_point
 from dofkit.configuration.local.criteria import vanish_near
 from dofkit.configuration.local.germ import random_direction
 from dofkit.configuration.local.manifold import Manifold
@@ -30,7 +29,7 @@ from dofkit.configuration.measured.dimension import measured_freedom
 from dofkit.configuration.rigid_motions import rigid_motions
 from dofkit.configuration.variety import chart_of_rows, field_jacobian, on_variety, pose_point, smaller
 from dofkit.exact.matrices.dense import length
-from dofkit.exact.matrices.sparse import FactoredMatrix, Pivots, SparseRow, sparse_frame, transposed
+from dofkit.exact.matrices.sparse import Pivots, SparseRow, factored, sparse_frame, transposed
 from dofkit.exact.points.balls import FloatPoint, jacobian
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.real_search import RealSearch
@@ -102,10 +101,9 @@ class ImpliedRelations:
         Numbers, no proof: for sets that are singular all along, whose branches are found as their points are.
         """
         chart = self.chart
-        ball = ball_point(chart, {**self.drawing, ex.TIME: ex.ZERO}, random.Random("dofkit beside"))
-        if ball is None or "balls" not in chart.setting.engines or chart.setting.tolerance is not None:
+        start = float_point(chart, self.drawing)
+        if start is None or "balls" not in chart.setting.engines or chart.setting.tolerance is not None:
             return False
-        start = {s: float(v.mid()) for s, v in ball.symbols.items()}
         search = RealSearch(chart.ring, [chart.nodes[i] for i in others], chart.unknowns, chart.setting.positive)
         seen = 0
         for seed in range(BESIDE):
@@ -149,7 +147,7 @@ def _on_manifold(chart: Chart, pose: Mapping[Expr, Expr], rank: int, afar: bool)
     if point is None or not on_variety(small, point):
         return None
     rigid = rigid_motions(small, point)
-    ball = ball_point(small, pose, point.rng) if afar and "balls" in chart.setting.engines else None
+    ball = ball_point(small, pose) if afar and "balls" in chart.setting.engines else None
     return vanish_near(small, point, ball, rigid, rank - gone)
 
 
@@ -187,7 +185,7 @@ def needed_along(field: Manifold, other: int) -> list[int]:
     slopes = curve.slopes([*field.rows, other], columns)
     p = modulus(field.sample)
     orders = [[_sparse(row, k) for row in slopes[:-1]] for k in range(ORDER)]
-    turned = FactoredMatrix(transposed(orders[0], len(columns)), p)
+    turned = factored(transposed(orders[0], len(columns)), p)
     multipliers: list[list[int]] = []
     for k in range(ORDER):
         right = [int(v.coefficient(k)) for v in slopes[-1]]
@@ -195,7 +193,7 @@ def needed_along(field: Manifold, other: int) -> list[int]:
             for row, factor in zip(orders[j], multipliers[k - j], strict=True):
                 for c, v in row.items():
                     right[c] = (right[c] - factor * v) % p
-        multipliers.append([int(v) for v in turned.solve(right)])
+        multipliers.append([int(v) for v in turned.solved(right)])
     return [field.frame.rows[i] for i in range(len(field.rows)) if any(row[i] for row in multipliers)]
 
 

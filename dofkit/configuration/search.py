@@ -3,22 +3,15 @@
 Two one-sided engines: a rank over GF(p) is not too small where the point is generic and not too large where no relation
 between functions was missed; a rank certified with balls is not too large. Where they agree the rank stands. A real
 point makes certain that there is a real configuration at all.
-
-Coordinates that analytic functions of one of them alone fix at isolated values (exp(x) = 1 + x implies x = 0) are found
-exactly: there the gradient may vanish, so that no interval test certifies a zero.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
-from fractions import Fraction
+from collections.abc import Mapping
 from functools import partial
 
-from dofkit.base.deadline import check
-from dofkit.base.errors import NoValueError
-from dofkit.configuration.components import RelationPart, by_cases, of_largest_part, parts_of
+from dofkit.configuration.components import by_cases, of_largest_part
 from dofkit.configuration.generic_dimension import (
     ALLOWING,
     near_real_point,
@@ -29,32 +22,24 @@ from dofkit.configuration.generic_dimension import (
 from dofkit.configuration.variety import (
     Variety,
     all_configurations,
-    field_jacobian,
     on_variety,
     pose_samples,
     samples_for,
     time_is_free,
 )
 from dofkit.exact.matrices.certified import ball_part
-from dofkit.exact.matrices.sparse import rank_of_rows
 from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.program import VAR, reachable
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.triangular import TriangularSolver
-from dofkit.exact.zero import excludes_zero, independent_on_set, is_proved_zero
+from dofkit.exact.zero import excludes_zero, independent_on_set
 from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import substitute
-from dofkit.expressions.enclosures import differs_from_zero, interval_of
-from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Block, Chart, make_chart
-from dofkit.relations.linear_relations import Explicit, explicit_relations, linear, solve_linear
+from dofkit.relations.linear_relations import explicit_relations, linear, number_coefficients, solve_linear
 from dofkit.relations.normal.no_solution import no_solution
-from dofkit.relations.normal.zero_set import is_analytic_in_coordinates
 from dofkit.relations.setting import Setting
 
-#: Zeros that are tried are so many multiples of a fraction, and of that fraction of pi.
-MAX_MULTIPLE, PARTS = 240, 24
 #: More relations than this are not searched for a proof that they have no real solution.
 MAX_RELATIONS = 40
 FIXED = "at the points that were found the geometric equations fix the time: no motion passes through them"
@@ -77,9 +62,6 @@ def find(chart: Chart, pose: Mapping[Expr, Expr], seed: int = 0) -> Variety:
     looked = {"field", "balls"} <= chart.setting.engines and unseen and variety.verdict != "proved"
     if looked and len(chart.relations) <= MAX_RELATIONS and no_solution(chart.relations, chart.setting.positive):
         return Variety(False, None, "proved", reasons=[EMPTY], argument="no real solution")
-    alone = isolated(chart, variety) if variety.consistent is None or variety.dimension is None else None
-    if alone is not None:
-        return alone
     by_case = (
         variety.dimension is None
         and "field" in chart.setting.engines
@@ -118,8 +100,13 @@ def _variety(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> Variety:
     if "field" not in chart.setting.engines:
         return near_real_point(chart, real_point(chart, seed, chart.nodes), chart.nodes)
     core = [n for i, n in enumerate(chart.nodes) if i not in solved.implied]
-    others = [n for n, g in zip(chart.nodes, chart.relations, strict=True) if not eliminates or linear(g) is None]
-    reduced = [*(s - value for s, value in solved.by_others.items()), *solved.implicit]
+    given, others = solved, [n for n, g in zip(chart.nodes, chart.relations, strict=True) if linear(g) is None]
+    if not eliminates:
+        others = list(chart.nodes)
+    elif not any(v.kind in ("root", "sign", "log") and chart.ring.var_expr[v.index].symbols for v in chart.ring.vars):
+        # a root of what is put in for a coordinate would be another generator than the root as written
+        given, others = explicit_relations(chart.relations, number_coefficients), []
+    reduced = [*(s - value for s, value in given.values.items()), *given.implicit]
     solver = TriangularSolver(chart.ring, [*map(chart.ring.node, reduced), *others], seed=seed)
     refuted = _refuted(chart, solver)
     if refuted is not None:
@@ -148,11 +135,6 @@ def _refuted(chart: Chart, solver: TriangularSolver) -> Variety | None:
         return Variety(False, None, "probable", reasons=[why], argument="number left over")
     if not solver.plan.contradictory or _signed(chart.ring, solver.plan.witness):
         return None
-    if solver.plan.divided:
-        why = (
-            "eliminating the unknowns leaves a number that should be 0 and is not, but divides by a term that may be 0"
-        )
-        return Variety(None, None, "undecided", reasons=[why])
     if "balls" in chart.setting.engines:
         certain = excludes_zero(chart.ring, solver.plan.witness, chart.setting.positive)
     else:
@@ -168,72 +150,6 @@ def _signed(ring: Ring, node: int) -> bool:
     """Return whether there is a sign that varies: another one may make 0 of what is not."""
     inside = (ring.code[i] for i in reachable(ring, [node], through_generators=False))
     return any(op == VAR and ring.vars[k].kind == "sign" and ring.var_expr[k].symbols for op, k in inside)
-
-
-# Isolated zeros
-
-
-def isolated(chart: Chart, variety: Variety) -> Variety | None:
-    """The set where some relations give a coordinate each and the others hold one coordinate each [IsolatedZeros].
-
-    All of its points have such a coordinate at an isolated value, so its dimension is the number of the others; that
-    it has points is shown by an exact common zero. What says nothing beside those given is left out: sin(z) = 0 beside
-    z = pi. None where the relations are not so, or no zero was found. What was
-    ``variety`` over GF(p) is kept where it has the same rank.
-    """
-    if "balls" not in chart.setting.engines or chart.time is not None or len(chart.relations) > MAX_RELATIONS:
-        return None
-    if not all(is_analytic_in_coordinates(g, poles=True) for g in chart.relations):
-        return None
-    solved = explicit_relations(chart.relations)
-    symbols = [s for s in chart.symbols if s != ex.TIME]
-    needed = [g for g in solved.implicit if g.symbols or not is_proved_zero(g, frozenset())]
-    groups = parts_of(needed, symbols)
-    if len(solved.explicit) == len(chart.relations) or any(not _of_one_coordinate(part) for part in groups):
-        return None
-    zeros: dict[Expr, Expr] = {}
-    for part in groups:
-        zero = next(_common_zeros(part), None)
-        if zero is None:
-            return None
-        zeros[part.unknowns[0]] = zero
-    dimension = len(symbols) - len(solved.explicit) - len(groups)
-    samples = [p for p in variety.samples if len(symbols) - rank_of_rows(field_jacobian(chart, p), p.p) == dimension]
-    sure = Variety(True, dimension, "proved", samples, argument="isolated zeros")
-    return replace(sure, witness=_witness(symbols, solved, zeros))
-
-
-def _of_one_coordinate(part: RelationPart) -> bool:
-    """Return whether the relations hold one coordinate only, and one of them is somewhere not 0."""
-    if len(part.unknowns) != 1:
-        return False
-    return any(differs_from_zero(g) for g in part.relations)
-
-
-def _common_zeros(part: RelationPart) -> Iterator[Expr]:
-    """Exact values of the coordinate, short numbers and multiples of pi, at which all of the relations vanish."""
-    (s,) = part.unknowns
-    numbers = (ex.num(Fraction(k, PARTS)) for k in sorted(range(-MAX_MULTIPLE, MAX_MULTIPLE + 1), key=_size))
-    for value in (u for number in numbers for u in (number, number * ex.PI)):
-        check()
-        try:
-            there = [substitute(g, {s: value}) for g in part.relations]
-            near = all((ball := interval_of(g)) is not None and ball.contains(0) for g in there)
-            if near and all(is_proved_zero(g, frozenset()) for g in there):
-                yield value
-        except NoValueError:
-            continue
-
-
-def _size(k: int) -> tuple[int, bool]:
-    return abs(k), k < 0
-
-
-def _witness(symbols: Sequence[Expr], solved: Explicit, zeros: Mapping[Expr, Expr]) -> dict[Expr, str]:
-    """Return a point of the set, at which what nothing determines is 0."""
-    free = {s: zeros.get(s, ex.ZERO) for s in symbols if s not in solved.values}
-    determined = {s: substitute(value, free) for s, value in solved.by_others.items()}
-    return {s: to_text(value) for s, value in {**free, **determined}.items()}
 
 
 # Level bodies: at theta = 0 the Euler angles phi and psi turn alike, and distinguish no poses

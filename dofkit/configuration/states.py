@@ -15,7 +15,7 @@ from dofkit.exact.points.balls import BallPoint, jacobian
 from dofkit.exact.points.field import FieldPoint, field_point
 from dofkit.exact.points.frames import rank_over
 from dofkit.exact.points.real_search import RealPoint, RealSearch, at_another_time
-from dofkit.exact.ring.program import Scalar, values
+from dofkit.exact.ring.program import Scalar, values, vanish
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.triangular import TriangularSolver
 from dofkit.exact.unknowns import Unit, unit_of
@@ -120,7 +120,7 @@ class States:
         for k in range(TRIES):
             base = self._base(TRIES * seed + k)
             point = None if base is None else self._moving.completed(base)
-            if point is not None and self._holds(point):
+            if point is not None and vanish(self.ring, point, self.relations):
                 return point
         return None
 
@@ -144,13 +144,6 @@ class States:
     def _moving(self) -> TriangularSolver:
         still = [v for v in self.ring.vars if not moves(self.ring, v.index)]
         return self._solver(self.moving, frozenset(unit_of(self.ring, v.index) for v in still))
-
-    def _holds(self, point: FieldPoint) -> bool:
-        try:
-            at = values(self.ring, point)
-        except NoValueError:
-            return False
-        return all(at[n] == 0 for n in self.relations)
 
     def real(self, seed: int) -> RealPoint | None:
         """Return a real state with balls: velocities at a random configuration where there are some, else any."""

@@ -19,7 +19,7 @@ from dofkit.exact.matrices.sparse import Pivots, SparseRow, rank_of_rows, sparse
 from dofkit.exact.points.balls import BallPoint, precision, random_ball_point
 from dofkit.exact.points.field import FieldPoint, field_point
 from dofkit.exact.points.real_search import RealPoint
-from dofkit.exact.ring.program import VAR, gradient, reachable, value_of, values
+from dofkit.exact.ring.program import VAR, gradient, reachable, value_of, values, vanish
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
@@ -150,11 +150,7 @@ def field_jacobian(chart: Chart, point: FieldPoint, nodes: Sequence[int] | None 
 
 def on_variety(chart: Chart, point: FieldPoint) -> bool:
     """Return whether all finite relations hold at the point."""
-    try:
-        at = values(chart.ring, point)
-    except NoValueError:
-        return False
-    return all(at[n] == 0 for n in chart.nodes)
+    return vanish(chart.ring, point, chart.nodes)
 
 
 def pose_point(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> FieldPoint | None:

@@ -15,7 +15,7 @@ from flint import Ordering, fmpq, fmpq_mat, fmpz_mpoly_ctx, fmpz_mpoly_vec
 
 from dofkit.base.deadline import check
 from dofkit.base.errors import NoValueError
-from dofkit.exact.ring.canonical import Canon
+from dofkit.exact.ring.canonical import Canon, quotients_of
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions.tree import Expr
 
@@ -57,13 +57,11 @@ def dimension_of(canon: Canon, generators: Sequence[Poly], moving: Sequence[int]
 
 def have_complex_points(relations: Sequence[Expr], positive: frozenset[Expr]) -> bool:
     """Return whether relations are known to be satisfied at some complex point; parameters are generic."""
-    ring = Ring(relations, positive)
-    nodes = [ring.node(e) for e in relations]
     symbols = {s for e in relations for s in e.symbols if s.args[0] != "parameter"}
     try:
-        canon = Canon(ring)
-        moving = [k for s in symbols if (k := ring.var_index(s)) is not None]
-        dimension = dimension_of(canon, [canon.quotient(node)[0] for node in nodes], moving)
+        canon, quotients = quotients_of(relations, positive)
+        moving = [k for s in symbols if (k := canon.ring.var_index(s)) is not None]
+        dimension = dimension_of(canon, [top for top, _ in quotients], moving)
     except NoValueError:
         return False
     return dimension is not None and dimension >= 0
@@ -147,17 +145,19 @@ def _basis(polynomials: Sequence[Poly]) -> list[Poly] | None:
 # -- linear combinations of lower degree -----------------------------------------------------------
 
 
-def echelon_by_degree(canon: Canon, relations: Sequence[int]) -> list[dict[tuple[int, ...], Any]] | None:
+def echelon_by_degree(relations: Sequence[Expr], positive: frozenset[Expr]) -> tuple[Expr, ...] | None:
     """Return an echelon form of the numerators, or None where it is too large.
 
     Terms of the highest degree are eliminated first: two circles meet on a line.
     """
     try:
-        tables = [canon.quotient(node)[0].to_dict() for node in relations]
+        canon, quotients = quotients_of(relations, positive)
+        tables = [top.to_dict() for top, _ in quotients]
     except NoValueError:
         return None
     monomials = sorted({m for table in tables for m in table}, key=lambda m: (-sum(m), m))
     if not monomials or len(monomials) * len(tables) > COMBINED_ENTRIES:
         return None
     reduced, rank = fmpq_mat([[table.get(m, 0) for m in monomials] for table in tables]).rref()
-    return [{m: reduced[r, c] for c, m in enumerate(monomials) if reduced[r, c] != 0} for r in range(rank)]
+    rows = ({m: reduced[r, c] for c, m in enumerate(monomials) if reduced[r, c] != 0} for r in range(rank))
+    return tuple(canon.to_expr(canon.ctx.from_dict(row)) for row in rows)

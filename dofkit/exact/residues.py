@@ -47,13 +47,13 @@ def null_vectors(matrix: Any) -> list[list[Any]]:
     [[5, 1, 0]]
     """
     reduced, rank = matrix.rref()
-    p, rows, columns = modulus(matrix), reduced.table()[:rank], matrix.ncols()
+    rows, columns = reduced.table()[:rank], matrix.ncols()
     kept, vectors = list[int](), list[list[Any]]()
     for column in range(columns):
         if len(kept) < rank and rows[len(kept)][column]:
             kept.append(column)
             continue
-        vector = [residue(int(column == c), p) for c in range(columns)]
+        vector: list[Any] = [int(column == c) for c in range(columns)]
         for row, pivot in zip(rows, kept, strict=False):
             vector[pivot] = -row[column]
         vectors.append(vector)

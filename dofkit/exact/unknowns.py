@@ -164,13 +164,6 @@ class _PointAlong(NamedTuple):
         return self.point.generator(var, [value_along(self.ring, a, {}, self.point) for a in var.args])
 
 
-def is_linear(ring: Ring, node: int, index: int, point: FieldPoint) -> bool:
-    """Return whether the relation is a polynomial of degree 1 in a generator. Raises NoValueError."""
-    x, constant_one = residue_polynomial([0, 1], point.p), residue_polynomial([1], point.p)
-    result = value_along(ring, node, {index: Rational(x, constant_one)}, point)
-    return isinstance(result, Rational) and result.bottom.degree() == 0 and result.top.degree() == 1
-
-
 def roots_of(polynomial: ResiduePolynomial) -> list[Residue]:
     """Return the roots of a polynomial over GF(p)."""
     if polynomial.degree() > 1:

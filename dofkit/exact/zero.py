@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from typing import Literal
 
@@ -243,10 +243,11 @@ PRIME, RELATIONS = 60, 30
 Degrees = tuple[int, int]
 
 
-def degree_bound(ring: Ring, nodes: Sequence[int]) -> int:
+def degree_bound(ring: Ring, nodes: Sequence[int], degree_of: Callable[[int], int] | None = None) -> int:
     """Return a bound of the degrees of numerators and denominators, in symbols and independent values of functions.
 
-    Sines and cosines are functions on a curve of the second degree, a root is the power of another root.
+    Sines and cosines are functions on a curve of the second degree, a root is the power of another root: so far as
+    the degree of a generator is not told by its number (``degree_of``).
     """
     most: dict[int, Degrees] = {}
     for i in reversed(reachable(ring, nodes, through_generators=False)):
@@ -255,7 +256,8 @@ def degree_bound(ring: Ring, nodes: Sequence[int]) -> int:
             most[i] = (0, 0)
         elif op == VAR:
             var = ring.vars[payload]
-            most[i] = (2 if var.kind in ("cos", "sin") else max(1, var.degree), 0)
+            own = 2 if var.kind in ("cos", "sin") else max(1, var.degree)
+            most[i] = (own if degree_of is None else degree_of(payload), 0)
         elif op == ADD:
             most[i] = _of_sum([most[j] for j in payload])
         elif op == MUL:

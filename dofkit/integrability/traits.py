@@ -11,7 +11,7 @@ from dofkit.base.errors import NoValueError, TextError
 from dofkit.base.verdicts import TraitAnswer, Verdict, all_of, weakest
 from dofkit.exact.analyticity import is_analytic
 from dofkit.exact.points.real_search import RealPoint, RealSearch, at_another_time
-from dofkit.exact.ring.canonical import Canon
+from dofkit.exact.ring.canonical import quotients_of
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.triangular import TriangularSolver
@@ -116,10 +116,8 @@ def _factors_left(e: Expr, sided: bool, positive: frozenset[Expr]) -> list[Expr]
     instants only [IsolatedZeros], and declared functions, which are generic, beside another factor.
     """
     try:
-        ring = Ring([e], positive)
-        node = ring.node(e)
-        canon = Canon(ring)
-        factors = [canon.to_expr(f) for f, _ in canon.factors(canon.quotient(node)[0])]
+        canon, [(top, _)] = quotients_of([e], positive)
+        factors = [canon.to_expr(f) for f, _ in canon.factors(top)]
     except NoValueError:
         return [e]
     kept = [f for f in factors if ex.TIME not in f.symbols or not never_vanishes(f, positive)]
@@ -185,10 +183,8 @@ def vanishes_on(
 def _is_irreducible(g: Expr, positive: frozenset[Expr]) -> bool:
     """Return whether g has one factor over the rationals; False where it is too large to be factored."""
     try:
-        ring = Ring([g], positive)
-        node = ring.node(g)
-        canon = Canon(ring)
-        return len(canon.factors(canon.quotient(node)[0])) == 1
+        canon, [(top, _)] = quotients_of([g], positive)
+        return len(canon.factors(top)) == 1
     except NoValueError:
         return False
 

@@ -7,13 +7,14 @@ from collections.abc import Collection, Mapping, Sequence
 from fractions import Fraction
 from functools import partial
 
-from flint import fmpq, fmpq_mat, fmpz
+from flint import fmpq, fmpq_mat
 
 from dofkit.base.errors import NoValueError
-from dofkit.exact.points.frames import pivots
+from dofkit.exact.residues import null_vectors
 from dofkit.exact.ring.program import Scalar, Var, raising_no_value
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, expand
+from dofkit.expressions.rational_values import exact_root
 from dofkit.expressions.tree import Expr
 from dofkit.methods.as_written import (
     Decider,
@@ -71,7 +72,10 @@ class RationalPoint:
             cos, sin = self._turn(args[0])
             self.values["cos", var.key], self.values["sin", var.key] = cos, sin
         elif var.kind == "root":
-            self.values[key] = rational_root(args[0], var.degree)
+            root = exact_root(Fraction(int(args[0].p), int(args[0].q)), var.degree) if args[0] >= 0 else None
+            if root is None:
+                raise IrrationalError(IRRATIONAL)
+            self.values[key] = fmpq(root.numerator, root.denominator)
         elif var.kind == "sign":
             if args[0] == 0:
                 raise IrrationalError(KINK)
@@ -94,17 +98,6 @@ class RationalPoint:
         return (1 - w * w) / below, 2 * w / below
 
 
-def rational_root(value: fmpq, degree: int) -> fmpq:
-    """The non-negative root of a rational number. Raises IrrationalError where it is none."""
-    roots = []
-    for part in (value.p, value.q):
-        root = fmpz(part).root(degree) if part >= 0 else fmpz(-1)
-        if root < 0 or root**degree != part:
-            raise IrrationalError(IRRATIONAL)
-        roots.append(root)
-    return fmpq(*roots)
-
-
 class Rationals:
     """The numbers of this method."""
 
@@ -115,13 +108,7 @@ class Rationals:
 
     def kernel(self, matrix: Matrix, columns: int) -> Matrix:
         """A basis of what all rows vanish on."""
-        reduced = fmpq_mat(matrix).rref()[0] if matrix else fmpq_mat(0, columns)
-        place = {c: r for r, c in enumerate(pivots(reduced))}
-        return [
-            [-reduced[place[c], free] if c in place else fmpq(int(c == free)) for c in range(columns)]
-            for free in range(columns)
-            if free not in place
-        ]
+        return null_vectors(fmpq_mat(matrix) if matrix else fmpq_mat(0, columns))
 
     def vanishes(self, value: Scalar, scale: Sequence[Scalar]) -> bool:
         del scale

@@ -81,8 +81,7 @@ class Answer:
     ``linear``: every relation is linear with rational coefficients, and all of them were eliminated exactly;
     ``looked``: what was looked at of the relations; ``size``: of the model that was computed with; ``about``: of which
     points it is told; ``argument``: by which row of the table, with a chance of error below 2^-``bits``, or a ``gap``;
-    ``isolated``: real equations may fix several coordinates each at isolated values, so that no count tells what is
-    needed; ``witness``: a certified configuration, as text, and ``real`` the rows there; ``first_order_sure``: is the
+    ``witness``: a certified configuration, as text, and ``real`` the rows there; ``first_order_sure``: is the
     number of velocities at the reference proved? ``exists``: and that the relations hold there at all times?
     ``trusted``: is what is not 0 over GF(p) known not to be 0? ``kind``: the same for blocks that are each other's up
     to names, whose coordinates then correspond place by place; None for one that was not compared. ``answered_parts``:
@@ -107,7 +106,6 @@ class Answer:
     modulus: int = 2
     supports: Supports | None = None
     degenerate: bool = False
-    isolated: bool = False
     instantaneous: int | None = None
     curved: bool = False
     first_order_sure: bool = False

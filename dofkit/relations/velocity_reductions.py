@@ -10,8 +10,7 @@ from itertools import product as cartesian
 from typing import NamedTuple
 
 from dofkit.base.errors import NoValueError
-from dofkit.exact.ring.canonical import Canon
-from dofkit.exact.ring.ring import Ring
+from dofkit.exact.ring.canonical import quotients_of
 from dofkit.exact.zero import is_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, linear_terms, substitute
@@ -166,11 +165,9 @@ def _without_divisors(
     """What a row reads as without what an elimination divided by, and where the row as it was written has a value."""
     if not divisors:
         return changed, ()
-    ring = Ring([changed], positive)
-    node = ring.node(changed)
     try:
-        canon = Canon(ring)
-        top = canon.to_expr(canon.quotient(node)[0])
+        canon, [(numerator, _)] = quotients_of([changed], positive)
+        top = canon.to_expr(numerator)
     except NoValueError:
         return changed, ()
     return top, tuple(c for c in conditions_of(written, positive) if not velocities_of(c.expr))

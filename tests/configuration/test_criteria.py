@@ -14,7 +14,7 @@ from shared.known_scenes import spread
 import dofkit
 from dofkit.classification.arguments import arguments
 from dofkit.configuration.local import conclusions, criteria
-from dofkit.configuration.local.criteria import CRITERIA, Criterion, decision
+from dofkit.configuration.local.criteria import CRITERIA, local_dimension
 from dofkit.configuration.local.germ import Germ
 from dofkit.configuration.local.manifold import LocalDimension, Manifold
 from dofkit.exact.points.balls import PRECISION
@@ -72,16 +72,16 @@ ROOT = Path(__file__).parents[2]
 FILES = {path.stem: path for folder in ("catalog", "tests/scenes") for path in ROOT.glob(f"{folder}/*/*.yaml")}
 
 
-def decided(manifolds: list[Manifold], rigid: int, time: int | None) -> tuple[Criterion | None, LocalDimension]:
+def decided(manifolds: list[Manifold], rigid: int, time: int | None) -> LocalDimension:
     with ctx.workprec(PRECISION):
-        return decision(Germ(*manifolds, rigid, time))
+        return local_dimension(Germ(*manifolds, rigid, time))
 
 
 @pytest.mark.parametrize(("key", "case"), CASES, ids=[f"{key}-{i}" for i, (key, _) in enumerate(CASES)])
 def test_a_row_decides_and_no_earlier_one(key: str, case: Case) -> None:
-    criterion, told = decided(case.manifolds, case.rigid, case.time)
-    assert criterion is not None
-    assert criterion.key == key
+    told = decided(case.manifolds, case.rigid, case.time)
+    (criterion,) = (row for row in CRITERIA if row.key == key)
+    assert told.argument == key
     assert (told.dimension, told.verdict) == (None if told.verdict == "undecided" else case.truth, criterion.verdict)
 
 
@@ -93,7 +93,7 @@ def test_every_row_has_a_case() -> None:
 @pytest.mark.parametrize(("key", "case"), CASES, ids=[f"{key}-{i}" for i, (key, _) in enumerate(CASES)])
 def test_balls_alone_are_no_surer_and_never_wrong(key: str, case: Case) -> None:
     with ctx.workprec(PRECISION):
-        _, told = decision(Germ(None, case.manifolds[1], case.rigid, case.time))
+        told = local_dimension(Germ(None, case.manifolds[1], case.rigid, case.time))
     assert told.dimension in (case.truth, None)
     assert told.verdict == ("numeric" if told.dimension is not None else "undecided")
 
@@ -103,11 +103,11 @@ def test_a_row_decides_in_a_scene(key: str, scene: str, dof: int, monkeypatch: p
     asked: list[str | None] = []
 
     def noted(germ: Germ, *rows: Any) -> Any:
-        criterion, told = decision(germ, *rows)
-        asked.append(criterion.key if criterion else None)
-        return criterion, told
+        told = local_dimension(germ, *rows)
+        asked.append(told.argument)
+        return told
 
-    monkeypatch.setattr(criteria, "decision", noted)
+    monkeypatch.setattr(criteria, "local_dimension", noted)
     assert dofkit.classify(dofkit.load(FILES[scene])).dof == dof
     assert key in asked
 

@@ -14,7 +14,8 @@ from flint import ctx
 from shared.germs import SYMBOLS, manifolds, on_plane, through
 
 import dofkit
-from dofkit.configuration.local.criteria import local_dimension, numeric_dimension
+from dofkit.configuration.local.criteria import local_dimension
+from dofkit.configuration.local.germ import Germ
 from dofkit.configuration.local.manifold import LocalDimension
 from dofkit.exact.points.balls import PRECISION
 from dofkit.expressions import tree as ex
@@ -25,7 +26,7 @@ P = 2**31 - 1
 
 def near(texts: Sequence[str], at: Sequence[int], rigid: int = 0, time: int | None = None) -> LocalDimension:
     field, ball = through(texts, at)
-    return local_dimension(field, ball, rigid, time)
+    return local_dimension(Germ(field, ball, rigid, time))
 
 
 @pytest.mark.parametrize(
@@ -79,7 +80,7 @@ def test_dimensions_near_a_point(texts: list[str], at: tuple[int, int, int], dim
     ],
 )
 def test_dimensions_where_the_lowest_order_decides(n: int, functions: list[str], dimension: int) -> None:
-    assert local_dimension(*on_plane(n, *functions), 0).dimension == dimension
+    assert local_dimension(Germ(*on_plane(n, *functions), 0)).dimension == dimension
 
 
 @pytest.mark.parametrize(
@@ -101,7 +102,7 @@ def test_dimensions_where_the_lowest_order_decides(n: int, functions: list[str],
     ],
 )
 def test_what_the_lowest_order_does_not_decide_is_left_open(n: int, functions: list[str]) -> None:
-    told = local_dimension(*on_plane(n, *functions), 0)
+    told = local_dimension(Germ(*on_plane(n, *functions), 0))
     assert told.dimension is None
     assert told.verdict == "undecided"
 
@@ -129,7 +130,7 @@ def test_balls_alone_say_the_same_and_are_no_surer() -> None:
     for texts, dimension in ((["z", "z + x^2 - y^2"], 1), (["z", "z + x^2 + y^2"], 0), (["x", "z", "z + x y"], 1)):
         _, ball = through(texts, (0, 0, 0))
         with ctx.workprec(PRECISION):
-            told = numeric_dimension(ball, 0)
+            told = local_dimension(Germ(None, ball, 0))
         assert (told.dimension, told.verdict) == (dimension, "numeric")
 
 
@@ -164,7 +165,7 @@ def test_arrangements_are_never_answered_wrong_and_mostly_answered() -> None:
     for seed in range(total):
         n, functions, truth = arrangement(seed)
         field, ball = manifolds([last, *(last + f for f in functions)], dict.fromkeys((*SYMBOLS[:n], last), 0))
-        told = local_dimension(field, ball, 0)
+        told = local_dimension(Germ(field, ball, 0))
         open_ones += told.dimension is None
         assert told.dimension in (truth, None), (seed, told)
     assert open_ones < total / 2
@@ -241,5 +242,5 @@ def test_a_framework_with_many_motions_is_answered(n: int) -> None:
 
 def test_without_balls_what_is_flat_at_a_given_point_is_open() -> None:
     field, _ = through(["x", "z", "z + x y^3"], (0, 0, 0))
-    assert local_dimension(field, None, 0).dimension is None
-    assert local_dimension(field, None, 0, distance=False).dimension == 1
+    assert local_dimension(Germ(field, None, 0)).dimension is None
+    assert local_dimension(Germ(field, None, 0, distance=False)).dimension == 1

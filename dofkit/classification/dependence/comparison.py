@@ -24,7 +24,7 @@ from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.sparse import rank_of_rows
 from dofkit.exact.points.balls import BallPoint, jacobian
 from dofkit.exact.points.real_search import RealSearch
-from dofkit.exact.ring.canonical import Canon
+from dofkit.exact.ring.canonical import quotients_of
 from dofkit.exact.ring.program import POW, values
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero import is_proved_zero
@@ -93,17 +93,13 @@ def _proportional(a: Sequence[tuple[str, Expr]], b: Sequence[tuple[str, Expr]], 
     """Return whether a_i = c b_i identically for one number c other than 0; proved in the canonical ring."""
     first, second = dict(a), dict(b)
     names = sorted(first.keys() | second.keys())
-    pairs = [(first.get(name, ZERO), second.get(name, ZERO)) for name in names]
-    ring = Ring([e for pair in pairs for e in pair], positive)
-    nodes = [(ring.node(x), ring.node(y)) for x, y in pairs]
-    if not _entire(ring):
-        return False
-    canon = Canon(ring)
     try:
-        result = [(canon.quotient(x)[0], canon.quotient(y)[0]) for x, y in nodes]
+        canon, quotients = quotients_of([form.get(name, ZERO) for name in names for form in (first, second)], positive)
     except NoValueError:
         return False
-    if any((x == 0) != (y == 0) for x, y in result):
+    tops = [top for top, _ in quotients]
+    result = list(zip(tops[::2], tops[1::2], strict=True))
+    if not _entire(canon.ring) or any((x == 0) != (y == 0) for x, y in result):
         return False
     remaining = [(x, y) for x, y in result if x != 0]
     if not remaining:

@@ -66,7 +66,7 @@ def all_needed(dependent: Sequence[Redundancies], reduced: Sequence[Reduced], ou
     One that says several things (a sum of squares), hidden relations or a singular set may hide that another follows.
     """
     several = any(len(b) > 1 for r in reduced for n in r.normals for b in n.branches)
-    if several or any(a.hidden or a.degenerate or a.isolated for a in outcome.answers):
+    if several or any(a.hidden or a.degenerate for a in outcome.answers):
         return list(dependent)
     answer = []
     for r in dependent:
@@ -238,7 +238,7 @@ def _of_block(
     matrix = _without_hidden(block, a)
     if nullity <= 0 and a.hidden and not a.degenerate:
         yield _independent(dict(Counter(owners)))
-    elif a.degenerate or a.hidden or a.isolated or len(matrix) != len(block.rows):
+    elif a.degenerate or a.hidden or len(matrix) != len(block.rows):
         undecided = undecided_dependence(owners)
         is_finite = "balls" in setting.engines and len(block.finite) == len(block.rows)
         removed = partial(removal.by_removal, block, setting, a, nullity, equations)
@@ -279,7 +279,7 @@ def _each_takes_one(reduced: Sequence[Reduced], numbers: Sequence[int], blocks: 
     """
     rows = Counter(r.constraint for block, _ in blocks for r in block.rows)
     single = rows == {i: reduced[i].equations for i in numbers}
-    plain = all(a.velocity_dof is not None and not (a.hidden or a.degenerate or a.isolated) for _, a in blocks)
+    plain = all(a.velocity_dof is not None and not (a.hidden or a.degenerate) for _, a in blocks)
     return (
         single
         and plain

@@ -255,7 +255,7 @@ def _largest(a: Answer) -> tuple[int, int, int]:
 def _with_spans(block: Block, forms: Codistribution, points: Variety, extra: list[Expr], setting: Setting) -> Answer:
     result = Answer(True, hidden=extra, reasons=list(points.reasons), verdict=points.verdict, about=points.about)
     result.argument, result.gap, result.witness = points.argument, points.gap, of_real_point(forms.chart, points.real)
-    result.separating, result.isolated = points.separating, points.argument == "isolated zeros"
+    result.separating = points.separating
     if points.samples:
         good = _spans(forms, points)
         here = None if setting.reference is None else span_at_reference(forms, setting.reference)

@@ -5,7 +5,6 @@ Also: which branches of a relation pass through the reference configuration, and
 
 from __future__ import annotations
 
-import random
 from collections import Counter
 from collections.abc import Hashable, Iterable, Sequence
 
@@ -195,7 +194,7 @@ def passes_reference(branch: Sequence[Piece], setting: Setting) -> bool:
     configuration = {**(setting.reference or {}), ex.TIME: ex.ZERO}
     chart = make_chart(_block(finite), setting)
     if "field" not in setting.engines:
-        ball = ball_point(chart, configuration, random.Random("dofkit branch"))
+        ball = ball_point(chart, configuration)
         return ball is not None and ball_matrix(chart, ball, True) is not None
     point = pose_point(chart, configuration, 5)
     if point is None or not on_variety(chart, point):

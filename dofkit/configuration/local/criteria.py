@@ -27,6 +27,9 @@ from dofkit.relations.blocks import Chart
 UNDECIDED = LocalDimension(
     None, "undecided", "the equations are dependent here and their lowest-order terms do not decide"
 )
+WITHOUT_VALUE = LocalDimension(
+    None, "undecided", "the equations could not be evaluated along a curve through this configuration"
+)
 
 
 class Criterion(NamedTuple):
@@ -59,45 +62,29 @@ CRITERIA: tuple[Criterion, ...] = (
 OF_MANIFOLDS = CRITERIA[:4]
 
 
-def decision(germ: Germ, asked: Sequence[Criterion] = CRITERIA) -> tuple[Criterion | None, LocalDimension]:
-    """Return the first criterion that decides, and what it says; None where all ``asked`` are and none does."""
-    for criterion in asked:
-        conclusion = criterion.decide(germ)
-        if conclusion is None:
-            continue
-        verdict = weakest(criterion.verdict, conclusion.verdict, "proved" if germ.exact else "numeric")
-        return criterion, LocalDimension(
-            conclusion.dimension, verdict, conclusion.reason, conclusion.confined, criterion.key
-        )
-    return None, UNDECIDED
-
-
 # The local dimension by the table
 
 
-@raising_no_value
-def local_dimension(
-    field: Manifold,
-    ball: Manifold | None,
-    rigid: int,
-    time: int | None = None,
-    distance: bool = True,
-    asked: Sequence[Criterion] = CRITERIA,
-) -> LocalDimension:
-    """The local dimension at the point; ``rigid`` is the dimension of the motions that move everything as one body.
+def local_dimension(germ: Germ, asked: Sequence[Criterion] = CRITERIA) -> LocalDimension:
+    """Return the local dimension by the first criterion that decides; undecided where all ``asked`` are and none does.
 
-    ``field`` is over GF(p), where a coefficient that is not 0 proves that the function is not; ``ball`` at the
-    same point decides signs. ``time`` is the number of its column, if it is one; ``distance``: must what is flat
-    at the point be looked at from a distance? Raises NoValueError.
+    From an approximate point, with balls alone, what a tiny ball holds 0 of is taken for 0, and the verdict is numeric.
     """
     with ctx.workprec(max(ctx.prec, precision())):
-        return decision(Germ(field, ball, rigid, time, distance), asked)[1]
+        try:
+            return _decision(germ, asked)
+        except NoValueError:
+            return WITHOUT_VALUE
 
 
 @raising_no_value
-def numeric_dimension(ball: Manifold, rigid: int, time: int | None = None) -> LocalDimension:
-    """The same from an approximate point: where a tiny ball contains 0 it is taken for 0; the verdict is numeric."""
-    return decision(Germ(None, ball, rigid, time))[1]
+def _decision(germ: Germ, asked: Sequence[Criterion]) -> LocalDimension:
+    for criterion in asked:
+        conclusion = criterion.decide(germ)
+        if conclusion is not None:
+            verdict = weakest(criterion.verdict, conclusion.verdict, "proved" if germ.exact else "numeric")
+            return LocalDimension(conclusion.dimension, verdict, conclusion.reason, conclusion.confined, criterion.key)
+    return UNDECIDED
 
 
 def local_at(
@@ -113,13 +100,12 @@ def local_at(
     A point that was ``drawn`` may be one where a relation is flat: what is 0 along a curve is looked at from a
     distance, if balls may be asked.
     """
+    distance = drawn and "balls" in chart.setting.engines
     try:
-        field, over_balls = _manifolds(chart, frame_at(chart, point), point, ball)
-        return local_dimension(field, over_balls, rigid, chart.time, drawn and "balls" in chart.setting.engines, asked)
+        germ = Germ(*_manifolds(chart, frame_at(chart, point), point, ball), rigid, chart.time, distance)
     except NoValueError:
-        return LocalDimension(
-            None, "undecided", "the equations could not be evaluated along a curve through this configuration"
-        )
+        return WITHOUT_VALUE
+    return local_dimension(germ, asked)
 
 
 def _manifolds(

@@ -19,8 +19,9 @@ from dofkit.configuration.local.manifold import Form, Manifold, Split, series_on
 from dofkit.configuration.local.neighbourhood import holds_away
 from dofkit.exact.points.frames import vanishes
 from dofkit.exact.points.series import Series
-from dofkit.exact.ring.program import ADD, MUL, NUM, POW, VAR, Scalar, reachable
+from dofkit.exact.ring.program import ADD, MUL, NUM, VAR, Scalar, reachable
 from dofkit.exact.ring.ring import Ring
+from dofkit.exact.zero import degree_bound
 
 #: Orders to which the other relations are followed on M; the second where one motion is in question.
 ORDER, LONG_ORDER = 8, 16
@@ -190,8 +191,7 @@ def _ahead(ball: Manifold, count: int) -> list[float]:
 
 def degree_of(manifold: Manifold) -> int:
     """Return a bound on the degree of the dependent relations; columns that no relation gives explicitly count 1."""
-    weights = _Weights(manifold)
-    return max((weights.of(n) for n in manifold.others), default=0)
+    return degree_bound(manifold.ring, manifold.others, _Weights(manifold).of)
 
 
 class _Weights:
@@ -206,26 +206,11 @@ class _Weights:
                     break
         self.degrees: dict[int, int] = {}
 
-    def of(self, node: int) -> int:
-        """Return the degree of an instruction."""
-        degrees: dict[int, int] = {}
-        for i in reversed(reachable(self.ring, [node], through_generators=False)):
-            op, payload = self.ring.code[i]
-            if op == MUL:
-                degrees[i] = sum(degrees[j] for j in payload)
-            elif op == ADD:
-                degrees[i] = max(degrees[j] for j in payload)
-            elif op == POW:
-                degrees[i] = abs(payload[1]) * degrees[payload[0]]
-            else:
-                degrees[i] = self._generator(payload) if op == VAR else 0
-        return degrees[node]
-
-    def _generator(self, column: int) -> int:
+    def of(self, column: int) -> int:
         if column not in self.degrees:
             self.degrees[column] = 1
             inside = self.ring.vars[column].args or self.explicit.get(column, ())
-            self.degrees[column] = max((1, *(self.of(n) for n in inside)))
+            self.degrees[column] = max(1, degree_bound(self.ring, inside, self.of))
         return self.degrees[column]
 
 

@@ -11,7 +11,7 @@ from flint import arb_mat
 
 from dofkit.base.deadline import check
 from dofkit.base.verdicts import ArgumentKey, Verdict
-from dofkit.exact.matrices.sparse import FactoredMatrix, Pivots
+from dofkit.exact.matrices.sparse import Pivots, Reduction, factored
 from dofkit.exact.points.frames import field_frame, solve
 from dofkit.exact.points.series import Series, SeriesPoint, monomial, zero_poly
 from dofkit.exact.residues import Residue, ResidueMatrix, modulus, residue, residue_matrix
@@ -92,7 +92,7 @@ class Manifold:
             place = {self.columns[c]: k for k, c in enumerate(self.frame.dependent)}
             slopes = (gradient(self.ring, at, self.base, [(node, unit)]) for node in self.rows)
             sparse_rows = [{place[c]: int(v) for c, v in g.items() if c in place and v != 0} for g in slopes]
-            return FactoredMatrix(sparse_rows, modulus(self.sample))
+            return factored(sparse_rows, modulus(self.sample))
         rows = []
         for node in self.rows:
             g = gradient(self.ring, at, self.base, [(node, unit)])
@@ -185,8 +185,8 @@ def inverse(rows: list[list[Scalar]]) -> Any:
 
 def product(matrix: Any, vector: Sequence[Scalar]) -> list[Scalar]:
     """Return the inverse of a matrix times a vector."""
-    if isinstance(matrix, FactoredMatrix):
-        found_by_parts: list[Scalar] = [residue(v, matrix.p) for v in matrix.solve([int(v) for v in vector])]
+    if isinstance(matrix, Reduction):
+        found_by_parts: list[Scalar] = [residue(v, matrix.p) for v in matrix.solved([int(v) for v in vector])]
         return found_by_parts
     over_field = isinstance(matrix, ResidueMatrix)
     column = (

@@ -16,7 +16,7 @@ from functools import cached_property
 from typing import Any
 
 from dofkit.base.libraries import np
-from dofkit.configuration.at_reference import AtReference, at_reference
+from dofkit.configuration.at_reference import AtReference, at_reference, float_point
 from dofkit.configuration.local.germ import Conclusion
 from dofkit.configuration.measured.continuation import BEYOND, LONGEST, Path, follow, is_motion, reach_of
 from dofkit.configuration.measured.equations import (
@@ -26,7 +26,6 @@ from dofkit.configuration.measured.equations import (
     ScaledEquations,
     StressForms,
     clear_rank,
-    float_point,
     independent_rows,
 )
 from dofkit.exact.matrices.certified import dependency_pattern, greedy_pivots

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import random
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -12,7 +11,6 @@ from flint import arb
 
 from dofkit.base.deadline import check
 from dofkit.base.libraries import np, nx
-from dofkit.configuration.at_reference import ball_point
 from dofkit.configuration.local.quadratic_cone import definite_combination
 from dofkit.configuration.rigid_motions import displacements_real
 from dofkit.exact.points.balls import FloatPoint, jacobian
@@ -273,12 +271,6 @@ def is_tree(block: Block, setting: Setting) -> bool:
         pair = [*ends, GROUND] if len(ends) == 1 else [*ends]
         joined.add_edges_from((("joint", constraint), ("member", end)) for end in pair)
     return bool(nx.is_forest(joined)) if joined else True
-
-
-def float_point(chart: Chart, pose: Mapping[Expr, Expr]) -> dict[Expr, float] | None:
-    """Return a pose in floating point, symbols without a value at random; None if a value is undefined."""
-    ball = ball_point(chart, {**pose, ex.TIME: ex.ZERO}, random.Random("dofkit measured"))
-    return None if ball is None else {s: float(v.mid()) for s, v in ball.symbols.items()}
 
 
 def pose_of_block(chart: Chart) -> Mapping[Expr, Expr] | None:

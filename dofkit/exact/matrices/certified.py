@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from contextlib import suppress
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -55,18 +56,12 @@ def greedy_rows(matrix: Matrix, rank: int) -> list[int]:
 
 def dependency_pattern(j: np.ndarray, rows: Sequence[int]) -> list[list[int]]:
     """Return which rows depend on which of the independent ``rows``, as a matrix over GF(2)."""
-    place = {r: i for i, r in enumerate(rows)}
-    pattern = []
-    for r in range(len(j)):
-        entry = [0] * max(len(rows), 1)
-        if r in place:
-            entry[place[r]] = 1
-        elif rows:
-            check()
-            weights = np.linalg.lstsq(j[list(rows)].T, j[r], rcond=None)[0]
-            entry = [int(abs(w) > 1e-3 * max(1e-300, float(np.max(np.abs(weights))))) for w in weights]
-        pattern.append(entry)
-    return pattern
+    check()
+    if len(rows) in (0, len(j)):
+        return [[int(r == k) for k in rows] or [0] for r in range(len(j))]
+    weights = np.abs(np.linalg.lstsq(j[list(rows)].T, j.T, rcond=None)[0].T)
+    least = 1e-3 * np.maximum(1e-300, weights.max(axis=1, keepdims=True))
+    return [list(map(int, row)) for row in weights > least]
 
 
 def greedy_pivots(matrix: Matrix, rank: int) -> list[int]:
@@ -156,30 +151,13 @@ def _fall(sizes: Sequence[float]) -> float:
     return max((b / a if a else math.inf for a, b in pairwise(ordered)), default=1.0)
 
 
-def combinations_of(
-    matrix: Balls, rows: Sequence[int], columns: Sequence[int], others: Sequence[int]
-) -> arb_mat | None:
-    """W with matrix[others] = W matrix[rows] on some columns; None where that part is not certified regular."""
-    try:
-        square = arb_mat([[matrix[r][c] for r in rows] for c in columns])
-        right = arb_mat([[matrix[r][c] for r in others] for c in columns])
-        return square.solve(right).transpose()
-    except ZeroDivisionError:
-        return None
-
-
 def dependencies(matrix: Balls, part: PivotedPart) -> list[list[int]]:
     """Return which rows depend on which of the independent ones, as a matrix over GF(2)."""
-    place = {r: i for i, r in enumerate(part.rows)}
-    others = [r for r in range(len(matrix)) if r not in place]
-    weights = combinations_of(matrix, part.rows, part.columns, others) if part.rows and others else None
-    of = {r: i for i, r in enumerate(others)}
-    pattern = []
-    for r in range(len(matrix)):
-        entry = [0] * max(part.rank, 1)
-        if r in place:
-            entry[place[r]] = 1
-        elif weights is not None:
-            entry = [int(not weights[of[r], i].contains(0)) for i in range(part.rank)]
-        pattern.append(entry)
+    pattern = [[int(r == k) for k in part.rows] or [0] for r in range(len(matrix))]
+    others = [r for r, entry in enumerate(pattern) if not any(entry)]
+    with suppress(ZeroDivisionError):  # where that part is not certified regular
+        square = arb_mat([[matrix[r][c] for r in part.rows] for c in part.columns])
+        right = arb_mat(part.rank, len(others), [matrix[r][c] for c in part.columns for r in others])
+        for r, weights in zip(others, square.solve(right).transpose().tolist() if others else (), strict=True):
+            pattern[r] = [int(not w.contains(0)) for w in weights] or [0]
     return pattern

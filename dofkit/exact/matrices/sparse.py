@@ -108,7 +108,7 @@ class Echelon:
 
 def echelon(rows: Sequence[Mapping[int, int]], p: int, supports: bool = False) -> Echelon:
     """Return the greedy basis of the rows over GF(p)."""
-    reduction = _Reduction(rows, p, peelable_rows(rows))
+    reduction = Reduction(rows, p, peelable_rows(rows))
     sums = reduction.dependent
     independent = tuple([i for i in range(len(rows)) if i not in sums])
     return Echelon(independent, {i: tuple(sorted(reduction.support(sums[i]))) for i in sums} if supports else {})
@@ -120,7 +120,7 @@ def vanishing(rows: Sequence[Mapping[int, int]], p: int) -> list[SparseRow]:
     >>> vanishing([{0: 1}, {0: 1, 1: 1}, {1: 2}], 7)
     [{2: 1, 1: 5, 0: 2}]
     """
-    reduction = _Reduction(rows, p, peelable_rows(rows))
+    reduction = Reduction(rows, p, peelable_rows(rows))
     return [{i: 1} | {k: -v % p for k, v in reduction.support(used).items()} for i, used in reduction.dependent.items()]
 
 
@@ -167,7 +167,7 @@ def _is_sum(rows: Sequence[Mapping[int, fmpq]], i: int, factors: RationalRow) ->
 def vector_in_kernel(rows: Sequence[Mapping[int, int]], p: int, rng: random.Random) -> SparseRow:
     """Return a random vector on which all rows vanish, with a value for each column that occurs."""
     columns = dict.fromkeys(c for row in rows for c in row)
-    return _Reduction(rows, p).completed({c: rng.randrange(p) for c in columns})
+    return Reduction(rows, p).completed({c: rng.randrange(p) for c in columns})
 
 
 def rank_of_rows(rows: Sequence[Mapping[int, int]], p: int) -> int:
@@ -205,7 +205,7 @@ def peelable_rows(rows: Sequence[Mapping[int, int]]) -> set[int]:
     return gone
 
 
-class _Reduction:
+class Reduction:
     """Pivot rows with a 1 in their pivot column, each free of the pivots before it, of all rows but some.
 
     ``dependent``: for every row that depends on rows before it, the multiples of pivot rows that it is the sum of.
@@ -304,21 +304,12 @@ class _Reduction:
         return factors
 
 
-class FactoredMatrix:
-    """A square matrix over GF(p) without its zeros, factored once to be solved often; rows are equations.
-
-    Raises PoleError where it is singular.
-    """
-
-    def __init__(self, rows: Sequence[Mapping[int, int]], p: int) -> None:
-        self.p = p
-        self._reduction = _Reduction(rows, p)
-        if self._reduction.dependent:
-            raise PoleError("the matrix is singular")
-
-    def solve(self, right: Sequence[int]) -> list[int]:
-        """Return the x with A x = ``right``: what was done to the rows is done to it, then the pivots backwards."""
-        return self._reduction.solved(right)
+def factored(rows: Sequence[Mapping[int, int]], p: int) -> Reduction:
+    """Return a square matrix, factored once to be ``solved`` often; rows are equations. Raises PoleError."""
+    reduction = Reduction(rows, p)
+    if reduction.dependent:
+        raise PoleError("the matrix is singular")
+    return reduction
 
 
 def rank_of(matrix: Sequence[Sequence[Any]], p: int) -> int:

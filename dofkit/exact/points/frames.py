@@ -6,14 +6,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from flint import arb, arb_mat, fmpq_mat
+from flint import arb, arb_mat
 
 from dofkit.base.deadline import check
 from dofkit.base.errors import PoleError
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.sparse import Pivots, rank_of, sparse, sparse_frame
 from dofkit.exact.points.series import Series
-from dofkit.exact.residues import Residue, ResidueMatrix, modulus, residue_matrix
+from dofkit.exact.residues import Residue, modulus, residue_matrix
 from dofkit.exact.ring.program import Scalar, raising_no_value
 from dofkit.exact.ring.ring import Ring
 
@@ -39,18 +39,6 @@ class FormRows:
 def field_frame(matrix: list[list[Residue]], n: int, p: int) -> Pivots:
     """Return the first independent rows in order, and columns solved for (the last ones where there is a choice)."""
     return sparse_frame(sparse(matrix), n, p)
-
-
-def pivots(matrix: ResidueMatrix | fmpq_mat) -> list[int]:
-    """Return the pivot columns of a matrix over GF(p) or the rationals."""
-    reduced, rank = matrix.rref()
-    columns, column = [], 0
-    for r in range(rank):
-        while not reduced[r, column]:
-            column += 1
-        columns.append(column)
-        column += 1
-    return columns
 
 
 def kernel(matrix: list[list[Scalar]], frame: Pivots, zero: Scalar) -> list[list[Scalar]]:

@@ -181,13 +181,18 @@ class Canon:
         return [n - 1 - i for i, k in enumerate(poly.degrees()) if k > 0] if n else []  # of 0 they are -1
 
 
+def quotients_of(expressions: Sequence[Expr], positive: frozenset[Expr]) -> tuple[Canon, list[Quotient]]:
+    """Return expressions as quotients in a canonical ring of their own; raises NoValueError."""
+    ring = Ring(expressions, positive)
+    nodes = [ring.node(e) for e in expressions]
+    canon = Canon(ring)
+    return canon, [canon.quotient(node) for node in nodes]
+
+
 def square_root(e: Expr, positive: frozenset[Expr]) -> Expr | None:
     """Return f where ``e`` is f^2 for a polynomial f in the ring's generators, or None where none is found."""
-    ring = Ring([e], positive)
     try:
-        node = ring.node(e)
-        canon = Canon(ring)
-        top, bottom = canon.quotient(node)
+        canon, [(top, bottom)] = quotients_of([e], positive)
         return canon.to_expr((top / bottom).sqrt()) if bottom.is_constant() else None
     except (NoValueError, DomainError):
         return None

@@ -6,7 +6,7 @@ The program runs over any numbers with ``+ - * /``: a `Point` supplies the gener
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, reduce, wraps
@@ -145,19 +145,6 @@ class Instructions(ABC):
         """Return the node of minus a node."""
         return self.emit(MUL, (self.emit(NUM, Fraction(-1)), node))
 
-    def replaced(self, node: int, mapping: Mapping[int, int]) -> int:
-        """Return a node with generators (by index) replaced by nodes; arguments of other generators are left."""
-        new: dict[int, int] = {}
-        for i in reversed(reachable(self, [node], through_generators=False)):
-            op, payload = self.code[i]
-            if op in (ADD, MUL):
-                new[i] = self.emit(op, tuple(new[j] for j in payload))
-            elif op == POW:
-                new[i] = self.emit(POW, (new[payload[0]], payload[1]))
-            else:
-                new[i] = mapping.get(payload, i) if op == VAR else i
-        return new[node]
-
     def generator(self, kind: str, key: Any, expression: Expr, args: tuple[int, ...] = (), degree: int = 1) -> int:
         """Return the node of a generator, made at first use; ``expression`` is it as an expression."""
         index = self._var_of.get((kind, key))
@@ -237,6 +224,15 @@ def value_of(ring: Instructions, point: Point, node: int, through_generators: bo
         else:
             out[i] = reduce(mul if op == MUL else add, [out[j] for j in payload])
     return out[node]
+
+
+def vanish(ring: Instructions, point: Point, nodes: Sequence[int]) -> bool:
+    """Return whether all of some instructions are 0 at a point; False where they have no value."""
+    try:
+        at = values(ring, point)
+    except NoValueError:
+        return False
+    return all(at[n] == 0 for n in nodes)
 
 
 @raising_no_value

@@ -15,7 +15,7 @@ from fractions import Fraction
 from math import lcm
 
 from dofkit.base.errors import NoValueError
-from dofkit.exact.ring.program import ADD, MUL, NUM, VAR, Instructions, Var
+from dofkit.exact.ring.program import ADD, MUL, NUM, Instructions, Var
 from dofkit.exact.ring.radicals import inverse_function, log, over_primes, root, sign
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import linear_terms, sorted_sum, substitute
@@ -176,20 +176,6 @@ class Ring(Instructions):
     def _nodes(self, children: Iterable[Expr]) -> tuple[int, ...]:
         memo = self._memo
         return tuple([memo[e] if e in memo else self.node(e) for e in children])
-
-    def forget(self, size: int) -> None:
-        """Instructions from number ``size`` on are dropped, as if they had never been emitted, if none is a generator.
-
-        What divides by 0 would leave the whole program without a value.
-        """
-        if any(op == VAR for op, _ in self.code[size:]):
-            return
-        for key in self.code[size:]:
-            del self._interned[key]
-        del self.code[size:]
-        self._memo = {e: node for e, node in self._memo.items() if node < size}
-        self._turns = {u: turn for u, turn in self._turns.items() if max(turn) < size}
-        self._orders = {roots: order for roots, order in self._orders.items() if all(i < size for i in roots)}
 
     def _constant(self, e: Expr) -> int:
         if e.args[0] == "E":

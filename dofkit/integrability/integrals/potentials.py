@@ -13,10 +13,9 @@ from typing import TypeVar
 
 from dofkit.base.deadline import OutOfTimeError, by_processor, check, checked_calls, remaining_seconds, thread_time
 from dofkit.base.errors import NoValueError
-from dofkit.exact.ring.canonical import Canon
+from dofkit.exact.ring.canonical import Canon, is_identically_zero, quotients_of
 from dofkit.exact.ring.program import TooLargeError, raising_no_value
 from dofkit.exact.ring.quotients import MAX_TERMS, Quotient, factored, rationalised
-from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, expand
 from dofkit.expressions.sympy_bridge import UntranslatableError, antiderivative_by_sympy, integrators
@@ -74,10 +73,7 @@ class Algebra:
     def lowered(self, expressions: Sequence[Expr]) -> tuple[Canon, list[Quotient]]:
         """Return the expressions as quotients in lowest terms over one set of generators."""
         self.spend(expressions)
-        ring = Ring(expressions, self.positive)
-        nodes = [ring.node(e) for e in expressions]
-        canon = Canon(ring)
-        quotients = [canon.quotient(node) for node in nodes]
+        canon, quotients = quotients_of(expressions, self.positive)
         self.tick(sum(len(p) for quotient in quotients for p in quotient) // 50)
         return canon, [rationalised(canon, quotient) for quotient in quotients]
 
@@ -106,11 +102,9 @@ class Algebra:
             zero = self._vanishing[e] = bool(self.attempt(lambda: self._is_zero(e)))
         return zero
 
-    def _is_zero(self, e: Expr) -> bool:
+    def _is_zero(self, e: Expr) -> bool | None:
         self.spend([e])
-        ring = Ring([e], self.positive)
-        node = ring.node(e)
-        return Canon(ring).is_zero(node)
+        return is_identically_zero(e, self.positive)
 
     def closed(self, form: dict[Expr, Expr]) -> bool:
         """Return whether d(omega) = 0 is proved."""

@@ -173,22 +173,14 @@ class PebbleGame:
         via = {FREE: root, root: root, held: root}
         queue = [root]
         for v in queue:
-            w = first[v]
-            if w not in via:
-                via[w] = v
-                if second[w] < 0:
-                    break
-                queue.append(w)
-            w = second[v]
-            if w not in via:
-                via[w] = v
-                if second[w] < 0:
-                    break
-                queue.append(w)
-        else:
-            return queue
-        self._move(w, root, via)
-        return None
+            for w in (first[v], second[v]):
+                if w not in via:
+                    via[w] = v
+                    if second[w] < 0:
+                        self._move(w, root, via)
+                        return None
+                    queue.append(w)
+        return queue
 
     def _move(self, w: int, root: int, via: dict[int, int]) -> None:
         """Move a free pebble of ``w`` to ``root``: every link on the way is paid for from its other end."""

@@ -8,14 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from fractions import Fraction
 from typing import NamedTuple
 
 from dofkit.base.deadline import check
 from dofkit.base.errors import NoValueError
-from dofkit.exact.ring.canonical import Canon, divided, is_identically_zero
+from dofkit.exact.ring.canonical import is_identically_zero, square_root
 from dofkit.exact.ring.program import raising_no_value
-from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import calculus
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
@@ -265,9 +263,7 @@ def _figure(e: Expr) -> float | None:
 
 def in_velocities(piece: Remaining) -> Expr:
     """Return a relation between velocities as an expression that is zero."""
-    if isinstance(piece, Pfaffian):
-        return ex.add(*(a * ex.velocity(n) for n, a in piece.coefficients.items()), piece.dt)
-    return piece.expr
+    return piece.rate if isinstance(piece, Pfaffian) else piece.expr
 
 
 def inserted(piece: Remaining, elimination: Elimination) -> Remaining:
@@ -308,29 +304,10 @@ def without_roots(
     for node in ex.nodes(e):
         new = ex.rebuild(node, tuple(memo[child] for child in ex.children(node)))
         if new.op == "pow" and new.args[1] == HALF and any(s.args[0] == "coordinate" for s in new.symbols):
-            root = _root(new.args[0], positive)
+            root = square_root(new.args[0], positive)
             here = None if root is None else _figure(substitute(root, {**reference, ex.TIME: ZERO}))
             if root is not None and here:
                 new = ordered(root if here > 0 else -root)
                 notes.append(f"The equations are valid while {to_text(new)} > 0, as in the reference configuration.")
         memo[node] = new
     return memo[e], tuple(dict.fromkeys(notes))
-
-
-def _root(e: Expr, positive: frozenset[Expr]) -> Expr | None:
-    """Return u with u^2 = e identically, a polynomial, or None where there is none."""
-    ring = Ring([e], positive)
-    try:
-        node = ring.node(e)
-        canon = Canon(ring)
-        top, bottom = canon.quotient(node)
-        if top == 0 or not bottom.is_constant():
-            return None
-        factors = canon.factors(top)
-        content = divided(top.factor()[0], bottom.leading_coefficient())
-    except NoValueError:
-        return None
-    number = ex.sqrt(ex.num(Fraction(int(content.p), int(content.q)))) if content > 0 else ZERO
-    if number.op != "num" or number.is_zero or any(k % 2 for _, k in factors):
-        return None
-    return ex.mul(number, *(ex.power(canon.to_expr(f), ex.num(k // 2)) for f, k in factors))

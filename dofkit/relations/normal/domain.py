@@ -12,7 +12,7 @@ from itertools import product as cartesian
 
 from dofkit.base.errors import NoValueError
 from dofkit.exact.points.balls import random_ball_point
-from dofkit.exact.ring.canonical import Canon, lowest_terms, square_root
+from dofkit.exact.ring.canonical import lowest_terms, quotients_of, square_root
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero import is_proved_zero
@@ -67,11 +67,8 @@ def _required_by(e: Expr, outermost: bool) -> Iterator[DomainCondition]:
 def _denominator(e: Expr, positive: frozenset[Expr]) -> Expr | None:
     """What is left below when all is one quotient in lowest terms."""
     try:
-        ring = Ring([e], positive)
-        node = ring.node(e)
-        canon = Canon(ring)
-        top, bottom = canon.quotient(node)
-        _, bottom = lowest_terms(top, bottom)
+        canon, [quotient] = quotients_of([e], positive)
+        _, bottom = lowest_terms(*quotient)
         return None if bottom.is_constant() else canon.to_expr(bottom)
     except NoValueError:
         return None
@@ -179,10 +176,8 @@ def up_to_a_number(e: Expr) -> frozenset[tuple[Expr, Fraction]]:
 def squared(e: Expr, positive: frozenset[Expr]) -> tuple[Expr, DomainCondition] | None:
     """a sqrt(u) + b = 0 as a^2 u - b^2 = 0 where -a b >= 0; None where there is not one square root, linearly."""
     try:
-        ring = Ring([e], positive)
-        node = ring.node(e)
-        canon = Canon(ring)
-        top, _ = canon.quotient(node)
+        canon, [(top, _)] = quotients_of([e], positive)
+        ring = canon.ring
         roots = [v for v in ring.vars if v.kind == "root" and ring.var_expr[v.index].symbols]
         if len(roots) != 1 or roots[0].degree != 2 or not _outside(ring, roots[0].index):
             return None

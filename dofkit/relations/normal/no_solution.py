@@ -17,7 +17,7 @@ from typing import Any
 from dofkit.base.deadline import OutOfTimeError, check
 from dofkit.base.errors import NoValueError, PoleError
 from dofkit.exact.points.real_search import RealSearch
-from dofkit.exact.ring.canonical import Canon
+from dofkit.exact.ring.canonical import Canon, quotients_of
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.radicals import known_signs
 from dofkit.exact.ring.ring import Ring
@@ -136,18 +136,16 @@ def _some_resultant_never_vanishes(relations: Sequence[Expr], positive: frozense
     """Return whether a polynomial that vanishes wherever the relations hold has no real zero: them, or a resultant."""
     if not _faithful(relations, positive):
         return False
-    ring = Ring(relations, positive)
     try:
-        nodes = [ring.node(e) for e in relations]
-        canon = Canon(ring)
-        numerators = [p for p in (canon.quotient(node)[0] for node in nodes) if p != 0]
+        canon, quotients = quotients_of(relations, positive)
+        numerators = [p for p, _ in quotients if p != 0]
         present = {i for p in numerators for i in canon.generators_in(p)}
         numerators += [g for g in canon.relations if not present.isdisjoint(canon.generators_in(g))]
     except NoValueError:
         return False
-    for v in ring.vars:
+    for v in canon.ring.vars:
         if v.kind == "sign":  # where its argument is 0 either sign satisfies them, and abs(u)/u has no value
-            ring.var_expr[v.index] = ex.coordinate(f"_sign {v.index}")
+            canon.ring.var_expr[v.index] = ex.coordinate(f"_sign {v.index}")
     polynomials = numerators
     for _ in range(ROUNDS):
         polynomials = _resultants(polynomials)

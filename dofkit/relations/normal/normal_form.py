@@ -17,8 +17,7 @@ from typing import Any, NamedTuple
 from flint import fmpq
 
 from dofkit.base.errors import NoValueError
-from dofkit.exact.ring.canonical import Canon, divided, lowest_terms
-from dofkit.exact.ring.ring import Ring
+from dofkit.exact.ring.canonical import Canon, divided, lowest_terms, quotients_of
 from dofkit.exact.zero import is_proved_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import cleared, diff, in_velocities, refuse_accelerations, substitute
@@ -65,14 +64,12 @@ def linear_branches(e: Expr, velocities: Sequence[Expr], positive: frozenset[Exp
     A branch consists of expressions linear in the velocities, or free of them, that vanish together. The branches are
     those of the numerator of ``e``: its denominator vanishes nowhere that ``e`` has a value.
     """
-    ring = Ring([e], positive)
-    node = ring.node(e)
     try:
-        canon = Canon(ring)
-        whole = canon.quotient(node)[0]
-        moving = {i for i, e in enumerate(ring.var_expr) if any(s.args[0] == "velocity" for s in e.symbols)}
+        canon, [(whole, _)] = quotients_of([e], positive)
+        generators = canon.ring.var_expr
+        moving = {i for i, e in enumerate(generators) if any(s.args[0] == "velocity" for s in e.symbols)}
         terms = canon.collected(whole, moving)
-        if any(sum(k for _, k in m) > 2 or any(ring.var_expr[i] not in velocities for i, _ in m) for m in terms):
+        if any(sum(k for _, k in m) > 2 or any(generators[i] not in velocities for i, _ in m) for m in terms):
             return None
         squares = (_completed(canon, whole, i, velocities, positive) for m in terms for i, k in m if k == 2)
         square = next((result for result in squares if result is not None), None)

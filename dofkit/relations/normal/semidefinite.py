@@ -8,8 +8,7 @@ from typing import Any
 from flint import fmpq, fmpq_mat
 
 from dofkit.base.errors import NoValueError
-from dofkit.exact.ring.canonical import Canon
-from dofkit.exact.ring.ring import Ring
+from dofkit.exact.ring.canonical import Canon, quotients_of
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 
@@ -113,10 +112,7 @@ def never_holds(e: Expr, strict: bool, positive: frozenset[Expr]) -> bool:
     For > 0 it is enough that no term, or a product with only such factors, is > 0.
     """
     try:
-        ring = Ring([e], positive)
-        node = ring.node(e)
-        canon = Canon(ring)
-        top, bottom = canon.quotient(node)
+        canon, [(top, bottom)] = quotients_of([e], positive)
     except NoValueError:
         return False
     if top == 0:

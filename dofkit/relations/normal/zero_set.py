@@ -8,10 +8,8 @@ is dropped, a product becomes branches. No branch: no real zero.
 from __future__ import annotations
 
 from dofkit.base.errors import NoValueError
-from dofkit.exact.analyticity import is_analytic
-from dofkit.exact.ring.canonical import Canon
+from dofkit.exact.ring.canonical import quotients_of
 from dofkit.exact.ring.radicals import never_negative
-from dofkit.exact.ring.ring import Ring
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.polynomial_zeros import (
     EMPTY_NOTE,
@@ -123,10 +121,8 @@ class _WrittenZeros:
         return tuple(products_of(branches for branches, _ in zeros)), tuple(notes)
 
     def _polynomial(self, e: Expr) -> Zeros:
-        ring = Ring([e], self.positive)
-        node = ring.node(e)
-        canon = Canon(ring)
-        return PolynomialZeros(canon, self.positive, self.variables, self.of).of(*canon.quotient(node), e)
+        canon, [quotient] = quotients_of([e], self.positive)
+        return PolynomialZeros(canon, self.positive, self.variables, self.of).of(*quotient, e)
 
 
 def sign_as_written(term: Expr, positive: frozenset[Expr]) -> int | None:
@@ -149,9 +145,3 @@ def never_vanishes(e: Expr, positive: frozenset[Expr]) -> bool:
     """True where ``e`` is proved to be zero at no real point; False says nothing."""
     branches, _ = zero_set(e, positive, e.symbols)
     return not branches
-
-
-def is_analytic_in_coordinates(e: Expr, *, poles: bool) -> bool:
-    """Return whether ``e`` holds coordinates only, is no unknown function and is analytic in them."""
-    declared = all(s.args[0] == "coordinate" for s in e.symbols) and "call" not in e.functions
-    return declared and is_analytic(e, e.symbols, poles=poles)
