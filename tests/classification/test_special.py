@@ -52,6 +52,7 @@ LOCI: list[tuple[str, dict[str, Any], list[Case]]] = [
     ),
     ("2y - 1 = 0", scene("dz = y*(y - 1) dx"), [("y = 1/2", flat("(2, 2, 3)", "(2, 3)"), ONE, "probable")]),
     ("-x dy^dx", scene("dz = x y dx"), [("x = 0", flat("(2, 2, 3)", "(2, 3)"), ONE, "probable")]),
+    ("-z d/dz", scene("dz = z y dx"), [("z = 0", "the first Lie brackets add no direction there", ONE, "proved")]),
     ("exp never vanishes", scene("dz = exp(y) dx"), []),
     ("1 + y^2 never vanishes", scene("dz = (y + y^3/3) dx"), []),
     ("curvatures 1 and 2y are never both 0", scene("dz = y dx", "dw = y^2 dx", coordinates=[*XYZ, "w"]), []),
