@@ -8,9 +8,11 @@ point makes certain that there is a real configuration at all.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from functools import partial
 
+from dofkit.base.errors import NoValueError
 from dofkit.configuration.components import by_cases, of_largest_part
 from dofkit.configuration.generic_dimension import (
     ALLOWING,
@@ -36,7 +38,7 @@ from dofkit.exact.zero import excludes_zero, independent_on_set
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Block, Chart, make_chart
-from dofkit.relations.linear_relations import explicit_relations, linear, number_coefficients, solve_linear
+from dofkit.relations.linear_relations import Explicit, explicit_relations, linear, number_coefficients, solve_linear
 from dofkit.relations.normal.no_solution import no_solution
 from dofkit.relations.setting import Setting
 
@@ -100,27 +102,35 @@ def _variety(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> Variety:
     if "field" not in chart.setting.engines:
         return near_real_point(chart, real_point(chart, seed, chart.nodes), chart.nodes)
     core = [n for i, n in enumerate(chart.nodes) if i not in solved.implied]
-    given, others = solved, [n for n, g in zip(chart.nodes, chart.relations, strict=True) if linear(g) is None]
-    if not eliminates:
-        others = list(chart.nodes)
-    elif not any(v.kind in ("root", "sign", "log") and chart.ring.var_expr[v.index].symbols for v in chart.ring.vars):
-        # a root of what is put in for a coordinate would be another generator than the root as written
-        given, others = explicit_relations(chart.relations, number_coefficients), []
-    reduced = [*(s - value for s, value in given.values.items()), *given.implicit]
-    solver = TriangularSolver(chart.ring, [*map(chart.ring.node, reduced), *others], seed=seed)
-    refuted = _refuted(chart, solver)
-    if refuted is not None:
-        return refuted
-    drawn = [p for p in (solver.draw(seed + k + 1) for k in range(samples_for(chart))) if p is not None]
-    drawn = [p for p in drawn if on_variety(chart, p)]
-    if drawn:
-        return variety_at(chart, drawn, seed, core)
+    for explicit, others in _reductions(chart, solved):
+        reduced = [*(s - value for s, value in explicit.values.items()), *explicit.implicit]
+        solver = TriangularSolver(chart.ring, [*map(chart.ring.node, reduced), *others], seed=seed)
+        refuted = _refuted(chart, solver)
+        if refuted is not None:
+            return refuted
+        drawn = [p for p in (solver.draw(seed + k + 1) for k in range(samples_for(chart))) if p is not None]
+        drawn = [p for p in drawn if on_variety(chart, p)]
+        if drawn:
+            return variety_at(chart, drawn, seed, core)
     samples = pose_samples(chart, pose, seed)
     return (
         variety_at(chart, samples, seed, core)
         if samples
         else near_real_point(chart, real_point(chart, seed, core), core)
     )
+
+
+def _reductions(chart: Chart, solved: Explicit) -> Iterator[tuple[Explicit, list[int]]]:
+    """Yield relations that give a coordinate each, with the others' nodes: those that are linear, then all that do.
+
+    A root of what is put in for a coordinate would be another generator than the root as written.
+    """
+    eliminates = "eliminations" in chart.setting.reductions
+    yield solved, [n for n, g in zip(chart.nodes, chart.relations, strict=True) if not eliminates or linear(g) is None]
+    kinds = {v.kind for v in chart.ring.vars if chart.ring.var_expr[v.index].symbols}
+    if eliminates and kinds.isdisjoint(("root", "sign", "log")):
+        with suppress(NoValueError):
+            yield explicit_relations(chart.relations, number_coefficients), []
 
 
 def _has_joint_positions(chart: Chart) -> bool:

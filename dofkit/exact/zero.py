@@ -256,8 +256,8 @@ def degree_bound(ring: Ring, nodes: Sequence[int], degree_of: Callable[[int], in
             most[i] = (0, 0)
         elif op == VAR:
             var = ring.vars[payload]
-            own = 2 if var.kind in ("cos", "sin") else max(1, var.degree)
-            most[i] = (own if degree_of is None else degree_of(payload), 0)
+            degree = 2 if var.kind in ("cos", "sin") else max(1, var.degree)
+            most[i] = (degree if degree_of is None else degree_of(payload), 0)
         elif op == ADD:
             most[i] = _of_sum([most[j] for j in payload])
         elif op == MUL:
