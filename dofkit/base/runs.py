@@ -10,12 +10,11 @@ import time
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import CancelledError, Future, ThreadPoolExecutor, wait
-from contextlib import suppress
+from contextlib import AbstractContextManager, suppress
 from functools import cache, partial
 from pathlib import Path
 from queue import LifoQueue
-from types import TracebackType
-from typing import Any, Protocol, Self, TypeVar
+from typing import Any, Protocol, TypeVar
 
 from dofkit.base.errors import DofkitError
 from dofkit.base.workers import MEMORY, Job, JobOutcome, Worker, can_fork
@@ -32,7 +31,7 @@ class StoppedError(DofkitError):
     """Work was stopped, or nobody could be found to do it."""
 
 
-class Pool:
+class Pool(AbstractContextManager["Pool"]):
     """Up to ``workers`` workers (one for each core where that is not said), each started when it is first needed."""
 
     def __init__(self, workers: int | None = None, memory: int = MEMORY, modules: Sequence[str] = ()) -> None:
@@ -87,16 +86,11 @@ class Pool:
             wait(running, timeout=0.05)
         self._threads.shutdown()
 
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *_error: object) -> None:
         self.close()
 
 
-class Cluster:
+class Cluster(AbstractContextManager["Cluster"]):
     """The workers of a Dask scheduler. Raises StoppedError where `distributed` is missing or nobody answers."""
 
     def __init__(self, address: str) -> None:
@@ -118,12 +112,7 @@ class Cluster:
         self._executor.submit(function, *arguments).add_done_callback(partial(_settle, future))
         return future
 
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *_error: object) -> None:
         self._client.close()
 
 

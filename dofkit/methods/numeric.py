@@ -6,6 +6,7 @@ import random
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
+from itertools import islice
 from typing import Any
 
 import numpy as np
@@ -76,14 +77,8 @@ class Floats:
     def points(self, written: Written, rows: WrittenRows, drawn: bool) -> list[FloatPoint]:
         if drawn:
             return [self._drawn(written, rows)]
-        sampled: list[FloatPoint] = []
-        for k in range(STARTS):
-            point = self._newton_end(written, rows, k)
-            if point is not None:
-                sampled.append(point)
-            if len(sampled) == POINTS:
-                break
-        return sampled
+        ends = (self._newton_end(written, rows, k) for k in range(STARTS))
+        return [*islice((point for point in ends if point is not None), POINTS)]
 
     def _drawn(self, written: Written, rows: WrittenRows) -> FloatPoint:
         rng = random.Random("dofkit floats 0")
