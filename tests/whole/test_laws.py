@@ -271,6 +271,9 @@ def clocked(match: re.Match[str]) -> str:
 
 def has_time(path: Path) -> bool:
     """Does a scene move in time, and is it drawn nowhere? A drawing is one at t = 0."""
+    written = path.read_text(encoding="utf-8")
+    if "\nbodies:" in written or "\nconfiguration:" in written or not RATE.search(written):
+        return False
     scene = scene_of(path)
     texts = [str(value) for c in scene.constraints for key in TIMED if (value := getattr(c, key, None))]
     moves = any(RATE.search(text) for text in texts) and not any(OF_TIME.search(text) for text in texts)
