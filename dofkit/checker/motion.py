@@ -142,10 +142,7 @@ class CheckedEnergies:
 
 
 #: What a claim tells: the fields of a report of the motion.
-MOTION_FIELDS = (
-    *("coordinates", "lagrangian", "momenta", "forces"),
-    *("equations", "constraints", "multipliers", "eliminated"),
-)
+MOTION_FIELDS = "coordinates lagrangian momenta forces equations constraints multipliers eliminated".split()
 
 
 def motion(evidence: CheckedEvidence, claim: Told, verified: Told) -> Told:
