@@ -51,7 +51,7 @@ OPEN: dict[MethodName, str] = {
     """,
     "balls": """
         double-watt double-watt-alike holonomic-definition miura-vertex-flat plate-on-four-threads
-        platform-on-parallel-legs sarrus-folded sarrus-stretched sums-of-many three-cranks-in-line
+        platform-on-parallel-legs sarrus-folded sarrus-stretched schatz-linkage sums-of-many three-cranks-in-line
         waterbomb-vertex-flat wren-platform
     """,
 }

@@ -57,4 +57,4 @@ def test_what_is_no_picture_is_told(capsys: pytest.CaptureFixture[str], tmp_path
     status, _, err = called(capsys, "draw", "--as", "directions", "four-bar-linkage", "--out", str(tmp_path / "a.svg"))
     assert status == 2
     assert "needs differential constraints" in err
-    assert called(capsys, "animate", "four-bar-linkage", "--format", "svg")[0] == 2
+    assert called(capsys, "animate", "four-bar-linkage", "--format", "jpg")[0] == 2

@@ -129,9 +129,8 @@ ISOLATED = [
 def test_functions_of_one_coordinate_hold_it_where_they_vanish(
     names: str, written: Sequence[str], dof: int, why: str
 ) -> None:
-    """Where a function that is no polynomial touches 0 only: undecided is not wrong."""
     report = dofkit.classify(dofkit.load({"coordinates": names.split(), "constraints": list(written)}))
-    answer = (report.consistent, report.dof, report.velocity_dof, report.redundant)
+    answer = (report.consistent, report.dof, report.velocity_dof, report.redundant)  # where it touches 0, None is right
     assert answer in ((True, dof, dof, []), *[(None,) * 4] * any("(" in text for text in written)), why
 
 
