@@ -142,7 +142,16 @@ class CheckedEnergies:
 
 
 #: What a claim tells: the fields of a report of the motion.
-MOTION_FIELDS = "coordinates lagrangian momenta forces equations constraints multipliers eliminated".split()
+MOTION_FIELDS = (
+    "coordinates",
+    "lagrangian",
+    "momenta",
+    "forces",
+    "equations",
+    "constraints",
+    "multipliers",
+    "eliminated",
+)
 
 
 def motion(evidence: CheckedEvidence, claim: Told, verified: Told) -> Told:
