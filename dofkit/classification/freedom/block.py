@@ -56,13 +56,10 @@ HIDDEN_BRANCHES = (
     "the hidden relations are satisfied on several branches; the degrees of freedom and the hidden equations are those "
     "of the largest one (through the reference configuration, if there is one)"
 )
-
 IRREGULAR = (
     "the reference configuration is not a regular point of the forms, and other configurations may lie "
-    "on another component of the set that "
-    "the geometric equations define"
+    "on another component of the set that the geometric equations define"
 )
-
 MEASURED = (
     "measured equations occur together with differential ones; whether these integrate was not decided "
     "within the tolerance"
