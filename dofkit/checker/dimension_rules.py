@@ -66,7 +66,7 @@ def counted(evidence: CheckedEvidence, claim: Told, verified: Told) -> object:
     if path == "/redundancies":
         return _groups(evidence, verified)
     if path == "/generalized_coordinates":
-        refuse(verified["/dof"] != 0, "some are needed")
+        refuse(verified["/dof"] != 0, "coordinates are needed: dof is not 0")
         return []
     labels = [verified.get(f"{path[1:]} {owner}") for owner in owners(evidence)]
     refuse(None in labels and False not in labels, "nothing that was verified decides this")

@@ -63,7 +63,7 @@ def of_largest_part(chart: Chart, variety: Variety, find: Callable[[Chart], Vari
         least = chart.coordinates - len(chart.relations)
         return _by(variety, "one relation") if variety.dimension >= least else _near(variety)
     set_cases = _cases_of_set(chart)
-    if set_cases is None:
+    if set_cases is None or not set_cases[2]:
         return near(variety)
     solved, loose, together = set_cases
     best, open_, regular = variety, list[bool](), _is_regular(chart, variety)

@@ -246,8 +246,8 @@ Degrees = tuple[int, int]
 def degree_bound(ring: Ring, nodes: Sequence[int], degree_of: Callable[[int], int] | None = None) -> int:
     """Return a bound of the degrees of numerators and denominators, in symbols and independent values of functions.
 
-    Sines and cosines are functions on a curve of the second degree, a root is the power of another root: so far as
-    the degree of a generator is not told by its number (``degree_of``).
+    Sines and cosines are functions on a curve of the second degree, a root is the power of another root, unless
+    ``degree_of`` gives the degrees of generators by their numbers.
     """
     most: dict[int, Degrees] = {}
     for i in reversed(reachable(ring, nodes, through_generators=False)):

@@ -523,7 +523,7 @@ export class Rules {
     const value = list(claim.value);
     const dof = this.before("/dof");
     if (claim.rule === "count") {
-      refuse(value.length || dof.value !== 0, "some are needed");
+      refuse(value.length || dof.value !== 0, "coordinates are needed: dof is not 0");
       return {};
     }
     const minor = this.e.minor(claim.minor);

@@ -112,7 +112,7 @@ def cofactors(context: Context, target: Components, rows: dict[str, Components])
 
 
 def _chosen(context: Context, target: Components, rows: dict[str, Components]) -> tuple[list[str], list[str]]:
-    """The sources that matter beside the point, and columns in which they are independent at it."""
+    """The sources whose cofactors are not 0 near the point, and columns in which they are independent at it."""
     floats = context.point.floats if context.point is not None else {}
     nearby = Estimates({name: value + (1 + i % 5) / 16 for i, (name, value) in enumerate(floats.items())})
     numbers = {row: _floats(context, nearby, components) for row, components in rows.items()}
