@@ -130,7 +130,7 @@ def no_such(word: str, vocabulary: Iterable[str], what: str) -> str:
 
 
 def nearest_title(name: str, titles: Sequence[str]) -> str | None:
-    """Return the known name of several words that is most like ``name`` or shares most words with it, or None.
+    """Return the title, of one or more words, that is spelled most like ``name`` or shares most words with it, or None.
 
     >>> nearest_title("rolling-disc", ["disc-rolling", "pendulum"])
     'disc-rolling'

@@ -45,9 +45,9 @@ def serve(down: int, up: int, memory: int, modules: Sequence[str]) -> None:
         _do(jobs.get(), up, memory)
 
 
-def _listen(down: int, jobs: SimpleQueue[bytes]) -> None:
-    """Pass the jobs on; end this process with its parent, even in the middle of a job."""
-    with open(down, "rb") as source:
+def _listen(jobs_end: int, jobs: SimpleQueue[bytes]) -> None:
+    """Pass on the jobs from a pipe; where it closes, the parent is gone and this process exits, even within a job."""
+    with open(jobs_end, "rb") as source:
         try:
             while True:
                 jobs.put(pickle.load(source))

@@ -202,7 +202,7 @@ class ComposedText:
         self._add(value, 1)
 
     def _path(self, event: Any) -> Path | None:
-        """Return the path of the value that begins with an event, and note its place; None where a key must stand."""
+        """Return the path of the value that begins with an event, and note its place; None where the event is a key."""
         if not self._stack:
             self.places[()] = (event.start_mark.index, -1)
             return ()

@@ -167,16 +167,16 @@ def run(tasks: Iterable[TrialTask], bench: Bench) -> Iterator[TrialLine]:
     """
     ladders = grouped(sorted(tasks, key=lambda task: task.trial.size), lambda task: task.ladder)
     running: dict[Future[Ended], TrialTask] = {}
-    broken: dict[tuple[str, ...], int] = {}
+    timed_out_at: dict[tuple[str, ...], int] = {}
     while ladders or running:
         for ladder, rungs in [*ladders.items()]:
-            climbing = {task.trial.size for task in running.values() if task.ladder == ladder}
-            while rungs and len(running) < AHEAD * bench.pool.width and climbing <= {rungs[0].trial.size}:
+            sizes_running = {task.trial.size for task in running.values() if task.ladder == ladder}
+            while rungs and len(running) < AHEAD * bench.pool.width and sizes_running <= {rungs[0].trial.size}:
                 task = rungs.pop(0)
-                if task.trial.size > broken.get(ladder, task.trial.size):
+                if ladder in timed_out_at and task.trial.size > timed_out_at[ladder]:
                     yield _line(task, None, "timed out", bench.limit, SKIPPED)
                 else:
-                    climbing = {task.trial.size}
+                    sizes_running = {task.trial.size}
                     running[bench.submit(task)] = task
             if not rungs:
                 del ladders[ladder]
@@ -186,7 +186,7 @@ def run(tasks: Iterable[TrialTask], bench: Bench) -> Iterator[TrialLine]:
             task = running.pop(future)
             line = bench.line(task, future.result())
             if line.outcome == "timed out":
-                broken[task.ladder] = task.trial.size
+                timed_out_at[task.ladder] = task.trial.size
             yield line
 
 

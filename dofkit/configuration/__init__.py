@@ -13,8 +13,8 @@ Mechanisms, in the order in which they are tried
        `CRITERIA` in the order of cost: independent equations [ImplicitFunctions], rigidity to first order
        [AsimowRoth1978], vanishing along a random curve [SchwartzZippel], second order, a branch continued to high
        precision.
-    3. `measured` is the one numerical route for a scene with a tolerance: rank with its gap, second order,
-       continuation, the geometry exactly as written; otherwise undecided.
+    3. `measured` is the one numerical route for a scene with a tolerance, in lengths of the scene's size: rank with its
+       gap, second order, continuation, the geometry exactly as written; otherwise undecided.
     4. Without one, `search` finds points over GF(p) by solving one relation after another (`variety`) and holds
        them against certified real points; `generic_dimension` is the rank there. `components` asks whether a larger
        component exists [Krull1928]; `cases` divides a set where a factor, or a coefficient, vanishes, which also finds

@@ -69,7 +69,7 @@ def inverse(divisor: Expr) -> Expr:
 
 
 def applied(name: str, *arguments: Expr) -> Expr:
-    """Return the value of an elementary function. Raises TextError where it does not exist."""
+    """Return an elementary function of arguments. Raises TextError where it has no real value."""
     first = arguments[0]
     if name == "sqrt":
         return raised(first, num(Fraction(1, 2)))

@@ -8,7 +8,7 @@ Types
 
 From a submission to points
     1. `answers` reads files, tables, rosters and downloads of course platforms, and turns the text of an answer into a
-       small set of readings, by the question's kind and the declared names alone: never by the key.
+       small set of readings (`relations`, `counts`, ...), by the question's kind and the names alone: never by the key.
     2. Each question judges each reading against the key, by equivalence in the system and not as text (`key`, which
        also has the misconceptions with the numbers that they give), and `judgement` makes one verdict of them.
     3. `grading` is a pure function of assignment and submission; `runs` grades many in workers that can be killed and

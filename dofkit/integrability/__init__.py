@@ -11,8 +11,8 @@ Types
 Mechanisms, in the order in which they are tried
     1. `traits` are the labels that a constraint has by its own text (scleronomic, catastatic, exact), and the proof
        that one form integrates: few variables, a closed form, w ^ dw = 0 by an identity, an integral that was found.
-    2. `lie_algebra` computes D and its brackets along one generic curve, over GF(p) or in balls [HermannNagano]; the
-       dimension of the Lie algebra is the freedom, the dimensions on the way are the `growth_vector`.
+    2. `lie_algebra` computes the Lie algebra of D along one generic curve, over GF(p) or in balls [HermannNagano], in
+       power series and dual numbers; its dimension is the freedom, those on the way are the `growth_vector`.
     3. `pfaffian_system` finds hidden equations: where dt lies in the span of the rows, motion is confined to a locus.
     4. `row_labels` labels every row of a block with either engine, and tells whether the reference
        configuration is exceptional among the generic points.

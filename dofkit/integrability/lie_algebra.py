@@ -119,7 +119,7 @@ class AdmissibleCurve:
         self._extend_path(order - 1)
 
     def evaluate(self, order: int) -> None:
-        """The program's values along the path to ``order``."""
+        """Keep the program's values along the path in ``at``, as power series up to ``order``."""
         polys = [Series(self.numbers.polynomial(c[:order]), order) for c in self.path]
         symbols = {c: polys[i] for i, c in enumerate(self.rows.columns) if c >= 0}
         self.point = SeriesPoint(self.base, symbols, order, self.like)

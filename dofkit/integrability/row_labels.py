@@ -214,9 +214,9 @@ def _label(place: int, forms_at_points: SampledForms, proof_of: Certificate | No
 
 
 def _modulo_the_others(place: int, sampled: SampledSpan, p: int) -> bool:
-    """Return whether the row is one of the largest integrable part plus other rows, and independent of these.
+    """Return whether the row is in the sum of the largest integrable part and the other rows, but not in their span.
 
-    So it is where it annihilates what both allow: the Lie algebra's vectors that the other rows annihilate.
+    It is in that sum where it vanishes on all vectors of the Lie algebra on which the other rows vanish.
     """
     others = [row for i, row in enumerate(sampled.matrix) if i != place]
     if not others or rank_of(others, p) == rank_of(sampled.matrix, p):

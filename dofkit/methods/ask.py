@@ -144,16 +144,16 @@ def _is_finite(r: Reduced) -> bool:
 
 
 def _by_graph(system: System, question: Question) -> Reply | None:
-    """Links whose lengths were all left out are in general position: the graph answers. None for any other system."""
+    """Links whose lengths were all left out are in general position: the graph answers. None where it cannot."""
     pairs = unprescribed_links(system)
     if pairs is None:
         return None
     link_answer = linkage([pair for _, pair in pairs], system.dimension)
-    sure = link_answer.verdict
+    verdict = link_answer.verdict
     if question == "dof":
-        return Reply(len(system.coordinates) - link_answer.rank, sure)
+        return Reply(len(system.coordinates) - link_answer.rank, verdict)
     names = [system.constraints[pairs[k][0]].name for k in link_answer.redundant_places]
-    return Reply(names, sure) if len({i for i, _ in pairs}) == len(pairs) else None
+    return Reply(names, verdict) if len({i for i, _ in pairs}) == len(pairs) else None
 
 
 def _dof(studied: Study) -> Reply:

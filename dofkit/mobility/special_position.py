@@ -12,7 +12,7 @@ from itertools import combinations
 from typing import Any
 
 from dofkit.base.wording import series
-from dofkit.exact.matrices.sparse import Numbers, cross, rank_of_rows, spanning
+from dofkit.exact.matrices.sparse import Numbers, cross, perpendicular, rank_of_rows
 from dofkit.expressions.text import to_text
 from dofkit.mobility.placement import Placement
 from dofkit.system import GROUND, Connection, System
@@ -175,7 +175,7 @@ def _links(g: Geometry, members: Sequence[Connection]) -> Iterator[DrawnLine]:
         at = g.placement.located[c.constraint]
         if c.facts.contact and g.system.dimension == 2:
             yield DrawnLine(
-                f"the normal of {g.names[c.constraint]}", at.points[0][1], g.unit(spanning(at.directions[0])[0])
+                f"the normal of {g.names[c.constraint]}", at.points[0][1], g.unit(perpendicular(at.directions[0])[0])
             )
         if not c.facts.bars:
             continue
@@ -201,8 +201,8 @@ def _bars(g: Geometry, connections: Sequence[Connection]) -> Iterator[DrawnLine]
             yield DrawnLine(name, p, g.unit(_less(q, p)), frozenset((end, other)))
 
 
-def _of_places(g: Geometry, connections: Sequence[Connection]) -> Iterator[str]:
-    """Hinges of the plane that coincide in the reference configuration and join different pairs of bodies."""
+def _coincident_hinges(g: Geometry, connections: Sequence[Connection]) -> Iterator[str]:
+    """Two hinges of the plane that coincide in the reference configuration and share no body."""
     hinges = [c for c in connections if c.facts.axial and g.system.dimension == 2]
     for a, b in combinations(hinges[:MOST], 2):
         place, other = (g.placement.located[c.constraint].places[0] for c in (a, b))
@@ -224,7 +224,7 @@ def _of_bars(g: Geometry, bars: Sequence[DrawnLine], members: Sequence[Connectio
             if g.concurrent(a, b, c):
                 yield f"the lines of {_names_of(triple)} meet in one point"
                 break
-    yield from _of_places(g, members)
+    yield from _coincident_hinges(g, members)
     for a, b in combinations(bars, 2):
         if len(a.ends & b.ends) == 1 and g.parallel(a.direction, b.direction):
             points = sorted(a.ends | b.ends)

@@ -280,7 +280,7 @@ class _RobotReader:
         return LoopJoint(part.get("name") or f"loop_{part.line}", kind, (first, second), self._axis(part), part.line)
 
     def _ball_constraint(self, part: Element, links: Mapping[str, RobotLink]) -> LoopJoint:
-        """Return the joint of Drake's element."""
+        """Return the joint of a `drake:ball_constraint`: point P of body A coincides with Q of B."""
         first, second = (
             (
                 self._named(part, f"ball_constraint_body_{end}", "name", links),

@@ -77,7 +77,7 @@ class LoopSampler:
         return fields_of_pivots(self.follower.null_space(pose), self.chosen)
 
     def loops(self, size: float) -> list[Loop]:
-        """Return a loop for each pair of chosen coordinates, largest bracket first; ``stopped`` says why others end."""
+        """Return the loops of the pairs of coordinates that can be followed; ``stopped`` says why others cannot."""
         loops = []
         with sampling(self.sampler.system):
             for pair in self.pairs:

@@ -56,7 +56,7 @@ def sketch_of(stage: StagedScene) -> Sketch:
 
 
 def _traced(stage: StagedScene, shapes: Sequence[Shape]) -> Iterator[Vertex]:
-    """Yield what leaves paths: balls; else origins of drawn shapes; else corners of hulls; else origins of bodies."""
+    """Yield points that draw paths: balls; else origins of drawn shapes; else corners of hulls; else of bodies."""
     dots = [s.vertices[0] for s in shapes if s.kind == "ball" and s.vertices[0].at == (0.0, 0.0, 0.0)]
     dots = [v for v in dots if v.carrier != GROUND]
     frames = [v for s in shapes if s.role == "body" for v in s.vertices if v.carrier not in stage.system.bodies]

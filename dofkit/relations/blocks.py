@@ -127,7 +127,7 @@ def expressions(block: Block) -> list[Expr]:
 
 
 def uses_time(block: Block) -> bool:
-    """Return whether t or dt occurs, which it does not in equations of joints that are not written out."""
+    """Return whether t or dt occurs; equations of joints that are not written out are scleronomic."""
     rows = tuple(row for row in block.rows if not isinstance(row.piece, JointEquation))
     dt = any(isinstance(r.piece, Pfaffian) and not r.piece.dt.is_zero for r in rows)
     return dt or any(ex.TIME in e.symbols for e in expressions(Block(block.coordinates, rows)))

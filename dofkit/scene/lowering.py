@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any, TypeAlias
 
-from dofkit.base.deadline import check as out_of_time
+from dofkit.base.deadline import check as check_time
 from dofkit.base.deadline import gc_rarely
 from dofkit.base.errors import Fault, SceneError
 from dofkit.expressions.enclosures import approximate
@@ -102,7 +102,7 @@ def survey_of(scene: Scene) -> Survey:
 
 @gc_rarely()
 def survey(scene: Scene, euler: bool = False) -> Survey:
-    """Return all that is known of a scene; nothing is raised for its faults.
+    """Lower a scene: return all that is known of it, with every fault; none is raised.
 
     ``euler``: every spatial body is turned by its Euler angles, also where no text mentions them.
     """
@@ -116,7 +116,7 @@ def survey(scene: Scene, euler: bool = False) -> Survey:
     world = World(drawing, (), faults, dict(zip(names, scene.constraints, strict=True)))
     constraints, connections = [], []
     for index, (constraint, name) in enumerate(zip(scene.constraints, names, strict=True)):
-        out_of_time()
+        check_time()
         world.enter("constraints", index)
         constraints.append(_constraint_of(world, constraint, name))
         connections.append(_connection(world, constraints[-1]))

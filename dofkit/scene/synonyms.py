@@ -131,7 +131,7 @@ def synonyms() -> Mapping[str, str]:
 
 @cache
 def other_keys(kind: str) -> Mapping[str, str]:
-    """Other words for the fields of a type."""
+    """Other words for the fields of a type: other word -> field."""
     cls = TYPES.get(kind)
     if cls is None:
         return {}

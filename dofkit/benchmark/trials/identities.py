@@ -69,7 +69,7 @@ def _in_text(row: Row) -> Context:
     contradictory = row["other"].get("consistent") is False
     finite = not any("dz" in text for text in row["rows"])
 
-    def context(trap: Trap, t: str, zero: bool) -> KnownScene | None:
+    def scene_with_trap(trap: Trap, t: str, zero: bool) -> KnownScene | None:
         if contradictory and not zero and not trap.never:
             return None
         n = 3 + len(trap.coordinates)
@@ -81,7 +81,7 @@ def _in_text(row: Row) -> Context:
             truth.pop("redundant", None)
         return _scene_of_trap(trap, t, [text.replace("{T}", t) for text in row["rows"]], truth)
 
-    return context
+    return scene_with_trap
 
 
 def _scene_of_trap(trap: Trap, t: str, texts: Sequence[str], truth: Mapping[str, Any]) -> KnownScene:

@@ -53,7 +53,7 @@ class FrameworkPose:
         return _scene_of_pose(name, drawn.scene(**more), drawn.coordinates, len(drawn.bars), freedom)
 
     def placed(self, name: str, step: Fraction, move: Move, **more: Any) -> KnownScene:
-        """Return the scene at a step, with all positions moved."""
+        """Return the scene at a distance ``step`` from the singular pose, with all positions moved."""
         return self.scene(name, self.framework_at(step).moved(move), self.freedom(step), **more)
 
 
@@ -61,7 +61,7 @@ class HingedPose(FrameworkPose):
     """A loop of hinged bodies that is overconstrained at step 0; a single body is held by all hinges."""
 
     def placed(self, name: str, step: Fraction, move: Move, **more: Any) -> KnownScene:
-        """Return the scene at a step, with all positions moved."""
+        """Return the scene with one hinge displaced by ``step`` from the singular pose, and all positions moved."""
         row = self.row
         number, part = row["moved"]
         hinges = []

@@ -95,15 +95,15 @@ class _Implied:
 
 
 def _equations_implied(reduced: Sequence[Reduced], i: int, before: Sequence[int], setting: Setting) -> list[Normal]:
-    """The equations of a constraint that follow from those before it and from its own first ones."""
+    """The equations of a constraint that follow from constraints before it and its own earlier ones."""
     premises = [n for j in before for n in reduced[j].normals]
-    said = []
+    implied = []
     for n in reduced[i].normals:
         if follows(n, premises, setting):
-            said.append(n)
+            implied.append(n)
         else:
             premises.append(n)
-    return said
+    return implied
 
 
 def constraint_follows(reduced: Sequence[Reduced], i: int, others: Sequence[int], setting: Setting) -> bool | None:

@@ -98,7 +98,7 @@ def _is_open_tree(block: Block, joints: Sequence[Row], setting: Setting) -> bool
 
 
 def _together(block: Block, setting: Setting, answered: Sequence[AnsweredPart], free: int) -> Answer:
-    """The answer of the whole from those of its parts, beside which there are so many ``free`` coordinates."""
+    """The answer of the whole from those of its parts; ``free``: how many coordinates are in no part."""
     drawn = setting.reference is not None
     reference = setting.reference if setting.reference is not None else setting.pose
     symbols = [ex.coordinate(name) for name in block.coordinates]

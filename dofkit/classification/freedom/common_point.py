@@ -76,7 +76,7 @@ def _is_empty(block: Block, result: Answer, setting: Setting) -> bool:
 
 
 def _at_a_point(block: Block, result: Answer, setting: Setting) -> Answer:
-    """Return the answer with a witness at which all conditions are satisfied strictly."""
+    """Return the answer with a witness that satisfies all conditions strictly, that there is none, or undecided."""
     conditions = [c.expr for c in block.conditions]
     chart = make_chart(block, replace(setting, reference=None), result.hidden, conditions)
     dof = result.dof if not block.forms and not block.nonlinear else None

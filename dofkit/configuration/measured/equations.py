@@ -72,16 +72,17 @@ class ScaledEquations:
 
     def system(self, at: Point, norms: Any = None) -> tuple[Any, Any]:
         """Return the residuals (m) and the Jacobian (m x n), rows divided by ``norms``, else by their gradients."""
-        f, j = self._unscaled(at)
+        f, j = self._with_plain_rows(at)
         if norms is None:
             norms = self._gradients(j)
         return f / norms, j / norms[:, None]
 
     def norms(self, at: Point) -> Any:
         """Return the lengths of the gradients, 1 for a gradient that is 0."""
-        return self._gradients(self._unscaled(at)[1])
+        return self._gradients(self._with_plain_rows(at)[1])
 
-    def _unscaled(self, at: Point) -> tuple[Any, Any]:
+    def _with_plain_rows(self, at: Point) -> tuple[Any, Any]:
+        """Return residuals and Jacobian, its columns by the positions P and scaled, its rows not yet scaled."""
         check()
         point = FloatPoint(at, 0)
         out = values(self.chart.ring, point)

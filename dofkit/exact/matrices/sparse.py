@@ -39,7 +39,7 @@ def along(direction: Numbers, rows: Sequence[LinearRow]) -> LinearRow:
 
 def across(direction: Numbers, rows: Sequence[LinearRow]) -> Iterator[LinearRow]:
     """Return the d - 1 components across a direction of a vector of rows."""
-    return (along(u, rows) for u in spanning(direction))
+    return (along(u, rows) for u in perpendicular(direction))
 
 
 def less(second: Sequence[LinearRow], first: Sequence[LinearRow]) -> list[LinearRow]:
@@ -47,8 +47,8 @@ def less(second: Sequence[LinearRow], first: Sequence[LinearRow]) -> list[Linear
     return [combined(((1, b), (-1, a))) for a, b in zip(first, second, strict=True)]
 
 
-def spanning(n: Numbers) -> list[tuple[Any, ...]]:
-    """Directions across n: d - 1 of them."""
+def perpendicular(n: Numbers) -> list[tuple[Any, ...]]:
+    """Return d - 1 vectors that span what is perpendicular to a vector n, not 0, of d numbers."""
     if len(n) == 2:
         return [(-n[1], n[0])]
     pivot = next(i for i in reversed(range(len(n))) if n[i] != 0)

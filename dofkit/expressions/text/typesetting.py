@@ -136,11 +136,11 @@ def _upright(word: str) -> str:
 
 
 def _name(word: str) -> str:
-    """Return a name: a letter, a rate, a differential, else the word upright."""
+    """Return the LaTeX of a name: a letter, a rate, a differential, else the word upright."""
     rate = _RATE.fullmatch(word)
     if rate is not None:  # the dot stands above the letter, not above its index
-        letter, sign, index = _name(rate["base"] + (rate["below"] or "")).partition("_")
-        return rf"\{'ddot' if rate['two'] else 'dot'}{{{letter}}}{sign}{index}"
+        letter, underscore, index = _name(rate["base"] + (rate["below"] or "")).partition("_")
+        return rf"\{'ddot' if rate['two'] else 'dot'}{{{letter}}}{underscore}{index}"
     letter_or_none = _letter(word)
     if letter_or_none is not None:
         return letter_or_none

@@ -231,7 +231,7 @@ def _is_lead(text: str, names: Names) -> bool:
 
 
 def _of_coordinates(text: str, names: Names) -> bool:
-    """Return whether the left side contains coordinates, as `x y = const`."""
+    """Return whether the left side holds coordinates, as `x y = const`; of what cannot be read, the whole text."""
     try:
         relations = parse_relations(re.split(r"[=∈:]", text)[0], names)
     except TextError:

@@ -123,7 +123,7 @@ class AnswerNames:
     frequencies: bool = False
 
     def as_names(self) -> Names:
-        """All of them as names of a text; `e` is Euler's number unless it is declared."""
+        """The words of this vocabulary as the names of a text; `e` is Euler's number unless it is declared."""
         base = self.names
         more: dict[str, Expr] = {**({"e": E} if self.euler else {}), **self.usual}
         for word, name in self.meant.items():

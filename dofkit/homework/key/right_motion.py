@@ -74,7 +74,7 @@ class RightMotion:
 
 
 def points(ring: Ring, relations: Sequence[Expr]) -> Iterator[tuple[int, Any]]:
-    """Random points over GF(p) where the relations hold, a few: the prime, and the values of the ring's nodes."""
+    """Up to `POINTS` random points over GF(p) where the relations hold: the prime, and the values of the nodes."""
     solver = TriangularSolver(ring, [ring.node(g) for g in relations], seed=3) if relations else None
     count = 0
     for seed in range(ATTEMPTS):

@@ -238,10 +238,10 @@ def _integrals(entries: Iterable[ConstraintEntry]) -> list[Remark]:
 
 
 def _special(case: SpecialCase) -> Remark:
-    sure = "" if case.verdict == "proved" else f" [{case.verdict}]"
+    verdict = "" if case.verdict == "proved" else f" [{case.verdict}]"
     names = [name for name in case.constraints if not re.search(rf"(?<!\w){re.escape(name)}(?!\w)", case.what)]
     concerned = f" ({names_of(names)})" if names else ""
-    return Remark(Formula(case.where), f"{case.what}{concerned}{sure}")
+    return Remark(Formula(case.where), f"{case.what}{concerned}{verdict}")
 
 
 def _redundancy(report: Report) -> Iterator[Remark]:

@@ -260,7 +260,7 @@ def _motions_from(context: Context, standing: Standing, size: int) -> Iterator[T
 
 
 def _isolated(context: Context, standing: Standing) -> Iterator[Told]:
-    """Yield the rule `isolated`: a dependent relation has a derivative along a free direction, of the lowest order."""
+    """Yield the rule `isolated`: a derivative of a dependent relation along a free direction is not 0."""
     free = [q for q in context.problem.coordinates if q not in standing.columns]
     directions = [{q: 1} for q in free] + [{a: 1, b: sign} for a, b in combinations(free, 2) for sign in SIGNS]
     for order in range(2, HIGHEST_ORDER + 1):

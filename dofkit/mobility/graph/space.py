@@ -119,9 +119,9 @@ def _full_rank(joints: int) -> int:
 
 
 def rigid_sets(pairs: Sequence[Ends]) -> list[list[int]]:
-    """Return the maximal sets of joints that keep all their distances in a random motion, for links of distinct pairs.
+    """Return the maximal sets of joints (points) that keep their distances in a generic motion. Raises LinkageError.
 
-    Parts that share a single joint turn about it, so each part is looked at by itself.
+    Links are of distinct pairs. Parts that share a single joint turn about it, so each part is looked at by itself.
     """
     sets: list[list[int]] = []
     for block in nx.biconnected_component_edges(nx.Graph(list(pairs))):

@@ -116,7 +116,7 @@ class Eliminator:
     def _attempt(
         self, relations: Sequence[EliminatedRelation], names: Sequence[str], preferred: Sequence[str], roots: bool
     ) -> Elimination | None:
-        """An elimination by one root at most, or by none; None where it would need a second one."""
+        """Solve for one coordinate after the other, with one root at most or none; None where a second is needed."""
         solved: dict[str, Expr] = {}
         constants: set[Expr] = set()
         notes: list[str] = []

@@ -39,28 +39,28 @@ class DomainCondition:
 
 def conditions_of(e: Expr, positive: frozenset[Expr]) -> tuple[DomainCondition, ...]:
     """Where ``e`` has a real value, less what always holds; a denominator counts in lowest terms."""
-    result = list(dict.fromkeys(_inside(e, outermost=True)))
+    result = list(dict.fromkeys(_conditions_of_nodes(e, in_no_function=True)))
     below = _denominator(e, positive)
     if below is not None:
         result.append(DomainCondition(below, "!="))
     return tuple(c for c in dict.fromkeys(result) if not is_always_satisfied(c, positive))
 
 
-def _inside(e: Expr, outermost: bool) -> Iterator[DomainCondition]:
-    """The conditions of all nodes; quotients of sums and products on the outside are left to `_denominator`."""
+def _conditions_of_nodes(e: Expr, in_no_function: bool) -> Iterator[DomainCondition]:
+    """Conditions of all nodes but for quotients that are in no function or root, which `_denominator` gives."""
     rational = e.op in ("add", "mul") or (
         e.op == "pow" and e.args[1].op == "num" and e.args[1].args[0].denominator == 1
     )
-    if not (rational and outermost):
-        yield from _required_by(e, outermost)
+    if not (rational and in_no_function):
+        yield from _required_by(e, in_no_function)
     for part in ex.children(e):
-        yield from _inside(part, outermost and rational)
+        yield from _conditions_of_nodes(part, in_no_function and rational)
 
 
-def _required_by(e: Expr, outermost: bool) -> Iterator[DomainCondition]:
+def _required_by(e: Expr, in_no_function: bool) -> Iterator[DomainCondition]:
     if e.op == "pow":
         yield from (DomainCondition(*required) for required in of_power(*e.args))
-    elif e.op == "fn" and not (outermost and e.args[0] in ("tan", "sec", "cot", "csc")):
+    elif e.op == "fn" and not (in_no_function and e.args[0] in ("tan", "sec", "cot", "csc")):
         yield from (DomainCondition(*required) for required in of_function(*e.args))
 
 

@@ -237,7 +237,7 @@ def _squared(e: Expr, positive: frozenset[Expr]) -> Normal:
 
 
 def _nonlinear(e: Expr, positive: frozenset[Expr]) -> Normal:
-    """What a relation nonlinear in the velocities says, by its factors; one with velocities in abs() stays whole."""
+    """The normal form of a relation nonlinear in velocities, by factors; one with velocities in abs() stays whole."""
     if any(velocities_of(u) for u in arguments_of(e)):
         return Normal(((Nonlinear(e),),))
     moving = frozenset(s for s in e.symbols if s.args[0] in ("velocity", "coordinate", "time"))

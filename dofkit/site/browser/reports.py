@@ -15,7 +15,7 @@ from dofkit.site.browser.shown import json_of_sheet
 
 
 def check(text: str) -> dict[str, Any]:
-    """Return the names that a scene declares, and the differentials of its coordinates, for completion."""
+    """Return the names that a scene declares, for completion; a text with faults raises them, so there are none."""
     scene = loads(text)
     names = [c.name for c in coordinate_table(scene).coordinates]
     names += [f"d{name}" for name in names]
