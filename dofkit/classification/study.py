@@ -200,10 +200,9 @@ def lecture_count(study: Study) -> Count:
 
 
 def redundant(study: Study) -> Decided:
-    """The names of what can be dropped together, in the scene's order; None where that was not decided."""
+    """The names of what can be dropped together, in their order; None where it was not decided, or nothing moves."""
     dependent, outcome = study.dependence.dependent, study.outcome
-    undecided = any(r.undecided for r in dependent)
-    if outcome.consistent is None or (outcome.consistent and (undecided or outcome.velocity_dof is None)):
+    if not outcome.consistent or outcome.velocity_dof is None or any(r.undecided for r in dependent):
         return decided(study, None, OPEN)
     gone = sorted({i for r in dependent for i in r.redundant})
     return decided(study, [study.names[i] for i in gone], _of_dependence(study, bool(gone)))

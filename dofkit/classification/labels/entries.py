@@ -125,7 +125,7 @@ def _dependences(
         for i in {*result.independent, *result.undecided, *result.redundant}:
             claims.setdefault(i, []).append(result.claim)
     for i, rows in enumerate(labelled):
-        number = independent[i] if i in counted else None if rows else 0
+        number = independent[i] if i in counted else None if rows or outcome.consistent is False else 0
         circuit = [names[j] for j in circuits[i]] if i in circuits else None
         unlike = [c for c in claims.get(i, ()) if c != IDENTITY]
         claim = together(*unlike) if unlike else IDENTITY
