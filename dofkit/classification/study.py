@@ -280,11 +280,12 @@ def growth_vector(study: Study) -> Decided:
 def _claim_of_growth(study: Study, growth: Sequence[int]) -> Claim:
     """Of the growth vector: its first and last numbers are those of the freedoms; others are ranks over GF(p).
 
-    Those are not too large where what is not 0 there is not 0; nor too small where no more brackets there are.
+    Those are not too large where what is not 0 there is not 0; nor too small where no more brackets there are. Between
+    two dimensions that differ by 1 there is no other.
     """
     pairs = zip(study.outcome.blocks, study.outcome.answers, strict=True)
     blocks = [(a.growth, a.trusted) for block, a in pairs if block.forms]
-    if len(growth) == 1 or (len(growth) == 2 and all(trusted for _, trusted in blocks)):
+    if growth[-1] <= growth[0] + 1 or (len(growth) == 2 and all(trusted for _, trusted in blocks)):
         return counted(study.free)
     whole = all(trusted and of_block and is_free(of_block) for of_block, trusted in blocks)
     if study.free.verdict == "proved" and whole:
