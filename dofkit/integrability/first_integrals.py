@@ -10,7 +10,7 @@ modulo fresh primes.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from itertools import combinations_with_replacement
@@ -65,7 +65,7 @@ def first_integrals(forms: Codistribution, number: int) -> list[FirstIntegral]:
             break
         for f in search.candidates(monomials):
             if search.is_independent(f, [k.expr for k in integrals]):
-                bordered = bordered or BorderedMinors(search.forms, search.points[0])
+                bordered = bordered or BorderedMinors(search.forms, search.points[0].frame)
                 identical = bordered.vanish(f)
                 if identical or (identical is None and search.holds(f)):
                     integrals.append(FirstIntegral(arranged(upright(f)), bool(identical)))
@@ -280,13 +280,11 @@ def _sample_of(
 
 
 class BorderedMinors:
-    """The minors of a system's independent rows bordered by the differential of a function, in the canonical ring."""
+    """The minors of some independent rows bordered by another one, in the canonical ring."""
 
-    def __init__(self, forms: Codistribution, sample: FormSample) -> None:
-        self.forms, self.chart = forms, forms.chart
-        self.short = len(self.chart.nodes) <= 1 and len(forms.rows.entries) <= MAX_ROWS
-        self.frame = field_frame(sample.matrix, len(self.chart.symbols), sample.point.p)
-        self.canon: Canon | None = None
+    def __init__(self, forms: Codistribution, frame: Pivots) -> None:
+        self.forms, self.chart, self.frame = forms, forms.chart, frame
+        self.canon = Canon(forms.chart.ring)
         self._cofactors: dict[int, dict[int, Poly]] = {}
 
     def vanish(self, f: Expr) -> bool | None:
@@ -295,28 +293,35 @@ class BorderedMinors:
         None where the minors are too long to be written out, and where one is not 0 beside finite relations, on which
         it may vanish all the same.
         """
-        if not self.short:
+        nodes, ring = self.chart.nodes, self.chart.ring
+        if len(nodes) > 1 or len(self.forms.rows.entries) > MAX_ROWS:
             return None
+        slopes = {i: ring.node(diff(f, s)) for i, s in enumerate(self.chart.symbols) if s in f.symbols}
         try:
-            if all(minor == 0 for minor in self._of(f)):
-                return True
+            minors = [minor for minor in self._of(slopes) if minor != 0]
+            if minors and nodes:
+                relation = self.canon.quotient(nodes[0])[0]
+                return all(remainder(minor, relation) == 0 for minor in minors) or None
+            return not minors
         except NoValueError:
             return None
-        return None if self.chart.nodes else False
 
-    def _of(self, f: Expr) -> Iterator[Poly]:
-        """Yield the minors of df, one for each free column, modulo a finite relation. Raises NoValueError."""
-        ring, symbols = self.chart.ring, self.chart.symbols
-        slopes = {i: ring.node(diff(f, s)) for i, s in enumerate(symbols) if s in f.symbols}
-        if self.canon is None or len(self.canon.gens) < len(ring.vars):
-            self.canon, self._cofactors = Canon(ring), {}
+    def is_combination(self, row: Mapping[int, int]) -> bool:
+        """Return whether a row, its nodes by column, is a combination of the rows wherever their minor is not 0."""
+        try:
+            return len(self.frame.rows) <= MAX_ROWS and all(minor == 0 for minor in self._of(row))
+        except NoValueError:
+            return False
+
+    def _of(self, nodes: Mapping[int, int]) -> Iterator[Poly]:
+        """Yield the minors, one for each free column. Raises NoValueError."""
+        if len(self.canon.gens) < len(self.chart.ring.vars):
+            self.canon, self._cofactors = Canon(self.chart.ring), {}
         canon = self.canon
-        relation = canon.quotient(self.chart.nodes[0])[0] if self.chart.nodes else None
-        row = polynomials(canon, slopes, len(symbols))
+        row = polynomials(canon, nodes, len(self.chart.symbols))
         for j in self.frame.free:
             terms = (canon.reduce(row[c] * m) for c, m in self._along(canon, j).items() if row[c] != 0)
-            minor = canon.reduce(sum(terms, canon.unit * 0))
-            yield minor if relation is None or minor == 0 else remainder(minor, relation)
+            yield canon.reduce(sum(terms, canon.unit * 0))
 
     def _along(self, canon: Canon, j: int) -> dict[int, Poly]:
         """Return the cofactors of the bordering row in the dependent columns and column ``j``."""

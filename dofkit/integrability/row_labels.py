@@ -18,15 +18,16 @@ from dofkit.configuration.at_reference import CLEAR
 from dofkit.configuration.finite_blocks import dependent_names
 from dofkit.configuration.variety import SAMPLES, Variety, on_variety, pose_point
 from dofkit.exact.matrices.certified import ball_part, dependencies
-from dofkit.exact.matrices.sparse import rank_of, sparse
+from dofkit.exact.matrices.sparse import echelon, rank_of, sparse
 from dofkit.exact.points.field import FieldPoint
-from dofkit.exact.points.frames import pairing
+from dofkit.exact.points.frames import field_frame, pairing, rank_over
 from dofkit.exact.points.real_search import RealPoint
 from dofkit.exact.residues import null_vectors, residue_matrix
 from dofkit.exact.ring.program import Scalar, values
 from dofkit.exact.zero import error_bits, independent_on_set
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
+from dofkit.integrability.first_integrals import BorderedMinors
 from dofkit.integrability.growth_vector import derived_flag, spanning_curves
 from dofkit.integrability.lie_algebra import SampledSpan, Span, ball_span, span_at
 from dofkit.integrability.pfaffian_system import Codistribution, is_nonzero, linear_rows
@@ -122,7 +123,8 @@ def field_labels(
             "the functions that occur may satisfy an identity on the set, and no certified interval excludes zero there"
         )
         return
-    result.verdict = weakest(variety.verdict, _rank_verdict(forms_at_points, proof_of, setting))
+    result.identical = _depend_identically(forms_at_points, proof_of)
+    result.verdict = weakest(variety.verdict, _rank_verdict(forms_at_points, proof_of, result.identical, setting))
     result.argument = "Lie algebra, certified" if result.verdict == "proved" else "Lie algebra at points"
     nodes = [node for row in forms.rows.entries for node in row.values()]
     result.bits = error_bits(forms.chart.ring, nodes, len(forms.rows.entries))
@@ -177,20 +179,36 @@ def certificate(forms_at_points: SampledForms, variety: Variety) -> Certificate 
     return ball_span(forms_at_points.forms, forms_at_points.rank, real.point)
 
 
-def _rank_verdict(forms_at_points: SampledForms, proof_of: Certificate | None, setting: Setting) -> Verdict:
+def _depend_identically(forms_at_points: SampledForms, proof_of: Certificate | None) -> bool:
+    """Return whether each row that depends on others is a combination of these, by identities and near a point."""
+    forms, sampled, p = forms_at_points.forms, forms_at_points.sampled, forms_at_points.point.p
+    for i, support in echelon(sparse(sampled.matrix), p, supports=True).supports.items():
+        frame = field_frame([sampled.matrix[k] for k in support], forms_at_points.columns, p)
+        frame = replace(frame, rows=support)
+        minor = [[proof_of[1][k][c] for c in frame.dependent] for k in support] if proof_of else []
+        is_regular = not support or (bool(minor) and rank_over(minor, minor[0][0]) == len(support))
+        if not is_regular or not BorderedMinors(forms, frame).is_combination(forms.rows.entries[i]):
+            return False
+    return True
+
+
+def _rank_verdict(
+    forms_at_points: SampledForms, proof_of: Certificate | None, identical: bool, setting: Setting
+) -> Verdict:
     """How sure the rank and the Lie algebra's dimension are.
 
-    Independent rows have their rank certified by the ball. The dimension is not too large by a certificate of the
-    ball; not too small where it is everything, where D is a line, and where as many rows are proved to integrate by
-    themselves as the Lie algebra leaves directions out.
+    Independent rows have their rank certified by the ball, others depend on them by identities (``identical``). The
+    dimension is not too large by a certificate of the ball; not too small where it is everything, where D is a line,
+    and where as many rows are proved to integrate by themselves as the Lie algebra leaves directions out.
     """
     sampled, rank, n = forms_at_points.sampled, forms_at_points.rank, forms_at_points.columns
-    if proof_of is None or len(sampled.matrix) > rank or proof_of[0].dimension != sampled.span.dimension:
+    if proof_of is None or not identical or proof_of[0].dimension != sampled.span.dimension:
         return "probable"
     if sampled.span.dimension == n or n - rank <= 1:
         return "proved"
-    forms = [r.piece for r in forms_at_points.block.forms if isinstance(r.piece, Pfaffian)]
-    wanted = n - sampled.span.dimension - (len(sampled.matrix) - len(forms))
+    rows = linear_rows(forms_at_points.block, forms_at_points.forms)
+    forms = [r.piece for _, r, k in rows if isinstance(r.piece, Pfaffian) and k in sampled.frame.rows]
+    wanted = n - sampled.span.dimension - (rank - len(forms))
     spare = len(forms) - wanted
     unproved = islice((f for f in forms if proof(f, setting.positive) is None), spare + 1) if spare >= 0 else forms
     return "proved" if spare >= 0 and len([*unproved]) <= spare else "probable"

@@ -83,7 +83,8 @@ class Answer:
     points it is told; ``argument``: by which row of the table, with a chance of error below 2^-``bits``, or a ``gap``;
     ``witness``: a certified configuration, as text, and ``real`` the rows there; ``first_order_sure``: is the
     number of velocities at the reference proved? ``exists``: and that the relations hold there at all times?
-    ``trusted``: is what is not 0 over GF(p) known not to be 0? ``kind``: the same for blocks that are each other's up
+    ``trusted``: is what is not 0 over GF(p) known not to be 0? ``identical``: do dependent rows depend on the others in
+    their supports by identities? ``kind``: the same for blocks that are each other's up
     to names, whose coordinates then correspond place by place; None for one that was not compared. ``answered_parts``:
     what was answered apart, all other rows being independent of each other and of these; None where the whole was
     looked at together, and only then is there a ``matrix``; ``most``: where the freedom is not known, what it is proved
@@ -111,6 +112,7 @@ class Answer:
     first_order_sure: bool = False
     exists: bool = False
     trusted: bool = False
+    identical: bool = False
     real: RealRows | None = None
     dependent: tuple[str, ...] = ()
     growth: tuple[int, ...] | None = None

@@ -245,8 +245,10 @@ def _of_block(
         yield unless_late(removed, undecided) if is_finite else undecided
     else:
         finite = _finite_rows(block)
-        implied = None if a.supports is not None or nullity <= 0 else implication_of(block, a, setting)
-        claim = together(ROWS, IMPLIED) if a.supports is None and not a.linear else a.claim
+        # a constraint that wrote a single row is dropped or not, as its row depends or not
+        sure = a.supports is not None or (a.identical and a.trusted and len({*owners}) == len(owners))
+        implied = None if sure or nullity <= 0 else implication_of(block, a, setting)
+        claim = a.claim if sure or a.linear else together(ROWS, IMPLIED)
         yield OwnedRows(matrix, owners, finite, a.modulus, equations, a.supports, implied, claim)
 
 
