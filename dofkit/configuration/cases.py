@@ -48,7 +48,8 @@ class ZeroCase:
 class BoundedCase:
     """The relations of a case and a bound of the dimension of its points; ``counted``: the complex ones have it.
 
-    ``exact``: no parameters were given random numbers for that.
+    ``exact``: with constants as further unknowns the set has no more dimensions than these, so they are not due to the
+    random numbers that constants are given.
     """
 
     relations: tuple[Expr, ...]
@@ -176,9 +177,11 @@ def _bounded(case: ZeroCase, unknowns: Sequence[Expr], positive: frozenset[Expr]
         return BoundedCase(case.relations, most - 1, True)
     moving = [i for s in unknowns if (i := ring.var_index(s)) is not None]
     canon = Canon(ring)
-    whole = dimension_of(canon, [canon.quotient(node)[0] for node in nodes], moving)
+    generators = [canon.quotient(node)[0] for node in nodes]
+    whole = dimension_of(canon, generators, moving)
     if whole is None:
         return BoundedCase(case.relations, most - 1, False)
-    coordinates = {*unknowns}
-    exact = all(s in coordinates for g in case.unsolved for s in g.symbols)
+    constants = [ring.var_index(s) for s in {s for g in case.unsolved for s in g.symbols}.difference(unknowns)]
+    total = dimension_of(canon, generators, [*moving, *(i for i in constants if i is not None)])
+    exact = total is not None and max(-1, total - len(constants)) <= whole
     return BoundedCase(case.relations, -1 if whole < 0 else most - len(moving) + whole, True, exact)
