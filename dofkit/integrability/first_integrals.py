@@ -279,6 +279,11 @@ def _sample_of(
         return None
 
 
+def is_short(forms: Codistribution) -> bool:
+    """Return whether few forms stand beside one finite relation at most, so that minors can be written out."""
+    return len(forms.chart.nodes) <= 1 and len(forms.rows.entries) <= MAX_ROWS
+
+
 class BorderedMinors:
     """The minors of some independent rows bordered by another one, in the canonical ring."""
 
@@ -293,35 +298,34 @@ class BorderedMinors:
         None where the minors are too long to be written out, and where one is not 0 beside finite relations, on which
         it may vanish all the same.
         """
-        nodes, ring = self.chart.nodes, self.chart.ring
-        if len(nodes) > 1 or len(self.forms.rows.entries) > MAX_ROWS:
+        ring, symbols = self.chart.ring, self.chart.symbols
+        if not is_short(self.forms):
             return None
-        slopes = {i: ring.node(diff(f, s)) for i, s in enumerate(self.chart.symbols) if s in f.symbols}
+        slopes = {i: ring.node(diff(f, s)) for i, s in enumerate(symbols) if s in f.symbols}
+        vanishes = self.is_combination(slopes, on_relation=True)
+        return None if self.chart.nodes and vanishes is False else vanishes
+
+    def is_combination(self, row: Mapping[int, int], on_relation: bool) -> bool | None:
+        """Return whether a row, its nodes by column, is a combination of the rows wherever their minor is not 0.
+
+        ``on_relation``: where the only finite relation is satisfied. None where the minors have no value.
+        """
         try:
-            minors = [minor for minor in self._of(slopes) if minor != 0]
-            if minors and nodes:
-                relation = self.canon.quotient(nodes[0])[0]
-                return all(remainder(minor, relation) == 0 for minor in minors) or None
-            return not minors
+            return all(minor == 0 for minor in self._of(row, on_relation))
         except NoValueError:
             return None
 
-    def is_combination(self, row: Mapping[int, int]) -> bool:
-        """Return whether a row, its nodes by column, is a combination of the rows wherever their minor is not 0."""
-        try:
-            return len(self.frame.rows) <= MAX_ROWS and all(minor == 0 for minor in self._of(row))
-        except NoValueError:
-            return False
-
-    def _of(self, nodes: Mapping[int, int]) -> Iterator[Poly]:
-        """Yield the minors, one for each free column. Raises NoValueError."""
+    def _of(self, nodes: Mapping[int, int], on_relation: bool) -> Iterator[Poly]:
+        """Yield the minors, one for each free column, on request modulo a finite relation. Raises NoValueError."""
         if len(self.canon.gens) < len(self.chart.ring.vars):
             self.canon, self._cofactors = Canon(self.chart.ring), {}
         canon = self.canon
+        relation = canon.quotient(self.chart.nodes[0])[0] if on_relation and len(self.chart.nodes) == 1 else None
         row = polynomials(canon, nodes, len(self.chart.symbols))
         for j in self.frame.free:
             terms = (canon.reduce(row[c] * m) for c, m in self._along(canon, j).items() if row[c] != 0)
-            yield canon.reduce(sum(terms, canon.unit * 0))
+            minor = canon.reduce(sum(terms, canon.unit * 0))
+            yield minor if relation is None or minor == 0 else remainder(minor, relation)
 
     def _along(self, canon: Canon, j: int) -> dict[int, Poly]:
         """Return the cofactors of the bordering row in the dependent columns and column ``j``."""

@@ -27,7 +27,7 @@ from dofkit.exact.ring.program import Scalar, values
 from dofkit.exact.zero import error_bits, independent_on_set
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.integrability.first_integrals import BorderedMinors
+from dofkit.integrability.first_integrals import MAX_ROWS, BorderedMinors, first_integrals, is_short
 from dofkit.integrability.growth_vector import derived_flag, spanning_curves
 from dofkit.integrability.lie_algebra import SampledSpan, Span, ball_span, span_at
 from dofkit.integrability.pfaffian_system import Codistribution, is_nonzero, linear_rows
@@ -123,8 +123,8 @@ def field_labels(
             "the functions that occur may satisfy an identity on the set, and no certified interval excludes zero there"
         )
         return
-    result.identical = _depend_identically(forms_at_points, proof_of)
-    result.verdict = weakest(variety.verdict, _rank_verdict(forms_at_points, proof_of, result.identical, setting))
+    result.identical = _depend_identically(forms_at_points, proof_of, False)
+    result.verdict = weakest(variety.verdict, _rank_verdict(forms_at_points, proof_of, result, setting))
     result.argument = "Lie algebra, certified" if result.verdict == "proved" else "Lie algebra at points"
     nodes = [node for row in forms.rows.entries for node in row.values()]
     result.bits = error_bits(forms.chart.ring, nodes, len(forms.rows.entries))
@@ -179,30 +179,38 @@ def certificate(forms_at_points: SampledForms, variety: Variety) -> Certificate 
     return ball_span(forms_at_points.forms, forms_at_points.rank, real.point)
 
 
-def _depend_identically(forms_at_points: SampledForms, proof_of: Certificate | None) -> bool:
-    """Return whether each row that depends on others is a combination of these, by identities and near a point."""
+def _depend_identically(forms_at_points: SampledForms, proof_of: Certificate | None, on_relation: bool) -> bool:
+    """Return whether each row that depends on others is a combination of these, by identities and near a point.
+
+    ``on_relation``: where the only finite relation is satisfied; else everywhere.
+    """
     forms, sampled, p = forms_at_points.forms, forms_at_points.sampled, forms_at_points.point.p
     for i, support in echelon(sparse(sampled.matrix), p, supports=True).supports.items():
         frame = field_frame([sampled.matrix[k] for k in support], forms_at_points.columns, p)
         frame = replace(frame, rows=support)
         minor = [[proof_of[1][k][c] for c in frame.dependent] for k in support] if proof_of else []
         is_regular = not support or (bool(minor) and rank_over(minor, minor[0][0]) == len(support))
-        if not is_regular or not BorderedMinors(forms, frame).is_combination(forms.rows.entries[i]):
+        short = len(support) <= MAX_ROWS
+        if not (
+            is_regular and short and BorderedMinors(forms, frame).is_combination(forms.rows.entries[i], on_relation)
+        ):
             return False
     return True
 
 
 def _rank_verdict(
-    forms_at_points: SampledForms, proof_of: Certificate | None, identical: bool, setting: Setting
+    forms_at_points: SampledForms, proof_of: Certificate | None, result: Answer, setting: Setting
 ) -> Verdict:
     """How sure the rank and the Lie algebra's dimension are.
 
-    Independent rows have their rank certified by the ball, others depend on them by identities (``identical``). The
+    Independent rows have their rank certified by the ball, others depend on them by identities. The
     dimension is not too large by a certificate of the ball; not too small where it is everything, where D is a line,
-    and where as many rows are proved to integrate by themselves as the Lie algebra leaves directions out.
+    and where as many rows integrate by themselves, or integrals are known, as the Lie algebra leaves directions out.
     """
     sampled, rank, n = forms_at_points.sampled, forms_at_points.rank, forms_at_points.columns
-    if proof_of is None or not identical or proof_of[0].dimension != sampled.span.dimension:
+    if proof_of is None or proof_of[0].dimension != sampled.span.dimension:
+        return "probable"
+    if not (result.identical or _depend_identically(forms_at_points, proof_of, True)):
         return "probable"
     if sampled.span.dimension == n or n - rank <= 1:
         return "proved"
@@ -211,7 +219,12 @@ def _rank_verdict(
     wanted = n - sampled.span.dimension - (rank - len(forms))
     spare = len(forms) - wanted
     unproved = islice((f for f in forms if proof(f, setting.positive) is None), spare + 1) if spare >= 0 else forms
-    return "proved" if spare >= 0 and len([*unproved]) <= spare else "probable"
+    if spare >= 0 and len([*unproved]) <= spare:
+        return "proved"
+    number = forms_at_points.integrable - forms_at_points.rank_finite
+    possible = result.trusted and is_short(forms_at_points.forms)
+    integrals = first_integrals(forms_at_points.forms, number) if possible else []
+    return "proved" if sum(f.identically for f in integrals) == number else "probable"
 
 
 def _label(place: int, forms_at_points: SampledForms, proof_of: Certificate | None) -> HolonomyLabel:
