@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from itertools import combinations_with_replacement
+from itertools import combinations, combinations_with_replacement
 
 from dofkit.base.deadline import check
 from dofkit.base.errors import NoValueError
@@ -30,7 +30,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.integrals.search import arranged, upright
-from dofkit.integrability.pfaffian_system import Codistribution
+from dofkit.integrability.pfaffian_system import Codistribution, exterior_derivative
 from dofkit.relations.normal.semidefinite import fraction
 
 #: Products of up to so many functions, so many products, and so many functions in them at most.
@@ -315,11 +315,36 @@ class BorderedMinors:
         except NoValueError:
             return None
 
-    def _of(self, nodes: Mapping[int, int], on_relation: bool) -> Iterator[Poly]:
-        """Yield the minors, one for each free column, on request modulo a finite relation. Raises NoValueError."""
+    def are_involutive(self, forms: Sequence[Mapping[Expr, Expr]]) -> bool:
+        """Return whether d(omega)(X, Y) = 0 for all X and Y that the rows annihilate, by identities [Frobenius1877]."""
+        derivatives = [exterior_derivative(form, self.chart.symbols) for form in forms]
+        nodes = [{k: self.chart.ring.node(e) for k, e in enumerate(d.values())} for d in derivatives]
+        canon = self._current_canon()
+        try:
+            fields = [self._along(canon, j) for j in self.frame.free]
+            for d, row in zip(derivatives, nodes, strict=True):
+                values_of = polynomials(canon, row, len(row))
+                for x, y in combinations(fields, 2):
+                    terms = (
+                        canon.reduce(p * (x[i] * y[j] if i in x and j in y else canon.unit * 0))
+                        - canon.reduce(p * (x[j] * y[i] if j in x and i in y else canon.unit * 0))
+                        for (i, j), p in zip(d, values_of, strict=True)
+                    )
+                    if canon.reduce(sum(terms, canon.unit * 0)) != 0:
+                        return False
+        except NoValueError:
+            return False
+        return True
+
+    def _current_canon(self) -> Canon:
+        """The canonical ring with all generators that there are by now."""
         if len(self.canon.gens) < len(self.chart.ring.vars):
             self.canon, self._cofactors = Canon(self.chart.ring), {}
-        canon = self.canon
+        return self.canon
+
+    def _of(self, nodes: Mapping[int, int], on_relation: bool) -> Iterator[Poly]:
+        """Yield the minors, one for each free column, on request modulo a finite relation. Raises NoValueError."""
+        canon = self._current_canon()
         relation = canon.quotient(self.chart.nodes[0])[0] if on_relation and len(self.chart.nodes) == 1 else None
         row = polynomials(canon, nodes, len(self.chart.symbols))
         for j in self.frame.free:

@@ -83,6 +83,16 @@ class SampledForms:
         return self.columns - self.sampled.span.dimension
 
     @cached_property
+    def is_involutive(self) -> bool:
+        """Whether brackets of fields that the frame's rows allow are allowed, of several fields by identities."""
+        frame, n = self.sampled.frame, self.columns
+        if self.sampled.span.dimension > n - self.rank or self.rank > MAX_ROWS:
+            return False
+        rows = [r.piece for _, r, k in linear_rows(self.block, self.forms) if k in frame.rows]
+        forms = [dict(p.items()) for p in rows if isinstance(p, Pfaffian)]
+        return n - self.rank <= 1 or BorderedMinors(self.forms, frame).are_involutive(forms)
+
+    @cached_property
     def rank_finite(self) -> int:
         """Independent differentials of finite relations."""
         return rank_of(self.sampled.matrix[: self.forms.finite], self.point.p)
@@ -155,7 +165,7 @@ def _set_labels(forms_at_points: SampledForms, proof_of: Certificate | None, res
         if isinstance(row.piece, Finite):
             result.labels[i] = HolonomyLabel(True, "proved")
             continue
-        label = _label(place, forms_at_points, proof_of)
+        label = _label(place, forms_at_points, proof_of, result.identical)
         if label.holonomic is None:
             result.verdict, result.dof, result.growth = "undecided", None, None
         elif not label.holonomic and forms_at_points.integrable > forms_at_points.rank_finite:
@@ -219,7 +229,7 @@ def _rank_verdict(
     wanted = n - sampled.span.dimension - (rank - len(forms))
     spare = len(forms) - wanted
     unproved = islice((f for f in forms if proof(f, setting.positive) is None), spare + 1) if spare >= 0 else forms
-    if spare >= 0 and len([*unproved]) <= spare:
+    if (spare >= 0 and len([*unproved]) <= spare) or forms_at_points.is_involutive:
         return "proved"
     number = forms_at_points.integrable - forms_at_points.rank_finite
     possible = result.trusted and is_short(forms_at_points.forms)
@@ -227,12 +237,17 @@ def _rank_verdict(
     return "proved" if sum(f.identically for f in integrals) == number else "probable"
 
 
-def _label(place: int, forms_at_points: SampledForms, proof_of: Certificate | None) -> HolonomyLabel:
-    """Return whether the row annihilates the Lie algebra of D, so is in the largest integrable part [HermannNagano]."""
+def _label(place: int, forms_at_points: SampledForms, proof_of: Certificate | None, identical: bool) -> HolonomyLabel:
+    """Return whether the row annihilates the Lie algebra of D, so is in the largest integrable part [HermannNagano].
+
+    Rows that leave a line, or an involutive D, are all in it, and what depends on them by an identity.
+    """
     zero = [all(v == 0 for v in pairing(s.matrix[place], s.span.vectors)) for _, s in forms_at_points.samples]
     if all(zero):
         line = forms_at_points.columns - forms_at_points.rank <= 1
-        return HolonomyLabel(True, "proved" if line and proof_of is not None else "probable", "line" if line else "")
+        counted = line or identical or place in forms_at_points.sampled.frame.rows
+        sure = proof_of is not None and counted and forms_at_points.is_involutive
+        return HolonomyLabel(True, "proved" if sure else "probable", "line" if line else "")
     disagree = "exact arithmetic and certified intervals disagree: an identity between functions was not detected"
     if proof_of is None:
         return (

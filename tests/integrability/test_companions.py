@@ -223,3 +223,20 @@ def test_as_many_integrals_are_sought_as_there_are(
     monkeypatch.setattr(companions.first_integrals, "first_integrals", counted)
     assert dofkit.classify({"coordinates": ["x", "y", "z"], "constraints": constraints}).dof == 1
     assert set(sought) == {many}
+
+
+@pytest.mark.parametrize(
+    ("names", "texts", "dof", "velocity_dof"),
+    [
+        ("x y z w", ["dz = w (dx + dy)", "dw = z (dx + dy)"], 2, 2),  # z^2 - w^2 and (z + w) exp(-x - y) are constant
+        ("x y z w", ["dz = w (y dx + x dy)", "dw = -z (y dx + x dy)"], 2, 2),  # z^2 + w^2, and a turn by x y
+        ("x z w u", ["dz = w dx", "du = w dx"], 3, 2),  # u - z is constant, and no more
+        ("x y z w u", ["dz = w dx + y dw", "du = w dx + y dw + dy"], 4, 3),  # u - z - y
+    ],
+)
+def test_what_integrates_only_together_is_proved(names: str, texts: list[str], dof: int, velocity_dof: int) -> None:
+    report = dofkit.classify({"coordinates": names.split(), "constraints": texts})
+    assert (report.dof, report.velocity_dof) == (dof, velocity_dof)
+    assert {report.verdicts[key].verdict for key in ("dof", "velocity_dof", "holonomic", "redundant")} == {"proved"}
+    assert [entry.holonomic for entry in report.constraints] == [dof == velocity_dof] * 2
+    assert {entry.verdicts["holonomic"].verdict for entry in report.constraints} == {"proved"}

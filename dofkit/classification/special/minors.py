@@ -23,6 +23,7 @@ from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, replace_nodes, substitute
 from dofkit.expressions.tree import Expr
+from dofkit.integrability.pfaffian_system import exterior_derivative
 from dofkit.relations.blocks import Block
 from dofkit.relations.linear_relations import explicit_relations, number_coefficients
 from dofkit.relations.normal.pieces import Finite, Pfaffian
@@ -139,7 +140,7 @@ class RowPolynomials:
         self.zeros = CommonZeros(frozenset(self.symbols), setting.positive)
         gradients = [[diff(g, s) for s in self.symbols] for g in self.relations]
         rows = [*gradients, *([form.get(s, ex.ZERO) for s in self.symbols] for form in forms)]
-        curls = [_curl(form, self.symbols) for form in forms]
+        curls = [exterior_derivative(form, self.symbols) for form in forms]
         ring = Ring([*chain(*rows), *chain(*(curl.values() for curl in curls))], setting.positive)
         nodes = {e: ring.node(e) for e in chain(*rows, *(curl.values() for curl in curls))}
         self.canon = Canon(ring)
@@ -239,14 +240,6 @@ class RowPolynomials:
         for r, c in self.pivots:
             vector[c] = self.canon.reduce(-self.rows[r][column] * (vector[column] / self.rows[r][c]))
         return vector
-
-
-def _curl(form: Mapping[Expr, Expr], symbols: Sequence[Expr]) -> dict[tuple[int, int], Expr]:
-    """Return d(omega): the coefficient of dq_i ^ dq_j for i < j, where it is not written as 0."""
-    pairs = combinations(range(len(symbols)), 2)
-    a = [form.get(s, ex.ZERO) for s in symbols]
-    curl = {(i, j): diff(a[j], symbols[i]) - diff(a[i], symbols[j]) for i, j in pairs}
-    return {pair: e for pair, e in curl.items() if not e.is_zero}
 
 
 class Candidates(NamedTuple):
