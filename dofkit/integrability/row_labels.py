@@ -85,12 +85,12 @@ class SampledForms:
     @cached_property
     def is_involutive(self) -> bool:
         """Whether brackets of fields that the frame's rows allow are allowed, of several fields by identities."""
-        frame, n = self.sampled.frame, self.columns
-        if self.sampled.span.dimension > n - self.rank or self.rank > MAX_ROWS:
-            return False
+        frame, allowed = self.sampled.frame, self.columns - self.rank
+        if allowed <= 1 or self.sampled.span.dimension > allowed or self.rank > MAX_ROWS:
+            return allowed <= 1
         rows = [r.piece for _, r, k in linear_rows(self.block, self.forms) if k in frame.rows]
         forms = [dict(p.items()) for p in rows if isinstance(p, Pfaffian)]
-        return n - self.rank <= 1 or BorderedMinors(self.forms, frame).are_involutive(forms)
+        return BorderedMinors(self.forms, frame).are_involutive(forms)
 
     @cached_property
     def rank_finite(self) -> int:
