@@ -320,21 +320,19 @@ class BorderedMinors:
         derivatives = [exterior_derivative(form, self.chart.symbols) for form in forms]
         nodes = [{k: self.chart.ring.node(e) for k, e in enumerate(d.values())} for d in derivatives]
         canon = self._current_canon()
+        zero = canon.unit * 0
         try:
-            fields = [self._along(canon, j) for j in self.frame.free]
-            for d, row in zip(derivatives, nodes, strict=True):
-                values_of = polynomials(canon, row, len(row))
-                for x, y in combinations(fields, 2):
-                    terms = (
-                        canon.reduce(p * (x[i] * y[j] if i in x and j in y else canon.unit * 0))
-                        - canon.reduce(p * (x[j] * y[i] if j in x and i in y else canon.unit * 0))
-                        for (i, j), p in zip(d, values_of, strict=True)
-                    )
-                    if canon.reduce(sum(terms, canon.unit * 0)) != 0:
-                        return False
+            cofactors = [self._along(canon, j) for j in self.frame.free]
+            fields = [[x.get(c, zero) for c in range(len(self.chart.symbols))] for x in cofactors]
+            coefficients = [polynomials(canon, row, len(row)) for row in nodes]
+            return all(
+                canon.reduce(sum((p * (x[i] * y[j] - x[j] * y[i]) for (i, j), p in zip(d, row, strict=True)), zero))
+                == 0
+                for d, row in zip(derivatives, coefficients, strict=True)
+                for x, y in combinations(fields, 2)
+            )
         except NoValueError:
             return False
-        return True
 
     def _current_canon(self) -> Canon:
         """The canonical ring with all generators that there are by now."""
