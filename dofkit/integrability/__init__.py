@@ -14,8 +14,8 @@ Mechanisms, in the order in which they are tried
     2. `lie_algebra` computes the Lie algebra of D along one generic curve, over GF(p) or in balls [HermannNagano], in
        power series and dual numbers; its dimension is the freedom, those on the way are the `growth_vector`.
     3. `pfaffian_system` finds hidden equations: where dt lies in the span of the rows, motion is confined to a locus.
-    4. `row_labels` labels every row of a block with either engine, and tells whether the reference
-       configuration is exceptional among the generic points.
+    4. `row_labels` labels every row of a block with either engine, and tells whether the reference configuration is
+       exceptional. That rows depend on others, and that brackets stay in D, is proved by identities [Frobenius1877].
     5. `nonlinear_velocities`: what is not linear in the velocities restricts them where the fibres are curved at a
        certified state; the others may make it linear, or leave a field of lines.
     6. `integrals` has the potential and the integrating factor of one form, `first_integrals` those of several forms
