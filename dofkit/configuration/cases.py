@@ -176,12 +176,13 @@ def _bounded(case: ZeroCase, unknowns: Sequence[Expr], positive: frozenset[Expr]
     if len(case.unsolved) == 1:
         return BoundedCase(case.relations, most - 1, True)
     moving = [i for s in unknowns if (i := ring.var_index(s)) is not None]
+    others = {s for g in case.unsolved for s in g.symbols}.difference(unknowns)
+    constants = [ring.var_node.index(ring.node(s)) for s in sorted(others, key=repr)]
     canon = Canon(ring)
     generators = [canon.quotient(node)[0] for node in nodes]
     whole = dimension_of(canon, generators, moving)
     if whole is None:
         return BoundedCase(case.relations, most - 1, False)
-    constants = [ring.var_index(s) for s in {s for g in case.unsolved for s in g.symbols}.difference(unknowns)]
-    total = dimension_of(canon, generators, [*moving, *(i for i in constants if i is not None)])
+    total = dimension_of(canon, generators, [*moving, *constants])
     exact = total is not None and max(-1, total - len(constants)) <= whole
     return BoundedCase(case.relations, -1 if whole < 0 else most - len(moving) + whole, True, exact)
