@@ -1,6 +1,8 @@
-"""What is found of a case is a part of the set."""
+"""What is found of a case is a part of the set; constants are generic."""
 
 from __future__ import annotations
+
+import pytest
 
 import dofkit
 
