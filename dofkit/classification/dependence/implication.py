@@ -16,7 +16,7 @@ from typing import NamedTuple
 from dofkit.base.deadline import OutOfTimeError, check
 from dofkit.base.verdicts import Claim
 from dofkit.classification.freedom.branches import in_time
-from dofkit.classification.freedom.preparation import all_of, branches_at_reference, conditional
+from dofkit.classification.freedom.preparation import all_of, branches_at_reference, conditional, passes_reference
 from dofkit.configuration.implied_relations import ImpliedRelations
 from dofkit.configuration.states import States, value_at
 from dofkit.exact.ideals import have_complex_points
@@ -57,7 +57,6 @@ class AskedBranch(NamedTuple):
 
 def follows(normal: Normal, others: Sequence[Normal], setting: Setting) -> bool | None:
     """Return whether a relation is satisfied on every branch of the others; None if undecided."""
-    here = replace(setting, reference=None, pose={}, grows=False, flag=False)
     relation = branches_at_reference(normal, setting)
     if conditional(relation):
         return None
@@ -72,22 +71,43 @@ def follows(normal: Normal, others: Sequence[Normal], setting: Setting) -> bool 
             return None
         for alternative in alternatives:
             check()
-            answer.append(_on(alternative, relation, here))
+            answer.append(_on(alternative, relation, setting))
             if answer[-1] is False:
                 return False
     return all_of(answer)
 
 
 def _on(alternative: Alternative, relation: Normal, setting: Setting) -> bool | None:
-    """Return whether one of the relation's branches is satisfied wherever the rows are."""
+    """Return whether one of the relation's branches is satisfied wherever the rows are.
+
+    None where it is on some branches of the relations hidden in the rows, and on others not: of those through the
+    reference configuration, if there are any.
+    """
+    here = replace(setting, reference=None, pose={}, grows=False, flag=False)
     names = sorted({n for r in alternative.rows for n in coordinates_of(r.piece)})
     blocks, _ = split(names, alternative.rows)
-    answers = [in_time(b, setting) for b in blocks]
+    answers = [in_time(b, here) for b in blocks]
     if any(a.consistent is False for a in answers):
         return True
-    hidden = [g for a in answers for g in a.hidden]
-    if _undefined(relation, names, alternative.rows, setting):
+    if _undefined(relation, names, alternative.rows, here):
         return False
+    choices = cartesian(*(a.hidden_branches or [a.hidden] for a in answers))
+    hidden = [[g for branch in choice for g in branch] for choice in choices]
+    if setting.reference is not None and len(hidden) > 1:
+        hidden = [h for h in hidden if passes_reference([*map(Finite, h)], setting)] or hidden
+    held = {_on_hidden(alternative, relation, names, answers, h, here) for h in hidden}
+    return held.pop() if len(held) == 1 else None
+
+
+def _on_hidden(
+    alternative: Alternative,
+    relation: Normal,
+    names: Sequence[str],
+    answers: Sequence[Answer],
+    hidden: Sequence[Expr],
+    setting: Setting,
+) -> bool | None:
+    """Return whether one of the relation's branches is satisfied wherever the rows and hidden relations are."""
     all_consistent = all(a.consistent for a in answers)
     domain = [r.piece for r in alternative.rows if isinstance(r.piece, DomainCondition)]
     branches = [
