@@ -111,7 +111,8 @@ def confinements(forms: Codistribution, variety: Variety) -> tuple[tuple[Expr, .
     """Ways in which motion is confined where dt lies in the span of the rows; None where it does not."""
     if len(forms.chart.symbols) == forms.n:
         return None
-    point = variety.samples[0] if variety.samples else None if variety.real is None else variety.real.point
+    real = variety.real.point if variety.real is not None and variety.real.certified else None
+    point = variety.samples[0] if variety.samples else real
     if point is None:
         return None
     zero = point.number(ex.ZERO.args[0])
