@@ -173,6 +173,7 @@ def hidden_relation(rows: FormRows, n: int, point: Point) -> tuple[tuple[Expr, .
     canon = Canon(rows.ring)
     common: Any = None
     minors: list[Any] = []
+    looked: list[tuple[int, ...]] = []
     try:
         table = [polynomials(canon, rows.entries[r], n + 1) for r in chosen]
         for columns in islice(combinations(range(n), size - 1), MAX_CHOICES):
@@ -183,14 +184,29 @@ def hidden_relation(rows: FormRows, n: int, point: Point) -> tuple[tuple[Expr, .
             minor = determinant(canon, [[row[c] for c in picked] for row in table])
             common = minor if common is None else common.gcd(minor)
             minors.append(minor)
+            looked.append(columns)
             if len(minors) == MAX_MINORS or minor.is_constant():
                 break
         if common is None:
             return ()
         quotients = tuple(dict.fromkeys(canon.to_expr(divided(m, common)) for m in minors))
-        return ((canon.to_expr(common),), quotients)
+        forced = divided(common, _content(canon, table, looked, common))
+        return ((canon.to_expr(forced),), quotients)
     except NoValueError:
         return ()
+
+
+def _content(canon: Canon, table: Sequence[Sequence[Any]], looked: Sequence[Sequence[int]], common: Any) -> Any:
+    """Return the factor that a common factor of minors shares with all their cofactors of the time column.
+
+    Where it vanishes A loses rank, and nothing is forced: lambda A = 0 for the cofactors without it as well.
+    """
+    for columns in looked:
+        for k in range(len(table)):
+            if common.is_constant() or not columns:
+                return common**0
+            common = common.gcd(determinant(canon, [[row[c] for c in columns] for row in [*table[:k], *table[k + 1 :]]]))
+    return common
 
 
 def is_nonzero(value: Scalar) -> bool:
