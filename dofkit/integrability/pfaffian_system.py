@@ -16,8 +16,6 @@ from itertools import combinations, islice
 from itertools import product as cartesian
 from typing import Any
 
-from flint import arb
-
 from dofkit.base.deadline import check
 from dofkit.base.errors import NoValueError
 from dofkit.configuration.variety import Variety, on_variety, pose_point
@@ -25,7 +23,7 @@ from dofkit.exact.analyticity import is_analytic
 from dofkit.exact.matrices.sparse import rank_of
 from dofkit.exact.points.frames import FormRows, rank_over
 from dofkit.exact.ring.canonical import Canon, determinant, divided, polynomials
-from dofkit.exact.ring.program import Point, Scalar, values
+from dofkit.exact.ring.program import Point, values
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
@@ -202,13 +200,8 @@ def _content(canon: Canon, table: Sequence[Sequence[Any]], looked: Sequence[Sequ
     Where it vanishes A loses rank, and nothing is forced: lambda A = 0 for the cofactors without it as well.
     """
     for columns in looked:
-        for k in range(len(table)):
+        for rows in combinations(table, len(columns)):
             if common.is_constant() or not columns:
                 return common**0
-            common = common.gcd(determinant(canon, [[row[c] for c in columns] for row in [*table[:k], *table[k + 1 :]]]))
+            common = common.gcd(determinant(canon, [[row[c] for c in columns] for row in rows]))
     return common
-
-
-def is_nonzero(value: Scalar) -> bool:
-    """Not 0 in GF(p); or a ball that excludes 0."""
-    return not value.contains(0) if isinstance(value, arb) else bool(value != 0)

@@ -95,20 +95,14 @@ def _on(alternative: Alternative, relation: Normal, setting: Setting) -> bool | 
     hidden = [[g for branch in choice for g in branch] for choice in choices]
     if setting.reference is not None and len(hidden) > 1:
         hidden = [h for h in hidden if passes_reference([*map(Finite, h)], setting)] or hidden
-    held = {_on_hidden(alternative, relation, names, answers, h, here) for h in hidden}
+    held = {_on_hidden(alternative, relation, answers, h, here) for h in hidden}
     return held.pop() if len(held) == 1 else None
 
 
 def _on_hidden(
-    alternative: Alternative,
-    relation: Normal,
-    names: Sequence[str],
-    answers: Sequence[Answer],
-    hidden: Sequence[Expr],
-    setting: Setting,
+    alternative: Alternative, relation: Normal, answers: Sequence[Answer], hidden: Sequence[Expr], setting: Setting
 ) -> bool | None:
     """Return whether one of the relation's branches is satisfied wherever the rows and hidden relations are."""
-    all_consistent = all(a.consistent for a in answers)
     domain = [r.piece for r in alternative.rows if isinstance(r.piece, DomainCondition)]
     branches = [
         AskedBranch(
@@ -123,15 +117,16 @@ def _on_hidden(
     more = [*(e for b in branches for e in b.relations), *(c.expr for b in branches for c in b.conditions)]
     more += [c.expr for c in domain]
     moving = {str(s.args[1]) for e in more for s in e.symbols if s.args[0] in ("coordinate", "velocity")}
+    moving |= {n for r in alternative.rows for n in coordinates_of(r.piece)}
     try:
-        states = States(sorted({*names, *moving}), alternative.rows, hidden, setting, [*more, *written], still)
+        states = States(sorted(moving), alternative.rows, hidden, setting, [*more, *written], still)
         smaller = any(a.degenerate or a.dof is None for a in answers)
         held = _vanishes_on_states(states, branches, written, domain, smaller)
     except (OutOfTimeError, ArithmeticError):
         return None
     if held and still and all(isinstance(r.piece, Finite) for r in alternative.rows):
         return _on_all_components(alternative.rows, branches, setting)
-    return held if held or all_consistent else None
+    return held if held or all(a.consistent for a in answers) else None
 
 
 def _on_all_components(rows: Sequence[Row], branches: Sequence[AskedBranch], setting: Setting) -> bool | None:
