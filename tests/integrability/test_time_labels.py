@@ -102,6 +102,6 @@ def test_acatastatic_is_printed() -> None:
 
 
 def test_a_growth_vector_counts_time_where_it_enters() -> None:
-    """(dz - y dx) times what rests at 0 for t < 0 and cannot be divided out: (3, 4) in (q, t) where it acts, or open."""
+    """(dz - y dx) times what rests at 0 for t < 0 and cannot be divided out: (3, 4) in (q, t) where it acts."""
     assert classified("x y z", ["(t + abs(t)) (dz - y dx) = 0"]).growth_vector is None
     assert classified("x y z", ["c(t) (dz - y dx) = 0"]).growth_vector == [2, 3]
