@@ -16,8 +16,6 @@ from itertools import combinations, islice
 from itertools import product as cartesian
 from typing import Any
 
-from flint import arb
-
 from dofkit.base.deadline import check
 from dofkit.base.errors import NoValueError
 from dofkit.configuration.variety import Variety, on_variety, pose_point
@@ -25,7 +23,7 @@ from dofkit.exact.analyticity import is_analytic
 from dofkit.exact.matrices.sparse import rank_of
 from dofkit.exact.points.frames import FormRows, rank_over
 from dofkit.exact.ring.canonical import Canon, determinant, divided, polynomials
-from dofkit.exact.ring.program import Point, Scalar, values
+from dofkit.exact.ring.program import Point, values
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
@@ -119,7 +117,8 @@ def confinements(forms: Codistribution, variety: Variety) -> tuple[tuple[Expr, .
     """Ways in which motion is confined where dt lies in the span of the rows; None where it does not."""
     if len(forms.chart.symbols) == forms.n:
         return None
-    point = variety.samples[0] if variety.samples else None if variety.real is None else variety.real.point
+    real = variety.real.point if variety.real is not None and variety.real.certified else None
+    point = variety.samples[0] if variety.samples else real
     if point is None:
         return None
     zero = point.number(ex.ZERO.args[0])
@@ -180,6 +179,7 @@ def hidden_relation(rows: FormRows, n: int, point: Point) -> tuple[tuple[Expr, .
     canon = Canon(rows.ring)
     common: Any = None
     minors: list[Any] = []
+    looked: list[tuple[int, ...]] = []
     try:
         table = [polynomials(canon, rows.entries[r], n + 1) for r in chosen]
         for columns in islice(combinations(range(n), size - 1), MAX_CHOICES):
@@ -190,16 +190,26 @@ def hidden_relation(rows: FormRows, n: int, point: Point) -> tuple[tuple[Expr, .
             minor = determinant(canon, [[row[c] for c in picked] for row in table])
             common = minor if common is None else common.gcd(minor)
             minors.append(minor)
+            looked.append(columns)
             if len(minors) == MAX_MINORS or minor.is_constant():
                 break
         if common is None:
             return ()
         quotients = tuple(dict.fromkeys(canon.to_expr(divided(m, common)) for m in minors))
-        return ((canon.to_expr(common),), quotients)
+        forced = divided(common, _content(canon, table, looked, common))
+        return ((canon.to_expr(forced),), quotients)
     except NoValueError:
         return ()
 
 
-def is_nonzero(value: Scalar) -> bool:
-    """Not 0 in GF(p); or a ball that excludes 0."""
-    return not value.contains(0) if isinstance(value, arb) else bool(value != 0)
+def _content(canon: Canon, table: Sequence[Sequence[Any]], looked: Sequence[Sequence[int]], common: Any) -> Any:
+    """Return the factor that a common factor of minors shares with all their cofactors of the time column.
+
+    Where it vanishes A loses rank, and nothing is forced: lambda A = 0 for the cofactors without it as well.
+    """
+    for columns in looked:
+        for rows in combinations(table, len(columns)):
+            if common.is_constant() or not columns:
+                return common**0
+            common = common.gcd(determinant(canon, [[row[c] for c in columns] for row in rows]))
+    return common

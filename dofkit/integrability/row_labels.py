@@ -20,7 +20,7 @@ from dofkit.configuration.variety import SAMPLES, Variety, on_variety, pose_poin
 from dofkit.exact.matrices.certified import ball_part, dependencies
 from dofkit.exact.matrices.sparse import echelon, rank_of, sparse
 from dofkit.exact.points.field import FieldPoint
-from dofkit.exact.points.frames import field_frame, pairing, rank_over
+from dofkit.exact.points.frames import field_frame, pairing, rank_over, vanishes
 from dofkit.exact.points.real_search import RealPoint
 from dofkit.exact.residues import null_vectors, residue_matrix
 from dofkit.exact.ring.program import Scalar, values
@@ -30,7 +30,7 @@ from dofkit.expressions.tree import Expr
 from dofkit.integrability.first_integrals import MAX_ROWS, BorderedMinors, first_integrals, is_short
 from dofkit.integrability.growth_vector import derived_flag, spanning_curves
 from dofkit.integrability.lie_algebra import SampledSpan, Span, ball_span, span_at
-from dofkit.integrability.pfaffian_system import Codistribution, is_nonzero, linear_rows
+from dofkit.integrability.pfaffian_system import Codistribution, linear_rows
 from dofkit.integrability.traits import proof
 from dofkit.relations.answer import Answer, HolonomyLabel
 from dofkit.relations.blocks import Block
@@ -254,7 +254,7 @@ def _label(place: int, forms_at_points: SampledForms, proof_of: Certificate | No
             HolonomyLabel(False, "probable") if forms_at_points.trusted else HolonomyLabel(None, "undecided", disagree)
         )
     span, matrix = proof_of
-    if any(is_nonzero(v) for v in pairing(matrix[place], span.vectors)):
+    if not all(map(vanishes, pairing(matrix[place], span.vectors))):
         return HolonomyLabel(False, "proved")
     return HolonomyLabel(None, "undecided", disagree)
 

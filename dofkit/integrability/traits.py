@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from itertools import combinations
 
 from dofkit.base.errors import NoValueError, TextError
@@ -15,10 +14,9 @@ from dofkit.exact.ring.canonical import quotients_of
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.triangular import TriangularSolver
-from dofkit.exact.zero import BOTH, Engines, independent_on_set, is_proved_zero, odd_constants, zero_and_verdict
+from dofkit.exact.zero import BOTH, Engines, independent_on_set, odd_constants, zero_and_verdict
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, differential_degree, substitute
-from dofkit.expressions.enclosures import interval_of
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.integrals import search
 from dofkit.relations.normal.no_solution import no_solution
@@ -26,9 +24,6 @@ from dofkit.relations.normal.normal_form import velocities_of
 from dofkit.relations.normal.pieces import Clause, Inequality, Nonlinear, Pfaffian
 from dofkit.relations.normal.zero_set import never_vanishes
 from dofkit.relations.setting import Setting
-
-#: Times at which a factor of time alone may rest at 0.
-TIMES = tuple(Fraction(n, 3) for n in (-80, -31, -14, -7, -2, 1, 4, 8, 11, 16, 29, 80))
 
 
 @dataclass(frozen=True)
@@ -79,34 +74,8 @@ def _is_still(f: Expr, sided: bool, positive: frozenset[Expr], engines: Engines)
     """Return whether the zero set of a factor is the same at all times: df/dt = 0 on it, where it is regular."""
     moving = [s for s in f.symbols if s.args[0] in ("coordinate", "velocity")]
     if not moving:
-        return (False, "proved") if _rests_at_zero(f, positive) else (None, "undecided")
+        return None, "undecided"
     return vanishes_on(f, diff(f, ex.TIME), positive, engines, None if sided else moving)
-
-
-def _rests_at_zero(f: Expr, positive: frozenset[Expr]) -> bool:
-    """Return whether f(t) is proved to be 0 through an interval of time, and not 0 at another time.
-
-    Near a time at which no absolute value is 0, f is what it is on that branch, an analytic function.
-    """
-    if f.symbols != {ex.TIME}:
-        return False
-    rests, acts = False, False
-    for time in TIMES:
-        value = interval_of(f, {ex.TIME: time})
-        if value is not None and not value.contains(0):
-            acts = True
-            continue
-        memo: dict[Expr, Expr] = {}
-        for node in ex.nodes(f):
-            new = ex.rebuild(node, tuple(memo[child] for child in ex.children(node)))
-            if new.op == "fn" and new.args[0] == "abs":
-                inside = interval_of(new.args[1], {ex.TIME: time})
-                if inside is not None and not inside.contains(0):
-                    new = new.args[1] if inside > 0 else -new.args[1]
-            memo[node] = new
-        branch = memo[f]
-        rests = rests or (is_analytic(branch, [ex.TIME], positive) and is_proved_zero(branch, positive))
-    return rests and acts
 
 
 def _factors_left(e: Expr, sided: bool, positive: frozenset[Expr]) -> list[Expr]:

@@ -75,8 +75,8 @@ class Answer:
 
     ``matrix``: the rows (in the block's order) over the coordinates and time at a generic point over GF(p), for
     redundancy; ``supports``: where something else than the matrix tells what depends on what; ``hidden`` the finite
-    relations that the differential ones force; ``doubt``: functions or numbers occur that may be related in a way that
-    GF(p) does not show; ``late``: there was no time for it;
+    relations that the differential ones force, ``hidden_branches`` those on each of several branches; ``doubt``:
+    functions or numbers occur that may be related in a way that GF(p) does not show; ``late``: no time was left;
     ``conflict``: a minimal set of constraints that cannot hold together, where the proof shows one;
     ``linear``: every relation is linear with rational coefficients, and all of them were eliminated exactly;
     ``looked``: what was looked at of the relations; ``size``: of the model that was computed with; ``about``: of which
@@ -103,6 +103,7 @@ class Answer:
     labels: dict[int, HolonomyLabel] = field(default_factory=dict)
     reasons: list[str] = field(default_factory=list)
     hidden: list[Expr] = field(default_factory=list)
+    hidden_branches: list[list[Expr]] = field(default_factory=list)
     matrix: list[SparseRow] = field(default_factory=list)
     modulus: int = 2
     supports: Supports | None = None

@@ -16,7 +16,7 @@ from typing import NamedTuple
 from dofkit.base.deadline import OutOfTimeError, check
 from dofkit.base.verdicts import Claim
 from dofkit.classification.freedom.branches import in_time
-from dofkit.classification.freedom.preparation import all_of, branches_at_reference, conditional
+from dofkit.classification.freedom.preparation import all_of, branches_at_reference, conditional, passes_reference
 from dofkit.configuration.implied_relations import ImpliedRelations
 from dofkit.configuration.states import States, value_at
 from dofkit.exact.ideals import have_complex_points
@@ -57,7 +57,6 @@ class AskedBranch(NamedTuple):
 
 def follows(normal: Normal, others: Sequence[Normal], setting: Setting) -> bool | None:
     """Return whether a relation is satisfied on every branch of the others; None if undecided."""
-    here = replace(setting, reference=None, pose={}, grows=False, flag=False)
     relation = branches_at_reference(normal, setting)
     if conditional(relation):
         return None
@@ -72,23 +71,38 @@ def follows(normal: Normal, others: Sequence[Normal], setting: Setting) -> bool 
             return None
         for alternative in alternatives:
             check()
-            answer.append(_on(alternative, relation, here))
+            answer.append(_on(alternative, relation, setting))
             if answer[-1] is False:
                 return False
     return all_of(answer)
 
 
 def _on(alternative: Alternative, relation: Normal, setting: Setting) -> bool | None:
-    """Return whether one of the relation's branches is satisfied wherever the rows are."""
+    """Return whether one of the relation's branches is satisfied wherever the rows are.
+
+    None where it is on some branches of the relations hidden in the rows, and on others not: of those through the
+    reference configuration, if there are any.
+    """
+    here = replace(setting, reference=None, pose={}, grows=False, flag=False)
     names = sorted({n for r in alternative.rows for n in coordinates_of(r.piece)})
     blocks, _ = split(names, alternative.rows)
-    answers = [in_time(b, setting) for b in blocks]
+    answers = [in_time(b, here) for b in blocks]
     if any(a.consistent is False for a in answers):
         return True
-    hidden = [g for a in answers for g in a.hidden]
-    if _undefined(relation, names, alternative.rows, setting):
+    if _undefined(relation, names, alternative.rows, here):
         return False
-    all_consistent = all(a.consistent for a in answers)
+    choices = cartesian(*(a.hidden_branches or [a.hidden] for a in answers))
+    hidden = [[g for branch in choice for g in branch] for choice in choices]
+    if setting.reference is not None and len(hidden) > 1:
+        hidden = [h for h in hidden if passes_reference([*map(Finite, h)], setting)] or hidden
+    held = {_on_hidden(alternative, relation, answers, h, here) for h in hidden}
+    return held.pop() if len(held) == 1 else None
+
+
+def _on_hidden(
+    alternative: Alternative, relation: Normal, answers: Sequence[Answer], hidden: Sequence[Expr], setting: Setting
+) -> bool | None:
+    """Return whether one of the relation's branches is satisfied wherever the rows and hidden relations are."""
     domain = [r.piece for r in alternative.rows if isinstance(r.piece, DomainCondition)]
     branches = [
         AskedBranch(
@@ -103,15 +117,16 @@ def _on(alternative: Alternative, relation: Normal, setting: Setting) -> bool | 
     more = [*(e for b in branches for e in b.relations), *(c.expr for b in branches for c in b.conditions)]
     more += [c.expr for c in domain]
     moving = {str(s.args[1]) for e in more for s in e.symbols if s.args[0] in ("coordinate", "velocity")}
+    moving |= {n for r in alternative.rows for n in coordinates_of(r.piece)}
     try:
-        states = States(sorted({*names, *moving}), alternative.rows, hidden, setting, [*more, *written], still)
+        states = States(sorted(moving), alternative.rows, hidden, setting, [*more, *written], still)
         smaller = any(a.degenerate or a.dof is None for a in answers)
         held = _vanishes_on_states(states, branches, written, domain, smaller)
     except (OutOfTimeError, ArithmeticError):
         return None
     if held and still and all(isinstance(r.piece, Finite) for r in alternative.rows):
         return _on_all_components(alternative.rows, branches, setting)
-    return held if held or all_consistent else None
+    return held if held or all(a.consistent for a in answers) else None
 
 
 def _on_all_components(rows: Sequence[Row], branches: Sequence[AskedBranch], setting: Setting) -> bool | None:

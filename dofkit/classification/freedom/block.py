@@ -220,7 +220,8 @@ def _of_hidden_branches(alternatives: Sequence[Answer]) -> Answer:
     best = max(alternatives, key=_largest)
     if best.dof is None:
         return best
-    return replace(best, about="component", reasons=[*best.reasons, HIDDEN_BRANCHES])
+    possible = [h for a in alternatives if a.consistent is not False for h in a.hidden_branches or [a.hidden]]
+    return replace(best, about="component", reasons=[*best.reasons, HIDDEN_BRANCHES], hidden_branches=possible)
 
 
 def _points(forms: Codistribution, setting: Setting) -> Variety:

@@ -88,6 +88,7 @@ class AnsweredBlock(NamedTuple):
         renaming = Renaming(dict(zip(self.names, names, strict=True)))
         a.labels, a.reasons, a.size = dict(a.labels), list(a.reasons), Size()
         a.hidden = [renaming.of(g) for g in a.hidden]
+        a.hidden_branches = [[renaming.of(g) for g in branch] for branch in a.hidden_branches]
         a.dependent = tuple([renaming.names.get(c, c) for c in a.dependent])
         if a.witness is not None:
             a.witness = {renaming.of(s): text for s, text in a.witness.items()}
