@@ -17,7 +17,7 @@ from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.text import valid_name
 from dofkit.expressions.tree import MINUS_ONE, ONE, TIME, ZERO, Expr, coordinate, mul
 from dofkit.expressions.vectors import difference, dot, is_zero, length
-from dofkit.scene.constraints.base import ConstraintBase, root
+from dofkit.scene.constraints.base import ConstraintBase, root, with_values
 from dofkit.scene.constraints.joint_parts import JointGeometry, Measure
 from dofkit.scene.constraints.joints import Driven
 from dofkit.scene.fields import Text, untagged
@@ -107,11 +107,11 @@ class Coupling(ConstraintBase):
             world, [relation.expr for relation in relations], measured
         ):
             return
-        for e, sense, *_ in relations:
-            if sense == "=" and not self._fits(world, e, measured):
+        for relation in relations:
+            if relation.sense == "=" and not self._fits(world, relation.expr, measured):
                 return
-            in_arcs = substitute(e, {letter: joint.value for letter, joint in measured.items()})
-            yield Relation(_in_turns(e, measured) or in_arcs, sense)
+            in_arcs = with_values(relation, {letter: joint.value for letter, joint in measured.items()})
+            yield in_arcs._replace(expr=_in_turns(relation.expr, measured) or in_arcs.expr)
 
     def _within_half_turns(self, world: World, bounds: Sequence[Expr], measured: Mapping[Expr, MeasuredJoint]) -> bool:
         """Return whether bounds on an angle of space lie within half a turn of the reference; else record a fault.
