@@ -180,6 +180,8 @@ def at_one_point(
     put beside the rows that share a coordinate with it, and these are ``answered`` again.
     """
     written = _with_conditions(blocks, domain)
+    pairs = zip(written, answers, strict=True)
+    answers = [restricted_to_domain(b, a, setting) if a.consistent is None else a for b, a in pairs]
     kept, result = list(blocks), simultaneous(written, answers)
     if any(a.consistent is not True for a in result):
         return CommonPoint(kept, result)
