@@ -46,10 +46,10 @@ RIGHT = yaml.safe_load((Path(__file__).parent / "soundness.yaml").read_text(enco
 def test_right(made: dict[str, Any], truth: dict[str, Any]) -> None:
     report = dofkit.classify(made)
     answers = {**report.to_dict(), **{f"{key}_about": claim.about for key, claim in report.verdicts.items()}}
-    if ("log(" in str(made) or {"configuration", "notes"} & made.keys()) and report.verdict == "undecided":
-        assert all(answers[key] in (value, None) for key, value in truth.items())
-        return
-    assert {key: answers[key] for key in truth} == truth and report.verdict != "undecided"
+    if report.verdict == "undecided":
+        assert "log(" in str(made) or {"configuration", "notes"} & made.keys()
+        truth = {key: value for key, value in truth.items() if answers[key] is not None}
+    assert {key: answers[key] for key in truth} == truth
 
 
 def test_a_coefficient_that_vanishes_modulo_public_primes_is_none_of_0() -> None:
