@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
+from functools import partial
 from types import MappingProxyType
 from typing import NamedTuple
 
@@ -133,6 +134,11 @@ def text_of_conditions(conditions: Iterable[DomainCondition]) -> str:
     return " and ".join(f"{to_text(c.expr)} {c.sense} 0" for c in conditions)
 
 
+def _excluded(setting: Setting, block: Block, result: Answer) -> Answer:
+    """Return an undecided answer as inconsistent where the conditions are satisfied nowhere; any other as it is."""
+    return restricted_to_domain(block, result, setting) if result.consistent is None else result
+
+
 def _nowhere(block: Block, result: Answer) -> Answer:
     conditions = text_of_conditions(block.conditions)
     why = f"as written, the equations require {conditions}, which is satisfied nowhere where they are"
@@ -180,9 +186,7 @@ def at_one_point(
     put beside the rows that share a coordinate with it, and these are ``answered`` again.
     """
     written = _with_conditions(blocks, domain)
-    pairs = zip(written, answers, strict=True)
-    answers = [restricted_to_domain(b, a, setting) if a.consistent is None else a for b, a in pairs]
-    kept, result = list(blocks), simultaneous(written, answers)
+    kept, result = list(blocks), simultaneous(written, list(map(partial(_excluded, setting), written, answers)))
     if any(a.consistent is not True for a in result):
         return CommonPoint(kept, result)
     point = _point(result, setting)

@@ -63,8 +63,9 @@ class Link(ConstraintBase):
             _check_length(world, given_length, drawn, f"{first.label} and {second.label} are", "apart")
         if first.frame is None and second.frame is None and (given_length is None or not _moves(given_length)):
             world.links.append((world.index, first.label, second.label))
-        varies = given_length is not None and given_length.symbols and "call" not in given_length.functions
-        at_least_zero: tuple[Requirement, ...] = ((given_length, ">="),) if varies else ()
+        at_least_zero: tuple[Requirement, ...] = ()
+        if given_length is not None and given_length.symbols and "call" not in given_length.functions:
+            at_least_zero = ((given_length, ">="),)
         yield Relation(distance(world, first, second, given_length), domain=at_least_zero)
 
     @property
