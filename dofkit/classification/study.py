@@ -362,23 +362,14 @@ def modelled(system: System, outcome: Outcome) -> str:
 
 def _looked_at(outcome: Outcome) -> Iterator[str]:
     """What of the relations had to be followed to tell motions from shakes."""
-    looked = [a.looked for a in outcome.answers]
-    left_out, rigid, followed = (
-        sum(k.left_out for k in looked),
-        sum(k.rigid for k in looked),
-        sum(k.followed for k in looked),
-    )
+    left_out = sum(a.looked.left_out for a in outcome.answers)
     if left_out:
         whole = sum(len(b.rows) for b in outcome.blocks)
         yield (
             f"{left_out} of {many(whole, 'relation')} {verb(left_out)} in no dependent set (as in open chains), "
             "so their finite motion was not examined"
         )
-    if rigid:
-        yield f"{many(rigid, 'dependent set')} treated as one rigid body each"
-    if followed and left_out:
-        yield f"{many(followed, 'other dependent set')} examined separately"
-    if any(k.spared for k in looked):
+    if any(a.looked.spared for a in outcome.answers):
         yield (
             "fewer coordinates for the finite motions (welded bodies and rigid clusters as one body, bodies that do "
             "not turn as particles, variables that a linear equation gives explicitly)"

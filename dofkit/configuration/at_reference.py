@@ -183,8 +183,7 @@ def _by_parts(
     looked_at = {row for part in classes for row in part.rows}
     weak = max(dimensions, key=lambda local: VERDICTS.index(local.verdict))
     local = LocalDimension(dimension, weak.verdict, "; ".join(reasons), argument=weak.argument)
-    rigid = sum(local.reason == _rigid() for local in dimensions)
-    return local, FollowedClasses(len(matrix) - len(looked_at), rigid, len(dimensions) - rigid, followed, more)
+    return local, FollowedClasses(len(matrix) - len(looked_at), followed, more)
 
 
 def _rigid() -> str:

@@ -242,10 +242,7 @@ def _gap(span: Span) -> float:
 
 
 def ball_labels(block: Block, forms: Codistribution, real: RealPoint, result: Answer) -> Span | None:
-    """With real points only: what a tiny ball contains 0 of is taken for 0, and the verdict says numeric.
-
-    Returns the Lie algebra there; None, and no answer, where the point is singular.
-    """
+    """Set labels from a real point, where what a tiny ball contains 0 of is taken for 0; return the Lie algebra there."""
     at = values(forms.chart.ring, real.point)
     matrix = forms.rows.matrix(at, arb(0))
     part = ball_part(matrix)
@@ -310,11 +307,11 @@ def span_at_reference(forms: Codistribution, reference: Mapping[Expr, Expr]) -> 
     return None
 
 
-def is_exceptional(forms: Codistribution, reference: tuple[FieldPoint, SampledSpan], rank: int, dimension: int) -> bool:
+def is_exceptional(forms: Codistribution, reference: tuple[FieldPoint, SampledSpan], rank: int, span: Span) -> bool:
     """Return whether the rows or the Lie algebra are smaller at the reference configuration than elsewhere.
 
     Several leaves, or one of smaller dimension, can pass through such a configuration [HermannNagano]. Rows count by
     what they say of velocities: where only the dt term remains no motion passes.
     """
     point, here = reference
-    return rank_of([row[: forms.n] for row in here.matrix], point.p) < rank or here.span.dimension < dimension
+    return rank_of([row[: forms.n] for row in here.matrix], point.p) < rank or here.span.dimension < span.dimension

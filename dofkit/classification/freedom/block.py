@@ -22,7 +22,7 @@ from dofkit.exact.ring.program import NoPointError
 from dofkit.exact.zero import BALLS, BOTH, independent_generators
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.lie_algebra import SampledSpan, on_the_same_part, span_at
-from dofkit.integrability.nonlinear_velocities import first_order_beside_bends, set_velocity_freedom
+from dofkit.integrability.nonlinear_velocities import set_velocity_freedom
 from dofkit.integrability.pfaffian_system import (
     Codistribution,
     codistribution,
@@ -161,11 +161,9 @@ def _mixed_answer(block: Block, setting: Setting) -> Answer:
         return Answer(None, verdict="undecided", reasons=[MEASURED])
     result = _prolonged(block, setting, Answer())
     if setting.reference is not None and (not result.hidden or _passes_reference(block, result.hidden, setting)):
-        if block.nonlinear:
-            answers = first_order_beside_bends(block, setting, result)
-        else:
+        if not block.nonlinear:
             answers = first_order_freedom(block, setting, setting.reference)
-        result.instantaneous, result.first_order_sure = answers
+            result.instantaneous, result.first_order_sure = answers
         result.verdict = weakest(result.verdict, "numeric" if is_measured(block, setting) else "proved")
     return result
 
@@ -261,7 +259,7 @@ def _with_spans(block: Block, forms: Codistribution, points: Variety, extra: lis
     irregular = replace(result, consistent=None, verdict="undecided", reasons=[*points.reasons, IRREGULAR])
     if points.samples:
         good = _spans(forms, points)
-        if here is not None and any(is_exceptional(forms, here, len(s.frame.rows), s.span.dimension) for _, s in good):
+        if here is not None and any(is_exceptional(forms, here, len(s.frame.rows), s.span) for _, s in good):
             return irregular
         if good:
             if points.about == "component" and points.real is not None and points.real.certified:
@@ -279,7 +277,7 @@ def _with_spans(block: Block, forms: Codistribution, points: Variety, extra: lis
     if points.real is not None and points.real.certified:
         span = ball_labels(block, forms, points.real, result)
         if here is not None and span is not None:
-            if is_exceptional(forms, here, forms.n - (result.velocity_dof or 0), span.dimension):
+            if is_exceptional(forms, here, forms.n - (result.velocity_dof or 0), span):
                 return irregular
             result.dependent = integrable_names(forms, here[0], here[1].span)
         if block.nonlinear:

@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
-from functools import partial
 from types import MappingProxyType
 from typing import NamedTuple
 
@@ -134,11 +133,6 @@ def text_of_conditions(conditions: Iterable[DomainCondition]) -> str:
     return " and ".join(f"{to_text(c.expr)} {c.sense} 0" for c in conditions)
 
 
-def _excluded(setting: Setting, block: Block, result: Answer) -> Answer:
-    """Return an undecided answer as inconsistent where the conditions are satisfied nowhere; any other as it is."""
-    return restricted_to_domain(block, result, setting) if result.consistent is None else result
-
-
 def _nowhere(block: Block, result: Answer) -> Answer:
     conditions = text_of_conditions(block.conditions)
     why = f"as written, the equations require {conditions}, which is satisfied nowhere where they are"
@@ -186,9 +180,9 @@ def at_one_point(
     put beside the rows that share a coordinate with it, and these are ``answered`` again.
     """
     written = _with_conditions(blocks, domain)
-    kept, result = list(blocks), simultaneous(written, list(map(partial(_excluded, setting), written, answers)))
+    kept, result = list(blocks), simultaneous(written, answers)
     if any(a.consistent is not True for a in result):
-        return CommonPoint(kept, result)
+        return CommonPoint(kept, [restricted_to_domain(b, a, setting) for b, a in zip(written, result, strict=True)])
     point = _point(result, setting)
     outside = [(i, c) for i, c in domain if not hold_strictly([c], {s: point.get(s, arb(0)) for s in c.expr.symbols})]
     names = [*(_names(block) for block in written), *(_names_of(c, i) for i, c in outside)]

@@ -130,10 +130,7 @@ class Coupling(ConstraintBase):
             low, high = _bounds_of(letter, bounds) if joint.turns_in_space else (-inf, inf)
             if _stated_by_arcs(low, high):
                 continue
-            hint = "choose a reference configuration nearer to the middle of its range"
-            turns = 2 * pi * round((low + high) / (4 * pi)) if isfinite(low + high) else 0.0
-            if turns and _stated_by_arcs(low - turns, high - turns):
-                hint = f"subtract whole turns: `{low - turns:.6g} <= {letter.args[1]} <= {high - turns:.6g}`"
+            hint = "choose a reference configuration nearer to the middle of its range, or subtract whole turns"
             world.fault(message, "text", hint=hint)
             return False
         return True
