@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from typing import Any, NamedTuple
@@ -13,15 +13,17 @@ from dofkit.base.wording import many, verb
 from dofkit.classification.dependence import redundancy
 from dofkit.classification.dependence.implied_constraints import Conflict, conflict
 from dofkit.classification.freedom.branches import AnsweredBlocks, Outcome, solve
-from dofkit.classification.freedom.preparation import prepared
+from dofkit.classification.freedom.preparation import branches_at_reference, prepared
 from dofkit.classification.labels.companions import Companionship
 from dofkit.classification.labels.entries import entries_of, integrable_part
 from dofkit.exact.zero import BOTH, Engines
+from dofkit.expressions.tree import Expr
 from dofkit.integrability.lie_algebra import is_free
+from dofkit.integrability.pfaffian_system import first_order_freedom
 from dofkit.mobility.counts import CountedFacts, count
 from dofkit.mobility.joint_tree import tree_coordinates
 from dofkit.relations.answer import BITS, Redundancies, undecided_dependence
-from dofkit.relations.blocks import uses_time
+from dofkit.relations.blocks import Block, Row, uses_time
 from dofkit.relations.normal.pieces import Finite, Reduced
 from dofkit.relations.setting import ALL, Reductions, Setting
 from dofkit.report import ConstraintEntry, Count, Redundancy
@@ -169,7 +171,7 @@ def conflicting(study: Study) -> Decided:
 
 
 def instantaneous_dof(study: Study) -> Decided:
-    """Velocities allowed to first order at the reference configuration; None without one, or where branches cross.
+    """Velocities allowed to first order at the reference configuration; None without one.
 
     Its claim is of ranks there, which are exact where no row depends on others.
     """
@@ -177,11 +179,26 @@ def instantaneous_dof(study: Study) -> Decided:
     if study.system.reference is None:
         return Decided(None)
     freedoms = [a.instantaneous for a in outcome.answers]
-    number = None
-    if outcome.consistent is True and not outcome.crossing and None not in freedoms:
+    claim, number = together(*(a.first_order for a in outcome.answers)), None
+    if outcome.consistent is True and outcome.crossing:
+        number, sure = _where_branches_cross(study, study.system.reference)
+        claim = Claim("proved" if sure else "probable", "rank at the reference", BITS)
+    elif outcome.consistent is True and None not in freedoms:
         number = len(outcome.untouched) + sum(p for p in freedoms if p is not None)
-    claim = together(*(a.first_order for a in outcome.answers))
     return decided(study, number, replace(claim, about="reference"))
+
+
+def _where_branches_cross(study: Study, reference: Mapping[Expr, Expr]) -> tuple[int | None, bool]:
+    """Return the instantaneous freedom by the differentials of relations as written, where their branches cross."""
+    rows = []
+    for i, r in enumerate(study.reduced):
+        for normal, written in zip(r.normals, r.written, strict=True):
+            branches = branches_at_reference(normal, study.setting).branches
+            rows += [Row(i, p) for p in (branches[0] if len(branches) == 1 else (Finite(written.expr),))]
+    if study.setting.tolerance is not None or not all(isinstance(row.piece, Finite) for row in rows):
+        return None, False
+    coordinates = tuple(c.name for c in study.system.coordinates)
+    return first_order_freedom(Block(coordinates, tuple(rows)), study.setting, reference)
 
 
 def singular(study: Study) -> Decided:
@@ -345,23 +362,14 @@ def modelled(system: System, outcome: Outcome) -> str:
 
 def _looked_at(outcome: Outcome) -> Iterator[str]:
     """What of the relations had to be followed to tell motions from shakes."""
-    looked = [a.looked for a in outcome.answers]
-    left_out, rigid, followed = (
-        sum(k.left_out for k in looked),
-        sum(k.rigid for k in looked),
-        sum(k.followed for k in looked),
-    )
+    left_out = sum(a.looked.left_out for a in outcome.answers)
     if left_out:
         whole = sum(len(b.rows) for b in outcome.blocks)
         yield (
             f"{left_out} of {many(whole, 'relation')} {verb(left_out)} in no dependent set (as in open chains), "
             "so their finite motion was not examined"
         )
-    if rigid:
-        yield f"{many(rigid, 'dependent set')} treated as one rigid body each"
-    if followed and left_out:
-        yield f"{many(followed, 'other dependent set')} examined separately"
-    if any(k.spared for k in looked):
+    if any(a.looked.spared for a in outcome.answers):
         yield (
             "fewer coordinates for the finite motions (welded bodies and rigid clusters as one body, bodies that do "
             "not turn as particles, variables that a linear equation gives explicitly)"

@@ -7,7 +7,6 @@ angles are only read off where all three rates are solved for; a Gibbs vector ma
 from __future__ import annotations
 
 import math
-import random
 from collections.abc import Collection, Iterator, Sequence
 from fractions import Fraction
 from itertools import chain
@@ -17,11 +16,11 @@ from flint import arb, arb_mat
 
 from dofkit.base.errors import NoValueError
 from dofkit.base.libraries import nx
-from dofkit.configuration.at_reference import ball_point
+from dofkit.configuration.at_reference import near_reference
 from dofkit.configuration.variety import field_jacobian, on_variety, pose_point
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.sparse import sparse_frame, without_time
-from dofkit.exact.points.real_search import RealPoint, RealSearch, are_joined
+from dofkit.exact.points.real_search import RealPoint
 from dofkit.expressions import tree as ex
 from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.tree import Expr
@@ -39,8 +38,6 @@ NEARLY = arb(0, 1e-12)
 TILTED = 1e-7
 #: Coordinates at most of what is looked at where it is drawn, and where it is searched for.
 MOST_DRAWN, MOST_SEARCHED = 700, 60
-#: How far from the reference the angles are looked at.
-NEAR = (2**-6, 2**-10, 2**-16, 2**-24)
 
 
 class TurnedGroup(NamedTuple):
@@ -169,7 +166,7 @@ def are_coordinates(group: TurnedGroup, chosen: Collection[str], setting: Settin
     if len(group.block.coordinates) > MOST_SEARCHED:
         return False
     chart = make_chart(group.block, setting, group.hidden)
-    for real in _near_reference(chart, len(group.block.coordinates) - len(names)):
+    for real in near_reference(chart, len(group.block.coordinates) - len(names)):
         try:
             rows = _rows(group, chart, real, chosen, turning)
         except (NoValueError, ZeroDivisionError):
@@ -177,26 +174,6 @@ def are_coordinates(group: TurnedGroup, chosen: Collection[str], setting: Settin
         if ball_part(rows).rank == len(group.block.coordinates):
             return True
     return False
-
-
-def _near_reference(chart: Chart, rank: int) -> Iterator[RealPoint | None]:
-    """Certified configurations near the reference, each joined to it by a curve; None where nothing constrains.
-
-    At one on another part of the set other coordinates may be free.
-    """
-    if not chart.nodes:
-        yield None
-        return
-    start = ball_point(chart, {**(chart.setting.reference or {}), ex.TIME: ex.ZERO})
-    if chart.setting.reference is None or start is None:
-        return
-    search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.setting.positive, chart.symbols)
-    for seed, away in enumerate(NEAR):
-        rng, initial = random.Random(f"dofkit near {seed}"), {s: float(v.mid()) for s, v in start.symbols.items()}
-        initial |= {s: initial[s] + away * rng.uniform(-1.0, 1.0) for s in search.unknowns}
-        real = search.search(seed, initial, starts=1)
-        if real and real.certified and real.consistent and are_joined(search, start.symbols, real, rank):
-            yield real
 
 
 def _rows(

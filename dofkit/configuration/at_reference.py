@@ -15,7 +15,7 @@ not enough, all equations are looked at together.
 from __future__ import annotations
 
 import random
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -43,6 +43,7 @@ from dofkit.exact.matrices.sparse import (
 )
 from dofkit.exact.points.balls import BallPoint, exact_rank, jacobian, precision, rational_values
 from dofkit.exact.points.field import FieldPoint
+from dofkit.exact.points.real_search import RealPoint, RealSearch, are_joined
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
@@ -52,6 +53,8 @@ from dofkit.relations.blocks import Chart
 
 #: A gap between singular values that tells them apart.
 CLEAR = 1e3
+#: How far from the reference the angles are looked at.
+NEAR = (2**-6, 2**-10, 2**-16, 2**-24)
 EXPLICIT = "each equation determines one coordinate in terms of others, so the set is a graph"
 
 
@@ -180,8 +183,7 @@ def _by_parts(
     looked_at = {row for part in classes for row in part.rows}
     weak = max(dimensions, key=lambda local: VERDICTS.index(local.verdict))
     local = LocalDimension(dimension, weak.verdict, "; ".join(reasons), argument=weak.argument)
-    rigid = sum(local.reason == _rigid() for local in dimensions)
-    return local, FollowedClasses(len(matrix) - len(looked_at), rigid, len(dimensions) - rigid, followed, more)
+    return local, FollowedClasses(len(matrix) - len(looked_at), followed, more)
 
 
 def _rigid() -> str:
@@ -272,6 +274,26 @@ def float_point(chart: Chart, pose: Mapping[Expr, Expr]) -> dict[Expr, float] | 
     """Return a pose at t = 0 in floating point, symbols without a value at random; None if a value is undefined."""
     ball = ball_point(chart, {**pose, ex.TIME: ex.ZERO})
     return None if ball is None else {s: float(v.mid()) for s, v in ball.symbols.items()}
+
+
+def near_reference(chart: Chart, rank: int) -> Iterator[RealPoint | None]:
+    """Certified configurations near the reference, each joined to it by a curve; None where nothing constrains.
+
+    At one on another part of the set other coordinates may be free.
+    """
+    if not chart.nodes:
+        yield None
+        return
+    start = ball_point(chart, {**(chart.setting.reference or {}), ex.TIME: ex.ZERO})
+    if chart.setting.reference is None or start is None:
+        return
+    search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.setting.positive, chart.symbols)
+    for seed, away in enumerate(NEAR):
+        rng, initial = random.Random(f"dofkit near {seed}"), {s: float(v.mid()) for s, v in start.symbols.items()}
+        initial |= {s: initial[s] + away * rng.uniform(-1.0, 1.0) for s in search.unknowns}
+        real = search.search(seed, initial, starts=1)
+        if real and real.certified and real.consistent and are_joined(search, start.symbols, real, rank):
+            yield real
 
 
 # Classes of dependent equations

@@ -35,14 +35,12 @@ SLACK = 1e-9
 #: Distances are shown to so many digits.
 DIGITS = 6
 
-Node = tuple[str | None, str]
-
 
 class Side(NamedTuple):
     """A known distance, about ``length``, or a bound from above; ``owner`` None where a body holds both points."""
 
-    first: Node
-    second: Node
+    first: Place
+    second: Place
     squared: Expr
     length: float
     owner: int | None
@@ -57,7 +55,7 @@ def lengths_unmet(block: Block, setting: Setting) -> Answer | None:
     owners = sorted({row.constraint for row in block.rows})
     prescribed = [(i, d) for i in owners for d in setting.distances.get(i, ())]
     sides = sorted(_sides(prescribed), key=lambda side: -side.length) if len(prescribed) > 1 else []
-    graph: nx.Graph[Node] = nx.Graph()
+    graph: nx.Graph[Place] = nx.Graph()
     for side in sides:  # of several between two points the shortest stays
         graph.add_edge(side.first, side.second, side=side)
     visits = 0
@@ -69,20 +67,20 @@ def lengths_unmet(block: Block, setting: Setting) -> Answer | None:
         route = routes.get(side.second, ())
         others = [graph.edges[pair]["side"] for pair in pairwise(route)]
         if others and _is_longer(side, others, setting.positive):
-            return _unmet(side, others, "-".join(label for _, label in route))
+            return _unmet(side, others, "-".join(place.label for place in route))
         if visits > MAX_VISITS:
             break
     return None
 
 
-def _length_but(hidden: Side, _u: Node, _v: Node, edge: Mapping[str, Any]) -> float | None:
+def _length_but(hidden: Side, _u: Place, _v: Place, edge: Mapping[str, Any]) -> float | None:
     return None if edge["side"] is hidden else edge["side"].length
 
 
 def _unmet(side: Side, others: Sequence[Side], route: str) -> Answer:
     most = sum(other.length for other in others)
     why = (
-        f"the points {side.first[1]} and {side.second[1]} cannot be {side.length:.{DIGITS}g} apart: "
+        f"the points {side.first.label} and {side.second.label} cannot be {side.length:.{DIGITS}g} apart: "
         f"along {route} they are at most {most:.{DIGITS}g} apart."
     )
     conflict = tuple(sorted({s.owner for s in (side, *others) if s.owner is not None}))
@@ -98,8 +96,8 @@ def _sides(distances: Sequence[tuple[int, Distance]]) -> Iterator[Side]:
     held = ((a, b, square_between(a.reference or (), b.reference or ()), None, False) for a, b in _carried(distances))
     for first, second, squared, owner, at_most in (*written, *held):
         about = interval_of(squared, values)
-        if about is not None and about >= 0 and first[:2] != second[:2]:
-            yield Side(first[:2], second[:2], squared, float(about.sqrt().mid()), owner, at_most)
+        if about is not None and about >= 0 and first != second:
+            yield Side(first, second, squared, float(about.sqrt().mid()), owner, at_most)
 
 
 def _is_longer(longest: Side, others: Sequence[Side], positive: frozenset[Expr]) -> bool:
@@ -113,11 +111,11 @@ def _is_longer(longest: Side, others: Sequence[Side], positive: frozenset[Expr])
 
 def _carried(distances: Iterable[tuple[int, Distance]]) -> Iterator[tuple[Place, Place]]:
     """Yield pairs of points of one body: they keep the distance they are drawn at."""
-    bodies: dict[str, dict[Node, Place]] = {}
+    bodies: dict[str, dict[Place, None]] = {}
     for _, d in distances:
         for place in (d.first, d.second):
             if place.frame is not None and place.reference is not None:
-                bodies.setdefault(place.frame, {})[place[:2]] = place
+                bodies.setdefault(place.frame, {})[place] = None
     for places in bodies.values():
         if len(places) <= MAX_CARRIED:
-            yield from combinations(places.values(), 2)
+            yield from combinations(places, 2)

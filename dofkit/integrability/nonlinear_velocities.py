@@ -105,17 +105,6 @@ def set_velocity_freedom(block: Block, setting: Setting, result: Answer) -> None
             result.labels = dict.fromkeys(result.labels, HolonomyLabel(True, result.verdict, "line"))
 
 
-def first_order_beside_bends(block: Block, setting: Setting, result: Answer) -> tuple[int | None, bool]:
-    """The velocities that the constraints allow at the reference, and whether that is proved.
-
-    Regular ones were found there, and one relation that bends holds nowhere on all that the linear ones leave.
-    """
-    regular = result.curved and len(block.nonlinear) == 1 and not result.hidden
-    if not regular or _rows_at_reference(block, setting, result) is None:
-        return None, False
-    return result.velocity_dof, result.verdict == "proved"
-
-
 def _rows_at_reference(block: Block, setting: Setting, result: Answer) -> tuple[Row, ...] | None:
     """What the relations say of velocities at the reference; None where that is not on the set now.
 

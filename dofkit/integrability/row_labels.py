@@ -287,8 +287,8 @@ def _gap(span: Span) -> float:
     return part.gap / part.fall
 
 
-def ball_labels(block: Block, forms: Codistribution, real: RealPoint, result: Answer) -> None:
-    """With real points only: what a tiny ball contains 0 of is taken for 0, and the verdict says numeric."""
+def ball_labels(block: Block, forms: Codistribution, real: RealPoint, result: Answer) -> Span | None:
+    """Set labels from a real point, where what a tiny ball contains 0 of is taken for 0; return the Lie algebra there."""
     at = values(forms.chart.ring, real.point)
     matrix = forms.rows.matrix(at, arb(0))
     part = ball_part(matrix)
@@ -298,9 +298,9 @@ def ball_labels(block: Block, forms: Codistribution, real: RealPoint, result: An
     if lie_algebra is None or part.gap < CLEAR:
         result.verdict, result.consistent = "undecided", None
         result.reasons.append("only singular points were found")
-        return
+        return None
     span, _ = lie_algebra
-    reached = span.dimension == total
+    reached = span.dimension == total - forms.finite
     gap = part.gap if reached else min(part.gap, _gap(span))
     result.verdict, result.method = "numeric", "Lie algebra along a curve with balls"
     result.argument, result.gap = "Lie algebra with balls", gap
@@ -313,7 +313,7 @@ def ball_labels(block: Block, forms: Codistribution, real: RealPoint, result: An
         result.reasons.append(
             f"Lie brackets are resolved down to a gap of {gap:.1e} only, so some may have been missed"
         )
-    if "field" not in forms.chart.setting.engines:
+    if "field" not in forms.chart.setting.engines or result.about == "reference":
         result.matrix = sparse(dependencies(matrix, part))
         if real.consistent and len(real.part.rows) == forms.finite and rank == len(matrix):
             result.verdict = "proved" if reached or total - rank <= 1 else result.verdict
@@ -325,6 +325,7 @@ def ball_labels(block: Block, forms: Codistribution, real: RealPoint, result: An
             continue
         sure: Verdict = "proved" if finite or not zero else "numeric"
         result.labels[i] = HolonomyLabel(zero, sure)
+    return span
 
 
 # The reference configuration beside the generic points at which rows are labelled
@@ -352,14 +353,11 @@ def span_at_reference(forms: Codistribution, reference: Mapping[Expr, Expr]) -> 
     return None
 
 
-def is_exceptional(
-    forms: Codistribution, reference: tuple[FieldPoint, SampledSpan], samples: Sequence[SampledSpan]
-) -> bool:
-    """Return whether the rows or the Lie algebra are smaller at the reference configuration than at one of the samples.
+def is_exceptional(forms: Codistribution, reference: tuple[FieldPoint, SampledSpan], rank: int, span: Span) -> bool:
+    """Return whether the rows or the Lie algebra are smaller at the reference configuration than elsewhere.
 
     Several leaves, or one of smaller dimension, can pass through such a configuration [HermannNagano]. Rows count by
     what they say of velocities: where only the dt term remains no motion passes.
     """
     point, here = reference
-    rank = rank_of([row[: forms.n] for row in here.matrix], point.p)
-    return any(rank < len(there.frame.rows) or here.span.dimension < there.span.dimension for there in samples)
+    return rank_of([row[: forms.n] for row in here.matrix], point.p) < rank or here.span.dimension < span.dimension

@@ -47,14 +47,9 @@ class Size(NamedTuple):
 
 
 class FollowedClasses(NamedTuple):
-    """What was looked at: relations ``left_out``, classes that are ``rigid``, and those that were ``followed``.
-
-    The latter in so many ``coordinates``, where there would have been ``spared`` more.
-    """
+    """Relations ``left_out``, and the ``coordinates`` of those that were followed, ``spared`` fewer than these have."""
 
     left_out: int = 0
-    rigid: int = 0
-    followed: int = 0
     coordinates: int = 0
     spared: int = 0
 

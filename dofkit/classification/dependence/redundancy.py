@@ -19,7 +19,7 @@ from dofkit.classification.freedom.preparation import algebraic, all_of, branche
 from dofkit.exact.matrices.sparse import SparseRow, components
 from dofkit.relations.answer import IDENTITY, Answer, Redundancies, undecided_dependence
 from dofkit.relations.blocks import Block, coordinates_of
-from dofkit.relations.normal.domain import DomainCondition
+from dofkit.relations.normal.domain import DomainCondition, is_always_satisfied
 from dofkit.relations.normal.pieces import Finite, Inequality, Nonlinear, Normal, Reduced
 from dofkit.relations.setting import Setting
 
@@ -47,7 +47,14 @@ def redundancies(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome)
     for numbers in _connected(reduced, outcome, apart):
         work = partial(_of_part, reduced, setting, blocks, numbers)
         result += unless_late(work, [undecided_dependence(numbers)])
-    return result
+    return [_within_domain(r, reduced, setting) for r in result]
+
+
+def _within_domain(r: Redundancies, reduced: Sequence[Reduced], setting: Setting) -> Redundancies:
+    """Return the same about a component where what is redundant has no value, as it was written, at some points."""
+    needed = {c for i, other in enumerate(reduced) if i not in r.redundant for c in other.domain()}
+    asked = {c for i in r.redundant for c in reduced[i].domain()} - needed
+    return r if all(is_always_satisfied(c, setting.positive) for c in asked) else _within(r, "component")
 
 
 def _is_region(r: Reduced) -> bool:

@@ -106,6 +106,7 @@ class Part:
         if prod(len(n.branches) for n in normals) > MAX_CHOICES or not kinds.isdisjoint({"differential", "dt"}):
             return []
         sides = [DomainCondition(q.expr, ">" if q.strict else ">=") for q in self.inequalities]
+        sides += [c for r in self.reduced for c in r.domain(inequalities=True)]
         chosen = cartesian(*(n.branches for n in normals))
         return [_problems([p for branch in choice for p in branch], sides) for choice in chosen]
 

@@ -9,7 +9,7 @@ from dofkit.base.verdicts import weakest
 from dofkit.classification.freedom.bridged_blocks import bridged_answer
 from dofkit.classification.freedom.preparation import passes_reference
 from dofkit.configuration import distance_geometry
-from dofkit.configuration.at_reference import at_reference
+from dofkit.configuration.at_reference import at_reference, near_reference
 from dofkit.configuration.components import is_graph, is_irreducible
 from dofkit.configuration.finite_blocks import finite_answer
 from dofkit.configuration.linear_blocks import eliminated
@@ -22,7 +22,7 @@ from dofkit.exact.ring.program import NoPointError
 from dofkit.exact.zero import BALLS, BOTH, independent_generators
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.lie_algebra import SampledSpan, on_the_same_part, span_at
-from dofkit.integrability.nonlinear_velocities import first_order_beside_bends, set_velocity_freedom
+from dofkit.integrability.nonlinear_velocities import set_velocity_freedom
 from dofkit.integrability.pfaffian_system import (
     Codistribution,
     codistribution,
@@ -161,11 +161,9 @@ def _mixed_answer(block: Block, setting: Setting) -> Answer:
         return Answer(None, verdict="undecided", reasons=[MEASURED])
     result = _prolonged(block, setting, Answer())
     if setting.reference is not None and (not result.hidden or _passes_reference(block, result.hidden, setting)):
-        if block.nonlinear:
-            answers = first_order_beside_bends(block, setting, result)
-        else:
+        if not block.nonlinear:
             answers = first_order_freedom(block, setting, setting.reference)
-        result.instantaneous, result.first_order_sure = answers
+            result.instantaneous, result.first_order_sure = answers
         result.verdict = weakest(result.verdict, "numeric" if is_measured(block, setting) else "proved")
     return result
 
@@ -237,7 +235,11 @@ def _points(forms: Codistribution, setting: Setting) -> Variety:
         return replace(find(forms.chart, setting.pose), about="component")
     if points and is_irreducible(forms.chart) and _as_large(forms, setting.reference):
         return find(forms.chart, setting.pose)
-    return Variety(None, None, "undecided", reasons=[IRREGULAR])
+    near = next(near_reference(forms.chart, forms.finite), None) if points else None
+    if near is None:
+        return Variety(None, None, "undecided", reasons=[IRREGULAR])
+    dimension = forms.n - forms.finite
+    return Variety(True, dimension, "proved", real=near, about="reference", argument="regular point")
 
 
 def _as_large(forms: Codistribution, reference: Mapping[Expr, Expr]) -> bool:
@@ -254,11 +256,12 @@ def _with_spans(block: Block, forms: Codistribution, points: Variety, extra: lis
     result = Answer(True, hidden=extra, reasons=list(points.reasons), verdict=points.verdict, about=points.about)
     result.argument, result.gap, result.witness = points.argument, points.gap, of_real_point(forms.chart, points.real)
     result.separating = points.separating
+    here = None if setting.reference is None else span_at_reference(forms, setting.reference)
+    irregular = replace(result, consistent=None, verdict="undecided", reasons=[*points.reasons, IRREGULAR])
     if points.samples:
         good = _spans(forms, points)
-        here = None if setting.reference is None else span_at_reference(forms, setting.reference)
-        if here is not None and is_exceptional(forms, here, [sampled for _, sampled in good]):
-            return replace(result, consistent=None, verdict="undecided", reasons=[*points.reasons, IRREGULAR])
+        if here is not None and any(is_exceptional(forms, here, len(s.frame.rows), s.span) for _, s in good):
+            return irregular
         if good:
             if points.about == "component" and points.real is not None and points.real.certified:
                 largest = max((sampled for _, sampled in good), key=lambda sampled: sampled.span.dimension)
@@ -273,7 +276,11 @@ def _with_spans(block: Block, forms: Codistribution, points: Variety, extra: lis
                 set_velocity_freedom(block, setting, result)
             return result
     if points.real is not None and points.real.certified:
-        ball_labels(block, forms, points.real, result)
+        span = ball_labels(block, forms, points.real, result)
+        if here is not None and span is not None:
+            if is_exceptional(forms, here, forms.n - (result.velocity_dof or 0), span):
+                return irregular
+            result.dependent = integrable_names(forms, here[0], here[1].span)
         if block.nonlinear:
             set_velocity_freedom(block, setting, result)
         return result

@@ -170,7 +170,7 @@ def _through_reference(
     never, unsettled = _one_sided(reduced, positive)
     copied = copies(reduced) if "copies" in setting.reductions else {}
     outcomes, why = list[Outcome](), None
-    domain = [(i, c) for i, r in enumerate(reduced) for c in r.domain if c.expr.op != "num"]
+    domain = [(i, c) for i, r in enumerate(reduced) for c in r.domain() if not is_always_satisfied(c, setting.positive)]
     names = [c.name for c in setting.roles]
     for number, choice in enumerate(cartesian(*options)):
         if number == MAX_CHOICES:

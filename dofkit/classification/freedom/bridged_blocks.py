@@ -137,6 +137,6 @@ def _looked(block: Block, answered: Sequence[AnsweredPart]) -> FollowedClasses:
     """What was looked at; all equations but those of the parts were left out, where classes were looked at apart."""
     answer = [p.answer.looked for p in answered]
     whole = FollowedClasses(*map(sum, zip(FollowedClasses(), *answer, strict=True)))
-    if any(not (k.left_out or k.rigid or k.followed) for k in answer):
-        return whole._replace(left_out=0, rigid=0, followed=0)
+    if not all(k.left_out for k in answer):
+        return whole._replace(left_out=0)
     return whole._replace(left_out=whole.left_out + len(block.rows) - sum(len(p.block.rows) for p in answered))

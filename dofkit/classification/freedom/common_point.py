@@ -182,7 +182,7 @@ def at_one_point(
     written = _with_conditions(blocks, domain)
     kept, result = list(blocks), simultaneous(written, answers)
     if any(a.consistent is not True for a in result):
-        return CommonPoint(kept, result)
+        return CommonPoint(kept, [restricted_to_domain(b, a, setting) for b, a in zip(written, result, strict=True)])
     point = _point(result, setting)
     outside = [(i, c) for i, c in domain if not hold_strictly([c], {s: point.get(s, arb(0)) for s in c.expr.symbols})]
     names = [*(_names(block) for block in written), *(_names_of(c, i) for i, c in outside)]

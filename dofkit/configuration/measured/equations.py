@@ -10,7 +10,7 @@ from typing import Any
 from flint import arb
 
 from dofkit.base.deadline import check
-from dofkit.base.libraries import np, nx
+from dofkit.base.libraries import np
 from dofkit.configuration.local.quadratic_cone import definite_combination
 from dofkit.configuration.rigid_motions import displacements_real
 from dofkit.exact.points.balls import FloatPoint, jacobian
@@ -18,9 +18,8 @@ from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.relations.blocks import Block, Chart, coordinates_of
+from dofkit.relations.blocks import Chart
 from dofkit.relations.setting import Setting
-from dofkit.system import GROUND
 
 #: A singular value counts as 0 below tolerance * SLACK; between that and tolerance * GREY the rank is undecided.
 SLACK, GREY = 3.0, 30.0
@@ -254,24 +253,6 @@ def _separate_rows(j: Any, rank: int, tolerance: float) -> list[int]:
             rows.append(r)
             basis = np.vstack([basis, row / distance])
     return rows
-
-
-def is_tree(block: Block, setting: Setting) -> bool:
-    """Return whether constraints of geometry alone join particles, bodies and the ground without a loop.
-
-    Their equations are then independent wherever they are satisfied, whatever their numbers are.
-    """
-    owners = {c.name: c.owner for c in setting.roles}
-    members: dict[int, set[str | None]] = {}
-    for row in block.rows:
-        members.setdefault(row.constraint, set()).update(owners[name] for name in coordinates_of(row.piece))
-    joined: nx.Graph = nx.Graph()
-    for constraint, ends in members.items():
-        if constraint not in setting.geometric or None in ends:
-            return False
-        pair = [*ends, GROUND] if len(ends) == 1 else [*ends]
-        joined.add_edges_from((("joint", constraint), ("member", end)) for end in pair)
-    return bool(nx.is_forest(joined)) if joined else True
 
 
 def pose_of_block(chart: Chart) -> Mapping[Expr, Expr] | None:

@@ -220,7 +220,7 @@ def value_of(ring: Instructions, point: Point, node: int, through_generators: bo
             out[i] = point.generator(var, [out[j] for j in var.args] if through_generators else ())
         elif op == POW:
             base, n = payload
-            out[i] = integer_power(out[base], n) if n > 0 else 1 / integer_power(out[base], -n)
+            out[i] = _power(out[base], n)
         else:
             out[i] = reduce(mul if op == MUL else add, [out[j] for j in payload])
     return out[node]
@@ -256,8 +256,18 @@ def values(ring: Instructions, point: Point, upto: int | None = None) -> list[Sc
             push(point.number(payload))
         else:
             base, exponent = payload
-            push(integer_power(out[base], exponent) if exponent > 0 else 1 / integer_power(out[base], -exponent))
+            push(_power(out[base], exponent))
     return out
+
+
+def _power(value: Scalar, n: int) -> Scalar:
+    """value^n for n != 0. Raises PoleError where the inverse of a ball has no bound, so that it says nothing."""
+    if n > 0:
+        return integer_power(value, n)
+    inverse = 1 / integer_power(value, -n)
+    if isinstance(inverse, arb) and not inverse.is_finite():
+        raise PoleError
+    return inverse
 
 
 def integer_power(value: Scalar, n: int) -> Scalar:

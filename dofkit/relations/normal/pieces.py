@@ -129,13 +129,13 @@ class Reduced(NamedTuple):
     def equations(self) -> int:
         return len(self.normals)
 
-    @property
-    def domain(self) -> tuple[DomainCondition, ...]:
-        """Where its equations, as they were written, have a value, in velocities in place of differentials."""
+    def domain(self, inequalities: bool = False) -> tuple[DomainCondition, ...]:
+        """Where its equations (and ``inequalities``) have a value as written; in velocities, not differentials."""
         relations = self.constraint.relations
         if isinstance(relations, Unwritten) or not (self.normals or self.inequalities):
             return ()
-        written = ((in_velocities(e)[0], sense) for r in relations if r.sense == "=" for e, sense in r.domain)
+        asked = (r for r in relations if r.sense == "=" or inequalities)
+        written = ((in_velocities(e)[0], sense) for r in asked for e, sense in r.domain)
         return tuple(dict.fromkeys(DomainCondition(*required) for required in written))
 
 

@@ -151,6 +151,12 @@ def _texts(value: object) -> object:
     return (value,) if isinstance(value, str) else value
 
 
+def with_values(relation: Relation, values: Mapping[Expr, Expr], part: str = "") -> Relation:
+    """Return a relation between letters, with what they stand for in place of them, also where its domain is stated."""
+    domain = tuple((substitute(e, values), required) for e, required in relation.domain)
+    return Relation(substitute(relation.expr, values), relation.sense, part, domain=domain)
+
+
 class On(ConstraintBase):
     """Every member lies on a surface g(x, y, z) = 0, or on a curve g1 = g2 = 0: members x texts relations.
 
@@ -196,15 +202,13 @@ class On(ConstraintBase):
         for i, member in enumerate(self.members):
             point = world.point(member, "members", i)
             stands = {coordinate(letter): part for letter, part in zip(letters, _position(point), strict=True)}
-            for j, (e, sense, *_, domain) in enumerate(read):
+            for j, relation in enumerate(read):
                 part = f"at {show_point(member)}" + (f", text {j + 1}" if len(read) > 1 else "")
                 try:
-                    value = substitute(e, stands)
-                    there = tuple((substitute(u, stands), required) for u, required in domain)
+                    yield with_values(relation, stands, part)
                 except NoValueError:
                     world.fault(f"the text has no value at {show_point(member)}", "members", i)
                     return
-                yield Relation(value, sense, part, domain=there)
 
     def notes(self, world: World) -> Iterator[str]:
         if world.dimension != 3 or self.curve is None:

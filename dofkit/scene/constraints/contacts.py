@@ -14,7 +14,7 @@ from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.enclosures import approximate, differs_from_zero, has_call
 from dofkit.expressions.tree import MINUS_ONE, TIME, ZERO, Expr, add, coordinate, mul, velocity
 from dofkit.expressions.vectors import Vec, apply, difference, minus, square, transposed
-from dofkit.scene.constraints.base import ConstraintBase, figures, root
+from dofkit.scene.constraints.base import ConstraintBase, figures, root, with_values
 from dofkit.scene.constraints.joints import Joint
 from dofkit.scene.constraints.places import across_a_line
 from dofkit.scene.fields import Text, Value, as_written
@@ -59,13 +59,13 @@ class Cam(ConstraintBase):
         profile = self._profile(world)
         if profile is None:
             return
-        drawn = None if point.reference is None else _drawn(profile, frame, point.reference)
+        drawn = None if point.reference is None else _drawn(profile.expr, frame, point.reference)
         world.mentioned.directions.append(None if drawn is None else drawn.tangent(bool(world.tolerance)))
         if drawn is not None:
             self._check(world, frame, point, drawn)
-        yield Relation(substitute(profile, _body_coordinates(frame, point)), part="contact")
+        yield with_values(profile, _body_coordinates(frame, point), part="contact")
 
-    def _profile(self, world: World) -> Expr | None:
+    def _profile(self, world: World) -> Relation | None:
         """g; None after a fault."""
         before = len(world.faults)
         names = within_member(world.names, OWN)
@@ -81,7 +81,7 @@ class Cam(ConstraintBase):
             hint = "write one such as x^2 + y^2 = 4; an inequality or a chain is not a profile"
             world.fault("a profile is one equation in x and y", "curve", hint=hint)
             return None
-        return relations[0].expr
+        return relations[0]
 
     def _check(self, world: World, frame: Frame, point: Placed, drawn: DrawnContact) -> None:
         """A point that is off the profile where both are drawn is a fault that shows by how much."""

@@ -17,7 +17,7 @@ from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.text import valid_name
 from dofkit.expressions.tree import MINUS_ONE, ONE, TIME, ZERO, Expr, coordinate, mul
 from dofkit.expressions.vectors import difference, dot, is_zero, length
-from dofkit.scene.constraints.base import ConstraintBase, root
+from dofkit.scene.constraints.base import ConstraintBase, root, with_values
 from dofkit.scene.constraints.joint_parts import JointGeometry, Measure
 from dofkit.scene.constraints.joints import Driven
 from dofkit.scene.fields import Text, untagged
@@ -107,11 +107,11 @@ class Coupling(ConstraintBase):
             world, [relation.expr for relation in relations], measured
         ):
             return
-        for e, sense, *_ in relations:
-            if sense == "=" and not self._fits(world, e, measured):
+        for relation in relations:
+            if relation.sense == "=" and not self._fits(world, relation.expr, measured):
                 return
-            in_arcs = substitute(e, {letter: joint.value for letter, joint in measured.items()})
-            yield Relation(_in_turns(e, measured) or in_arcs, sense)
+            in_arcs = with_values(relation, {letter: joint.value for letter, joint in measured.items()})
+            yield in_arcs._replace(expr=_in_turns(relation.expr, measured) or in_arcs.expr)
 
     def _within_half_turns(self, world: World, bounds: Sequence[Expr], measured: Mapping[Expr, MeasuredJoint]) -> bool:
         """Return whether bounds on an angle of space lie within half a turn of the reference; else record a fault.
@@ -130,10 +130,7 @@ class Coupling(ConstraintBase):
             low, high = _bounds_of(letter, bounds) if joint.turns_in_space else (-inf, inf)
             if _stated_by_arcs(low, high):
                 continue
-            hint = "choose a reference configuration nearer to the middle of its range"
-            turns = 2 * pi * round((low + high) / (4 * pi)) if isfinite(low + high) else 0.0
-            if turns and _stated_by_arcs(low - turns, high - turns):
-                hint = f"subtract whole turns: `{low - turns:.6g} <= {letter.args[1]} <= {high - turns:.6g}`"
+            hint = "choose a reference configuration nearer to the middle of its range, or subtract whole turns"
             world.fault(message, "text", hint=hint)
             return False
         return True

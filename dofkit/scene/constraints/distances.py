@@ -12,6 +12,7 @@ from dofkit.base.wording import many, verb
 from dofkit.exact.matrices.sparse import along, less
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.enclosures import approximate
+from dofkit.expressions.real_values import Requirement
 from dofkit.expressions.tree import ONE, TIME, TWO, ZERO, Expr, add, fn, mul, power, sqrt
 from dofkit.expressions.vectors import Vec, difference, square, square_between
 from dofkit.scene.constraints.base import ConstraintBase
@@ -62,7 +63,10 @@ class Link(ConstraintBase):
             _check_length(world, given_length, drawn, f"{first.label} and {second.label} are", "apart")
         if first.frame is None and second.frame is None and (given_length is None or not _moves(given_length)):
             world.links.append((world.index, first.label, second.label))
-        yield Relation(distance(world, first, second, given_length))
+        at_least_zero: tuple[Requirement, ...] = ()
+        if given_length is not None and given_length.symbols and "call" not in given_length.functions:
+            at_least_zero = ((given_length, ">="),)
+        yield Relation(distance(world, first, second, given_length), domain=at_least_zero)
 
     @property
     def in_words(self) -> str:

@@ -59,6 +59,8 @@ class Fixed(ConstraintBase):
         stands = placed.reference
         if stands is None:
             stands = tuple(world.fresh() for _ in range(world.dimension))
+        else:
+            world.apart(placed, world.ground.point(stands, figures(stands)), ZERO)
         yield from component_relations(minus(placed.over, scaled(placed.under, stands)))
 
     @property
