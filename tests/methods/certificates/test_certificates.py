@@ -100,6 +100,20 @@ def test_verdicts_say_whether_they_are_checked() -> None:
     assert with_certificate(scene, wrong).verdicts["instantaneous_dof"].checked is False
 
 
+@pytest.mark.parametrize(("more", "about", "checked"), [([], "everywhere", True), ([[6, 0]], "component", False)])
+def test_a_strict_number_is_told_of_the_points_of_which_it_is_shown(more: list[Any], about: str, checked: bool) -> None:
+    """The evidence for a double pendulum is about all of it, that for a four-bar linkage about a point."""
+    ends = zip([[0, 0], "A", "B"], ["A", "B", *more], [2, 5, 4], strict=False)
+    links = [{"type": "link", "between": [*pair], "length": length} for *pair, length in ends]
+    scene = dofkit.load({"dimension": 2, "particles": ["A", "B"], "constraints": links})
+    report = dofkit.classify(scene)
+    told = {field: with_certificate(scene, report).verdicts[field].checked for field in ("dof", "velocity_dof")}
+    assert (report.verdicts["dof"].about, told) == ("everywhere", {"dof": checked, "velocity_dof": checked})
+    strict = with_certificate(scene, report, strict=True).verdicts
+    shown = [(strict[field].verdict, strict[field].about) for field in ("dof", "velocity_dof")]
+    assert shown == [("proved", about)] * 2
+
+
 @pytest.mark.parametrize(
     ("constraints", "members"),
     [
