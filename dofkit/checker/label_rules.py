@@ -236,8 +236,8 @@ def refuted(evidence: CheckedEvidence, refutation: Told, verified: Told, names: 
     """Return False, the value of `consistent`: by a step, what is nowhere 0 would be 0 where all relations hold."""
     names = [checked.name for checked in evidence.problem.relations] if names is None else names
     evidence.follow([refutation["step"]], names, None, "the relations")
-    one = substituted(evidence.relation(refutation["step"]).tree, {"tdot": ONE})
-    refuse(not evidence.is_nowhere_zero(one), "what would be 0 may be so")
+    consequence = substituted(evidence.relation(refutation["step"]).tree, {"tdot": ONE})
+    refuse(not evidence.is_nowhere_zero(consequence), "what would be 0 may be so")
     return False
 
 

@@ -111,12 +111,12 @@ class Context:
             names, unknowns = states_of(self)
         finite = not self.scenery.evidence.moving and self.report.dof is not None
         rank = len(problem.coordinates) - (self.report.dof or 0) if finite else len(names)
-        found: list[FoundPoint] = []
+        points: list[FoundPoint] = []
         for point in self.search.points(names, unknowns):
             if point.rank == rank and self._has_integrals(point):
                 return point
-            found.append(point)
-        return max(found, key=lambda point: point.rank == rank, default=None)
+            points.append(point)
+        return max(points, key=lambda point: point.rank == rank, default=None)
 
     def _has_integrals(self, point: FoundPoint) -> bool:
         """Whether the integrals that the report tells have values at a point."""

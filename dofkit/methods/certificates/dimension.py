@@ -183,21 +183,21 @@ def _of_set(context: Context, standing: Standing) -> Iterator[Told]:
     """What the geometric equations define."""
     scenery, evidence, claim = context.scenery, context.scenery.evidence, {"rule": "everywhere", "about": "everywhere"}
     finite, columns = _needed(standing, evidence.finite), context.problem.coordinates
-    shown = {"minor": context.minor(standing)}
-    for given in (columns, evidence.variables):
-        order, others = solving_order(finite, scenery, given, partial(_gives, context), skips=True)
+    minor = {"minor": context.minor(standing)}
+    for variables in (columns, evidence.variables):
+        order, others = solving_order(finite, scenery, variables, partial(_gives, context), skips=True)
         if not others:
             yield {**claim, "order": order}
         if len(others) < 2:
-            yield {**claim, **shown, "order": order, **({"alone": others[0]} if others else {})}
+            yield {**claim, **minor, "order": order, **({"alone": others[0]} if others else {})}
     letters = (*context.problem.world.generic, *context.problem.world.signs)
     symbols = {name: letter for name in evidence.finite if (letter := evidence.own_symbol(name, letters))}
     for skips in (False, True) if not standing.dependent or standing.accounted else ():
         order, others = solving_order(finite, scenery, columns, partial(_gives, context, most=HIGHEST_DEGREE), skips)
         if all(name in symbols for name in others):
-            yield {**claim, **shown, "order": order, "generic": [[name, symbols[name]] for name in others]}
+            yield {**claim, **minor, "order": order, "generic": [[name, symbols[name]] for name in others]}
     if all(name in symbols for name in evidence.finite) and (backed := backing(context, standing)):
-        yield {**claim, **shown, "generic": [[name, symbols[name]] for name in evidence.finite], **backed}
+        yield {**claim, **minor, "generic": [[name, symbols[name]] for name in evidence.finite], **backed}
 
 
 def _gives(context: Context, name: str, q: str, most: int = 1) -> bool:

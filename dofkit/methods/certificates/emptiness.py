@@ -45,8 +45,8 @@ def refutations(context: Context, names: Sequence[str]) -> Iterator[Told]:
     equations = [name for name in names if scenery.evidence.relation(name).kind != "inequality"]
     rates = [step for name in equations if (step := rate_of(scenery, name))]
     if (factors := constant_cofactors(scenery, ONE, [*equations, *rates])) is not None:
-        for one in ("1", "tdot"):
-            yield from _refuted(scenery, {"function": one, "c": factors})
+        for unit in ("1", "tdot"):
+            yield from _refuted(scenery, {"function": unit, "c": factors})
     for name in names:
         for squares in _by_squares(context, name):
             yield from _refuted(scenery, {"function": "1", **squares})
