@@ -52,7 +52,7 @@ _TURNS = {"vary": {"n": [2, 3, 5]}}
 _PENDULUM = {"dimension": 2, "particles": ["A"], "constraints": [_ROD]}
 _DOUBLE = {
     "dimension": 2, "particles": ["A", "B"],
-    "constraints": [_ROD, {"name": "lower", "type": "link", "between": [[0, 0], "B"], "length": 3}],
+    "constraints": [_ROD, {"name": "lower", "type": "link", "between": ["A", "B"], "length": 3}],
 }  # fmt: skip
 _DISC = {
     "parameters": {"R": "positive"}, "coordinates": ["x", "y", "theta", "phi"],

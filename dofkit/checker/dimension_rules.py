@@ -12,7 +12,7 @@ from dofkit.checker.geometry import determinant, dot
 from dofkit.checker.point import CheckedPoint, not_zero
 from dofkit.checker.trees import ONE, derivative, refuse
 
-MOST_FORMS = 6
+MOST_FORMS, HIGHEST_DEGREE = 6, 4
 
 
 def bounds(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
@@ -260,56 +260,55 @@ def growth(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[int]:
 
 
 def everywhere(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
-    """The largest number over all parts of the set, from relations of three kinds, from which the others follow.
+    """The largest number over all parts of the set, from relations of four kinds, from which the others follow.
 
-    ``order``: each relation gives a coordinate, or its velocity, with a factor of numbers and parameters, and those
-    before do not hold it: the finite ones are a graph, and all have constant rank. Instead of a coordinate one may give
-    t, of which almost all values are then regular, where nothing else is told (Sard 1942).
+    ``order``: each relation has a coordinate, or its velocity, that those before do not hold. As a derivative by it is
+    nowhere 0, a few values of that at most are left, whatever the others are. Where it is the first derivative of all,
+    the finite ones are a graph, and all have constant rank. Instead of a coordinate one may give t, of which almost
+    all values are then regular, where nothing else is told (Sard 1942).
     ``gram``: forms without these velocities whose Gram determinant is positive by itself are independent everywhere.
-    ``blocks``: a single analytic relation that is not 0 everywhere has zeros of dimension n - 1 at most; a single form,
-    of which all finite relations are a graph, has rank 1 but on such a part.
+    ``alone``: an analytic relation beside a graph, or the only form, depends on it on a part of less dimension at most.
     ``generic``: relations with a symbol of their own in which they are nowhere stationary: for almost all values of
-    these the set is a manifold, of the rank that a cover of all shows (Sard 1942, Federer 3.4.3). Blocks, and the
-    generic relations together, share no free coordinate.
+    these they cut every manifold of those that the others consist of regularly (Sard 1942, Lojasiewicz 1965). Where
+    all are generic, the set is a manifold of the rank that a cover of all shows (Federer 3.4.3).
 
     dof, where there are forms: that near a point (``most``, ``least``). None is larger where the finite relations allow
-    no more, or where all relations are named here and analytic: then orbits have the dimension that the brackets span,
-    which is largest almost everywhere at once (Nagano 1966).
+    no more, or where all relations are named here, analytic, and the finite ones a graph: then orbits have the
+    dimension that the brackets span, which is largest almost everywhere at once (Nagano 1966).
     """
-    order, blocks, generic = claim.get("order", []), claim.get("blocks", []), dict(claim.get("generic", []))
-    gram, size = claim.get("gram", {"forms": []}), len(evidence.problem.coordinates)
-    names = [*(name for name, _ in order), *gram["forms"], *blocks, *generic]
+    order, generic = claim.get("order", []), dict(claim.get("generic", []))
+    alone, gram = [claim["alone"]] if "alone" in claim else [], claim.get("gram", {"forms": []})
+    names, size = [*(name for name, _ in order), *gram["forms"], *alone, *generic], len(evidence.problem.coordinates)
     implied, rank = evidence.closure(names, None), len(names)
     whole, apart = implied.issuperset(evidence.equations), len(set(names)) == rank
     apart = apart and set(names) <= set(evidence.equations) and all(map(evidence.is_linear, names))
     fits = claim.get("about") == "everywhere" and apart and implied.issuperset(evidence.finite)
     refuse(not fits, "a relation is left out, stands twice or is not linear, or the claim is not about everywhere")
     forms = [name for name in names if evidence.relation(name).kind != "finite"]
-    refuse(forms and (generic or (blocks and not blocks == forms == names[-1:])), "forms stand in the order, or alone")
     if gram["forms"]:
         _independent_everywhere(evidence, gram, [f"{q}dot" for _, q in order])
     minor = evidence.accounts(evidence.minor(claim["minor"], names), names) if "minor" in claim else None
-    free, rank = _checked_order(evidence, order, minor and minor.point), len(minor.rows if minor else names)
-    groups = [free_coordinates(evidence, name, free) for name in blocks]
-    groups.append(frozenset().union(*(free_coordinates(evidence, name, free) for name in generic)))
-    refuse(sum(map(len, groups)) != len(frozenset().union(*groups)), "two blocks share a coordinate")
+    rank, graph = len(minor.rows if minor else names), _is_graph(evidence, order, minor and minor.point) and not generic
     for name, letter in generic.items():
         refuse(not evidence.own_symbol(name, [letter]), f"`{letter}` is not the own symbol of `{name}`")
-    smooth = all(_is_analytic(evidence, name, not minor or name in dict(order)) for name in names)
-    refuse((blocks or rank < len(names) or not minor) and not smooth, "a relation is not analytic")
-    timed = any(q == "t" for _, q in order) and (blocks or generic or evidence.moving or not minor)
-    refuse(timed or (not minor and (blocks or generic)), "t is given beside others, or a point is needed")
+    refuse(alone and not (graph and forms in ([], alone)), "what stands alone stands beside a graph, and no form")
+    smooth = all(_is_analytic(evidence, name, name in alone or not graph) for name in names)
+    refuse((not graph or alone or rank < len(names) or not minor) and not smooth, "a relation is not analytic")
+    timed = any(q == "t" for _, q in order) and (not graph or alone or evidence.moving or not minor)
+    refuse(timed or (not minor and (alone or not graph)), "t is given beside others, or a point is needed")
+    graph &= alone in ([], forms)
+    refuse((forms or claim["path"] == "/velocity_dof") and not graph, "forms stand beside a graph")
     if minor:
         verified[f"{claim['path']} at"] = evidence.is_about("here", minor.point)
     refuse(rank > len(names), "there are more rows than relations that are named")
     if rank < len(names):
         rows = [row for name in claim["covers"] for row in evidence.seen["covers", name]]
-        refuse(blocks or order or sorted(rows) != sorted(names), "one cover of all holonomic equations is needed")
+        refuse(order or sorted(rows) != sorted(names), "one cover of all holonomic equations is needed")
     if not evidence.moving or claim["path"] == "/velocity_dof":
         refuse(not whole, "each relation stands in one place")
         return size - rank
     dof = bounds(evidence, {**claim, "about": "here"}, verified)
-    refuse(dof != size - rank + len(forms) and not (whole and smooth), "another part may be larger")
+    refuse(dof != size - rank + len(forms) and not (whole and smooth and graph), "another part may be larger")
     return dof
 
 
@@ -328,33 +327,35 @@ def _independent_everywhere(evidence: CheckedEvidence, gram: Told, ordered: list
     evidence.identity(determinant(matrix), value, "the determinant of the forms")
 
 
-def _is_analytic(evidence: CheckedEvidence, name: str, graphic: bool) -> bool:
-    """Whether a relation is analytic at all places; a form, and what gives no coordinate, up to a denominator."""
+def _is_analytic(evidence: CheckedEvidence, name: str, poles: bool) -> bool:
+    """Whether a relation is analytic at all places; a form, or with ``poles``, up to a denominator."""
     checked = evidence.relation(name)
-    quotient = not graphic or checked.kind != "finite"
-    return evidence.has_value_everywhere(checked.tree, quotient) and not checked.tree.applied
+    return evidence.has_value_everywhere(checked.tree, poles or checked.kind != "finite") and not checked.tree.applied
 
 
-def _checked_order(
-    evidence: CheckedEvidence, order: list[list[str]], point: CheckedPoint | None
-) -> dict[str, frozenset[str]]:
-    """Refuse what does not give its coordinate; return what each given coordinate depends on."""
-    later, dependencies = [q for _, q in order], dict[str, frozenset[str]]()
+def _is_graph(evidence: CheckedEvidence, order: list[list[str]], point: CheckedPoint | None) -> bool:
+    """Whether first derivatives show it; `CheckError` where a relation does not give its coordinate."""
+    later = [q for _, q in order]
     refuse(len({*later}) < len(later) or not {*later} <= {*evidence.variables}, "one coordinate for each relation")
+    degrees = [degree(evidence, name, q, point) for name, q in order]
     for i, (name, q) in enumerate(order):
-        checked, slope = evidence.relation(name), evidence.slope(name, q)
+        checked = evidence.relation(name)
         dot = "dot" if checked.kind == "velocity" else ""
+        refuse(not degrees[i] or q + dot == "tdot", f"`{name}` does not give `{q}` everywhere")
+        refuse(not checked.tree.symbols.isdisjoint(q + dot for q in later[i + 1 :]), f"`{name}` holds what comes later")
+    return {*degrees} <= {1}
+
+
+def degree(evidence: CheckedEvidence, name: str, q: str, point: CheckedPoint | None, most: int = HIGHEST_DEGREE) -> int:
+    """Return how often to differentiate a relation by what it gives until that is nowhere 0; 0 if that is not shown.
+
+    It is so by itself; or made of parameters, for almost all of which it is not 0 as it is not at the point.
+    """
+    slope = evidence.slope(name, q)
+    for often in range(1, 1 + (most if evidence.relation(name).kind == "finite" else 1)):
         plain = slope.symbols <= evidence.chosen and evidence.has_value_everywhere(slope)
         sure = evidence.ring.rational(slope) or evidence.is_nowhere_zero(slope)
-        gives = sure or (plain and point and not_zero(point.value(slope)))
-        refuse(not gives or q + dot == "tdot", f"`{name}` does not give `{q}` everywhere")
-        refuse(not checked.tree.symbols.isdisjoint(q + dot for q in later[i + 1 :]), f"`{name}` holds what comes later")
-        if not dot:
-            dependencies[q] = free_coordinates(evidence, name, dependencies) - {q}
-    return dependencies
-
-
-def free_coordinates(evidence: CheckedEvidence, name: str, dependencies: dict[str, frozenset[str]]) -> frozenset[str]:
-    """The coordinates that a relation holds, those of ``dependencies`` replaced by what they depend on."""
-    held = evidence.relation(name).tree.symbols & set(evidence.problem.coordinates)
-    return frozenset().union(*(dependencies.get(q, frozenset((q,))) for q in held))
+        if sure or (plain and point and not_zero(point.value(slope))):
+            return often
+        slope = derivative(slope, q)
+    return 0

@@ -233,27 +233,11 @@ def moves(evidence: CheckedEvidence, claim: Told, wanted: Sequence[str]) -> Chec
 
 
 def refuted(evidence: CheckedEvidence, refutation: Told, verified: Told, names: Sequence[str] | None = None) -> bool:
-    """Return False, the value of `consistent`: a positive number plus squares plus multiples of what is 0 cannot be 0.
-
-    An inequality is refuted by itself, times a positive number (Krivine 1964, Stengle 1974).
-    """
-    held = evidence.closure([checked.name for checked in evidence.problem.relations] if names is None else names, None)
-    number = evidence.text(refutation["number"])
-    refuse(not evidence.is_nowhere_zero(number, True), "what is left over is not positive")
-    factors = {name: evidence.text(text) for name, text in refutation.get("c", {}).items()}
-    total = [number]
-    for c, a in ((evidence.text(c), evidence.text(a)) for c, a in refutation.get("sos", [])):
-        square = evidence.is_nowhere_zero(c, True) and evidence.has_value_everywhere(a)
-        refuse(not square, "no square, or times what is <= 0")
-        total.append(c * a**2)
-    for name, factor in factors.items():
-        checked = evidence.relation(name)
-        alone = len(factors) == 1 and evidence.is_nowhere_zero(factor, True)
-        refuse(checked.kind == "inequality" and not alone, "an inequality is refuted by itself, times what is positive")
-        whole = name in held and not checked.leaf and evidence.has_value_everywhere(factor)
-        refuse(not whole, f"`{name}` is not shown to follow everywhere, or has a cofactor without a value")
-        total.append(factor * checked.tree)
-    evidence.identity(substituted(add(*total), {"tdot": ONE}), ZERO, "what is left over")
+    """Return False, the value of `consistent`: by a step, what is nowhere 0 would be 0 where all relations hold."""
+    names = [checked.name for checked in evidence.problem.relations] if names is None else names
+    evidence.follow([refutation["step"]], names, None, "the relations")
+    consequence = substituted(evidence.relation(refutation["step"]).tree, {"tdot": ONE})
+    refuse(not evidence.is_nowhere_zero(consequence), "what would be 0 may be so")
     return False
 
 

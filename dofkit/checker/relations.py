@@ -6,6 +6,7 @@ point, and others to have a value there, so that it is true near the point.
 """
 
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from itertools import chain
 from typing import Any, NamedTuple, TypeVar, cast
 
 from flint import arb
@@ -138,26 +139,32 @@ class CheckedRelations:
         """h g = sum c_i r_i: g is 0 where all r_i are and h is not; what has the rate g keeps its value.
 
         ``g`` is a relation, or a new function. Where finite relations give coordinates, and these are put in, the two
-        sides need to be the same only then. Integrals: along every motion near a point where h is not 0.
+        sides need to be the same only then. Integrals: along every motion near a point where h is not 0. With ``sos``:
+        h g^2 + sum w_j a_j^2 = sum c_i r_i, where h and w are positive, as -c_i are for inequalities r_i >= 0: then all
+        terms are 0 (Krivine 1964, Stengle 1974).
         """
-        leaf = step["by"] == "integral"
+        leaf, real = step["by"] == "integral", "sos" in step
         new = leaf or "function" in step
         tree = self.text(step["function"]) if new else self.relation(step["of"]).tree
         sources, substitutions = [self.relation(name) for name in step["c"]], step.get("put", [])
-        unfit = any(source.leaf or source.kind == "inequality" for source in sources)
-        refuse(unfit, "an inequality or integral to start from")
         cofactors, h = [self.text(text) for text in step["c"].values()], self.text(step.get("h", "1"))
+        squares = [(self.text(weight), self.text(root)) for weight, root in step.get("sos", [])]
+        pairs = list(zip(cofactors, sources, strict=True))
+        signs = [-c for c, source in pairs if source.kind == "inequality"] + [weight for weight, _ in squares]
+        unfit = any(source.leaf for source in sources) or (signs and not real) or (real and leaf)
+        refuse(unfit, "an inequality or integral to start from")
+        plus = all(self.is_nowhere_zero(tree, True) for tree in (*signs, *([h] if real else [])))
+        refuse(not plus, "no sum of squares, or times what is not positive")
         refuse(self.met_by(h) or (leaf and self.met_by(tree)), "the factor or integral holds velocities")
-        change = total_derivative(tree, self.variables) if leaf else tree
-        combination = add(*(c * source.tree for c, source in zip(cofactors, sources, strict=True)))
-        total = add(h * change, -combination)
+        change = total_derivative(tree, self.variables) if leaf else tree**2 if real else tree
+        total = add(h * change, *(weight * root**2 for weight, root in squares), *(-c * of.tree for c, of in pairs))
         for name, q in substitutions:
             source, (slope, total) = self.relation(name), put_in(total, q, self.relation(name).tree)
             gives = source.kind == "finite" and not source.leaf and self.is_nowhere_zero(slope)
             refuse(not gives, f"`{name}` does not give `{q}`")
         refuse(not self.ring.vanishes(total), "the cofactors: the two sides are not the same")
         needs = () if self.is_nowhere_zero(h) else (h,)
-        defined = (h, *cofactors, *([tree] if new or substitutions else []))
+        defined = (h, *cofactors, *chain(*squares), *([tree] if new or substitutions else []))
         used = *step["c"], *(name for name, _ in substitutions)
         return tree if new else None, Consequence(step["id" if new else "of"], used, needs, defined)
 

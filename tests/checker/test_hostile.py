@@ -73,10 +73,11 @@ def places_for(text: str) -> Iterator[Any]:
     """Certificates with a text in every place where one is read."""
     row = {"path": "/dof", "value": 1, "about": "component", "rule": "regular"}
     row |= {"minor": {"at": "P", "rows": ["k"], "columns": ["x"]}}
-    refuted = {"path": "/consistent", "value": False, "rule": "nullstellensatz", "number": "1"}
+    refuted = {"path": "/consistent", "value": False, "rule": "nullstellensatz", "step": "k"}
     chosen = {"id": "P", "values": {"x": text.replace("x", "2").replace("y", "3"), "y": "0"}}
     yield certificate(CIRCLE, [AT_REST], points=[chosen])
-    yield certificate(CIRCLE, [{**refuted, "c": {"c1": text}, "sos": [["1", text]] * 5}])
+    squares = {"id": "k", "by": "implied", "function": "1", "c": {"c1": text}, "sos": [["1", text]] * 5}
+    yield certificate(CIRCLE, [refuted], relations=[squares])
     for by in ("implied", "integral"):
         step = {"id": "k", "by": by, "text": text, "function": text, "h": text, "c": {"c1": text}}
         yield certificate(CIRCLE, [row], points=[POINT], relations=[step])
@@ -215,10 +216,12 @@ LARGE_SCENES = {
 
 @pytest.mark.parametrize("name", slow_swept(LARGE_SCENES))
 def test_a_large_scene_is_read_or_refused_in_time(name: str) -> None:
-    claims = [{"path": "/consistent", "value": False, "rule": "nullstellensatz", "number": "1", "c": {"c1": "1"}}]
+    claims = [{"path": "/consistent", "value": False, "rule": "nullstellensatz", "step": "k"}]
     try:
         document = document_of(LARGE_SCENES[name])
-        given = certificate(document, claims)
+        given = certificate(
+            document, claims, relations=[{"id": "k", "by": "implied", "function": "1", "c": {"c1": "1"}}]
+        )
     except CheckError:
         return
     assert fate(document, given) != "verified"
@@ -257,12 +260,13 @@ def test_an_odd_value_in_any_place_is_a_fault_and_no_crash(path: Any) -> None:
 
 #: A circle and a line that do not meet: 3 + x^2 - (x^2 + y^2 - 1) + (y + 2) (y - 2) = 0.
 APART: dict[str, Any] = {"coordinates": ["x", "y"], "constraints": ["x^2 + y^2 = 1", "y = 2"]}
-NEVER: dict[str, Any] = {"path": "/consistent", "value": False, "rule": "nullstellensatz", "number": "3"}
-NEVER |= {"c": {"c1": "-1", "c2": "y+2"}, "sos": [["1", "x"]]}
+NEVER: dict[str, Any] = {"path": "/consistent", "value": False, "rule": "nullstellensatz", "step": "k"}
+WHY: dict[str, Any] = {"id": "k", "by": "implied", "function": "1", "h": "3", "sos": [["1", "x"]]}
+WHY |= {"c": {"c1": "1", "c2": "-(y+2)"}}
 
 
 @pytest.mark.parametrize(
-    "claim",
+    "change",
     [
         {"c": {"c1": "(x+y+1)^200", "c2": "(x-y)^200"}},
         {"c": {"c1": "1+" * 5000 + "1"}},
@@ -277,22 +281,23 @@ NEVER |= {"c": {"c1": "-1", "c2": "y+2"}, "sos": [["1", "x"]]}
         {"c": "c1"},
         {"sos": [[]]},
         {"sos": [["1", ["x"]]]},
-        {"number": "1e99999"},
-        {"number": "1/0"},
-        {"number": "x"},
+        {"h": "1e99999"},
+        {"h": "1/0"},
+        {"h": "x"},
         {"rule": ["nullstellensatz"]},
         {"rule": None},
         {"path": ["/consistent"]},
         {"path": None},
     ],
 )
-def test_hostile_claims_fail_in_good_time(claim: dict[str, Any]):
-    assert len(faults(APART, [{**NEVER, **claim}])) == 1
+def test_hostile_claims_fail_in_good_time(change: dict[str, Any]):
+    claim, step = ({**whole, **{key: change[key] for key in change.keys() & {*whole}}} for whole in (NEVER, WHY))
+    assert len(faults(APART, [claim], relations=[step])) == 1
 
 
 @pytest.mark.sweep
 def test_a_certificate_of_an_edited_scene_is_refused():
-    good = certificate(APART, [NEVER])
+    good = certificate(APART, [NEVER], relations=[WHY])
     assert verify(APART, good).verified == 1
     with pytest.raises(CheckError):
         verify({**APART, "constraints": ["x^2 + y^2 = 1", "y = 1"]}, good)

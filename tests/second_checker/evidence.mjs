@@ -136,11 +136,17 @@ export class Evidence {
   /** The identity of a step, and what it needs at a point: { from, h, texts }. */
   identity(step) {
     return this.once(`identity ${step.id}`, () => {
-      const c = entries(step.c).map(([id, text]) => [this.relation(id, step), this.text(text)]);
+      const real = step.sos !== undefined;
+      const c = entries(step.c).map(([id, text]) => [this.relation(id, step, real), this.text(text)]);
+      const squares = (step.sos ?? []).map(([w, a]) => [this.text(w), this.text(a)]);
+      const sided = c.filter(([r]) => r.kind === "inequality").map(([, text]) => mul(number(-1), text));
       refuse(!(step.put ?? []).every((pair) => Array.isArray(pair) && pair.length === 2), "put is a list of pairs");
       const puts = (step.put ?? []).map(([id, q]) => [this.relation(id, step), q]);
       const h = this.text(step.h ?? "1");
       refuse(h.hasAny(this.scene.rates), "h holds no velocities");
+      const positive = [...sided, ...squares.map(([w]) => w), ...(real ? [h] : [])];
+      refuse(!positive.every((tree) => nowhereZero(tree, this.scene.signs, true)), "no sum of squares");
+      refuse(real && step.by !== "implied", "only what is implied is a square");
       let target;
       if (step.by === "integral") {
         target = this.rateOf(this.relation(step.id));
@@ -149,11 +155,12 @@ export class Evidence {
         refuse(step.of !== undefined && step.function !== undefined, "a step is of a relation, or has a function");
         const goal = step.of === undefined ? this.relation(step.id) : this.relation(step.of, step);
         const finite = goal.kind === "finite";
-        if (finite && c.some(([r]) => r.kind !== "finite")) throw new NotCovered("a finite relation from velocities");
+        if (finite && c.some(([r]) => r.kind === "velocity")) throw new NotCovered("a finite relation from velocities");
         refuse(finite && c.some(([, text]) => text.hasAny(this.scene.rates)), "a cofactor holds velocities");
-        target = goal.tree;
+        target = real ? pow(goal.tree, 2) : goal.tree;
       }
-      let difference = sub(mul(h, target), add(...c.map(([r, text]) => mul(text, r.tree))));
+      const left = add(mul(h, target), ...squares.map(([w, a]) => mul(w, pow(a, 2))));
+      let difference = sub(left, add(...c.map(([r, text]) => mul(text, r.tree))));
       for (const [r, q] of puts) {
         refuse(r.kind !== "finite" || r.leaf || !this.scene.coordinates.includes(q), "what is put in is finite");
         const value = this.solved(r, q);
@@ -164,7 +171,7 @@ export class Evidence {
         if (r.step && r.step !== step && ["implied", "integral"].includes(r.step.by)) this.identity(r.step);
       });
       refuse(!isZero(difference), `the identity of ${step.id} is not one`);
-      return { from: [...c.map(([r]) => r.id), ...puts.map(([r]) => r.id)], h, texts: c.map(([, t]) => t) };
+      return { from: [...c.map(([r]) => r.id), ...puts.map(([r]) => r.id)], h, texts: [...c.map(([, t]) => t), ...squares.flat()] };
     });
   }
 

@@ -210,31 +210,13 @@ export class Rules {
     refuse(relation.strict || open || !equal, `${relation.id} does not hold`);
   }
 
-  /** number + sum of squares + sum c i + sum (squares) inequality = 0, a contradiction. */
+  /** What is not 0 by itself would follow from all relations. */
   nullstellensatz(claim, relations) {
     refuse(claim.rule !== "nullstellensatz", "another rule");
-    const rest = new Map([["tdot", number(1)]]);
-    const total = (tree) => (isTotal(tree) ? tree : uncovered("a cofactor may have no value somewhere"));
-    const squares = (all) => add(...pairs(all ?? []).map(([w, a]) => {
-      const weight = this.e.text(w);
-      refuse(!nowhereZero(weight, this.s.signs, true), "a weight is positive");
-      return mul(weight, tr.pow(total(this.e.text(a)), 2));
-    }));
-    const constant = claim.number === undefined ? number(0) : this.e.text(claim.number);
-    const positive = nowhereZero(constant, this.s.signs, true);
-    refuse(!positive, "the number is positive");
-    const used = Object.entries(claim.c ?? {});
-    let sum = add(constant, squares(claim.sos));
-    for (const [id, text] of used) {
-      const r = relations.find((one) => one.id === id);
-      if (!r) uncovered("a contradiction by steps");
-      const factor = this.e.text(text);
-      const alone = used.length === 1 && nowhereZero(factor, this.s.signs, true);
-      refuse(r.kind === "inequality" && !alone, `${id} is an inequality`);
-      sum = add(sum, mul(total(factor), substitute(r.tree, rest)));
-    }
-    if (this.s.relations.some((r) => r.kind !== "inequality" && !isTotal(r.tree))) uncovered("relations that may have no value somewhere");
-    refuse(!isZero(sum), "the identity is not one");
+    refuse(!this.e.closure(ids(relations), null).has(claim.step), "the step does not follow");
+    if (relations.some((r) => r.kind !== "inequality" && !isTotal(r.tree))) uncovered("relations that may have no value somewhere");
+    const tree = substitute(this.e.relation(claim.step).tree, new Map([["tdot", number(1)]]));
+    refuse(!nowhereZero(tree, this.s.signs), "what follows may be 0");
     return {};
   }
 
@@ -292,10 +274,10 @@ export class Rules {
     const wanted = kind === "dof" ? this.e.relations.filter((r) => r.kind === "finite") : this.e.relations;
     const inScene = (id) => this.s.byId.get(id) ?? refuse(true, `there is no relation ${id}`);
     const order = pairs(claim.order ?? []).map(([id, q]) => [inScene(id), q]);
-    const blocks = list(claim.blocks ?? []).map(inScene);
+    const alone = claim.alone === undefined ? [] : [inScene(claim.alone)];
     const generic = pairs(claim.generic ?? []).map(([id, g]) => [inScene(id), g]);
     const bound = list(claim.gram?.forms ?? []).map(inScene);
-    const placed = [...order.map(([r]) => r), ...bound, ...blocks, ...generic.map(([r]) => r)];
+    const placed = [...order.map(([r]) => r), ...bound, ...alone, ...generic.map(([r]) => r)];
     refuse(new Set(placed).size < placed.length, "a relation is in two places");
     const all = this.e.closure(ids(placed), null);
     const left = wanted.find((r) => !all.has(r.id));
@@ -304,39 +286,31 @@ export class Rules {
     refuse(placed.some((r) => r.kind === "inequality"), "an inequality is placed");
     refuse(placed.some((r) => r.kind === "velocity" && !this.e.form(r)), "a relation is not linear in velocities");
     const lone = placed.filter((r) => r.kind === "velocity");
-    const formBlock = blocks.length === 1 && same(ids(blocks), ids(lone)) && !generic.length;
-    refuse(lone.length && (generic.length || (blocks.length && !formBlock)), "forms stand in the order, or alone");
     if (bound.length) this.gram(claim.gram, bound, order);
     const minor = claim.minor === undefined ? null : this.e.minor(claim.minor);
     if (minor) this.e.account(minor, placed, claim.covers);
-    const uses = (r, q) => r.tree.has(q) || r.tree.has(`${q}dot`);
-    order.forEach(([r, q], i) => {
+    const steps = order.map(([r, q], i) => {
       refuse(q !== "t" && !this.s.coordinates.includes(q), `${q} is no coordinate`);
       const holds = (o) => o.tree.has(o.kind === "finite" ? q : `${q}dot`);
       refuse(order.slice(0, i).some(([o, p]) => holds(o) || p === q), `${q} occurs before`);
-      const variable = r.kind === "finite" ? q : `${q}dot`;
-      const slope = derivative(r.tree, variable);
-      const plain = [...slope.symbols].every((one) => this.s.signs.has(one)) && !slope.functions.size;
-      const sure = this.e.constantNotZero(slope) || (plain && minor && isTotal(slope) && this.e.at(slope, minor.point).nonzero);
-      refuse(!sure, `${r.id} does not give ${q}`);
-    });
-    const timed = order.some(([, q]) => q === "t");
-    refuse(timed && (blocks.length || generic.length || forms.length || !minor), "t is given beside others");
-    const solved = new Set(order.map(([, q]) => q));
-    const free = (r, seen = new Set()) => {
-      for (const q of [...this.s.coordinates, "t"]) {
-        if (!uses(r, q) || seen.has(q)) continue;
-        seen.add(q);
-        if (solved.has(q)) free(order.find(([, p]) => p === q)[0], seen);
+      let slope = r.tree;
+      for (let often = 1; often <= (r.kind === "finite" ? 4 : 1); often++) {
+        slope = derivative(slope, r.kind === "finite" ? q : `${q}dot`);
+        const plain = [...slope.symbols].every((one) => this.s.signs.has(one)) && !slope.functions.size;
+        const sure = this.e.constantNotZero(slope) || (plain && minor && isTotal(slope) && this.e.at(slope, minor.point).nonzero);
+        if (sure) return often;
       }
-      return new Set([...seen].filter((q) => !solved.has(q) && q !== "t"));
-    };
-    const groups = [...blocks, ...generic.map(([r]) => r)].map((r) => [r, free(r)]);
-    for (const r of blocks) {
-      const [, mine] = groups.find(([o]) => o === r);
-      if (!this.total(r.tree)) uncovered("a block whose analyticity is not told by its form");
-      if ([...mine].length && order.some(([o, p]) => uses(r, p) && !this.total(o.tree))) uncovered("a block after elimination");
-      refuse(groups.some(([o, other]) => o !== r && [...mine].some((q) => other.has(q))), "a block shares a free coordinate");
+      return refuse(true, `${r.id} does not give ${q}`);
+    });
+    const graph = steps.every((often) => often === 1) && !generic.length;
+    refuse(alone.length && !(graph && lone.every((r) => r === alone[0])), "what is alone is beside a graph");
+    const nothingElse = graph && !alone.length && !forms.length && minor;
+    refuse(order.some(([, q]) => q === "t") && !nothingElse, "t is given beside others");
+    const proper = graph && alone.every((r) => r.kind === "velocity");
+    refuse((lone.length || kind === "velocity_dof") && !proper, "velocity relations need a graph");
+    if (!graph || alone.length) {
+      refuse(!minor, "a minor is needed");
+      if (!placed.every((r) => this.total(r.tree))) uncovered("a relation whose analyticity is not told by its form");
     }
     for (const [r, g] of generic) {
       refuse(!this.s.signs.has(g) && !this.s.generic.includes(g), `${g} is no parameter`);
@@ -353,7 +327,6 @@ export class Rules {
       }
       rank = minor.rows.length;
     } else {
-      refuse(blocks.length || generic.length, "a minor is needed");
       if (!placed.every((r) => this.total(r.tree))) uncovered("relations that may have no value");
     }
     if (kind === "dof" && forms.length) {
@@ -362,7 +335,7 @@ export class Rules {
       refuse(most[1] !== least[1], "the bounds are at two points");
       refuse(most[0] !== claim.value || least[0] !== claim.value, "the bounds are others");
       const finite = this.e.n - rank + lone.length;
-      if (claim.value !== finite && !(complete && placed.every((r) => this.total(r.tree)))) uncovered("another part may be larger");
+      if (claim.value !== finite && !(complete && proper && placed.every((r) => this.total(r.tree)))) uncovered("another part may be larger");
       return { place: this.place(most[1]) };
     }
     refuse(this.e.n - rank !== claim.value, "the number is another one");

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -110,12 +111,21 @@ class Context:
             names, unknowns = states_of(self)
         finite = not self.scenery.evidence.moving and self.report.dof is not None
         rank = len(problem.coordinates) - (self.report.dof or 0) if finite else len(names)
-        first: FoundPoint | None = None
+        points: list[FoundPoint] = []
         for point in self.search.points(names, unknowns):
-            if point.rank == rank:
+            if point.rank == rank and self._has_integrals(point):
                 return point
-            first = first or point
-        return first
+            points.append(point)
+        return max(points, key=lambda point: point.rank == rank, default=None)
+
+    def _has_integrals(self, point: FoundPoint) -> bool:
+        """Whether the integrals that the report tells have values at a point."""
+        texts = (entry.integral.rpartition("=")[0].strip() for entry in self.report.constraints if entry.integral)
+        with suppress(CheckError, NoEstimateError):
+            for text in texts:
+                point.estimates.value(self.scenery.chosen(self.scenery.evidence.text(text)))
+            return True
+        return False
 
     @cached_property
     def rates(self) -> list[str]:

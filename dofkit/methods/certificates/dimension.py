@@ -11,7 +11,7 @@ from typing import Any
 
 from flint import arb
 
-from dofkit.checker.dimension_rules import free_coordinates
+from dofkit.checker.dimension_rules import HIGHEST_DEGREE, degree
 from dofkit.checker.evidence import HIGHEST_ORDER, along_curve
 from dofkit.checker.geometry import determinant, dot
 from dofkit.checker.ring import CheckedRing
@@ -20,7 +20,7 @@ from dofkit.methods.certificates.context import Context, Standing, Told
 from dofkit.methods.certificates.fields import LARGEST_CRAMER, backing, kept_motions, orbit
 from dofkit.methods.certificates.numerics import echelon, least_step
 from dofkit.methods.certificates.scenery import FAR, number_text, text_of
-from dofkit.methods.certificates.steps import Order, accounted, solving_order
+from dofkit.methods.certificates.steps import accounted, solving_order
 
 #: The size of a step along a motion, of what is added by chance, and the largest denominator of a coefficient.
 STEP, NOISE, DENOMINATOR = 0.25, 0.05, 60
@@ -135,7 +135,7 @@ def _of_forms(context: Context) -> Iterator[Told]:
     if len(moving) == 1:
         order, unordered = solving_order(_needed(standing, evidence.finite), *chart)
         if not unordered:
-            yield {**claim, "order": order, "blocks": moving}
+            yield {**claim, "order": order, "alone": moving[0]}
 
 
 def _gram(context: Context, forms: list[str]) -> Told | None:
@@ -181,56 +181,33 @@ def _needed(standing: Standing, names: Sequence[str]) -> list[str]:
 
 def _of_set(context: Context, standing: Standing) -> Iterator[Told]:
     """What the geometric equations define."""
-    evidence = context.scenery.evidence
-    finite, gives = _needed(standing, evidence.finite), partial(_gives, context)
-    order, unordered = solving_order(finite, context.scenery, evidence.variables, gives)
-    claim: Told = {"rule": "everywhere", "about": "everywhere"}
-    if not unordered:
-        yield {**claim, "order": order}
-    claim["minor"] = context.minor(standing)
+    scenery, evidence, claim = context.scenery, context.scenery.evidence, {"rule": "everywhere", "about": "everywhere"}
+    finite, columns = _needed(standing, evidence.finite), context.problem.coordinates
+    minor = {"minor": context.minor(standing)}
+    for variables in (columns, evidence.variables):
+        order, others = solving_order(finite, scenery, variables, partial(_gives, context), skips=True)
+        if not others:
+            yield {**claim, "order": order}
+        if len(others) < 2:
+            yield {**claim, **minor, "order": order, **({"alone": others[0]} if others else {})}
     letters = (*context.problem.world.generic, *context.problem.world.signs)
     symbols = {name: letter for name in evidence.finite if (letter := evidence.own_symbol(name, letters))}
-    if not standing.dependent or standing.accounted:
-        longer, _ = solving_order(finite, context.scenery, context.problem.coordinates, gives, skips=True)
-        for tried in (order, longer, []):
-            remaining = [name for name in finite if all(name != chosen for chosen, _ in tried)]
-            blocks, generic = _split(context, tried, remaining)
-            if all(name in symbols for name in generic):
-                yield {
-                    **claim,
-                    "order": tried,
-                    "blocks": blocks,
-                    "generic": [[name, symbols[name]] for name in generic],
-                }
+    for skips in (False, True) if not standing.dependent or standing.accounted else ():
+        order, others = solving_order(finite, scenery, columns, partial(_gives, context, most=HIGHEST_DEGREE), skips)
+        if all(name in symbols for name in others):
+            yield {**claim, **minor, "order": order, "generic": [[name, symbols[name]] for name in others]}
     if all(name in symbols for name in evidence.finite) and (backed := backing(context, standing)):
-        yield {**claim, "generic": [[name, symbols[name]] for name in evidence.finite], **backed}
+        yield {**claim, **minor, "generic": [[name, symbols[name]] for name in evidence.finite], **backed}
 
 
-def _gives(context: Context, name: str, q: str) -> bool:
-    """Whether a relation gives a coordinate with a factor of numbers and parameters."""
-    evidence = context.scenery.evidence
+def _gives(context: Context, name: str, q: str, most: int = 1) -> bool:
+    """Whether a derivative of a relation by a coordinate is nowhere 0."""
+    evidence, point = context.scenery.evidence, context.point
     try:
-        slope = evidence.slope(name, q)
-        plain = (
-            slope.symbols <= evidence.chosen
-            and context.point is not None
-            and context.scenery.differs(slope, context.point.estimates)
-        )
-        return plain or bool(evidence.ring.rational(slope))
+        checked_point = None if point is None else evidence.point(context.add_point(point))
+        return evidence.once(("gives", name, q, most), lambda: degree(evidence, name, q, checked_point, most)) > 0
     except CheckError:
         return False
-
-
-def _split(context: Context, order: Order, remaining: list[str]) -> tuple[list[str], list[str]]:
-    """What is left as single relations, and those that share coordinates."""
-    evidence, dependencies = context.scenery.evidence, dict[str, frozenset[str]]()
-    for name, q in order:
-        dependencies[q] = free_coordinates(evidence, name, dependencies) - {q}
-    sets = {name: free_coordinates(evidence, name, dependencies) for name in remaining}
-    alone = [
-        name for name in remaining if all(sets[name].isdisjoint(sets[other]) for other in remaining if other != name)
-    ]
-    return alone, [name for name in remaining if name not in alone]
 
 
 # Evidence where rows are stationary at the main point: what is isolated along a curve, and what crosses itself.

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
-from dofkit.checker.trees import MINUS, Tree, add, number, operands, power, times
+from dofkit.checker.trees import ONE, Tree, add, number, operands, power, times
 from dofkit.methods.certificates.context import Context, Told
-from dofkit.methods.certificates.scenery import number_text, text_of
-from dofkit.methods.certificates.steps import constant_cofactors, rate_of
+from dofkit.methods.certificates.scenery import Scenery, number_text, text_of
+from dofkit.methods.certificates.steps import constant_cofactors, is_accepted, rate_of
 
 HALF, EVEN = number(Fraction(1, 2)), range(2, 20, 2)
 
@@ -40,14 +40,23 @@ def _met(context: Context, others: Sequence[str]) -> Told | None:
 
 
 def refutations(context: Context, names: Sequence[str]) -> Iterator[Told]:
-    """Ways in which relations cannot be met."""
-    evidence = context.scenery.evidence
-    equations = [name for name in names if evidence.relation(name).kind != "inequality"]
-    rates = [step for name in equations if (step := rate_of(context.scenery, name))]
-    if (factors := constant_cofactors(context.scenery, MINUS, [*equations, *rates])) is not None:
-        yield {"rule": "nullstellensatz", "c": factors, "number": "1"}
+    """Ways in which relations cannot be met: steps by which 1 would be 0."""
+    scenery = context.scenery
+    equations = [name for name in names if scenery.evidence.relation(name).kind != "inequality"]
+    rates = [step for name in equations if (step := rate_of(scenery, name))]
+    if (factors := constant_cofactors(scenery, ONE, [*equations, *rates])) is not None:
+        for unit in ("1", "tdot"):
+            yield from _refuted(scenery, {"function": unit, "c": factors})
     for name in names:
-        yield from _by_squares(context, name)
+        for squares in _by_squares(context, name):
+            yield from _refuted(scenery, {"function": "1", **squares})
+
+
+def _refuted(scenery: Scenery, reason: Told) -> Iterator[Told]:
+    """The rule `nullstellensatz`, where the step by which something that is not 0 would be 0 stands up."""
+    step = {"id": f"{scenery.label}contradiction {len(scenery.steps)}", "by": "implied", **reason}
+    if is_accepted(scenery, step):
+        yield {"rule": "nullstellensatz", "step": step["id"]}
 
 
 def _by_squares(context: Context, name: str) -> Iterator[Told]:
@@ -59,8 +68,7 @@ def _by_squares(context: Context, name: str) -> Iterator[Told]:
         plain = [term for term in terms if term.symbols <= evidence.chosen]
         squares = [_square(term) for term in terms if term not in plain]
         if None not in squares:
-            plus = {"number": text_of(add(*plain)), "sos": squares}
-            yield {"rule": "nullstellensatz", **plus, "c": {name: number_text(-sign)}}
+            yield {"h": text_of(add(*plain)), "sos": squares, "c": {name: number_text(sign)}}
 
 
 def _square(term: Tree) -> list[str] | None:

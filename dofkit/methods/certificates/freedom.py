@@ -74,7 +74,7 @@ def _near(context: Context) -> Iterator[Told]:
 def velocity_dof(context: Context) -> Iterator[Told]:
     """The independent velocities."""
     if not context.scenery.evidence.moving:
-        yield {"rule": "count"}
+        yield from ({"rule": "count", "about": about} for about in ("everywhere", context.about))
         return
     if context.report.verdicts["velocity_dof"].about == "everywhere":
         yield from velocities_everywhere(context)

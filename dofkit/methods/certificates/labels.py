@@ -254,5 +254,4 @@ def _points_of(context: Context, name: str) -> Iterator[FoundPoint | None]:
     """The main point, where it is one of the relation, and others."""
     if context.scenery.evidence.relation(name).kind != "inequality":
         yield context.point
-    if context.scenery.evidence.relation(name).kind != "velocity":
-        yield from context.search.touching(name)
+    yield from context.search.touching(name)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any, TypeVar
 
 from dofkit.base.verdicts import weakest
@@ -45,13 +45,14 @@ def with_certificate(scene: Scene, report: Report, strict: bool = False) -> Repo
     """Return the report with a certificate, and in each verdict whether the checker accepted evidence for it.
 
     A claim whose evidence gives another value is undecided, with a warning. If ``strict``, what is proved without
-    evidence is probable.
+    evidence is probable, and a number is told of the points of which it is shown.
     """
     document, readings = scene_of_checker(scene)
     making = Certifying(document, report, readings)
     certificate = making.written()
-    confirmed = {claim["path"] for claim in certificate["claims"]}
-    confirmed -= {path.removeprefix("/verdicts").removesuffix("/about") for path in certificate["uncovered"]}
+    told_of_others = () if strict else certificate["uncovered"]
+    claims = (claim for claim in certificate["claims"] if f"/verdicts{claim['path']}/about" not in told_of_others)
+    confirmed = {claim["path"]: claim.get("about") for claim in claims}
     checked = _checked(report, confirmed, making.contradictions, strict)
     return checked.model_copy(update={"certificate": certificate})
 
@@ -70,15 +71,19 @@ def _entry_path(entry: ConstraintEntry) -> str:
 
 
 def _checked(
-    report: Report, confirmed: Collection[str], contradictions: Mapping[str, str], strict: bool = False
+    report: Report, confirmed: Mapping[str, str | None], contradictions: Mapping[str, str], strict: bool = False
 ) -> Report:
-    """Return the report with ``checked`` in each verdict, and what is contradicted undecided, with a warning."""
+    """Return the report with ``checked`` in each verdict, and what is contradicted undecided, with a warning.
+
+    ``confirmed``: the paths of accepted claims, each with the points that it is about, if it says so.
+    """
 
     def examined(verdict: FieldVerdict, path: str) -> FieldVerdict:
         if path in contradictions:
             return UNDECIDED
         lowered = strict and verdict.verdict == "proved" and path not in confirmed
-        changes = {"checked": path in confirmed, **({"verdict": "probable"} if lowered else {})}
+        about = confirmed.get(path) or verdict.about
+        changes = {"checked": path in confirmed, "about": about, **({"verdict": "probable"} if lowered else {})}
         return verdict.model_copy(update=changes)
 
     def revised(model: Model, start: str) -> Model:

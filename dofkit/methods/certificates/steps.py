@@ -17,7 +17,7 @@ from dofkit.methods.certificates.scenery import Scenery, text_of
 Step = dict[str, object]
 
 
-def _is_accepted(scenery: Scenery, step: Step) -> bool:
+def is_accepted(scenery: Scenery, step: Step) -> bool:
     """Return whether a step stands up; one that is there already does."""
     try:
         if str(step["id"]) not in scenery.steps:
@@ -110,7 +110,7 @@ def solved_pairs(scenery: Scenery, names: Sequence[str], point: FoundPoint) -> l
     short = [name for name in names if scenery.evidence.relation(name).tree.size <= LARGEST_OF_PAIR]
     for pair in combinations(short, 2):
         for step in _pair_steps(scenery, pair, point):
-            if _is_accepted(scenery, step):
+            if is_accepted(scenery, step):
                 ids.append(str(step["id"]))
     return ids
 
@@ -154,7 +154,7 @@ def accounted(scenery: Scenery, name: str, rows: Sequence[str], point: FoundPoin
         return True
     try:
         if (factors := constant_cofactors(scenery, dependent.tree, sources)) is not None:
-            return _is_accepted(scenery, {"id": step, "by": "implied", "of": name, "c": factors})
+            return is_accepted(scenery, {"id": step, "by": "implied", "of": name, "c": factors})
         finite = [row for row in sources if scenery.evidence.relation(row).kind == "finite"]
         order = puts(scenery, [*solved_pairs(scenery, finite, point), *finite])
         factors = constant_cofactors(scenery, dependent.tree, sources, order) if order else None
@@ -164,7 +164,7 @@ def accounted(scenery: Scenery, name: str, rows: Sequence[str], point: FoundPoin
         return False
     used = [scenery.evidence.relation(row).tree for row in (name, *factors)]
     put = needed_puts(scenery, used, order)
-    return _is_accepted(scenery, {"id": step, "by": "implied", "of": name, "c": factors, "put": put})
+    return is_accepted(scenery, {"id": step, "by": "implied", "of": name, "c": factors, "put": put})
 
 
 def constant_cofactors(
@@ -196,4 +196,4 @@ def constant_cofactors(
 def rate_of(scenery: Scenery, name: str) -> str:
     """Return the id of a step for the rate of a configuration-level equation; "" where it does not stand up."""
     step = f"{scenery.label}rate of {name}"
-    return step if _is_accepted(scenery, {"id": step, "by": "rate", "of": name}) else ""
+    return step if is_accepted(scenery, {"id": step, "by": "rate", "of": name}) else ""

@@ -101,6 +101,33 @@ def test_verdicts_say_whether_they_are_checked() -> None:
 
 
 @pytest.mark.parametrize(
+    ("texts", "path", "value"),
+    [
+        (["y z dx - z^2 dy - x y dz = 0"], "/constraints/c1/integral", "x/z - log(y) = C"),
+        (["(xdot - 2) sin(y) = zdot cos(y)", "xdot sin(y) = zdot cos(y)"], "/constraints/c1/catastatic", False),
+    ],
+)
+def test_a_point_is_found_where_a_claim_shows(texts: list[str], path: str, value: Any) -> None:
+    """The logarithm has no value at the first point tried; where y is 0, as everywhere on the set, dt has no factor."""
+    certificate, failed = certified({"coordinates": ["x", "y", "z"], "constraints": texts})
+    assert (failed, [claim["value"] for claim in certificate["claims"] if claim["path"] == path]) == ({}, [value])
+
+
+@pytest.mark.parametrize(("more", "about", "checked"), [([], "everywhere", True), ([[6, 0]], "component", False)])
+def test_a_strict_number_is_told_of_the_points_of_which_it_is_shown(more: list[Any], about: str, checked: bool) -> None:
+    """The evidence for a double pendulum is about all of it, that for a four-bar linkage about a point."""
+    ends = zip([[0, 0], "A", "B"], ["A", "B", *more], [2, 5, 4], strict=False)
+    links = [{"type": "link", "between": [*pair], "length": length} for *pair, length in ends]
+    scene = dofkit.load({"dimension": 2, "particles": ["A", "B"], "constraints": links})
+    report = dofkit.classify(scene)
+    told = {field: with_certificate(scene, report).verdicts[field].checked for field in ("dof", "velocity_dof")}
+    assert (report.verdicts["dof"].about, told) == ("everywhere", {"dof": checked, "velocity_dof": checked})
+    strict = with_certificate(scene, report, strict=True).verdicts
+    shown = [(strict[field].verdict, strict[field].about) for field in ("dof", "velocity_dof")]
+    assert shown == [("proved", about)] * 2
+
+
+@pytest.mark.parametrize(
     ("constraints", "members"),
     [
         (["x = 0", "y = 0", "x = 1"], ["c1", "c3"]),
