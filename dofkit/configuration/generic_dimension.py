@@ -69,9 +69,9 @@ def near_real_point(chart: Chart, real: RealPoint | None, core: Sequence[int]) -
         return Variety(None, None, "undecided", reasons=["no configuration satisfying all equations was found"])
     columns = len(chart.columns)
     timed = columns - chart.coordinates
-    if real.certified and real.consistent and real.part.rank == real.solved == len(core) == len(chart.nodes):
+    if real.certain and real.part.rank == real.solved == len(core) == len(chart.nodes):
         return Variety(True, columns - real.part.rank - timed, "proved", [], real, argument="regular point")
-    if not real.certified or not real.consistent:
+    if not real.certain:
         return _left_open(Variety(None, None, "undecided", [], real), SINGULAR)
     if real.part.gap > 1e3:
         why = gap_in_words(real.part.gap, "pivot")
@@ -111,7 +111,7 @@ def with_reality(chart: Chart, variety: Variety, rank: int) -> Variety:
         return variety
     if real is None:
         return _without_reality(chart, variety)
-    if not real.certified or not real.consistent:
+    if not real.certain:
         return _left_open(variety, SINGULAR)
     if real.solved < real.part.rank:
         variety.verdict, variety.gap = weakest(variety.verdict, "numeric"), real.part.gap
@@ -168,7 +168,7 @@ def _left_open(variety: Variety, why: str) -> Variety:
 def near_singular_point(chart: Chart, variety: Variety) -> Variety:
     """Return the set near a singular real point, where only such points were found; else the same as was known."""
     real = variety.real
-    if real is None or (real.certified and real.consistent):
+    if real is None or real.certain:
         return variety
     local = numeric_local(chart, real)
     if local is None or local.dimension is None or local.confined:

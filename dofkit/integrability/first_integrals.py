@@ -314,9 +314,9 @@ class BorderedMinors:
         relation = canon.quotient(self.chart.nodes[0])[0] if self.chart.nodes else None
         row = polynomials(canon, slopes, len(symbols))
         for j in self.frame.free:
-            terms = (canon.reduce(row[c] * m) for c, m in self._along(canon, j).items() if row[c] != 0)
+            terms = (canon.reduce(row[c] * m) for c, m in self._along(canon, j).items())
             minor = canon.reduce(sum(terms, canon.unit * 0))
-            yield minor if relation is None or minor == 0 else remainder(minor, relation)
+            yield minor if relation is None else remainder(minor, relation)
 
     def _along(self, canon: Canon, j: int) -> dict[int, Poly]:
         """Return the cofactors of the bordering row in the dependent columns and column ``j``."""

@@ -168,7 +168,7 @@ def certificate(forms_at_points: SampledForms, variety: Variety) -> Certificate 
     point over GF(p) is not 0 as a function; else balls at a real point, up to `CERTIFIED_COLUMNS`.
     """
     real = variety.real
-    if real is None or not real.certified or not real.consistent:
+    if real is None or not real.certain:
         return None
     if forms_at_points.trusted and not forms_at_points.forms.finite:
         return forms_at_points.sampled.span, forms_at_points.sampled.matrix

@@ -88,8 +88,6 @@ def _rests_at_zero(f: Expr, positive: frozenset[Expr]) -> bool:
 
     Near a time at which no absolute value is 0, f is what it is on that branch, an analytic function.
     """
-    if f.symbols != {ex.TIME}:
-        return False
     rests, acts = False, False
     for time in TIMES:
         value = interval_of(f, {ex.TIME: time})

@@ -25,7 +25,7 @@ LOST = 90
 DEEP, DEEP_SURE = 1024, 2.0**-900
 #: Bits in which relations are evaluated before they are rounded.
 WIDE = 256
-#: The step of a difference of gradients, and rounds of Newton's method on the critical set.
+#: The step of a difference of gradients, and rounds of Newton's method.
 DIFFERENCE, ROUNDS = 2.0**-80, 8
 FAULTS = (ArithmeticError, ValueError)
 
@@ -81,7 +81,7 @@ class Neighbourhood:
         """``nodes`` solved for the columns numbered ``moved``, to high precision; None where it does not converge."""
         columns = [self.columns[i] for i in moved]
         last = arb(1)
-        for _ in range(8):
+        for _ in range(ROUNDS):
             check()
             point = BallPoint(symbols, 0)
             at = values(self.ring, point)
@@ -261,7 +261,7 @@ def _walk(here: Neighbourhood, direction: Sequence[float], reach: float) -> list
 def _back(here: Neighbourhood, u: Vector) -> tuple[list[float], list[list[float]]] | None:
     """Return the point of M near ``u`` and its rows there, by Newton's method with minimal steps in floating point."""
     moved = list(u)
-    for _ in range(8):
+    for _ in range(ROUNDS):
         f, j = here.floats(moved, here.ball.rows)
         change = step(j, f)
         moved = plus(moved, 1.0, change)

@@ -13,6 +13,7 @@ from dofkit.base.deadline import check
 from dofkit.base.libraries import np, nx
 from dofkit.configuration.local.quadratic_cone import definite_combination
 from dofkit.configuration.rigid_motions import displacements_real
+from dofkit.exact.matrices.dense import PASSES
 from dofkit.exact.points.balls import FloatPoint, jacobian
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
@@ -246,7 +247,7 @@ def _separate_rows(j: Any, rank: int, tolerance: float) -> list[int]:
     for r, row in enumerate(j):
         if len(rows) == rank:
             break
-        for _ in range(2):
+        for _ in range(PASSES):
             row = row - basis.T @ (basis @ row)
         distance = float(np.linalg.norm(row))
         if distance > tolerance * SLACK:
@@ -270,7 +271,7 @@ def is_tree(block: Block, setting: Setting) -> bool:
             return False
         pair = [*ends, GROUND] if len(ends) == 1 else [*ends]
         joined.add_edges_from((("joint", constraint), ("member", end)) for end in pair)
-    return bool(nx.is_forest(joined)) if joined else True
+    return bool(nx.is_forest(joined))
 
 
 def pose_of_block(chart: Chart) -> Mapping[Expr, Expr] | None:
