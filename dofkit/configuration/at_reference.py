@@ -262,10 +262,10 @@ def ball_point(chart: Chart, pose: Mapping[Expr, Expr]) -> BallPoint | None:
             node = ring.node(value)
             constants = {v.key: arb(3) / 4 for v in ring.vars if v.kind == "symbol"}
             try:
-                symbols[var.key] = values(ring, BallPoint(constants, 0))[node]
+                symbols[var.key] = values(ring, BallPoint(constants))[node]
             except NoValueError:
                 return None
-    return BallPoint(symbols, 0)
+    return BallPoint(symbols)
 
 
 def float_point(chart: Chart, pose: Mapping[Expr, Expr]) -> dict[Expr, float] | None:

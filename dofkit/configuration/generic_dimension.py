@@ -250,13 +250,13 @@ def _converge(chart: Chart, real: RealPoint) -> BallPoint | None:
     if not _is_singular(_system(chart, symbols, moved)[1]):
         return None
     radius = arb(0, arb(2) ** -RADIUS_BITS)
-    return BallPoint({s: v + radius if s in set(moved) else v for s, v in symbols.items()}, 0)
+    return BallPoint({s: v + radius if s in set(moved) else v for s, v in symbols.items()})
 
 
 def _system(chart: Chart, symbols: Mapping[Any, arb], moved: Sequence[Expr]) -> tuple[list[arb], list[list[arb]]]:
     """Return the relations and their Jacobian, as numbers."""
     check()
-    point = BallPoint(symbols, 0)
+    point = BallPoint(symbols)
     at = values(chart.ring, point)
     indices = [chart.ring.var_index(s) or 0 for s in moved]
     j = jacobian(chart.ring, at, point, chart.nodes, indices, arb(0))

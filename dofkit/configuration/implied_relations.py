@@ -121,7 +121,7 @@ class ImpliedRelations:
 
     def _distance(self, symbols: Mapping[Expr, float], rows: Sequence[int]) -> float:
         """How far, in the columns' scales, a point is from where some relations hold, to first order."""
-        chart, point = self.chart, FloatPoint(symbols, 0)
+        chart, point = self.chart, FloatPoint(symbols)
         at = values(chart.ring, point)
         columns = [c for c in chart.columns if c >= 0]
         scales = [k for c, k in zip(chart.columns, chart.scales, strict=True) if c >= 0]

@@ -50,7 +50,7 @@ class Neighbourhood:
     def floats(self, u: Vector, nodes: Sequence[int]) -> tuple[list[float], list[list[float]]]:
         """Return the relations and their derivatives by u, rows scaled to gradients of length 1 at the point."""
         with ctx.workprec(WIDE):
-            point = BallPoint(self.exactly(u), 0)
+            point = BallPoint(self.exactly(u))
             at = values(self.ring, point)
             f = [float(at[n].mid()) / self.norm_of[n] for n in nodes]
             rows = jacobian(self.ring, at, point, nodes, self.columns, arb(0))
@@ -83,7 +83,7 @@ class Neighbourhood:
         last = arb(1)
         for _ in range(ROUNDS):
             check()
-            point = BallPoint(symbols, 0)
+            point = BallPoint(symbols)
             at = values(self.ring, point)
             j = arb_mat([[v.mid() for v in row] for row in jacobian(self.ring, at, point, nodes, columns, arb(0))])
             step = j.solve(arb_mat([[at[n].mid()] for n in nodes]))
@@ -110,7 +110,7 @@ class Neighbourhood:
     def gradients(self, symbols: Mapping[Expr, arb], critical: Split) -> list[arb]:
         """Return the derivatives of dependent relations on M by its coordinates, for each equation of N."""
         ball = self.ball
-        point = BallPoint(symbols, 0)
+        point = BallPoint(symbols)
         at = values(self.ring, point)
         free = [ball.columns[c] for c in ball.frame.free]
         solved = [self.columns[i] for i in self.dependent]
@@ -129,7 +129,7 @@ class Neighbourhood:
 
     def residual(self, symbols: Mapping[Expr, arb], nodes: Sequence[int]) -> float:
         """Return the largest of the relations, relative to their gradients."""
-        at = values(self.ring, BallPoint(symbols, 0))
+        at = values(self.ring, BallPoint(symbols))
         return max((abs(float(at[n].mid())) / float(self.norm_of[n]) for n in nodes), default=0.0)
 
 

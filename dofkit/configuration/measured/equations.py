@@ -68,7 +68,7 @@ class ScaledEquations:
 
     def rigid_motions(self, at: Point) -> Any:
         """Return the velocities of rigid motions of the system as rows."""
-        fields = np.array(displacements_real(self.chart, FloatPoint(at, 0))).reshape(-1, len(self.symbols))
+        fields = np.array(displacements_real(self.chart, FloatPoint(at))).reshape(-1, len(self.symbols))
         return (fields + fields @ self._arms.slopes(at).T) / self.scale if fields.size else fields
 
     def system(self, at: Point, norms: Any = None) -> tuple[Any, Any]:
@@ -84,7 +84,7 @@ class ScaledEquations:
 
     def _unscaled(self, at: Point) -> tuple[Any, Any]:
         check()
-        point = FloatPoint(at, 0)
+        point = FloatPoint(at)
         out = values(self.chart.ring, point)
         f = np.array([out[n] for n in self.chart.nodes], dtype=float)
         j = np.array(jacobian(self.chart.ring, out, point, self.chart.nodes, self.chart.columns, 0.0), dtype=float)
@@ -142,7 +142,7 @@ class _Arms:
         n = len(self.symbols)
         arms, slopes = np.zeros(n), np.zeros((n, n))
         if self.rows:
-            point = FloatPoint({**dict.fromkeys(self.symbols, 0.0), **at}, 0)
+            point = FloatPoint({**dict.fromkeys(self.symbols, 0.0), **at})
             out = values(self.ring, point)
             arms[self.rows] = [out[node] for node in self.nodes]
             slopes[self.rows] = jacobian(self.ring, out, point, self.nodes, self.columns, 0.0)
