@@ -134,7 +134,7 @@ def _tangent(chart: Chart, symbols: dict[Expr, float], turning: Sequence[Rotatio
 
     Lengths, angles and other coordinates are each measured in the unit in which they change the relations as much.
     """
-    point = FloatPoint(symbols, 0)
+    point = FloatPoint(symbols)
     at = values(chart.ring, point)
     columns = [c for s, c in zip(chart.symbols, chart.columns, strict=True) if s != ex.TIME]
     rows = jacobian(chart.ring, at, point, chart.nodes, columns, 0.0)
@@ -146,7 +146,7 @@ def _tangent(chart: Chart, symbols: dict[Expr, float], turning: Sequence[Rotatio
 
 def _in_angles(chart: Chart, symbols: dict[Expr, float], basis: Any, turning: Sequence[Rotation]) -> Any:
     """The columns of Gibbs vectors turned into those of the Euler angles."""
-    at = values(chart.ring, FloatPoint(symbols, 0))
+    at = values(chart.ring, FloatPoint(symbols))
     names = [str(s.args[1]) for s in chart.symbols if s != ex.TIME]
     changed = [list(row) for row in basis]
     for rotation in turning:

@@ -17,7 +17,7 @@ from flint import arb, arb_mat
 from dofkit.base.errors import NoValueError
 from dofkit.base.libraries import nx
 from dofkit.configuration.at_reference import near_reference
-from dofkit.configuration.variety import field_jacobian, on_variety, pose_point
+from dofkit.configuration.variety import field_jacobian, point_at
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.sparse import sparse_frame, without_time
 from dofkit.exact.points.real_search import RealPoint
@@ -106,8 +106,8 @@ def rows_at_drawing(group: TurnedGroup, setting: Setting, most: float = math.inf
     if len(group.block.coordinates) > most:
         return None
     chart = make_chart(group.block, setting, group.hidden)
-    point = pose_point(chart, {**(setting.reference or {}), ex.TIME: ex.ZERO}, 3)
-    if point is None or not on_variety(chart, point):
+    point = point_at(chart, {**(setting.reference or {}), ex.TIME: ex.ZERO}, 3)
+    if point is None:
         return None
     names = [str(s.args[-1]) for s in chart.symbols if s != ex.TIME]
     rows = without_time(field_jacobian(chart, point), len(names))

@@ -29,7 +29,7 @@ from dofkit.configuration.local import conclusions, criteria
 from dofkit.configuration.local.germ import Germ
 from dofkit.configuration.local.manifold import LocalDimension, Manifold
 from dofkit.configuration.rigid_motions import rigid_fields, rigid_motions_real
-from dofkit.configuration.variety import chart_of_rows, field_jacobian, on_variety, pose_point, smaller
+from dofkit.configuration.variety import chart_of_rows, field_jacobian, point_at, pose_point, smaller
 from dofkit.exact.matrices.certified import ball_part, dependencies
 from dofkit.exact.matrices.sparse import (
     Echelon,
@@ -102,8 +102,8 @@ def _is_exact(chart: Chart, pose: Mapping[Expr, Expr], answer: AtReference) -> b
 
 def _by_field(chart: Chart, pose: Mapping[Expr, Expr]) -> AtReference | None:
     """`at_reference` with a point over GF(p), and balls where signs are asked for."""
-    point = pose_point(chart, pose, 3)
-    if point is None or not on_variety(chart, point):
+    point = point_at(chart, pose, 3)
+    if point is None:
         return None
     matrix = field_jacobian(chart, point)
     n = chart.coordinates
@@ -139,8 +139,8 @@ def _with_fewer(
     """
     small, free = smaller(chart)
     spared = chart.coordinates - small.coordinates
-    here = point if small is chart else pose_point(small, pose, 3)
-    if here is None or not on_variety(small, here):
+    here = point if small is chart else point_at(small, pose, 3)
+    if here is None:
         return LocalDimension(
             None, "undecided", "in the reduced coordinates the reference configuration does not satisfy the equations"
         ), 0
@@ -264,10 +264,10 @@ def ball_point(chart: Chart, pose: Mapping[Expr, Expr]) -> BallPoint | None:
             node = ring.node(value)
             constants = {v.key: arb(3) / 4 for v in ring.vars if v.kind == "symbol"}
             try:
-                symbols[var.key] = values(ring, BallPoint(constants, 0))[node]
+                symbols[var.key] = values(ring, BallPoint(constants))[node]
             except NoValueError:
                 return None
-    return BallPoint(symbols, 0)
+    return BallPoint(symbols)
 
 
 def float_point(chart: Chart, pose: Mapping[Expr, Expr]) -> dict[Expr, float] | None:
@@ -292,7 +292,7 @@ def near_reference(chart: Chart, rank: int) -> Iterator[RealPoint | None]:
         rng, initial = random.Random(f"dofkit near {seed}"), {s: float(v.mid()) for s, v in start.symbols.items()}
         initial |= {s: initial[s] + away * rng.uniform(-1.0, 1.0) for s in search.unknowns}
         real = search.search(seed, initial, starts=1)
-        if real and real.certified and real.consistent and are_joined(search, start.symbols, real, rank):
+        if real and real.certain and are_joined(search, start.symbols, real, rank):
             yield real
 
 

@@ -87,7 +87,7 @@ def _answer_of(variety: Variety) -> Answer:
 
 def _real_rows(chart: Chart, real: RealPoint | None) -> RealRows | None:
     """Return the rows at a certified point, where they may tell another part of the set."""
-    if real is None or not real.certified or not real.consistent:
+    if real is None or not real.certain:
         return None
     matrix = ball_matrix(chart, real.point, False)
     return None if matrix is None else RealRows(tuple(str(s.args[1]) for s in chart.symbols), matrix)

@@ -69,9 +69,9 @@ def near_real_point(chart: Chart, real: RealPoint | None, core: Sequence[int]) -
         return Variety(None, None, "undecided", reasons=["no configuration satisfying all equations was found"])
     columns = len(chart.columns)
     timed = columns - chart.coordinates
-    if real.certified and real.consistent and real.part.rank == real.solved == len(core) == len(chart.nodes):
+    if real.certain and real.part.rank == real.solved == len(core) == len(chart.nodes):
         return Variety(True, columns - real.part.rank - timed, "proved", [], real, argument="regular point")
-    if not real.certified or not real.consistent:
+    if not real.certain:
         return _left_open(Variety(None, None, "undecided", [], real), SINGULAR)
     if real.part.gap > 1e3:
         why = gap_in_words(real.part.gap, "pivot")
@@ -111,7 +111,7 @@ def with_reality(chart: Chart, variety: Variety, rank: int) -> Variety:
         return variety
     if real is None:
         return _without_reality(chart, variety)
-    if not real.certified or not real.consistent:
+    if not real.certain:
         return _left_open(variety, SINGULAR)
     if real.solved < real.part.rank:
         variety.verdict, variety.gap = weakest(variety.verdict, "numeric"), real.part.gap
@@ -168,7 +168,7 @@ def _left_open(variety: Variety, why: str) -> Variety:
 def near_singular_point(chart: Chart, variety: Variety) -> Variety:
     """Return the set near a singular real point, where only such points were found; else the same as was known."""
     real = variety.real
-    if real is None or (real.certified and real.consistent):
+    if real is None or real.certain:
         return variety
     local = numeric_local(chart, real)
     if local is None or local.dimension is None or local.confined:
@@ -250,13 +250,13 @@ def _converge(chart: Chart, real: RealPoint) -> BallPoint | None:
     if not _is_singular(_system(chart, symbols, moved)[1]):
         return None
     radius = arb(0, arb(2) ** -RADIUS_BITS)
-    return BallPoint({s: v + radius if s in set(moved) else v for s, v in symbols.items()}, 0)
+    return BallPoint({s: v + radius if s in set(moved) else v for s, v in symbols.items()})
 
 
 def _system(chart: Chart, symbols: Mapping[Any, arb], moved: Sequence[Expr]) -> tuple[list[arb], list[list[arb]]]:
     """Return the relations and their Jacobian, as numbers."""
     check()
-    point = BallPoint(symbols, 0)
+    point = BallPoint(symbols)
     at = values(chart.ring, point)
     indices = [chart.ring.var_index(s) or 0 for s in moved]
     j = jacobian(chart.ring, at, point, chart.nodes, indices, arb(0))

@@ -27,7 +27,7 @@ from dofkit.configuration.local.germ import random_direction
 from dofkit.configuration.local.manifold import Manifold
 from dofkit.configuration.measured.dimension import measured_freedom
 from dofkit.configuration.rigid_motions import rigid_motions
-from dofkit.configuration.variety import chart_of_rows, field_jacobian, on_variety, pose_point, smaller
+from dofkit.configuration.variety import chart_of_rows, field_jacobian, point_at, pose_point, smaller
 from dofkit.exact.matrices.dense import length
 from dofkit.exact.matrices.sparse import Pivots, SparseRow, factored, sparse_frame, transposed
 from dofkit.exact.points.balls import FloatPoint, jacobian
@@ -121,7 +121,7 @@ class ImpliedRelations:
 
     def _distance(self, symbols: Mapping[Expr, float], rows: Sequence[int]) -> float:
         """How far, in the columns' scales, a point is from where some relations hold, to first order."""
-        chart, point = self.chart, FloatPoint(symbols, 0)
+        chart, point = self.chart, FloatPoint(symbols)
         at = values(chart.ring, point)
         columns = [c for c in chart.columns if c >= 0]
         scales = [k for c, k in zip(chart.columns, chart.scales, strict=True) if c >= 0]
@@ -143,8 +143,8 @@ def _on_manifold(chart: Chart, pose: Mapping[Expr, Expr], rank: int, afar: bool)
     gone = len(chart.columns) - len(small.columns) - free
     if not small.nodes:
         return gone == rank
-    point = pose_point(small, pose, 3)
-    if point is None or not on_variety(small, point):
+    point = point_at(small, pose, 3)
+    if point is None:
         return None
     rigid = rigid_motions(small, point)
     ball = ball_point(small, pose) if afar and "balls" in chart.setting.engines else None

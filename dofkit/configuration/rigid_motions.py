@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 from flint import arb
 
-from dofkit.configuration.variety import free_real_point, on_variety, pose_point
+from dofkit.configuration.variety import free_real_point, point_at, pose_point
 from dofkit.exact.matrices.dense import rank
 from dofkit.exact.matrices.sparse import rank_of
 from dofkit.exact.points.balls import BallPoint, FloatPoint
@@ -131,8 +131,8 @@ class RigidOrbit(NamedTuple):
         setting = chart.setting
         if setting.reference is None or "field" not in setting.engines:
             return None
-        point = pose_point(chart, {**setting.reference, ex.TIME: ex.ZERO}, 3)
-        if point is None or not on_variety(chart, point):
+        point = point_at(chart, {**setting.reference, ex.TIME: ex.ZERO}, 3)
+        if point is None:
             return None
         kept = [(str(s.args[1]), k) for k, s in enumerate(chart.symbols) if s != ex.TIME]
         fields = [[field[k] for _, k in kept] for field in rigid_fields(chart, point)]

@@ -156,7 +156,7 @@ class States:
             symbols = self._spread(search.start(STARTS * seed + k, {}), seed)
             if standing.descend(symbols, seed) is not None and moving.descend(symbols, seed) is not None:
                 state = search.search(seed, symbols, starts=1)
-                if state is not None and state.certified and state.consistent:
+                if state is not None and state.certain:
                     return state
         return search.search(seed) or at_another_time(search, seed)
 
@@ -173,7 +173,7 @@ class States:
         """Real states that are certified, at generic configurations, of so many searches."""
         for k in range(count):
             state = self.real(k)
-            if state is not None and state.certified and state.consistent:
+            if state is not None and state.certain:
                 whole, moving, finite = self.ranks(state.point)
                 if whole - moving == finite:
                     yield state.point

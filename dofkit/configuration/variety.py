@@ -65,7 +65,7 @@ Witness = Mapping[Expr, str]
 
 def of_real_point(chart: Chart, real: RealPoint | None) -> Witness | None:
     """Coordinates, time and named parameters at a point whose ball holds a true zero; None without one."""
-    if real is None or not real.certified or not real.consistent or real.solved < real.part.rank:
+    if real is None or not real.certain or real.solved < real.part.rank:
         return None
     named = {s: v for s, v in real.point.symbols.items() if not str(s.args[-1]).startswith("_")}
     return {**dict.fromkeys(chart.symbols, "0"), **{s: _text(v) for s, v in named.items()}}
@@ -175,19 +175,20 @@ def pose_point(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> FieldPoint
     return None
 
 
+def point_at(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> FieldPoint | None:
+    """Return a point over GF(p) of the set at which given symbols have their values; None where there is none."""
+    point = pose_point(chart, pose, seed)
+    return None if point is None or not on_variety(chart, point) else point
+
+
 def _values_of_generators(ring: Ring, pose: Mapping[Expr, Expr]) -> list[tuple[int, int]] | None:
     """(generator, node of its value) for symbols and for the functions of them that have a known value."""
     settled: dict[int, int] = {}
     try:
-        for _ in range(3):
-            before = len(ring.vars)
-            for var in list(ring.vars):
-                expression = ring.var_expr[var.index]
-                if var.index in settled or pose.keys().isdisjoint(expression.symbols):
-                    continue
+        for var in list(ring.vars):
+            expression = ring.var_expr[var.index]
+            if not pose.keys().isdisjoint(expression.symbols):
                 settled[var.index] = ring.node(substitute(substitute(expression, ring.alias), pose))
-            if len(ring.vars) == before:
-                break
     except NoValueError:
         return None
     return sorted(settled.items(), key=lambda pair: pair[1])
@@ -199,8 +200,8 @@ def pose_samples(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> list[Fie
         return []
     points = []
     for k in range(SAMPLES):
-        point = pose_point(chart, pose, seed + k)
-        if point is None or not on_variety(chart, point):
+        point = point_at(chart, pose, seed + k)
+        if point is None:
             return []
         points.append(point)
     return points

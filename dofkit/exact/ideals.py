@@ -47,12 +47,9 @@ def dimension_of(canon: Canon, generators: Sequence[Poly], moving: Sequence[int]
     leading = [frozenset(i for i, k in enumerate(p.monomial(0)) if k) for p in basis]
     if frozenset() in leading:
         return -1
-    every = range(unknowns)
-    for size in range(unknowns, -1, -1):
-        check()
-        if any(all(not used <= set(free) for used in leading) for free in combinations(every, size)):
-            return size + unseen
-    return -1
+    check()
+    choices = (free for size in range(unknowns, -1, -1) for free in combinations(range(unknowns), size))
+    return unseen + len(next(free for free in choices if not any(used <= set(free) for used in leading)))
 
 
 def have_complex_points(relations: Sequence[Expr], positive: frozenset[Expr]) -> bool:

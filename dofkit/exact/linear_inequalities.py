@@ -35,7 +35,7 @@ class LinearCondition:
 
 
 def _dot(a: Sequence[fmpq], b: Sequence[fmpq]) -> fmpq:
-    return sum((x * y for x, y in zip(a, b, strict=True) if x != 0 and y != 0), ZERO)
+    return sum((x * y for x, y in zip(a, b, strict=True)), ZERO)
 
 
 def solution(conditions: Sequence[LinearCondition]) -> Vector | Literal[False] | None:

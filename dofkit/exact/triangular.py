@@ -110,17 +110,15 @@ class Planner:
 
     def _settle(self, remaining: list[int]) -> list[int]:
         """Drop relations between no unknowns that hold; notice those that do not."""
-        probe = self.probe
-        kept = []
+        probe, kept = self.probe, []
+        assert probe is not None
         for node in remaining:
             check()
             if self._parameters_only(node):
                 self.plan.special = True
             if any(self.degree(node, u) for u in units_in(self.ring, node) - self.fixed):
                 kept.append(node)
-            elif probe is not None and value_along(self.ring, node, {}, probe) == 0:
-                continue
-            elif not self.fixed:
+            elif value_along(self.ring, node, {}, probe) != 0 and not self.fixed:
                 self.plan.contradictory, self.plan.witness = True, node
         return kept
 
@@ -196,16 +194,13 @@ class TriangularSolver:
 
     def _preset_roots(self, point: FieldPoint) -> None:
         """Roots that are free unknowns are drawn here, so that their radicands are solved for them."""
-        for kind, index in self.plan.free:
+        for _, index in self.plan.free:
             var = self.ring.vars[index]
-            if kind == "var" and var.kind == "root":
+            if var.kind == "root":
                 point.set(var, point.random())
 
     def _solve(self, node: int, unit: Unit, point: FieldPoint) -> None:
-        polynomial = univariate(self.ring, node, unit, point)
-        if polynomial.degree() < 0:
-            raise NoPointError("the relation does not determine the unknown")
-        roots = roots_of(polynomial)
+        roots = roots_of(univariate(self.ring, node, unit, point))
         if not roots:
             raise NoPointError("no root")
         value = point.rng.choice(roots)

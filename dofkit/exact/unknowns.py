@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 from dofkit.base.deadline import check
 from dofkit.base.errors import NoValueError, PoleError
 from dofkit.exact.points.field import FieldPoint
-from dofkit.exact.residues import Residue, ResiduePolynomial, modulus, residue, residue_polynomial
+from dofkit.exact.residues import Residue, ResiduePolynomial, residue_polynomial
 from dofkit.exact.ring.program import ADD, VAR, Var, raising_no_value, reachable, value_of
 from dofkit.exact.ring.ring import Ring
 
@@ -45,9 +45,6 @@ class Rational:
     __radd__ = __add__
     __rmul__ = __mul__
 
-    def __neg__(self) -> Rational:
-        return Rational(-self.top, self.bottom)
-
     def __pow__(self, n: int) -> Rational:
         return Rational(self.top**n, self.bottom**n)
 
@@ -58,7 +55,7 @@ class Rational:
 
     def numerator(self) -> Any:
         """In lowest terms."""
-        return self.top // self.top.gcd(self.bottom) if self.top != 0 else self.top
+        return self.top // self.top.gcd(self.bottom)
 
 
 def _lowest(top: Any, bottom: Any) -> Rational:
@@ -165,13 +162,8 @@ class _PointAlong(NamedTuple):
 
 
 def roots_of(polynomial: ResiduePolynomial) -> list[Residue]:
-    """Return the roots of a polynomial over GF(p)."""
-    if polynomial.degree() > 1:
-        return [root for root, _ in polynomial.roots()]
-    if polynomial.degree() < 1:
-        return []
-    p = modulus(polynomial)
-    return [-residue(int(polynomial[0]), p) / residue(int(polynomial[1]), p)]
+    """Return the roots of a polynomial over GF(p); none of 0."""
+    return [] if polynomial.is_zero() else [root for root, _ in polynomial.roots()]
 
 
 def circle(w: Any, unit: Any) -> tuple[Any, Any]:

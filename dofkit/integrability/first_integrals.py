@@ -346,9 +346,9 @@ class BorderedMinors:
         relation = canon.quotient(self.chart.nodes[0])[0] if on_relation and len(self.chart.nodes) == 1 else None
         row = polynomials(canon, nodes, len(self.chart.symbols))
         for j in self.frame.free:
-            terms = (canon.reduce(row[c] * m) for c, m in self._along(canon, j).items() if row[c] != 0)
+            terms = (canon.reduce(row[c] * m) for c, m in self._along(canon, j).items())
             minor = canon.reduce(sum(terms, canon.unit * 0))
-            yield minor if relation is None or minor == 0 else remainder(minor, relation)
+            yield minor if relation is None else remainder(minor, relation)
 
     def _along(self, canon: Canon, j: int) -> dict[int, Poly]:
         """Return the cofactors of the bordering row in the dependent columns and column ``j``."""

@@ -53,9 +53,6 @@ class Dual:
     def __neg__(self) -> Dual:
         return Dual(-self.re, None if self.du is None else -self.du)
 
-    def __sub__(self, other: Any) -> Dual:
-        return self.__add__(-other)
-
     def __mul__(self, other: Any) -> Dual:
         if not isinstance(other, Dual):
             return Dual(self.re * other, None if self.du is None else self.du * other)
@@ -77,7 +74,8 @@ class Dual:
         return Dual(below, None if self.du is None else -(self.du * below * below))
 
     def __truediv__(self, other: Any) -> Dual:
-        return self * other.inverse() if isinstance(other, Dual) else Dual(self.re / other, self.du and self.du / other)
+        inverse: Dual = other.inverse()
+        return self * inverse
 
     def __rtruediv__(self, other: Any) -> Dual:
         below: Dual = self.inverse()
@@ -245,8 +243,6 @@ def _complete(curves: Sequence[tuple[AdmissibleCurve, Variation]], dimensions: S
     vectors = [v for f in flows for v in columns_of(f.pulled[0])]
     for k in range(1, len(dimensions)):
         vectors += [v for f in flows for v in columns_of(f.pulled[k])]
-        if dimensions[k] == terminal:
-            return True
         across = [v for f, w in curves for v in columns_of(w.bracket(f, k - 1))]
         if rank_over([*vectors, *across], flows[0].sample) > dimensions[k]:
             return False

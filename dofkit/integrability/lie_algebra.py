@@ -364,7 +364,7 @@ def on_the_same_part(forms: Codistribution, variety: Variety, largest: SampledSp
     """
     seeds = (real_point(forms.chart, seed, forms.chart.nodes) for seed in range(1, SEEDS))
     for real in chain((variety.real,), seeds):
-        if real is None or not real.certified or not real.consistent:
+        if real is None or not real.certain:
             continue
         span = ball_span(forms, len(largest.frame.rows), real.point)
         if span is not None and span[0].dimension == largest.span.dimension:

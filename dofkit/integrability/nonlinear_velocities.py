@@ -31,9 +31,9 @@ from dofkit.exact.points.balls import BallPoint
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import kernel, vanishes
 from dofkit.exact.points.real_search import RealPoint
-from dofkit.exact.ring.program import VAR, Scalar, raising_no_value, reachable, values
+from dofkit.exact.ring.program import Scalar, raising_no_value, values
 from dofkit.exact.ring.ring import Ring
-from dofkit.exact.zero import independent_on_set, is_zero
+from dofkit.exact.zero import is_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
@@ -87,7 +87,7 @@ def set_velocity_freedom(block: Block, setting: Setting, result: Answer) -> None
     whole, moving, finite = states.ranks(sample)
     if not _moves_at_reference(block, setting, result, moving):
         _undecided(result, AT_REFERENCE)
-    elif not real.certified or not real.consistent:
+    elif not real.certain:
         _undecided(result, SINGULAR)
     elif states.ranks(real.point) != (whole, moving, finite):
         _undecided(result, PARTS)
@@ -332,20 +332,14 @@ def _on_the_kernel(f: Expr, joint: Block, hidden: Sequence[Expr], setting: Setti
     rank = len(good[0][1].frame.rows) if good else None
     if any(not v.contains(0) for v in _real_values(forms, variety, rank, node)):
         return HolonomyLabel(False, "proved")
-    certain = _rational(ring, node) and independent_on_set(ring, forms.chart.nodes)
-    if not seen or not certain:
-        return HolonomyLabel(None, "undecided", NO_VELOCITY)
-    return HolonomyLabel(False, "probable" if forms.finite else "proved")
+    return HolonomyLabel(None, "undecided", NO_VELOCITY)
 
 
 def _real_values(forms: Codistribution, variety: Variety, rank: int | None, node: int) -> Iterator[arb]:
     """Values of f at a certified real point."""
     real = variety.real
-    if real is None or not real.certified or not real.consistent:
+    if rank is None or real is None or not real.certain:
         return
-    if rank is None:
-        matrix = forms.rows.matrix(values(forms.chart.ring, real.point), arb(0))
-        rank = ball_part(matrix).rank
     span = ball_span(forms, rank, real.point)
     if span is not None:
         yield from _values_on_span(forms, span[0], real.point, node)
@@ -380,10 +374,3 @@ def _moving(ring: Ring, point: FieldPoint | BallPoint, moved: dict[Expr, Scalar]
     for s, value in moved.items():
         other.values["symbol", s] = value
     return other
-
-
-def _rational(ring: Ring, node: int) -> bool:
-    """Return whether velocities stand in no root and no function."""
-    code = ring.code
-    used = {code[i][1] for i in reachable(ring, [node]) if code[i][0] == VAR}
-    return all(ring.vars[i].kind == "symbol" or not moves(ring, i) for i in used)

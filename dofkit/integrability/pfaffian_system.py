@@ -18,7 +18,7 @@ from typing import Any
 
 from dofkit.base.deadline import check
 from dofkit.base.errors import NoValueError
-from dofkit.configuration.variety import Variety, on_variety, pose_point
+from dofkit.configuration.variety import Variety, point_at
 from dofkit.exact.analyticity import is_analytic
 from dofkit.exact.matrices.sparse import rank_of
 from dofkit.exact.points.frames import FormRows, rank_over
@@ -94,15 +94,11 @@ def first_order_freedom(block: Block, setting: Setting, reference: Mapping[Expr,
     None where it is not on the variety. A rank over GF(p) is not too large; of as many rows it is not too small.
     """
     forms = codistribution(block, setting, ())
-    if "field" not in setting.engines:
+    there = {**reference, ex.TIME: ex.ZERO}
+    point = point_at(forms.chart, there, 3) if "field" in setting.engines else None
+    if point is None:
         return None, False
-    point = pose_point(forms.chart, {**reference, ex.TIME: ex.ZERO}, 3)
-    if point is None or not on_variety(forms.chart, point):
-        return None, False
-    try:
-        matrix = forms.rows.matrix(values(forms.chart.ring, point), point.number(ex.ZERO.args[0]))
-    except NoValueError:
-        return None, False
+    matrix = forms.rows.matrix(values(forms.chart.ring, point), point.number(ex.ZERO.args[0]))
     rank = rank_of([row[: forms.n] for row in matrix], point.p)
     return forms.n - rank, rank == len(matrix)
 

@@ -180,7 +180,7 @@ def certificate(forms_at_points: SampledForms, variety: Variety) -> Certificate 
     point over GF(p) is not 0 as a function; else balls at a real point, up to `CERTIFIED_COLUMNS`.
     """
     real = variety.real
-    if real is None or not real.certified or not real.consistent:
+    if real is None or not real.certain:
         return None
     if forms_at_points.trusted and not forms_at_points.forms.finite:
         return forms_at_points.sampled.span, forms_at_points.sampled.matrix
@@ -288,7 +288,7 @@ def _gap(span: Span) -> float:
 
 
 def ball_labels(block: Block, forms: Codistribution, real: RealPoint, result: Answer) -> Span | None:
-    """Set labels from a real point, where what a tiny ball contains 0 of is taken for 0; return the Lie algebra there."""
+    """Set labels from a real point, where what a tiny ball contains 0 of is taken for 0; return the Lie algebra."""
     at = values(forms.chart.ring, real.point)
     matrix = forms.rows.matrix(at, arb(0))
     part = ball_part(matrix)

@@ -86,10 +86,10 @@ class Floats:
         reference = written.system.reference or {}
         parameters = {s for value in reference.values() for s in value.symbols}
         symbols |= {s: rng.uniform(0.5, 2) for s in sorted(parameters, key=repr) if s not in symbols}
-        place = FloatPoint(symbols, 0)
+        place = FloatPoint(symbols)
         symbols |= {s: float(drawn_value(value, place)) for s, value in reference.items()}
         symbols[ex.TIME] = 0.0
-        return FloatPoint(symbols, 0)
+        return FloatPoint(symbols)
 
     def _newton_end(self, written: Written, rows: WrittenRows, k: int) -> FloatPoint | None:
         """Where Gauss and Newton's method ends that begins at random."""
@@ -101,7 +101,7 @@ class Floats:
             return None
         rng = random.Random(f"dofkit floats 0 {k}")
         symbols |= {s: rng.uniform(-2, 2) for s in rows.columns if s not in symbols}
-        return FloatPoint(symbols, 0)
+        return FloatPoint(symbols)
 
 
 def singular_values(matrix: Matrix) -> Any:

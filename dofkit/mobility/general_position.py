@@ -263,5 +263,5 @@ def _rows(pairs: Sequence[Pair], coordinates: Sequence[str], setting: Setting, p
     for a, b in pairs:
         arm = [(x - y) % p for x, y in zip(at[a], at[b], strict=True)]
         row = dict(zip(columns[a], arm, strict=True)) | {c: -v % p for c, v in zip(columns[b], arm, strict=True)}
-        rows.append({c: v for c, v in row.items() if v} if 0 in arm else row)
+        rows.append({c: v for c, v in row.items() if v})
     return rows

@@ -61,9 +61,7 @@ class Geometry:
         return self.parallel(line.direction, _less(point, line.through))
 
     def meet(self, a: DrawnLine, b: DrawnLine) -> bool:
-        """Return whether the two lines have a point in common, perhaps at infinity."""
-        if len(a.through) == 2:
-            return True
+        """Return whether two lines of space have a point in common, perhaps at infinity."""
         return self.zero(_dot(_less(b.through, a.through), cross(a.direction, b.direction)))
 
     def concurrent(self, a: DrawnLine, b: DrawnLine, c: DrawnLine) -> bool:
@@ -112,8 +110,6 @@ def _axes(g: Geometry, members: Sequence[Connection]) -> Iterator[DrawnLine]:
 
 
 def _of_axes(g: Geometry, axes: Sequence[DrawnLine]) -> Iterator[str]:
-    if len(axes) < 2:
-        return
     classes = _classes(axes, lambda a, b: g.parallel(a.direction, b.direction))
     alike = [c for c in classes if len(c) > 1]
     for same in alike:
@@ -143,7 +139,7 @@ def _through_one_point(g: Geometry, axes: Sequence[DrawnLine]) -> list[DrawnLine
         if not g.meet(a, b):
             continue
         normal = cross(a.direction, b.direction)
-        meeting = [c for c in axes if c is not a and c is not b and g.meet(a, c) and g.meet(b, c)]
+        meeting = [c for c in axes if g.meet(a, c) and g.meet(b, c)]
         out = [c for c in meeting if not g.zero(_dot(normal, c.direction))]
         if len(out) + 2 > max(2, len(best)):
             best = [a, b, *out]

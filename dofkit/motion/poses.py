@@ -185,7 +185,7 @@ class PoseRelations:
             vector = [(arb(float(v)) / arb(w)).mid() if exact else float(v) / w for v in q[1:]]
             symbols.update(zip(map(ex.coordinate, r.names), vector, strict=True))
             vectors.append(vector)
-        return (BallPoint(symbols, 0) if exact else FloatPoint(symbols, 0)), vectors
+        return (BallPoint(symbols) if exact else FloatPoint(symbols)), vectors
 
     def _gradients(self, pose: Pose) -> tuple[Array, Array]:
         """Return the values of the finite relations and their derivatives by the scaled columns."""
@@ -224,7 +224,7 @@ def number(e: Expr, symbols: Mapping[Expr, float] | None = None) -> float:
     """The value of an expression in known symbols."""
     ring = Ring([e])
     node = ring.node(e)
-    return float(values(ring, FloatPoint(symbols or {}, 0))[node])
+    return float(values(ring, FloatPoint(symbols or {}))[node])
 
 
 def _by_turn(line: Sequence[Any], g: Sequence[Any]) -> list[Any]:

@@ -196,7 +196,7 @@ def aliases(block: Block, finite: Sequence[Expr]) -> dict[Expr, Expr]:
 def _inside_functions(e: Expr) -> frozenset[Expr]:
     result: frozenset[Expr] = frozenset()
     for node in ex.nodes(e):
-        if node.op == "fn" or (node.op == "pow" and node.args[1].op != "num"):
+        if node.op in ("fn", "pow"):
             result |= node.symbols
     return result
 

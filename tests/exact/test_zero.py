@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from pathlib import Path
 
 import pytest
 
 import dofkit
+from dofkit.base.documents import read_document
 from dofkit.exact.ring.radicals import prime_powers
 from dofkit.exact.ring.ring import Ring
-from dofkit.exact.zero import independent_generators, is_proved_zero, zero_and_verdict
+from dofkit.exact.zero import independent_generators, is_proved_zero, is_zero, zero_and_verdict
 from dofkit.expressions import tree as ex
 from dofkit.expressions.text import Names, parse_expression
 
@@ -100,6 +102,13 @@ def test_what_has_a_value_nowhere_that_was_tried_is_not_taken_for_zero() -> None
     narrow = ex.sqrt(1 - 10**6 * (x - ex.num(Fraction(1, 3))) ** 2)
     for e in (ex.fn("log", -1 - x * x), ex.fn("log", narrow) + 1):
         assert zero_and_verdict(e, frozenset()) == (None, "undecided")
+
+
+@pytest.mark.parametrize("text", read_document((Path(__file__).parent / "identities.yaml").read_bytes(), "yaml").value)
+def test_what_is_zero_is_seen_to_be_and_what_is_not_is_not(text: str) -> None:
+    e = parse_expression(text, Names(coordinates=frozenset("xy")))
+    assert is_zero(e, frozenset({X}))
+    assert zero_and_verdict(e + ex.num(Fraction(1, 10**9)), frozenset({X})) == (False, "proved")
 
 
 def test_the_prime_powers_of_a_large_number() -> None:

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from shared.known_scenes import CATALOG, EVERY, ROOT, SCENES, report_of, scene_of, stem, strict_report_of
+from shared.known_scenes import CATALOG, EXPECTED, ROOT, SCENES, report_of, scene_of, stem, strict_report_of
 
 import dofkit
 import dofkit.base.documents
@@ -33,7 +33,7 @@ def document(path: Path) -> dict[str, Any]:
 # The scenes
 
 
-@pytest.mark.parametrize("path", EVERY, ids=stem)
+@pytest.mark.parametrize("path", EXPECTED, ids=stem)
 def test_the_report_holds_what_the_scene_expects(path: Path) -> None:
     scene, report = scene_of(path), strict_report_of(path) if path in CATALOG else report_of(path)
     assert scene.expect
@@ -60,18 +60,18 @@ def test_every_constraint_type_has_a_scene_whose_answers_are_known() -> None:
 
 # What is no scene
 
-EXPECTED: dict[str, Any] = dofkit.base.documents.read_document((BAD / "expected.yaml").read_bytes(), "expected").value
+TOLD: dict[str, Any] = dofkit.base.documents.read_document((BAD / "expected.yaml").read_bytes(), "expected").value
 
 
 def test_every_bad_file_says_what_is_told() -> None:
-    assert sorted(EXPECTED) == sorted(path.name for path in BAD.iterdir() if path.name != "expected.yaml")
+    assert sorted(TOLD) == sorted(path.name for path in BAD.iterdir() if path.name != "expected.yaml")
 
 
-@pytest.mark.parametrize("name", EXPECTED)
+@pytest.mark.parametrize("name", TOLD)
 def test_a_bad_file_is_told_where_and_why(name: str) -> None:
     with pytest.raises(SceneError) as caught:
         dofkit.load(BAD / name)
-    wanted, faults = EXPECTED[name], caught.value.faults
+    wanted, faults = TOLD[name], caught.value.faults
     assert all(fault.message for fault in faults)
     matching = [
         fault for fault in faults if holds(wanted, fault.line, fault.column, f"{fault.message} {fault.hint or ''}")
@@ -84,12 +84,12 @@ def printed() -> tuple[object, str, dict[str, str]]:
     """The status, the standard error and the line of each bad file, all of them in one run."""
     out, err = io.StringIO(), io.StringIO()
     with redirect_stdout(out), redirect_stderr(err), pytest.raises(SystemExit) as stop:
-        cli.app(["classify", "--json", *(str(BAD / name) for name in EXPECTED)])
-    return stop.value.code, err.getvalue(), dict(zip(EXPECTED, out.getvalue().splitlines(), strict=True))
+        cli.app(["classify", "--json", *(str(BAD / name) for name in TOLD)])
+    return stop.value.code, err.getvalue(), dict(zip(TOLD, out.getvalue().splitlines(), strict=True))
 
 
 @pytest.mark.xdist_group("bad")
-@pytest.mark.parametrize("name", EXPECTED)
+@pytest.mark.parametrize("name", TOLD)
 def test_a_bad_file_is_one_line_of_json(name: str) -> None:
     status, err, lines = printed()
     line = lines[name]
@@ -98,7 +98,7 @@ def test_a_bad_file_is_one_line_of_json(name: str) -> None:
     error = document["error"]
     assert "Traceback" not in line
     assert error["message"]
-    wanted = EXPECTED[name]
+    wanted = TOLD[name]
     every = [error, *error.get("faults", [])]
     assert any(holds(wanted, e["line"], e["column"], f"{e['message']} {e['hint'] or ''}") for e in every), error
 

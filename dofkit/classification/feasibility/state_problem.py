@@ -207,7 +207,7 @@ def _is_solution(problem: StateProblem, ring: Ring, point: RealPoint, positive: 
     """Return whether all has a value on the whole ball, conditions the right sign, and a motion passes through it."""
     at = point.point.symbols
     zeros = [interval_of(e, at) for e in problem.equations]
-    if not (point.certified and point.consistent and point.part.rank == point.solved):
+    if not (point.certain and point.part.rank == point.solved):
         return False
     if not all(v is not None and v.contains(0) for v in zeros) or not hold_strictly(problem.conditions, at):
         return False

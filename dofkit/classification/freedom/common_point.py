@@ -100,7 +100,7 @@ def _point_within(chart: Chart, conditions: Sequence[DomainCondition], dof: int 
             point = search.search(seed, moment)
         except (OverflowError, ValueError, NoValueError):
             continue
-        if point is not None and point.certified and point.consistent:
+        if point is not None and point.certain:
             points.append(point)
     wanted = max((p.part.rank for p in points), default=0) if dof is None else chart.coordinates - dof
     return next((p for p in points if p.part.rank == wanted and hold_strictly(conditions, p.point.symbols)), None)

@@ -11,7 +11,7 @@ from collections.abc import Hashable, Iterable, Sequence
 from dofkit.base.deadline import check
 from dofkit.base.errors import Fault, NoValueError, SceneError, TextError
 from dofkit.configuration.at_reference import ball_matrix, ball_point
-from dofkit.configuration.variety import on_variety, pose_point
+from dofkit.configuration.variety import point_at
 from dofkit.exact.analyticity import is_analytic
 from dofkit.exact.zero import is_zero
 from dofkit.expressions import tree as ex
@@ -196,8 +196,7 @@ def passes_reference(branch: Sequence[Piece], setting: Setting) -> bool:
     if "field" not in setting.engines:
         ball = ball_point(chart, configuration)
         return ball is not None and ball_matrix(chart, ball, True) is not None
-    point = pose_point(chart, configuration, 5)
-    if point is None or not on_variety(chart, point):
+    if point_at(chart, configuration, 5) is None:
         return False
     conditions = (p for p in branch if isinstance(p, DomainCondition))
     return not any(holds_at(c, configuration, setting.positive) is False for c in conditions)

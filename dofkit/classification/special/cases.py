@@ -53,7 +53,7 @@ def points_of(chart: Chart) -> tuple[FieldPoint, BallPoint, bool] | None:
         return None
     search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.setting.positive)
     real = search.search(starts=STARTS, steps=STEPS)
-    if real is None or not real.certified or not real.consistent:
+    if real is None or not real.certain:
         return None
     return drawn, real.point, real.part.rank == len(chart.nodes)
 

@@ -130,7 +130,7 @@ def _dimension_at(here: Neighbourhood, u: Vector) -> int | None:
     moved = here.newton(here.exactly(u), [ball.nodes[r] for r in rows], columns)
     if moved is None or here.residual(moved, ball.nodes) > SURE:
         return None
-    point = BallPoint(moved, 0)
+    point = BallPoint(moved)
     at = values(here.ring, point)
     exact = jacobian(here.ring, at, point, ball.nodes, here.columns, arb(0))
     singular = singular_values([here.scaled(row, n) for n, row in zip(ball.nodes, exact, strict=True)])
@@ -144,7 +144,7 @@ def _stays(here: Neighbourhood, moved: dict[Expr, arb], rows: Sequence[int], col
     """Return whether the dependent equations are satisfied along a random curve through the point."""
     ball = here.ball
     columns_here = set(here.keys)
-    point = BallPoint({s: arb(v, RADIUS) if s in columns_here else v for s, v in moved.items()}, 0)
+    point = BallPoint({s: arb(v, RADIUS) if s in columns_here else v for s, v in moved.items()})
     dependent = tuple(sorted(here.place[c] for c in columns))
     free = tuple(i for i in range(len(ball.columns)) if i not in set(dependent))
     there = Manifold(ball.ring, ball.nodes, ball.columns, Pivots(tuple(sorted(rows)), dependent, free), point)

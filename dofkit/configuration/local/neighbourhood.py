@@ -25,7 +25,7 @@ LOST = 90
 DEEP, DEEP_SURE = 1024, 2.0**-900
 #: Bits in which relations are evaluated before they are rounded.
 WIDE = 256
-#: The step of a difference of gradients, and rounds of Newton's method on the critical set.
+#: The step of a difference of gradients, and rounds of Newton's method.
 DIFFERENCE, ROUNDS = 2.0**-80, 8
 FAULTS = (ArithmeticError, ValueError)
 
@@ -50,7 +50,7 @@ class Neighbourhood:
     def floats(self, u: Vector, nodes: Sequence[int]) -> tuple[list[float], list[list[float]]]:
         """Return the relations and their derivatives by u, rows scaled to gradients of length 1 at the point."""
         with ctx.workprec(WIDE):
-            point = BallPoint(self.exactly(u), 0)
+            point = BallPoint(self.exactly(u))
             at = values(self.ring, point)
             f = [float(at[n].mid()) / self.norm_of[n] for n in nodes]
             rows = jacobian(self.ring, at, point, nodes, self.columns, arb(0))
@@ -81,9 +81,9 @@ class Neighbourhood:
         """``nodes`` solved for the columns numbered ``moved``, to high precision; None where it does not converge."""
         columns = [self.columns[i] for i in moved]
         last = arb(1)
-        for _ in range(8):
+        for _ in range(ROUNDS):
             check()
-            point = BallPoint(symbols, 0)
+            point = BallPoint(symbols)
             at = values(self.ring, point)
             j = arb_mat([[v.mid() for v in row] for row in jacobian(self.ring, at, point, nodes, columns, arb(0))])
             step = j.solve(arb_mat([[at[n].mid()] for n in nodes]))
@@ -110,7 +110,7 @@ class Neighbourhood:
     def gradients(self, symbols: Mapping[Expr, arb], critical: Split) -> list[arb]:
         """Return the derivatives of dependent relations on M by its coordinates, for each equation of N."""
         ball = self.ball
-        point = BallPoint(symbols, 0)
+        point = BallPoint(symbols)
         at = values(self.ring, point)
         free = [ball.columns[c] for c in ball.frame.free]
         solved = [self.columns[i] for i in self.dependent]
@@ -129,7 +129,7 @@ class Neighbourhood:
 
     def residual(self, symbols: Mapping[Expr, arb], nodes: Sequence[int]) -> float:
         """Return the largest of the relations, relative to their gradients."""
-        at = values(self.ring, BallPoint(symbols, 0))
+        at = values(self.ring, BallPoint(symbols))
         return max((abs(float(at[n].mid())) / float(self.norm_of[n]) for n in nodes), default=0.0)
 
 
@@ -261,7 +261,7 @@ def _walk(here: Neighbourhood, direction: Sequence[float], reach: float) -> list
 def _back(here: Neighbourhood, u: Vector) -> tuple[list[float], list[list[float]]] | None:
     """Return the point of M near ``u`` and its rows there, by Newton's method with minimal steps in floating point."""
     moved = list(u)
-    for _ in range(8):
+    for _ in range(ROUNDS):
         f, j = here.floats(moved, here.ball.rows)
         change = step(j, f)
         moved = plus(moved, 1.0, change)

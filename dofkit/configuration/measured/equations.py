@@ -13,6 +13,7 @@ from dofkit.base.deadline import check
 from dofkit.base.libraries import np
 from dofkit.configuration.local.quadratic_cone import definite_combination
 from dofkit.configuration.rigid_motions import displacements_real
+from dofkit.exact.matrices.dense import PASSES
 from dofkit.exact.points.balls import FloatPoint, jacobian
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
@@ -66,7 +67,7 @@ class ScaledEquations:
 
     def rigid_motions(self, at: Point) -> Any:
         """Return the velocities of rigid motions of the system as rows."""
-        fields = np.array(displacements_real(self.chart, FloatPoint(at, 0))).reshape(-1, len(self.symbols))
+        fields = np.array(displacements_real(self.chart, FloatPoint(at))).reshape(-1, len(self.symbols))
         return (fields + fields @ self._arms.slopes(at).T) / self.scale if fields.size else fields
 
     def system(self, at: Point, norms: Any = None) -> tuple[Any, Any]:
@@ -83,7 +84,7 @@ class ScaledEquations:
     def _with_plain_rows(self, at: Point) -> tuple[Any, Any]:
         """Return residuals and Jacobian, its columns by the positions P and scaled, its rows not yet scaled."""
         check()
-        point = FloatPoint(at, 0)
+        point = FloatPoint(at)
         out = values(self.chart.ring, point)
         f = np.array([out[n] for n in self.chart.nodes], dtype=float)
         j = np.array(jacobian(self.chart.ring, out, point, self.chart.nodes, self.chart.columns, 0.0), dtype=float)
@@ -141,7 +142,7 @@ class _Arms:
         n = len(self.symbols)
         arms, slopes = np.zeros(n), np.zeros((n, n))
         if self.rows:
-            point = FloatPoint({**dict.fromkeys(self.symbols, 0.0), **at}, 0)
+            point = FloatPoint({**dict.fromkeys(self.symbols, 0.0), **at})
             out = values(self.ring, point)
             arms[self.rows] = [out[node] for node in self.nodes]
             slopes[self.rows] = jacobian(self.ring, out, point, self.nodes, self.columns, 0.0)
@@ -246,7 +247,7 @@ def _separate_rows(j: Any, rank: int, tolerance: float) -> list[int]:
     for r, row in enumerate(j):
         if len(rows) == rank:
             break
-        for _ in range(2):
+        for _ in range(PASSES):
             row = row - basis.T @ (basis @ row)
         distance = float(np.linalg.norm(row))
         if distance > tolerance * SLACK:

@@ -16,7 +16,7 @@ from flint import arb, arb_mat
 
 from dofkit.base.deadline import check
 from dofkit.base.libraries import np
-from dofkit.exact.matrices.dense import Matrix, dot, length, pivoted, plus, unit_rows
+from dofkit.exact.matrices.dense import PASSES, Matrix, dot, length, pivoted, plus, unit_rows
 
 #: Relative size below which a singular value of a matrix with scaled rows is taken for 0, and above which it is not.
 NOISE, SIGNAL = 1e-9, 1e-6
@@ -44,7 +44,7 @@ def greedy_rows(matrix: Matrix, rank: int) -> list[int]:
         if len(kept) == rank:
             break
         residual = list(row)
-        for _ in range(2):  # rounding leaves something of the others
+        for _ in range(PASSES):
             for direction in basis:
                 residual = plus(residual, -dot(residual, direction), direction)
         size = length(residual)
@@ -57,8 +57,8 @@ def greedy_rows(matrix: Matrix, rank: int) -> list[int]:
 def dependency_pattern(j: np.ndarray, rows: Sequence[int]) -> list[list[int]]:
     """Return which rows depend on which of the independent ``rows``, as a matrix over GF(2)."""
     check()
-    if len(rows) in (0, len(j)):
-        return [[int(r == k) for k in rows] or [0] for r in range(len(j))]
+    if not rows:
+        return [[0] for _ in j]
     weights = np.abs(np.linalg.lstsq(j[list(rows)].T, j.T, rcond=None)[0].T)
     least = 1e-3 * np.maximum(1e-300, weights.max(axis=1, keepdims=True))
     return [list(map(int, row)) for row in weights > least]
@@ -89,8 +89,6 @@ class PivotedPart(NamedTuple):
 
 def ball_part(matrix: Balls) -> PivotedPart:
     """Return a part of the matrix that is certified regular, such that the rest holds 0 after elimination."""
-    if not matrix or not matrix[0]:
-        return PivotedPart(0, math.inf, [], [])
     kept: list[tuple[list[arb], int]] = []
     rows: list[int] = []
     sizes: list[float] = []

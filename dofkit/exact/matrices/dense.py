@@ -23,6 +23,8 @@ Matrix = Sequence[Vector]
 BITS, SMALL = 512, 400 if HAS_NUMPY else math.inf
 #: A singular value that counts as 0 in a step, and what is always added to squares.
 FLAT, LEAST = 1e-12, 1e-60
+#: So often a direction is made orthogonal to others: rounding leaves something of them at first.
+PASSES = 2
 
 
 def dot(a: Vector, b: Vector) -> float:
@@ -124,7 +126,7 @@ def pivoted(matrix: Matrix, least: float = 0.0, most: int | None = None) -> Pivo
         if not sizes[best] > least:
             break
         direction = residual[best]
-        for _ in range(2):  # rounding leaves something of the others
+        for _ in range(PASSES):
             for other in chosen.basis:
                 direction = plus(direction, -dot(direction, other), other)
             size = length(direction)
@@ -148,7 +150,7 @@ def _array_pivoted(residual: np.ndarray, least: float, most: int) -> Pivoting:
         if not lengths[best] > least:
             break
         direction = residual[best].copy()
-        for _ in range(2):
+        for _ in range(PASSES):
             direction -= basis[:k].T @ (basis[:k] @ direction)
             direction /= np.linalg.norm(direction)
         order.append(best)

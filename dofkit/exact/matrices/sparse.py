@@ -233,7 +233,6 @@ class Reduction:
         p, of, work, used = self.p, self._of, dict(row), SparseRow()
         pending = [of[c] for c in work if c in of]
         heapify(pending)
-        seen = set(pending)
         while pending:
             number = heappop(pending)
             pivot = self._rows[number]
@@ -245,10 +244,8 @@ class Reduction:
                 old = work.get(c)
                 if old is None:
                     work[c] = -factor * v % p
-                    k = of.get(c)
-                    if k is not None and k not in seen:
-                        seen.add(k)
-                        heappush(pending, k)
+                    if c in of:
+                        heappush(pending, of[c])
                 else:
                     new = (old - factor * v) % p
                     if new:

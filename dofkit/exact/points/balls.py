@@ -113,7 +113,7 @@ def precise_for(longest: int) -> Iterator[None]:
 class _RealPoint:
     """Values of the symbols, and an unknown function of each name that is asked for."""
 
-    def __init__(self, symbols: Mapping[Expr, Any], seed: int) -> None:
+    def __init__(self, symbols: Mapping[Expr, Any], seed: int = 0) -> None:
         self.symbols = dict(symbols)
         self.seed = seed
 

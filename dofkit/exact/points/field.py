@@ -105,8 +105,6 @@ class Character:
         """Return a short integer relation among the arguments and ``u``, by the reduction of a lattice (LLL)."""
         args = [u, *self.values, *(() if self._unit is None else (int(self._unit[0]),))]
         n = len(args)
-        if n < 2:
-            return None
         most = 2.0 ** ((self.p.bit_length() - SURENESS) / n - 1)
         weight = 1 << (self.p.bit_length() + n)
         rows = [[int(i == j) for j in range(n)] + [a * weight] for i, a in enumerate(args)]
@@ -127,8 +125,7 @@ def _root(value: Any, degree: int, p: int) -> Any:
     shared = gcd(degree, p - 1)
     if value ** ((p - 1) // shared) != 1:
         raise NoPointError("an argument is a fraction of others, and there is no root")
-    if shared > 1:
-        value = min((w for w, _ in residue_polynomial([-value, *([0] * (shared - 1)), 1], p).roots()), key=int)
+    value = min((w for w, _ in residue_polynomial([-value, *([0] * (shared - 1)), 1], p).roots()), key=int)
     return value ** pow(degree // shared, -1, (p - 1) // shared)
 
 
@@ -220,7 +217,7 @@ class FieldPoint:
         return residue(value.numerator, self.p) / residue(value.denominator, self.p)
 
     def random(self) -> Scalar:
-        return residue(self.rng.randrange(2, self.p - 1), self.p)
+        return residue(self.rng.randrange(2, self.p), self.p)
 
     def generator(self, var: Var, args: Sequence[Scalar]) -> Scalar:
         name = (var.kind, var.key)
@@ -285,7 +282,7 @@ class FieldPoint:
             return self._root(var, args[0])
         if var.kind == "sign":
             return self._sign()
-        if args and var.kind != "call" and args[0] == 0:
+        if var.kind != "call" and args[0] == 0:
             return residue(0, self.p)
         return self.random()
 
@@ -308,7 +305,7 @@ class FieldPoint:
         self.values["sin", var.key] = (z - 1 / z) / (2 * self._imaginary)
 
     def _sign(self) -> Scalar:
-        return residue(self.rng.choice((1, self.p - 1)), self.p)
+        return residue(self.rng.choice((1, -1)), self.p)
 
     def _turn(self) -> Scalar:
         """z = cos + i sin of a random angle, which is 1 + i w over 1 - i w."""
@@ -343,7 +340,7 @@ class FieldPoint:
                 root = value.sqrt()
             except DomainError as error:
                 raise NoPointError("no square root") from error
-            return root if self.rng.random() < 0.5 else -root
+            return self.rng.choice((root, -root))
         roots = residue_polynomial([-value, *([0] * (var.degree - 1)), 1], self.p).roots()
         if not roots:
             raise NoPointError("no root")

@@ -94,11 +94,7 @@ def _invertible(value: Any) -> bool:
 
 def rank_over(vectors: Sequence[Sequence[Scalar]], sample: Scalar) -> int:
     """Return the rank over GF(p), or a certified lower bound with balls, by the kind of ``sample``."""
-    if not vectors or not vectors[0]:
-        return 0
-    if isinstance(sample, Residue):
-        return rank_of(vectors, modulus(sample))
-    return ball_part(vectors).rank
+    return rank_of(vectors, modulus(sample)) if isinstance(sample, Residue) else ball_part(vectors).rank
 
 
 def vanishes(value: Scalar) -> bool:

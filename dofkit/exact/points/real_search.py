@@ -53,6 +53,11 @@ class RealPoint:
     matrix: list[list[arb]]
     solved: int = 0
 
+    @property
+    def certain(self) -> bool:
+        """Whether all relations may be 0 in the ball, and as many as are independent are."""
+        return self.certified and self.consistent
+
 
 class RealSearch:
     """Looks for real points on the zero set of ``nodes``, moving ``unknowns``.
@@ -95,9 +100,9 @@ class RealSearch:
         tries = 0
         for attempt in range(starts):
             symbols = self.start(seed * STARTS + attempt, initial or {})
-            slopes = self.descend(symbols, seed, steps) if self.nodes else None
-            refined = self.refine(symbols, slopes, seed) if slopes is not None or not self.nodes else None
-            if refined is not None and refined.certified and refined.consistent:
+            slopes = self.descend(symbols, seed, steps)
+            refined = None if slopes is None else self.refine(symbols, slopes, seed)
+            if refined is not None and refined.certain:
                 return refined
             tries += refined is not None
             singular = singular or refined
@@ -161,8 +166,8 @@ class RealSearch:
         j = jacobian(self.ring, at, point, self.nodes, self.columns, 0.0)
         return [float(at[n]) for n in self.nodes], [list(map(float, row)) for row in j]
 
-    def refine(self, symbols: Mapping[Expr, float], j: list[list[float]] | None, seed: int) -> RealPoint | None:
-        """To high precision on independent rows of the Jacobian (None: it has none), and the interval Newton test.
+    def refine(self, symbols: Mapping[Expr, float], j: list[list[float]], seed: int) -> RealPoint | None:
+        """To high precision on independent rows of the Jacobian, and the interval Newton test.
 
         Rows that floating point takes for dependent are tried as independent where the others do not imply them.
         """
@@ -171,19 +176,17 @@ class RealSearch:
         with ctx.workprec(max(ctx.prec, precision())):
             return self._precise(symbols, j, seed)
 
-    def _precise(self, symbols: Mapping[Expr, float], j: list[list[float]] | None, seed: int) -> RealPoint | None:
+    def _precise(self, symbols: Mapping[Expr, float], j: list[list[float]], seed: int) -> RealPoint | None:
         """Return the point refined with rows that floating point takes for independent, or else with exact ones."""
-        if j is None:
-            return self._refined(symbols, (), (), seed)
-        rows, columns = independent_part(j)[2:]
+        rows, columns = independent_part(j)[2:] if j else ([], [])
         refined = self._refined(symbols, rows, columns, seed)
-        if (refined is not None and refined.certified and refined.consistent) or len(rows) == len(self.nodes):
+        if (refined is not None and refined.certain) or len(rows) == len(self.nodes):
             return refined
         part = self._part_at(symbols, seed)
         if part is None or part.rank <= len(rows):
             return refined
         other = self._refined(symbols, part.rows, part.columns, seed)
-        return other if other is not None and other.certified and other.consistent else refined
+        return other if other is not None and other.certain else refined
 
     def _part_at(self, symbols: Mapping[Expr, float], seed: int) -> PivotedPart | None:
         """Return a regular part of the Jacobian exactly at a point near the zero set; None for large ones."""
@@ -294,7 +297,7 @@ def at_another_time(search: RealSearch, seed: int = 0) -> RealPoint | None:
             continue
         symbols[TIME] = round(symbols[TIME] * TICKS) / TICKS
         point = search.search(seed, symbols, starts=1)
-        if point is not None and point.certified and point.consistent:
+        if point is not None and point.certain:
             return point
     return None
 

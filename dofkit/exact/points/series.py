@@ -34,9 +34,6 @@ class Series:
     def __sub__(self, other: Any) -> Series:
         return Series(self.poly - (other.poly if isinstance(other, Series) else other), self.order)
 
-    def __rsub__(self, other: Any) -> Series:
-        return Series(other - self.poly, self.order)
-
     def __neg__(self) -> Series:
         return Series(-self.poly, self.order)
 
@@ -65,10 +62,8 @@ class Series:
             coefficients.append(-first * sum((self.poly[j] * coefficients[k - j] for j in range(1, k + 1)), arb(0)))
         return Series(arb_poly(coefficients), self.order)
 
-    def __truediv__(self, other: Any) -> Series:
-        if isinstance(other, Series):
-            return Series(_mul_low(self.poly, other.inverse().poly, self.order), self.order)
-        return Series(self.poly * (1 / other), self.order)
+    def __truediv__(self, other: Series) -> Series:
+        return Series(_mul_low(self.poly, other.inverse().poly, self.order), self.order)
 
     def __rtruediv__(self, other: Any) -> Series:
         return Series(self.inverse().poly * other, self.order)

@@ -240,9 +240,8 @@ def cleared(canon: Canon, row: Sequence[Quotient]) -> tuple[list[Poly], Poly]:
     """Return a row's entries times their common denominator, as polynomials, and that denominator."""
     whole = canon.unit
     for _, bottom in row:
-        if bottom != whole:
-            whole = whole * (bottom / bottom.gcd(whole))
-    return [canon.reduce(top if bottom == whole else top * (whole / bottom)) for top, bottom in row], whole
+        whole = whole * (bottom / bottom.gcd(whole))
+    return [canon.reduce(top * (whole / bottom)) for top, bottom in row], whole
 
 
 def polynomials(canon: Canon, row: Mapping[int, int], n: int) -> list[Poly]:

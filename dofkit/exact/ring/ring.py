@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from fractions import Fraction
+from functools import partial, reduce
 from math import lcm
 
 from dofkit.base.errors import NoValueError
@@ -30,8 +31,6 @@ Turn = tuple[int, int]
 
 def rotated(ring: Instructions, a: Turn, b: Turn) -> Turn:
     """cos and sin of a sum of two angles."""
-    if a == (ring.number(1), ring.number(0)):
-        return b
     minus = ring.number(-1)
     return (
         ring.total(ring.product(a[0], b[0]), ring.product(minus, a[1], b[1])),
@@ -40,15 +39,15 @@ def rotated(ring: Instructions, a: Turn, b: Turn) -> Turn:
 
 
 def multiple(ring: Instructions, angle: Turn, n: int) -> Turn:
-    """cos and sin of n times an angle."""
+    """cos and sin of n times an angle, n not 0."""
     if n < 0:
         cos, sin = multiple(ring, angle, -n)
         return cos, ring.product(ring.number(-1), sin)
-    if n == 0:
-        return ring.number(1), ring.number(0)
+    if n == 1:
+        return angle
     half = multiple(ring, angle, n // 2)
-    total = angle if n == 1 else rotated(ring, half, half)
-    return rotated(ring, total, angle) if n > 1 and n % 2 else total
+    total = rotated(ring, half, half)
+    return rotated(ring, total, angle) if n % 2 else total
 
 
 def of_inverse(ring: Instructions, angle: Expr) -> Turn:
@@ -68,11 +67,10 @@ def _in_twelfths(factor: Fraction) -> bool:
 
 def _cosine_of_twelfths(k: int) -> Expr:
     """Return cos(k pi/12) with square roots."""
-    k = min(k % 24, -k % 24)
-    return -_COSINES[12 - k] if k > 6 else _COSINES[k]
+    return _COSINES[min(k % 24, -k % 24)]
 
 
-_COSINES = tuple(
+_QUADRANT = tuple(
     ex.num(Fraction(1, 4)) * e
     for e in (
         ex.num(4),
@@ -84,6 +82,7 @@ _COSINES = tuple(
         ex.ZERO,
     )
 )
+_COSINES = (*_QUADRANT, *(-e for e in _QUADRANT[-2::-1]))
 
 
 def _angle_arguments(expressions: Iterable[Expr], alias: Mapping[Expr, Expr]) -> dict[tuple[str, Expr], int]:
@@ -254,16 +253,15 @@ class Ring(Instructions):
 
     def _turn(self, u: Expr) -> tuple[int, int]:
         u = substitute(u, self.alias)
-        total = (self.number(1), self.number(0))
+        turns = []
         for angle, factor in linear_terms(u).items():
             if angle == ex.PI and _in_twelfths(factor):
                 k = int(12 * factor)
-                turn = self.node(_cosine_of_twelfths(k)), self.node(_cosine_of_twelfths(k - 6))
+                turns.append((self.node(_cosine_of_twelfths(k)), self.node(_cosine_of_twelfths(k - 6))))
             else:
                 cos, sin, n = self._basic_angle(angle, factor)
-                turn = multiple(self, (cos, sin), n)
-            total = rotated(self, total, turn)
-        return total
+                turns.append(multiple(self, (cos, sin), n))
+        return reduce(partial(rotated, self), turns) if turns else (self.number(1), self.number(0))
 
     def _basic_angle(self, angle: Expr, factor: Fraction) -> tuple[int, int, int]:
         denominator = self._denominator("cis", angle, factor)
@@ -276,9 +274,8 @@ class Ring(Instructions):
         cos = self.generator("cos", (angle, denominator), ex.fn("cos", basic), (argument,))
         sin = self.generator("sin", (angle, denominator), ex.fn("sin", basic), (argument,))
         first, second = self.code[cos][1], self.code[sin][1]
-        if self.vars[first].partner < 0:
-            self.vars[first] = Var(first, "cos", (angle, denominator), (argument,), second)
-            self.vars[second] = Var(second, "sin", (angle, denominator), (argument,), first)
+        self.vars[first] = Var(first, "cos", (angle, denominator), (argument,), second)
+        self.vars[second] = Var(second, "sin", (angle, denominator), (argument,), first)
         return cos, sin, int(factor * denominator)
 
     def _call(self, e: Expr) -> int:

@@ -50,7 +50,7 @@ def counterexample(
     search, rng = RealSearch(ring, nodes, unknowns, frozenset()), random.Random("dofkit counterexample")
     for seed in range(SEARCHES):
         state = search.search(seed, {s: rng.randrange(-1024, 1025) / 256 for s in unknowns}, starts=1)
-        if state is None or not state.certified or not state.consistent:
+        if state is None or not state.certain:
             continue
         try:
             at = values(ring, state.point)

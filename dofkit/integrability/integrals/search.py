@@ -126,7 +126,7 @@ def _proved(work: Algebra, form: Form, pair: Pair) -> bool:
     """Return whether df = mu omega identically and mu is not zero."""
     integral, mu = pair
     holds = all(work.vanishes(diff(integral, s) - mu * a) for s, a in form.items())
-    return holds and (mu.op == "num" or certainly_nonzero(mu, work.positive))
+    return holds and certainly_nonzero(mu, work.positive)
 
 
 # integrating factors: mu with d(mu omega) = 0, each used only once that is proved

@@ -239,7 +239,7 @@ def _holds_along_slack(e: Expr, strict: bool, positive: frozenset[Expr]) -> bool
         search = RealSearch(ring, [ring.node(e - slack * slack)], unknowns, positive)
         for seed in range(SEARCHES):
             result = search.search(seed)
-            if result is not None and result.certified and result.consistent:
+            if result is not None and result.certain:
                 at = values(ring, result.point)
                 signs = [at[ring.node(p)] > 0 for p in positive & e.symbols]
                 if all(signs) and not (strict and at[ring.node(slack)].contains(0)):

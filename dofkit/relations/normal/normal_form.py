@@ -172,7 +172,7 @@ def normalise(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
     form = linear_form(cleared(velocity_form))
     if form is not None and not (form.coefficients or divided):
         return _finite(form.dt, positive, written)
-    if form is not None and (form.coefficients or not form.dt.is_zero):
+    if form is not None and form.coefficients:
         return Normal(((form,),))
     return _defined(velocity_form, _nonlinear(velocity_form, positive), positive)
 

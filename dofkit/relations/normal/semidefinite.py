@@ -119,8 +119,7 @@ def never_holds(e: Expr, strict: bool, positive: frozenset[Expr]) -> bool:
         return strict
     if not bottom.is_constant():
         return False
-    if bottom.leading_coefficient() < 0:
-        top = -top
+    top = top / bottom.leading_coefficient()
     signs = Signs(canon, positive)
     even = sum_of_even(top, signs)
     if even is None and strict:
@@ -191,19 +190,21 @@ def fraction(value: fmpq) -> Fraction:
 
 
 def _semidefinite_rows(form: list[list[Fraction]]) -> list[list[fmpq]] | None:
-    """Rows that span a semidefinite form's range (Lagrange's reduction [Sylvester1852]); None for an indefinite one."""
+    """Rows that span the range of a form that is nowhere negative (Lagrange's reduction [Sylvester1852]), else None.
+
+    The first coefficient of a factor is positive, so that no form is negative everywhere.
+    """
     n = len(form)
     work = [row[:] for row in form]
-    rows, sign = [], 0
+    rows = []
     for i in range(n):
         pivot = work[i][i]
         if pivot == 0:
             if any(work[i]):
                 return None
             continue
-        if sign and (pivot > 0) != (sign > 0):
+        if pivot < 0:
             return None
-        sign = 1 if pivot > 0 else -1
         row = work[i][:]
         rows.append([fmpq(v.numerator, v.denominator) for v in row])
         for j in range(n):
