@@ -9,7 +9,7 @@ from math import isfinite
 from dofkit.base.wording import gap_in_words
 from dofkit.configuration.at_reference import at_reference, ball_matrix
 from dofkit.configuration.measured.dimension import MISSED, MeasuredFreedom, measured_freedom
-from dofkit.configuration.measured.equations import pose_of_block
+from dofkit.configuration.measured.equations import is_tree, pose_of_block
 from dofkit.configuration.search import find
 from dofkit.configuration.variety import Variety, field_jacobian, of_real_point, of_reference
 from dofkit.exact.matrices.certified import ball_part, dependencies
@@ -35,14 +35,16 @@ def finite_answer(block: Block, setting: Setting) -> Answer:
     """The answer to a block of finite relations, at the reference where it satisfies them and else generically."""
     chart = make_chart(block, setting)
     measured = is_measured(block, setting)
-    result = _within_tolerance(chart) if measured else _finite_answer(chart)
+    result = _within_tolerance(block, chart) if measured else _finite_answer(chart)
     result.doubt = not independent_generators(chart.ring)
     return result
 
 
-def _within_tolerance(chart: Chart) -> Answer:
-    """Return the answer of a block with measured geometry."""
+def _within_tolerance(block: Block, chart: Chart) -> Answer:
+    """Return the answer of a block with measured geometry; numbers do not matter in a tree without positions."""
     pose = pose_of_block(chart)
+    if pose is None and is_tree(block, chart.setting):
+        return _finite_answer(chart)
     if "balls" not in chart.setting.engines:
         return Answer(None, verdict="undecided", reasons=["measured geometry has no points over GF(p)"])
     freedom = None if pose is None else measured_freedom(chart, pose)

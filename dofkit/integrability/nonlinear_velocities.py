@@ -162,11 +162,7 @@ def _undecided(result: Answer, why: str) -> None:
     result.velocity_dof, result.dof, result.verdict = None, None, "undecided"
     result.consistent = result.consistent if why == FLAT else None
     result.reasons.append(why)
-    _open_labels(result, why)
-
-
-def _open_labels(result: Answer, why: str) -> None:
-    """Allowed velocities that may lie in less than the linear relations leave may make more integrable, never less."""
+    # velocities that lie in less than the linear relations leave may make more integrable, never less
     for i, label in result.labels.items():
         if label.holonomic is False:
             result.labels[i] = HolonomyLabel(None, "undecided", why)

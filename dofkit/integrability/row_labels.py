@@ -288,7 +288,7 @@ def _gap(span: Span) -> float:
 
 
 def ball_labels(block: Block, forms: Codistribution, real: RealPoint, result: Answer) -> Span | None:
-    """Set labels from a real point, where what a tiny ball contains 0 of is taken for 0; return the Lie algebra."""
+    """Set labels from a real point, where what a tiny ball contains 0 of is taken for 0; return its Lie algebra."""
     at = values(forms.chart.ring, real.point)
     matrix = forms.rows.matrix(at, arb(0))
     part = ball_part(matrix)

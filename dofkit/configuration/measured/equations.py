@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -10,7 +11,7 @@ from typing import Any
 from flint import arb
 
 from dofkit.base.deadline import check
-from dofkit.base.libraries import np
+from dofkit.base.libraries import np, nx
 from dofkit.configuration.local.quadratic_cone import definite_combination
 from dofkit.configuration.rigid_motions import displacements_real
 from dofkit.exact.matrices.dense import PASSES
@@ -19,8 +20,9 @@ from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.relations.blocks import Chart
+from dofkit.relations.blocks import Block, Chart, coordinates_of
 from dofkit.relations.setting import Setting
+from dofkit.system import GROUND
 
 #: A singular value counts as 0 below tolerance * SLACK; between that and tolerance * GREY the rank is undecided.
 SLACK, GREY = 3.0, 30.0
@@ -254,6 +256,18 @@ def _separate_rows(j: Any, rank: int, tolerance: float) -> list[int]:
             rows.append(r)
             basis = np.vstack([basis, row / distance])
     return rows
+
+
+def is_tree(block: Block, setting: Setting) -> bool:
+    """Return whether constraints of geometry alone join particles, bodies and the ground without a loop.
+
+    Their equations are then independent wherever they are satisfied, whatever their numbers are.
+    """
+    owners = {c.name: c.owner for c in setting.roles}
+    ends = {(row.constraint, owners[name]) for row in block.rows for name in coordinates_of(row.piece)}
+    grounded = [(i, GROUND) for i, k in Counter(i for i, _ in ends).items() if k == 1]
+    geometric = all(i in setting.geometric and end is not None for i, end in ends)
+    return geometric and bool(nx.is_forest(nx.Graph([*ends, *grounded])))
 
 
 def pose_of_block(chart: Chart) -> Mapping[Expr, Expr] | None:
