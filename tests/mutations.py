@@ -69,11 +69,6 @@ SAME: Mapping[tuple[str, str, str], str] = {
         "extremes = [(f, -1 if (weight > 0) == (constant >= 0) else 1) for f, weight in weights.items()]",
     ): "the constant is not 0: its absolute value is a sum of weights that are not",
     (
-        "dofkit/integrability/traits.py",
-        "new = new.args[1] if inside > 0 else -new.args[1]",
-        "new = new.args[1] if inside >= 0 else -new.args[1]",
-    ): "0 is excluded before",
-    (
         "dofkit/exact/ring/program.py",
         "return self.number(1) if exponent == 0 else self.emit(POW, (base, exponent))",
         "return self.number(1) if exponent == 1 else self.emit(POW, (base, exponent))",
