@@ -29,8 +29,8 @@ from dofkit.exact.triangular import TriangularSolver
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
-from dofkit.integrability.integrals.search import arranged, upright
-from dofkit.integrability.pfaffian_system import Codistribution, exterior_derivative
+from dofkit.integrability.integrals.search import arranged, exterior_derivative, upright
+from dofkit.integrability.pfaffian_system import Codistribution
 from dofkit.relations.normal.semidefinite import fraction
 
 #: Products of up to so many functions, so many products, and so many functions in them at most.
@@ -308,8 +308,10 @@ class BorderedMinors:
     def is_combination(self, row: Mapping[int, int], on_relation: bool) -> bool | None:
         """Return whether a row, its nodes by column, is a combination of the rows wherever their minor is not 0.
 
-        ``on_relation``: where the only finite relation is satisfied. None where the minors have no value.
+        ``on_relation``: where the only finite relation is satisfied. None where the minors have no value or are long.
         """
+        if len(self.frame.rows) > MAX_ROWS:
+            return None
         try:
             return all(minor == 0 for minor in self._of(row, on_relation))
         except NoValueError:
@@ -317,7 +319,7 @@ class BorderedMinors:
 
     def are_involutive(self, forms: Sequence[Mapping[Expr, Expr]]) -> bool:
         """Return whether d(omega)(X, Y) = 0 for all X and Y that the rows annihilate, by identities [Frobenius1877]."""
-        derivatives = [exterior_derivative(form, self.chart.symbols) for form in forms]
+        derivatives = [exterior_derivative({s: form.get(s, ex.ZERO) for s in self.chart.symbols}) for form in forms]
         nodes = [{k: self.chart.ring.node(e) for k, e in enumerate(d.values())} for d in derivatives]
         canon = self._current_canon()
         zero = canon.unit * 0

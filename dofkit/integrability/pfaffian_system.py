@@ -73,14 +73,6 @@ def codistribution(
     return Codistribution(chart, FormRows(chart.ring, entries, chart.columns), len(finite))
 
 
-def exterior_derivative(form: Mapping[Expr, Expr], symbols: Sequence[Expr]) -> dict[tuple[int, int], Expr]:
-    """Return d(omega): the coefficient of dq_i ^ dq_j for i < j, where it is not written as 0."""
-    pairs = combinations(range(len(symbols)), 2)
-    a = [form.get(s, ex.ZERO) for s in symbols]
-    curl = {(i, j): diff(a[j], symbols[i]) - diff(a[i], symbols[j]) for i, j in pairs}
-    return {pair: e for pair, e in curl.items() if not e.is_zero}
-
-
 def linear_rows(block: Block, forms: Codistribution) -> Iterator[tuple[int, Row, int]]:
     """(number, row, its place among the forms) of the block's rows that are no nonlinear relations of velocities."""
     number_finite = len(block.finite)

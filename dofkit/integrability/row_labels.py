@@ -197,13 +197,10 @@ def _depend_identically(forms_at_points: SampledForms, proof_of: Certificate | N
     forms, sampled, p = forms_at_points.forms, forms_at_points.sampled, forms_at_points.point.p
     for i, support in echelon(sparse(sampled.matrix), p, supports=True).supports.items():
         frame = field_frame([sampled.matrix[k] for k in support], forms_at_points.columns, p)
-        frame = replace(frame, rows=support)
         minor = [[proof_of[1][k][c] for c in frame.dependent] for k in support] if proof_of else []
+        bordered = BorderedMinors(forms, replace(frame, rows=support))
         is_regular = not support or (bool(minor) and rank_over(minor, minor[0][0]) == len(support))
-        short = len(support) <= MAX_ROWS
-        if not (
-            is_regular and short and BorderedMinors(forms, frame).is_combination(forms.rows.entries[i], on_relation)
-        ):
+        if not is_regular or not bordered.is_combination(forms.rows.entries[i], on_relation):
             return False
     return True
 

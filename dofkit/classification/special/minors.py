@@ -23,7 +23,7 @@ from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, replace_nodes, substitute
 from dofkit.expressions.tree import Expr
-from dofkit.integrability.pfaffian_system import exterior_derivative
+from dofkit.integrability.integrals.search import exterior_derivative
 from dofkit.relations.blocks import Block
 from dofkit.relations.linear_relations import explicit_relations, number_coefficients
 from dofkit.relations.normal.pieces import Finite, Pfaffian
@@ -140,7 +140,7 @@ class RowPolynomials:
         self.zeros = CommonZeros(frozenset(self.symbols), setting.positive)
         gradients = [[diff(g, s) for s in self.symbols] for g in self.relations]
         rows = [*gradients, *([form.get(s, ex.ZERO) for s in self.symbols] for form in forms)]
-        curls = [exterior_derivative(form, self.symbols) for form in forms]
+        curls = [exterior_derivative({s: form.get(s, ex.ZERO) for s in self.symbols}) for form in forms]
         ring = Ring([*chain(*rows), *chain(*(curl.values() for curl in curls))], setting.positive)
         nodes = {e: ring.node(e) for e in chain(*rows, *(curl.values() for curl in curls))}
         self.canon = Canon(ring)

@@ -145,9 +145,10 @@ def exponential(e: Expr) -> Expr:
     return ex.mul(*factors_of_exp)
 
 
-def exterior_derivative(form: Form) -> dict[tuple[Expr, Expr], Expr]:
-    """Return d(omega) by pairs of variables: d a_j / d x_i - d a_i / d x_j."""
-    return {(s, u): diff(b, s) - diff(a, u) for (s, a), (u, b) in combinations(form.items(), 2)}
+def exterior_derivative(form: Form) -> dict[tuple[int, int], Expr]:
+    """Return d(omega) by pairs of places i < j among the variables of a form: d a_j / d x_i - d a_i / d x_j."""
+    pairs = combinations(enumerate(form.items()), 2)
+    return {(i, j): diff(b, s) - diff(a, u) for (i, (s, a)), (j, (u, b)) in pairs}
 
 
 def simple(work: Algebra, form: Form) -> Iterator[Expr]:
@@ -204,7 +205,9 @@ def _candidates(work: Algebra, form: Form) -> list[Expr]:
 def _constants(work: Algebra, form: Form, logs: list[Expr]) -> list[Expr] | None:
     """Return c with sum c_k (dg_k ^ omega) + d(omega) = 0, by comparing coefficients."""
     rows: list[list[Expr]] = []
-    for (s, u), curl in exterior_derivative(form).items():
+    variables = [*form]
+    for (i, j), curl in exterior_derivative(form).items():
+        s, u = variables[i], variables[j]
         wedges = [diff(g, s) * form[u] - diff(g, u) * form[s] for g in logs]
         rows.append([*wedges, -curl])
     flat = [e for row in rows for e in row]
