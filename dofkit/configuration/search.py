@@ -90,7 +90,8 @@ def _fixes_time(chart: Chart, variety: Variety) -> bool:
 def _variety(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> Variety:
     if not chart.nodes:
         return all_configurations(chart, seed)
-    if "field" in chart.setting.engines and _has_joint_positions(chart):
+    generic = (u.args[1] for u in chart.unknowns if chart.ring.var_index(u) is not None)
+    if "field" in chart.setting.engines and any(name.startswith("_a") for name in generic):  # of joints
         posed = pose_samples(chart, pose, seed)
         if posed:
             return variety_at(chart, posed, seed, chart.nodes)
@@ -131,11 +132,6 @@ def _reductions(chart: Chart, solved: Explicit) -> Iterator[tuple[Explicit, list
     if eliminates and kinds.isdisjoint(("root", "sign", "log")):
         with suppress(NoValueError):
             yield explicit_relations(chart.relations, number_coefficients), []
-
-
-def _has_joint_positions(chart: Chart) -> bool:
-    """Return whether generic geometry of joints is among the unknowns."""
-    return any(u.args[1].startswith("_a") for u in chart.unknowns if chart.ring.var_index(u) is not None)
 
 
 def _refuted(chart: Chart, solver: TriangularSolver) -> Variety | None:

@@ -74,11 +74,6 @@ def first_integrals(forms: Codistribution, number: int) -> list[FirstIntegral]:
     return integrals
 
 
-def is_first_integral(forms: Codistribution, f: Expr) -> bool:
-    """Return whether df is in the span of the rows at random points, modulo several primes."""
-    return IntegralSearch(forms).holds(f)
-
-
 @dataclass(frozen=True)
 class FormSample:
     """A point over GF(p), or a curve: the functions' values, their gradients by column, a basis of D, and the rows."""

@@ -90,11 +90,8 @@ def _factors_left(e: Expr, sided: bool, positive: frozenset[Expr]) -> list[Expr]
     except NoValueError:
         return [e]
     kept = [f for f in factors if ex.TIME not in f.symbols or not never_vanishes(f, positive)]
-    return kept if sided else [f for f in kept if not _is_zero_at_instants(f)] or kept
-
-
-def _is_zero_at_instants(f: Expr) -> bool:
-    return _is_declared_function(f) or (_is_of_time_alone(f) and is_analytic(f, [ex.TIME]))
+    at_instants = [f for f in kept if _is_declared_function(f) or (_is_of_time_alone(f) and is_analytic(f, [ex.TIME]))]
+    return kept if sided else [f for f in kept if f not in at_instants] or kept
 
 
 def _is_declared_function(e: Expr) -> bool:

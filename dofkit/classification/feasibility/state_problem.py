@@ -14,7 +14,6 @@ from __future__ import annotations
 import random
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from itertools import combinations
 from itertools import product as cartesian
 from math import prod
@@ -185,7 +184,8 @@ def certified_state(problem: StateProblem, positive: frozenset[Expr], fixed: boo
     ring = Ring([*rows, *problem.expressions], positive)
     free = [*problem.places, *problem.rates, *(() if fixed else problem.constants)]
     search = RealSearch(ring, [ring.node(e) for e in rows], [*free, *slacks], positive)
-    start = {s: float(_value_of(s)) for s in problem.constants} if fixed else {}
+    constants = problem.constants if fixed else ()
+    start = {s: random.Random(f"dofkit feasible {s!r}").randrange(256, 1025) / 512 for s in constants}
     for seed in range(SEARCHES):
         check()
         try:
@@ -197,10 +197,6 @@ def certified_state(problem: StateProblem, positive: frozenset[Expr], fixed: boo
             at_point = {s: arb(at[s]) for s in (*free, *problem.constants) if s in at}
             return {**dict.fromkeys(free, ex.ZERO), **at_point}
     return None
-
-
-def _value_of(s: Expr) -> Fraction:
-    return Fraction(random.Random(f"dofkit feasible {s!r}").randrange(256, 1025), 512)
 
 
 def _is_solution(problem: StateProblem, ring: Ring, point: RealPoint, positive: frozenset[Expr]) -> bool:

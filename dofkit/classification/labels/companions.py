@@ -108,7 +108,7 @@ class Companionship:
         constant beside x = 0 alone.
         """
         forms = codistribution(block, self.answered.setting, a.hidden, [f.expr])
-        return first_integrals.is_first_integral(forms, f.expr)
+        return first_integrals.IntegralSearch(forms).holds(f.expr)
 
     def _holonomic(self, constraint: int, rows: Sequence[Row], block: Block) -> bool:
         """Return whether the forms of a constraint are holonomic beside ``rows`` alone; False where undecided."""

@@ -100,7 +100,9 @@ class CommonZeros:
         for _ in range(MAX_STEPS):
             check()
             if not open_:
-                kept = [a for a in loci if a.is_of_coordinates and not any(_is_part(a, b) for b in loci)]
+                kept = [
+                    a for a in loci if a.is_of_coordinates and not any({*a.equations} > {*b.equations} for b in loci)
+                ]
                 return list(dict.fromkeys(kept))
             locus, remaining = open_.pop()
             if not remaining:
@@ -114,10 +116,6 @@ class CommonZeros:
             narrower = (Locus(tuple(dict.fromkeys((*locus.equations, *branch)))) for branch in reversed(branches))
             open_ += [(narrow, others) for narrow in narrower if narrow.is_short]
         raise TooLargeError
-
-
-def _is_part(locus: Locus, larger: Locus) -> bool:
-    return {*locus.equations} > {*larger.equations}
 
 
 def _size(e: Expr) -> int:

@@ -70,11 +70,9 @@ class Path:
     def _order(self) -> float:
         """The power of the distance by which residuals grow: the least of the last half and the quarter before."""
         last = self.stages[-1]
-        half, quarter = (self._before(last.distance * part) for part in (HALF, HALF * HALF))
+        ends = (last.distance * part * (1 + CLOSE) for part in (HALF, HALF * HALF))
+        half, quarter = ([s for s in self.stages if s.distance <= end][-1] for end in ends)
         return min(_power(quarter, half), _power(half, last)) if quarter.distance > 0 else 0.0
-
-    def _before(self, distance: float) -> Stage:
-        return [s for s in self.stages if s.distance <= distance * (1 + CLOSE)][-1]
 
     @property
     def end_rank(self) -> int | None:

@@ -47,7 +47,8 @@ def apart(canon: Canon, factors: Factors, variables: frozenset[Expr]) -> tuple[l
             branches.append(tuple(regular(function, value) for function, value in extremes))
     for function, extreme in result.items():
         both = len(extreme) == 2
-        branches.append((_partner(function) if both else regular(function, next(iter(extreme))),))
+        other = ex.fn("sin" if function.args[0] == "cos" else "cos", function.args[1])
+        branches.append((other if both else regular(function, next(iter(extreme))),))
     return branches, others
 
 
@@ -80,11 +81,6 @@ def regular(function: Expr, value: int) -> Expr:
     if function.args[0] == "cos":
         return sin if value == 1 else cos
     return sin - cos if value == 1 else sin + cos
-
-
-def _partner(function: Expr) -> Expr:
-    """The sine where the cosine is 1 or -1, and the other way round."""
-    return ex.fn("sin" if function.args[0] == "cos" else "cos", function.args[1])
 
 
 #: More branches than this are not told apart: the expression is then kept as it is.
