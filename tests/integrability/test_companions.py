@@ -229,7 +229,6 @@ def test_as_many_integrals_are_sought_as_there_are(
     ("names", "texts", "dof", "velocity_dof"),
     [
         ("x y z w", ["dz = w (dx + dy)", "dw = z (dx + dy)"], 2, 2),  # z^2 - w^2 and (z + w) exp(-x - y) are constant
-        ("x y z w", ["dz = w (y dx + x dy)", "dw = -z (y dx + x dy)"], 2, 2),  # z^2 + w^2, and a turn by x y
         ("x z w u", ["dz = w dx", "du = w dx"], 3, 2),  # u - z is constant, and no more
         ("x y z w u", ["dz = w dx + y dw", "du = w dx + y dw + dy"], 4, 3),  # u - z - y
     ],

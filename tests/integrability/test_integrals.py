@@ -152,7 +152,6 @@ BY_HAND = {
     "dy - dx/sqrt(x^2 + a^2)": "y - log(x + sqrt(x^2 + a^2))",
     "dy - tanh(x) dx": "y - log(cosh(x))",
     "dx + dy/sin(y)^2": "x - cos(y)/sin(y)",
-    "dx - cosh(t) dt": "x - sinh(t)",
     "dx + dy/sin(2 y)": "x + log((1 - cos(2*y))/sin(2*y))/2",
     "dx + dy/cos(y)^2": "x + sin(y)/cos(y)",
     "2 y dx + 3 x dy": "x^2*y^3",
