@@ -146,9 +146,10 @@ def exponential(e: Expr) -> Expr:
 
 
 def exterior_derivative(form: Form) -> dict[tuple[int, int], Expr]:
-    """Return d(omega) by pairs of places i < j among the variables of a form: d a_j / d x_i - d a_i / d x_j."""
+    """Return d(omega), d a_j / d x_i - d a_i / d x_j by places i < j of variables, where it is not written as 0."""
     pairs = combinations(enumerate(form.items()), 2)
-    return {(i, j): diff(b, s) - diff(a, u) for (i, (s, a)), (j, (u, b)) in pairs}
+    curls = {(i, j): diff(b, s) - diff(a, u) for (i, (s, a)), (j, (u, b)) in pairs}
+    return {pair: curl for pair, curl in curls.items() if not curl.is_zero}
 
 
 def simple(work: Algebra, form: Form) -> Iterator[Expr]:
@@ -205,11 +206,10 @@ def _candidates(work: Algebra, form: Form) -> list[Expr]:
 def _constants(work: Algebra, form: Form, logs: list[Expr]) -> list[Expr] | None:
     """Return c with sum c_k (dg_k ^ omega) + d(omega) = 0, by comparing coefficients."""
     rows: list[list[Expr]] = []
-    variables = [*form]
-    for (i, j), curl in exterior_derivative(form).items():
-        s, u = variables[i], variables[j]
+    curls = exterior_derivative(form)
+    for (i, s), (j, u) in combinations(enumerate(form), 2):
         wedges = [diff(g, s) * form[u] - diff(g, u) * form[s] for g in logs]
-        rows.append([*wedges, -curl])
+        rows.append([*wedges, -curls.get((i, j), ex.ZERO)])
     flat = [e for row in rows for e in row]
     canon, quotients = work.lowered(flat)
     fixed = frozenset(i for i, e in enumerate(canon.ring.var_expr) if e.symbols.isdisjoint(form))
