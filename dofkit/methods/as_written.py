@@ -227,7 +227,7 @@ def droppable(sampled: SampledPoints, numbers: Decider) -> list[str]:
 
 
 def without_loss(written: Written, ranks: Callable[[Sequence[int], Sequence[int]], tuple[int, int]]) -> list[str]:
-    """Return the constraints without which ``ranks`` stay, the last written first; finite ones fix finite ones.
+    """Return the constraints without which ``ranks`` stay, forms and the last written first; finite ones fix finite.
 
     ``ranks`` are those of some of the finite equations and forms, by number. Inequalities and what is nonlinear in
     velocities are left in.

@@ -213,10 +213,7 @@ def _links(system: System) -> tuple[nx.Graph, dict[str, list[float]]]:
                 fixed[nodes[-1]] = at
         if not connection.facts.shared:
             graph.add_edges_from(combinations(nodes, 2) if connection.facts.complete else pairwise(nodes))
-    for name in (n for n in graph if n in fixed and graph.degree(n) == 0):
-        fixed.pop(name)
-    graph.remove_nodes_from([n for n in graph if str(n).startswith("@") and n not in fixed])
-    return graph, fixed
+    return graph, {name: at for name, at in fixed.items() if name in graph}
 
 
 def _hanging(graph: nx.Graph, fixed: Mapping[str, Sequence[float]], d: int) -> dict[str, Array]:

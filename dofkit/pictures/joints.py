@@ -134,7 +134,7 @@ def _hatched(stage: StagedScene, middle: Array, half: Array, side: Array, ticks:
 
 
 def stand(stage: StagedScene, at: Place) -> Iterator[Shape]:
-    """Yield a triangle on hatched ground below a point of the world; in space a tripod on a plate."""
+    """Yield a triangle on hatched ground below a point of the world; in space four legs on a plate."""
     u, root = stage.unit, np.array(at)
     if stage.flat:
         feet = [root + u * (1.5 * _DOWN + side * _X) for side in (-0.9, 0.9)]

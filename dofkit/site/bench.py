@@ -31,7 +31,7 @@ _EXPECTED = re.compile(r"^expect:.*\n(?:[ \t#].*\n|\n)*", re.MULTILINE)
 
 
 def build_bench(out: Path, catalog: Sequence[ShownScene]) -> None:
-    """Build the bench into ``out``. Raises BenchError where node, npm or a package cannot be had."""
+    """Build the bench anew into ``out``. Raises BenchError where node, npm or a package cannot be had."""
     shutil.rmtree(out, ignore_errors=True)
     build_runtime(out / "runtime")
     run(["node", "bundle.mjs", str(out.resolve())], "the bundle")

@@ -36,7 +36,8 @@ def test_a_bead_on_a_curve_is_where_that_is_nearest_and_a_pendulum_hangs() -> No
     """Nearest to (0.9, 0.7) is (0.87, 0.75) on the parabola; to the circle (0.9, 0.7) and (0.9, -0.7) are as near."""
     bead = {"dimension": 2, "particles": ["P"], "constraints": ["y_P = x_P^2"]}
     assert numbers(bead)["x_P"] == pytest.approx(0.87, abs=0.02)
-    assert numbers({**bead, "constraints": ["x_P^2 + y_P^2 = 1"]})["y_P"] < -0.5
+    circle = {"type": "on", "members": ["P", [0, 1]], "surface": "x^2 + y^2 = 1"}
+    assert numbers({**bead, "constraints": [circle]})["y_P"] < -0.5
 
 
 def test_what_is_driven_is_drawn_at_a_moment_where_it_is_not_special() -> None:
