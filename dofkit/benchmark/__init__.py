@@ -2,8 +2,8 @@
 
 Types
     A `Trial` (in `trials`) is one question about a scene whose answer is known by construction. A `TrialLine`
-    (`record`) is what one method answered: right, wrong or undecided, with its processor time.
-    Trials that differ in size alone make a ladder. A `Trap` is a text of which it is hard to see whether it is 0.
+    (`record`) is what one method answered, with its processor time. Trials that differ in size alone make a ladder. A
+    `Trap` is a text of which it is hard to see whether it is 0.
 
 From trials to charts
     1. `trials` has the families: linkages, joints, forms, identities, near-singular poses, and the catalog. Scenes

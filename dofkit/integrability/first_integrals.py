@@ -361,9 +361,6 @@ class BorderedMinors:
         return self._cofactors[j]
 
 
-# which integral a row stands for
-
-
 def integral_by_row(forms: Codistribution, integrals: Sequence[FirstIntegral]) -> dict[int, FirstIntegral]:
     """Return an integral for every row that it can stand for: with the other rows it implies the row.
 

@@ -27,7 +27,7 @@ from dofkit.exact.ring.program import Scalar, values
 from dofkit.exact.zero import error_bits, independent_on_set
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.integrability.first_integrals import MAX_ROWS, BorderedMinors, first_integrals, is_short
+from dofkit.integrability.first_integrals import BorderedMinors, first_integrals, is_short
 from dofkit.integrability.growth_vector import derived_flag, spanning_curves
 from dofkit.integrability.lie_algebra import SampledSpan, Span, ball_span, span_at
 from dofkit.integrability.pfaffian_system import Codistribution, linear_rows
@@ -37,8 +37,8 @@ from dofkit.relations.blocks import Block
 from dofkit.relations.normal.pieces import Finite, Pfaffian
 from dofkit.relations.setting import Setting
 
-#: Lie algebras are certified with balls up to this many columns.
-CERTIFIED_COLUMNS = 16
+#: Lie algebras are certified with balls up to so many columns; that brackets stay in D, by identities of so many rows.
+CERTIFIED_COLUMNS, MAX_FORMS = 16, 3
 
 
 @dataclass(frozen=True)
@@ -46,12 +46,14 @@ class SampledForms:
     """A block's rows at points over GF(p), ``samples``: the largest Lie algebra found stands for the generic one.
 
     ``trusted``: the functions that occur are known to be independent, so that GF(p) sees every relation among them.
+    ``whole``: more is asked for than labels, so that identities are worth their time.
     """
 
     block: Block
     forms: Codistribution
     samples: Sequence[tuple[FieldPoint, SampledSpan]]
     trusted: bool
+    whole: bool
 
     @cached_property
     def _largest(self) -> tuple[FieldPoint, SampledSpan]:
@@ -86,7 +88,7 @@ class SampledForms:
     def is_involutive(self) -> bool:
         """Whether brackets of fields that the frame's rows allow are allowed, of several fields by identities."""
         frame, allowed = self.sampled.frame, self.columns - self.rank
-        if allowed <= 1 or self.sampled.span.dimension > allowed or self.rank > MAX_ROWS:
+        if allowed <= 1 or self.sampled.span.dimension > allowed or self.rank > MAX_FORMS or not self.whole:
             return allowed <= 1
         rows = [r.piece for _, r, k in linear_rows(self.block, self.forms) if k in frame.rows]
         forms = [dict(p.items()) for p in rows if isinstance(p, Pfaffian)]
@@ -111,7 +113,8 @@ def field_labels(
     setting: Setting,
 ) -> None:
     """Freedom and labels from points over GF(p), held against a ball where there is one."""
-    forms_at_points = SampledForms(block, forms, good, independent_on_set(forms.chart.ring, forms.chart.nodes))
+    trusted = independent_on_set(forms.chart.ring, forms.chart.nodes)
+    forms_at_points = SampledForms(block, forms, good, trusted, setting.grows)
     if not forms_at_points.trusted and "balls" not in setting.engines:
         result.verdict = "undecided"
         result.reasons.append("the functions that occur may satisfy an identity that points over GF(p) do not detect")
@@ -210,9 +213,9 @@ def _rank_verdict(
 ) -> Verdict:
     """How sure the rank and the Lie algebra's dimension are.
 
-    Independent rows have their rank certified by the ball, others depend on them by identities. The
-    dimension is not too large by a certificate of the ball; not too small where it is everything, where D is a line,
-    and where as many rows integrate by themselves, or integrals are known, as the Lie algebra leaves directions out.
+    Independent rows have their rank certified by the ball, others depend on them by identities. The dimension is not
+    too large by a certificate of the ball; not too small where it is everything, where D is a line or involutive, and
+    where as many rows integrate by themselves, or integrals are known, as the Lie algebra leaves directions out.
     """
     sampled, rank, n = forms_at_points.sampled, forms_at_points.rank, forms_at_points.columns
     if proof_of is None or proof_of[0].dimension != sampled.span.dimension:
@@ -229,7 +232,7 @@ def _rank_verdict(
     if (spare >= 0 and len([*unproved]) <= spare) or forms_at_points.is_involutive:
         return "proved"
     number = forms_at_points.integrable - forms_at_points.rank_finite
-    possible = setting.grows and result.trusted and is_short(forms_at_points.forms)
+    possible = forms_at_points.whole and result.trusted and is_short(forms_at_points.forms)
     integrals = first_integrals(forms_at_points.forms, number) if possible else []
     return "proved" if sum(f.identically for f in integrals) == number else "probable"
 
