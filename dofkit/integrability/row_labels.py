@@ -45,15 +45,18 @@ CERTIFIED_COLUMNS, MAX_FORMS = 16, 3
 class SampledForms:
     """A block's rows at points over GF(p), ``samples``: the largest Lie algebra found stands for the generic one.
 
-    ``trusted``: the functions that occur are known to be independent, so that GF(p) sees every relation among them.
     ``whole``: more is asked for than labels, so that identities are worth their time.
     """
 
     block: Block
     forms: Codistribution
     samples: Sequence[tuple[FieldPoint, SampledSpan]]
-    trusted: bool
     whole: bool
+
+    @cached_property
+    def trusted(self) -> bool:
+        """Whether functions that occur are known to be independent: GF(p) sees every relation among them."""
+        return independent_on_set(self.forms.chart.ring, self.forms.chart.nodes)
 
     @cached_property
     def _largest(self) -> tuple[FieldPoint, SampledSpan]:
@@ -113,8 +116,7 @@ def field_labels(
     setting: Setting,
 ) -> None:
     """Freedom and labels from points over GF(p), held against a ball where there is one."""
-    trusted = independent_on_set(forms.chart.ring, forms.chart.nodes)
-    forms_at_points = SampledForms(block, forms, good, trusted, setting.grows)
+    forms_at_points = SampledForms(block, forms, good, setting.grows)
     if not forms_at_points.trusted and "balls" not in setting.engines:
         result.verdict = "undecided"
         result.reasons.append("the functions that occur may satisfy an identity that points over GF(p) do not detect")
@@ -139,8 +141,8 @@ def field_labels(
     result.identical = _depend_identically(forms_at_points, proof_of, False)
     result.verdict = weakest(variety.verdict, _rank_verdict(forms_at_points, proof_of, result, setting))
     result.argument = "Lie algebra, certified" if result.verdict == "proved" else "Lie algebra at points"
-    nodes = [node for row in forms.rows.entries for node in row.values()]
-    result.bits = error_bits(forms.chart.ring, nodes, len(forms.rows.entries))
+    rows = forms.rows.entries
+    result.bits = error_bits(forms.chart.ring, [node for row in rows for node in row.values()], len(rows))
     if any(s.span.dimension != forms_at_points.sampled.span.dimension for _, s in good):
         result.verdict = weakest(result.verdict, "probable")
         result.reasons.append("the freedom differs between points; the generic value is given")
