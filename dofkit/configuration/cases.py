@@ -184,5 +184,6 @@ def _bounded(case: ZeroCase, unknowns: Sequence[Expr], positive: frozenset[Expr]
     if whole is None:
         return BoundedCase(case.relations, most - 1, False)
     total = dimension_of(canon, generators, [*moving, *constants])
-    exact = total is not None and max(-1, total - len(constants)) <= whole
+    drawn = any(not e.symbols for e in ring.var_expr)  # numbers such as cos(1) are drawn in both
+    exact = not drawn and total is not None and max(-1, total - len(constants)) <= whole
     return BoundedCase(case.relations, -1 if whole < 0 else most - len(moving) + whole, True, exact)

@@ -283,12 +283,6 @@ def integrable_names(forms: Codistribution, point: FieldPoint, span: Span) -> tu
     return dependent_names(sparse(rows), forms.chart, point.p) if rows else ()
 
 
-def _gap(span: Span) -> float:
-    """How far what is left of the Lie algebra lies below its smallest pivot, less what the pivots fall by anyway."""
-    part = ball_part(span.vectors)
-    return part.gap / part.fall
-
-
 def ball_labels(block: Block, forms: Codistribution, real: RealPoint, result: Answer) -> Span | None:
     """Set labels from a real point, where what a tiny ball contains 0 of is taken for 0; return its Lie algebra."""
     at = values(forms.chart.ring, real.point)
@@ -303,7 +297,8 @@ def ball_labels(block: Block, forms: Codistribution, real: RealPoint, result: An
         return None
     span, _ = lie_algebra
     reached = span.dimension == total - forms.finite
-    gap = part.gap if reached else min(part.gap, _gap(span))
+    brackets = ball_part(span.vectors)  # pivots fall anyway: what is left of the Lie algebra lies below them by less
+    gap = part.gap if reached else min(part.gap, brackets.gap / brackets.fall)
     result.verdict, result.method = "numeric", "Lie algebra along a curve with balls"
     result.argument, result.gap = "Lie algebra with balls", gap
     result.velocity_dof = n - rank
@@ -353,6 +348,15 @@ def span_at_reference(forms: Codistribution, reference: Mapping[Expr, Expr]) -> 
         sampled = span_at(forms, point, True)
         return None if sampled is None else (point, sampled)
     return None
+
+
+def set_at_reference(forms: Codistribution, reference: tuple[FieldPoint, SampledSpan], result: Answer) -> None:
+    """Set what the reference has of its own: dependent coordinates; no matrix if rows that others need lose rank."""
+    point, here = reference
+    result.dependent = integrable_names(forms, point, here.span)
+    kept = echelon(result.matrix, result.modulus).independent
+    if rank_of([here.matrix[k] for k in kept], point.p) < len(kept):
+        result.matrix = []
 
 
 def is_exceptional(forms: Codistribution, reference: tuple[FieldPoint, SampledSpan], rank: int, span: Span) -> bool:

@@ -184,8 +184,7 @@ def certified_state(problem: StateProblem, positive: frozenset[Expr], fixed: boo
     ring = Ring([*rows, *problem.expressions], positive)
     free = [*problem.places, *problem.rates, *(() if fixed else problem.constants)]
     search = RealSearch(ring, [ring.node(e) for e in rows], [*free, *slacks], positive)
-    constants = problem.constants if fixed else ()
-    start = {s: random.Random(f"dofkit feasible {s!r}").randrange(256, 1025) / 512 for s in constants}
+    start = {s: random.Random(f"dofkit {s!r}").randrange(256, 1025) / 512 for s in problem.constants if fixed}
     for seed in range(SEARCHES):
         check()
         try:

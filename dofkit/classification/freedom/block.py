@@ -33,9 +33,9 @@ from dofkit.integrability.pfaffian_system import (
 from dofkit.integrability.row_labels import (
     ball_labels,
     field_labels,
-    integrable_names,
     is_exceptional,
     reference_points,
+    set_at_reference,
     span_at_reference,
 )
 from dofkit.mobility.general_position import framework_answer
@@ -271,7 +271,7 @@ def _with_spans(block: Block, forms: Codistribution, points: Variety, extra: lis
                 points.real, result.witness = real, of_real_point(forms.chart, real)
             field_labels(block, forms, points, good, result, setting)
             if here is not None and result.dof is not None:
-                result.dependent = integrable_names(forms, here[0], here[1].span)
+                set_at_reference(forms, here, result)
             if block.nonlinear:
                 set_velocity_freedom(block, setting, result)
             return result
@@ -280,7 +280,7 @@ def _with_spans(block: Block, forms: Codistribution, points: Variety, extra: lis
         if here is not None and span is not None:
             if is_exceptional(forms, here, forms.n - (result.velocity_dof or 0), span):
                 return irregular
-            result.dependent = integrable_names(forms, here[0], here[1].span)
+            set_at_reference(forms, here, result)
         if block.nonlinear:
             set_velocity_freedom(block, setting, result)
         return result

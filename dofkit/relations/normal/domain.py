@@ -179,9 +179,11 @@ def squared(e: Expr, positive: frozenset[Expr]) -> tuple[Expr, DomainCondition] 
         canon, [(top, _)] = quotients_of([e], positive)
         ring = canon.ring
         roots = [v for v in ring.vars if v.kind == "root" and ring.var_expr[v.index].symbols]
-        if len(roots) != 1 or roots[0].degree != 2 or not _outside(ring, roots[0].index):
+        if len(roots) != 1 or roots[0].degree != 2:
             return None
         index = roots[0].index
+        if any(ring.var_expr[index] in ex.nodes(ring.var_expr[v.index]) for v in ring.vars if v.index != index):
+            return None
         coefficients = canon.collected(top, {index})
         a, b = coefficients.pop(((index, 1),), canon.unit * 0), coefficients.pop((), canon.unit * 0)
         if a == 0 or coefficients:
@@ -191,12 +193,6 @@ def squared(e: Expr, positive: frozenset[Expr]) -> tuple[Expr, DomainCondition] 
     except NoValueError:
         return None
     return canon.to_expr(norm), DomainCondition(canon.to_expr(sided), ">=")
-
-
-def _outside(ring: Ring, index: int) -> bool:
-    """Return whether no other generator has the root in its argument."""
-    root = ring.var_expr[index]
-    return all(root not in ex.nodes(ring.var_expr[v.index]) for v in ring.vars if v.index != index)
 
 
 def _root_of_square(node: Expr) -> bool:
