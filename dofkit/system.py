@@ -52,8 +52,8 @@ class Rotation:
 class Relation(NamedTuple):
     """One scalar relation ``expr sense 0``; ``part`` names it within its constraint (``point x``).
 
-    ``vector`` is the place or direction in the drawing that it is about; ``domain``: what has to be so where the text,
-    as it was written, has a value.
+    ``vector`` is the place or direction at the reference that it is about; ``domain``: what has to be so where the
+    text, as it was written, has a value.
     """
 
     expr: Expr
@@ -199,7 +199,7 @@ class Distance(NamedTuple):
 
 
 class DrawnPoint(NamedTuple):
-    """A point that a constraint mentions, where it stands in the drawing (None: in general position).
+    """A point that a constraint mentions, where it is at the reference (None: in general position).
 
     ``carrier`` is the body that carries it (``ground`` too) or, with ``particle``, the particle it is.
     """
@@ -229,7 +229,7 @@ class Connection(NamedTuple):
     """What the constraint number ``constraint`` connects, as given by its geometry and not by a text.
 
     ``facts``: of its type. ``members``: bodies (``ground`` too) and particles, in the order mentioned. ``points``
-    belong to members, ``places`` and ``directions`` to the drawing; what is in general position is None. ``number``:
+    belong to members, ``places`` and ``directions`` to the reference; what is in general position is None. ``number``:
     the screw's pitch, or the ratio of gears. ``driven``: one more relation prescribes the motion. ``rates``: of the
     joints that are coupled.
     """

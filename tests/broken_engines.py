@@ -103,7 +103,7 @@ from pathlib import Path
 import dofkit
 from dofkit.checker import verify
 from dofkit.methods.certificates.certificate import Certifying
-from dofkit.methods.certificates.lowering import document_of_scene, told_fields
+from dofkit.methods.certificates.lowering import document_of_scene, verdicts_of
 
 sound = json.loads(Path(sys.argv[1]).read_text()) if sys.argv[1] else None
 for path in sys.argv[2:]:
@@ -114,7 +114,7 @@ for path in sys.argv[2:]:
         told = report.model_dump(mode="json")
         entries = {entry["name"]: entry for entry in told["constraints"]}
         values, proved = {}, []
-        for place, _, verdict in told_fields(report):
+        for place, _, verdict in verdicts_of(report):
             name, field = place.split("/")[2:] if place.count("/") == 3 else ("", place[1:])
             source = entries[name.replace("~1", "/").replace("~0", "~")] if name else told
             values |= {place: source[field]} if verdict.verdict != "undecided" else {}

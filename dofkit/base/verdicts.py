@@ -1,4 +1,4 @@
-"""How sure an answer is, of which points it is told, and by which argument."""
+"""How certain an answer is, about which points it is, and by which argument."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ ArgumentKey = Literal[
 ]
 ARGUMENTS: frozenset[str] = frozenset(get_args(ArgumentKey))
 
-#: Whether something is so (None: undecided), and how sure that is.
+#: Whether something is so (None: undecided), and how certain that is.
 TraitAnswer = tuple[bool | None, Verdict]
 
 #: From the strongest to the weakest.
@@ -90,7 +90,7 @@ def weakest(*verdicts: Verdict) -> Verdict:
 
 
 def all_of(answers: Sequence[TraitAnswer]) -> TraitAnswer:
-    """Return whether all are true, and how sure that is."""
+    """Return whether all are true, and how certain that is."""
     denied = [sure for holds, sure in answers if holds is False]
     if denied:
         return False, min(denied, key=VERDICTS.index)
@@ -110,9 +110,9 @@ def least(*abouts: About) -> About:
 
 @dataclass(frozen=True)
 class Claim:
-    """How sure one answer is, by which argument, and of which points.
+    """How certain one answer is, by which argument, and about which points.
 
-    ``bits``: what is ``probable`` is wrong with a chance below 2^-bits; ``gap``: what is ``numeric`` was told apart by
+    ``bits``: what is ``probable`` is wrong with a chance below 2^-bits; ``gap``: what is ``numeric`` was separated by
     this ratio. Raises ValueError for a proof without an argument, or a chance without a bound: nobody could check them.
 
     >>> Claim("proved")

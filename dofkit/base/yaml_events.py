@@ -50,7 +50,7 @@ _NUMERIC_START = frozenset("0123456789+-.IN")
 
 
 class UnreadableError(Exception):
-    """Reading cannot go on."""
+    """Reading stops here."""
 
 
 def plain(text: str) -> Scalar:

@@ -14,7 +14,7 @@ from dofkit.base.errors import DofkitError
 #: ``cannot``: the method never answers such a question or scene; ``undecided``: it tried, or failed on the way.
 Outcome = Literal["right", "wrong", "undecided", "timed out", "cannot"]
 OUTCOMES: tuple[Outcome, ...] = ("right", "wrong", "undecided", "timed out", "cannot")
-#: The method that is held against all others.
+#: The method that is compared with all others.
 AUTO = "auto"
 
 

@@ -71,7 +71,7 @@ def percent(share: float, below: str = "<", above: str = ">") -> str:
 def explained(method: str, question: str, outcome: str, reason: str = "") -> str:
     """Return why a method fails on a trial, in sentences: its own reason, or what it never answers; and its cost.
 
-    ``outcome``: ``wrong``, ``undecided``, ``cannot`` or ``timed out``, where the cost is told.
+    ``outcome``: ``wrong``, ``undecided``, ``cannot`` or ``timed out``, where the cost is stated.
     """
     row = next((row for name, row in methods().items() if name == method), None)
     cannot = f"{method} does not answer this" if row is None else row.cannot

@@ -19,7 +19,7 @@ class Surroundings:
     """A scene as one constraint after the other sees it.
 
     ``names``: what texts may mention; ``signs``: of the parameters that stay symbols. ``generic`` grows by a symbol for
-    each length or component that was left out, ``counts`` by name; ``drawn`` by the bodies that the drawing
+    each length or component that was left out, ``counts`` by name; ``drawn`` by the bodies that the scene
     places. ``joints``: the constraints by name; ``index``: the place of the constraint that is read, from 1.
     """
 
@@ -264,7 +264,7 @@ def displaced(frame: CheckedFrame, point: MaterialPoint, place: Vector, n: Vecto
 
 
 def coupling(world: Surroundings, entry: Entry) -> Iterator[Sided]:
-    """A relation between angles and displacements of joints, which count from the drawing."""
+    """A relation between angles and displacements of joints, which are 0 at the reference."""
     names = entry["joints"] if isinstance(entry["joints"], Mapping) else {name: name for name in entry["joints"]}
     values = {letter: measured(world, name) for letter, name in names.items()}
     for relation in world.between([entry["text"]], names):

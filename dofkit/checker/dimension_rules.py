@@ -53,7 +53,7 @@ def instantaneous(evidence: CheckedEvidence, claim: Told, verified: Told) -> int
 
 
 def counted(evidence: CheckedEvidence, claim: Told, verified: Told) -> object:
-    """A number or a label that follows from others that were verified."""
+    """A number or a label that others imply, which were verified."""
     path, equations = claim["path"], len(evidence.equations)
     if path == "/redundant_equations":
         return max(0, equations - len(evidence.problem.coordinates) + verified["/velocity_dof"])
@@ -76,7 +76,7 @@ def counted(evidence: CheckedEvidence, claim: Told, verified: Told) -> object:
 def _groups(evidence: CheckedEvidence, verified: Told) -> list[Told]:
     """What depends on what: nothing; a circuit where one equation is too many; all, where without any one nothing.
 
-    So it is where what can be dropped was verified at the same point: there the dependent equation is a regular one.
+    So it is where what is redundant was verified at the same point: there the dependent equation is a regular one.
     """
     surplus, place = verified["/redundant_equations"], verified.get("at /redundant", object())
     constrained = [owner for owner in owners(evidence) if evidence.owned(owner)]
@@ -106,7 +106,7 @@ def names_told(claim: Told) -> list[str]:
 
 
 def circuit(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[str]:
-    """The constraint follows from those named near a point of all; without any one, a row of it is independent."""
+    """Those named imply the constraint near a point of all; without any one, a row of it is independent."""
     names, point, dependent = names_told(claim), evidence.point(claim["at"]), evidence.owned(claim["owner"])
     before = owners(evidence)[: owners(evidence).index(claim["owner"])]
     refuse(not dependent or not set(names) <= set(before), "a circuit holds constraints that were written before")
@@ -129,9 +129,9 @@ def _rank(evidence: CheckedEvidence, minor: CheckedMinor, names: tuple[str, ...]
 
 
 def independence(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
-    """How many equations a constraint adds to those before it, where finite equations come before those of velocities.
+    """How many equations a constraint adds to those before it; geometric equations come before those of velocities.
 
-    For the last finite constraint the rank after it may be taken as n - dof, where the dof was verified there.
+    For the last geometric constraint the rank after it may be taken as n - dof, where the dof was verified there.
     """
     minor, order = evidence.minor(claim["minor"]), evidence.equations
     evidence.is_about("here", minor.point)
@@ -265,15 +265,15 @@ def everywhere(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     ``order``: each relation has a coordinate, or its velocity, that those before do not hold. As a derivative by it is
     nowhere 0, a few values of that at most are left, whatever the others are. Where it is the first derivative of all,
     the finite ones are a graph, and all have constant rank. Instead of a coordinate one may give t, of which almost
-    all values are then regular, where nothing else is told (Sard 1942).
+    all values are then regular, where nothing else is claimed (Sard 1942).
     ``gram``: forms without these velocities whose Gram determinant is positive by itself are independent everywhere.
     ``alone``: an analytic relation beside a graph, or the only form, depends on it on a part of less dimension at most.
     ``generic``: relations with a symbol of their own in which they are nowhere stationary: for almost all values of
     these they cut every manifold of those that the others consist of regularly (Sard 1942, Lojasiewicz 1965). Where
     all are generic, the set is a manifold of the rank that a cover of all shows (Federer 3.4.3).
 
-    dof, where there are forms: that near a point (``most``, ``least``). None is larger where the finite relations allow
-    no more, or where all relations are named here, analytic, and the finite ones a graph: then orbits have the
+    dof, where there are forms: that near a point (``most``, ``least``). None is larger where the geometric equations
+    allow no more, or where all relations are named here, analytic, and the finite ones a graph: then orbits have the
     dimension that the brackets span, which is largest almost everywhere at once (Nagano 1966).
     """
     order, generic = claim.get("order", []), dict(claim.get("generic", []))
@@ -313,7 +313,7 @@ def everywhere(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
 
 
 def _independent_everywhere(evidence: CheckedEvidence, gram: Told, ordered: list[str]) -> None:
-    """`CheckError` unless det(J D J^T) is as it is told, and positive; D positive by itself (Cauchy and Binet)."""
+    """`CheckError` unless det(J D J^T) is as it is stated, and positive; D positive by itself (Cauchy and Binet)."""
     forms, scales = gram["forms"], {q: evidence.text(text) for q, text in gram.get("scales", {}).items()}
     relations = [evidence.relation(name) for name in forms]
     fits = all(form.kind == "velocity" and form.tree.symbols.isdisjoint(ordered) for form in relations)

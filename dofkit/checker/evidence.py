@@ -75,7 +75,7 @@ class CheckedEvidence(CheckedRelations):
         return bool(point.value(tree).contains(0)) and (row or self.ring.vanishes(point.prepared(tree)))
 
     def on_set(self, point: CheckedPoint, names: Iterable[str], states: bool = False) -> None:
-        """`CheckError` unless the relations hold at a point, but for integrals; forms are smooth there.
+        """`CheckError` unless a point satisfies the relations, but for integrals; forms are smooth there.
 
         A nonlinear relation speaks of a state, as all do where ``states``: velocity relations and rates hold there.
         """
@@ -120,13 +120,13 @@ class CheckedEvidence(CheckedRelations):
         return self.once(("slope", row, column), lambda: derivative(checked.tree, name))
 
     def accounts(self, minor: CheckedMinor, wanted: Collection[str]) -> CheckedMinor:
-        """The minor; `CheckError` unless relations hold at its point, and near it wherever its rows do."""
+        """The minor; `CheckError` unless its point satisfies relations, as do points near it where its rows are 0."""
         self.on_set(minor.point, wanted)
         self.follow(wanted, minor.rows, minor.point, "the rows of the minor")
         return minor
 
     def settled(self, point: CheckedPoint, names: Iterable[str], claim: dict[str, Any]) -> None:
-        """`CheckError` where finite relations hold what the point chose, unless they hold near it for others, too.
+        """`CheckError` where geometric equations hold what the point chose, unless they hold near it for others, too.
 
         That is so where each has a generic symbol of its own, and where they follow from the rows of a minor.
         """
@@ -144,7 +144,7 @@ class CheckedEvidence(CheckedRelations):
         return next(fit, "") if self.has_value_everywhere(tree) else ""
 
     def at_reference(self, tree: Tree) -> Tree:
-        """A tree at the scene's configuration, parameters and functions left open."""
+        """A tree at the scene's configuration, parameters and functions without values."""
         return substituted(tree, {**self.problem.reference, "t": ZERO, "tdot": ONE})
 
     @cached_property
@@ -341,7 +341,7 @@ def isolated(evidence: CheckedEvidence, claim: Told) -> CheckedMinor:
 
 
 def finite_minor(evidence: CheckedEvidence, claim: Told) -> CheckedMinor:
-    """A minor of finite relations and integrals."""
+    """A minor of geometric equations and integrals."""
     minor = evidence.minor(claim["minor"])
     refuse(any(evidence.relation(row).kind != "finite" for row in minor.rows), "a row of velocities reduces no dof")
     return minor

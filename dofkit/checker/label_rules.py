@@ -33,7 +33,7 @@ def _setting(evidence: CheckedEvidence, claim: Told) -> tuple[str, ...]:
 
 
 def integrable(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
-    """The constraint's forms follow from finite relations, and integrals or rows that integrate (Frobenius)."""
+    """The constraint's forms follow from geometric equations, and integrals or rows that integrate (Frobenius)."""
     allowed = _setting(evidence, claim)
     start = {name for name in allowed if evidence.relation(name).kind == "finite"}
     if claim["rule"] == "frobenius":
@@ -52,7 +52,7 @@ def integrable(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
 def bracket(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
     """A direction that motions through the point reach, and that a form of the constraint forbids.
 
-    A consequence of finite relations holds for all directions in which the orbit of the fields extends.
+    A consequence of geometric equations holds for all directions in which the orbit of the fields extends.
     """
     (point, _), name = admissible(evidence, claim, _setting(evidence, claim)), claim["pairs"]
     if claim["field"] != "holonomic_alone":
@@ -156,10 +156,10 @@ def time_dependent(evidence: CheckedEvidence, claim: Told, verified: Told) -> bo
 
 
 def integral(evidence: CheckedEvidence, claim: Told, verified: Told) -> object:
-    """The constraint says that a function keeps its value, as a step does: it follows from its rate.
+    """The constraint says that a function keeps its value, as a step does: its rate implies it.
 
-    The step follows from the constraint and finite relations. Where it takes further integrals: a minor of these, of
-    finite relations and a relation of the constraint shows that they do not do alone.
+    The constraint and geometric equations imply the step. Where it takes further integrals: a minor of these, of
+    geometric equations and a relation of the constraint shows that they do not do alone.
     """
     point, function = evidence.point(claim["at"]), evidence.text(told_integral(evidence, claim["value"]))
     moves = any(not_zero(point.value(derivative(function, v))) for v in evidence.variables)
@@ -195,7 +195,7 @@ def integrable_part(evidence: CheckedEvidence, claim: Told, verified: Told) -> T
 
 
 def told_integral(evidence: CheckedEvidence, text: Any) -> str:
-    """The function of an integral that is told with a constant of a name of its own."""
+    """The function of an integral that is stated with a constant of a name of its own."""
     function, _, constant = str(text).rpartition("=")
     taken = {*evidence.variables, *evidence.velocities, *evidence.chosen, *evidence.problem.world.names.functions}
     refuse(not constant.strip().isidentifier() or constant.strip() in taken, "an integral ends with `= C`")

@@ -101,7 +101,7 @@ class CheckedEnergies:
         return *turned, rates[0] * call("cos", theta) + rates[2]
 
     def extent(self, entry: Entry) -> tuple[Tree, Tree | None]:
-        """How far two points are apart, now and in the drawing; of bodies of the plane the angle between them."""
+        """How far two points are apart, now and at the reference; of bodies of the plane the angle between them."""
         ends, frames = entry["between"], self.world.frames
         if self.d == 2 and all(isinstance(end, str) and end in frames for end in ends):
             return frames[ends[1]].angle - frames[ends[0]].angle, ZERO
@@ -157,8 +157,8 @@ MOTION_FIELDS = (
 def motion(evidence: CheckedEvidence, claim: Told, verified: Told) -> Told:
     """Lagrange's equations where the eliminated coordinates are functions of those kept, up to factors that are not 0.
 
-    Let M be where they are, and the told constraints hold. By `_leaves` M is all that the relations allow near a point,
-    and what does no work on it are multiples of the told constraints (of those nonlinear in velocities: of their slopes
+    Let M be where they are and the given constraints hold. By `_leaves` M is all that the relations allow near a point,
+    and what does no work on it are multiples of these constraints (of those nonlinear in velocities: of their slopes
     by these). So d/dt dL/dqdot - dL/dq + dD/dqdot less all pushes are such multiples, L and D put in [Lagrange1788].
     """
     claimed, problem = claim["value"], evidence.problem

@@ -69,7 +69,7 @@ def _value(node: Tree, values: Mapping[str, Any], below: tuple[Any, ...]) -> Any
 class CheckedPoint:
     """A point that was checked: ``exact`` values, ``functions`` chosen, and ``balls`` for all symbols.
 
-    The relations ``rows`` hold at it by interval Newton.
+    It satisfies the relations ``rows`` by interval Newton.
     """
 
     name: str

@@ -97,7 +97,7 @@ class CheckedRelation(NamedTuple):
 
 
 class CheckedProblem(NamedTuple):
-    """What a scene says. ``reference`` holds at t = 0, empty where none is.
+    """What a scene says. ``reference`` is at t = 0, empty where there is none.
 
     ``turns``: the Euler angles of bodies; where the sine of the second is 0 they are no chart of the poses around.
     ``world``: the ``scene`` as it was read.
@@ -206,7 +206,7 @@ def _reference(
     configured: Mapping[str, Tree],
     relations: Sequence[CheckedRelation],
 ) -> dict[str, Tree]:
-    """The drawing, where it places every body and gives every other coordinate that a relation holds; else nothing.
+    """The reference, where it places every body and gives every other coordinate that a relation holds; else nothing.
 
     Where no relation holds any, it has to give all. What none holds may stand anywhere.
     """

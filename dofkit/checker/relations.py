@@ -1,4 +1,4 @@
-"""The relations of a scene, those that steps make of them by identities in the ring, and what follows from what.
+"""The relations of a scene, those that steps make of them by identities in the ring, and what depends on what.
 
 A step carries two kinds of consequence. *Entailed*: where the relations it was made from hold, it holds. *Accounted
 for*: where it holds, the relation it was made from holds. Either may need expressions not to be 0, which is asked at a
@@ -138,10 +138,10 @@ class CheckedRelations:
     def _implied(self, step: dict[str, Any]) -> tuple[Tree | None, Consequence | None]:
         """h g = sum c_i r_i: g is 0 where all r_i are and h is not; what has the rate g keeps its value.
 
-        ``g`` is a relation, or a new function. Where finite relations give coordinates, and these are put in, the two
-        sides need to be the same only then. Integrals: along every motion near a point where h is not 0. With ``sos``:
-        h g^2 + sum w_j a_j^2 = sum c_i r_i, where h and w are positive, as -c_i are for inequalities r_i >= 0: then all
-        terms are 0 (Krivine 1964, Stengle 1974).
+        ``g`` is a relation, or a new function. Where geometric equations give coordinates, and these are put in, the
+        two sides need to be the same only then. Integrals: along every motion near a point where h is not 0. With
+        ``sos``: h g^2 + sum w_j a_j^2 = sum c_i r_i, where h and w are positive, as -c_i are for inequalities r_i >= 0:
+        then all terms are 0 (Krivine 1964, Stengle 1974).
         """
         leaf, real = step["by"] == "integral", "sos" in step
         new = leaf or "function" in step

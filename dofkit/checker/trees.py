@@ -161,7 +161,7 @@ def power(base: Tree, exponent: Tree) -> Tree:
 
 
 def call(name: str, *arguments: Tree) -> Tree:
-    """An elementary function, told by sines, cosines, exponentials, logarithms, powers and ``atan2``."""
+    """An elementary function, written with sines, cosines, exponentials, logarithms, powers and ``atan2``."""
     return _MEANINGS[name](*arguments) if name in _MEANINGS else Tree(name, arguments)
 
 

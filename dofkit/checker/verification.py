@@ -67,7 +67,7 @@ def verify(document: Any, certificate: Mapping[str, Any] | str | bytes) -> Verif
     """Recheck every claim of a certificate about the scene of a document.
 
     Without one, the document in the certificate is taken. A certificate that cannot be read, or that is of another
-    scene, raises `CheckError`; a claim that is not shown is told in ``failed``.
+    scene, raises `CheckError`; a claim that is not shown is in ``failed``.
     """
     content = certificate_of(certificate)
     return Verifier(content["scene"].get("document") if document is None else document, content).run()
@@ -75,10 +75,10 @@ def verify(document: Any, certificate: Mapping[str, Any] | str | bytes) -> Verif
 
 def certificate_of(content: Any) -> dict[str, Any]:
     """A certificate from its text or mapping: of the right form, and not too large."""
-    told_in_text = isinstance(content, (str, bytes))
-    refuse(told_in_text and len(content) > LARGEST_TEXT, "the certificate is too long")
+    is_text = isinstance(content, (str, bytes))
+    refuse(is_text and len(content) > LARGEST_TEXT, "the certificate is too long")
     try:
-        content = json.loads(content if told_in_text else json.dumps(content))
+        content = json.loads(content if is_text else json.dumps(content))
     except (TypeError, ValueError, RecursionError) as error:
         raise CheckError(f"the certificate is no JSON: {str(error)[:100]}") from None
     form = isinstance(content, Mapping) and isinstance(content.get("scene"), Mapping) and content.get("certificate")

@@ -27,7 +27,7 @@ from dofkit.mobility.placement import TURNS, Member, Placement, drawn_placement,
 from dofkit.relations.normal.pieces import Finite
 from dofkit.report import Generic, Mobility
 
-#: Dependent sets of rows that are looked at, and sentences about them that are told.
+#: Dependent sets of rows that are looked at, and sentences about them that are written.
 MOST_SETS, MOST_TOLD = 40, 6
 #: Relations in more columns than these are not looked at for a near-dependence.
 MOST_COLUMNS = 200
@@ -125,7 +125,7 @@ class CountsBeside:
 
 
 def _if_it_has_a_value(work: Callable[[], T]) -> T | None:
-    """What was found; None where there was no time, or the drawing has no value (a root of what is negative)."""
+    """The counts; None where there was no time, or the reference has no value (a root of what is negative)."""
     try:
         return unless_late(raising_no_value(work), None)
     except (ArithmeticError, ValueError):
@@ -190,7 +190,7 @@ def _about_centroids(j: list[list[float]], placement: Placement, dimension: int)
 
 
 def _points(placement: Placement) -> dict[int, tuple[Member, list[list[float]]]]:
-    """Return the places at which each member is held, by its first column."""
+    """Return the places at which each member is connected, by its first column."""
     held: dict[int, tuple[Member, list[list[float]]]] = {}
     for connection in placement.located:
         joined = ((member, at) for at in connection.places for member in connection.members)

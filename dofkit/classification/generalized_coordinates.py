@@ -93,7 +93,7 @@ def claim_of_choice(study: Study, chosen: Sequence[str]) -> Claim:
     """Of the generalized coordinates: the others have independent rows, at the reference or at a generic point.
 
     Where the set may have several parts the point may lie on another one. At a singular reference the set is known
-    where it is the orbit of the whole as one body; elsewhere it may be no graph over any coordinates. Where
+    where it is the orbit of the system as one body; elsewhere it may be no graph over any coordinates. Where
     some angles of a body that turns are chosen, at a certified configuration.
     """
     of_blocks = []
@@ -119,7 +119,7 @@ def claim_of_choice(study: Study, chosen: Sequence[str]) -> Claim:
 
 
 def _of_block(block: Block, a: Answer, setting: Setting, rotations: Sequence[Rotation]) -> list[str] | None:
-    """The free coordinates of a block; None where none could be told."""
+    """The free coordinates of a block; None where none is known."""
     if a.dof is None:
         return None
     if a.dof == 0:
@@ -171,7 +171,7 @@ def orbit_at_reference(block: Block, a: Answer, setting: Setting) -> RigidOrbit 
 
 
 def regular_at_witness(names: Sequence[str], a: Answer, chosen: Sequence[str]) -> bool | None:
-    """Return whether the finite relations, by the coordinates that are not chosen, have full rank at the witness.
+    """Return whether the geometric equations, by the coordinates that are not chosen, have full rank at the witness.
 
     None where no rows are known there. What divides by a coefficient may divide by 0 on the part of the witness.
     """

@@ -171,7 +171,7 @@ def conflicting(study: Study) -> Decided:
 
 
 def instantaneous_dof(study: Study) -> Decided:
-    """Velocities allowed to first order at the reference configuration; None without one.
+    """Infinitesimal motions allowed at the reference configuration; None without one.
 
     Its claim is of ranks there, which are exact where no row depends on others.
     """
@@ -217,7 +217,7 @@ def lecture_count(study: Study) -> Count:
 
 
 def redundant(study: Study) -> Decided:
-    """The names of what can be dropped together, in their order; None where it was not decided, or nothing moves."""
+    """The names of a maximal redundant set, in their order; None where it was not decided, or nothing moves."""
     dependent, outcome = study.dependence.dependent, study.outcome
     if not outcome.consistent or outcome.velocity_dof is None or any(r.undecided for r in dependent):
         return decided(study, None, OPEN)
@@ -243,7 +243,7 @@ def redundancies(study: Study) -> Decided:
 def _of_dependence(study: Study, some: bool) -> Claim:
     """Of what depends on what: nothing does where the count says so.
 
-    That nothing can be dropped though equations depend on each other is not told of the component alone on which they
+    That nothing is redundant though equations depend on each other is no claim about the component alone on which they
     were counted: each constraint is needed at a state of its own.
     """
     if not some and study.redundant_equations == 0:
@@ -262,7 +262,7 @@ def joint_coordinates(study: Study) -> list[str] | None:
 
 
 def largest_integrable_part(study: Study) -> Decided:
-    """What the forms say in finite relations; None where that is not known."""
+    """What the forms say in geometric equations; None where that is not known."""
     outcome = study.outcome
     if not any(block.forms for block in outcome.blocks):
         return Decided(None)
@@ -320,7 +320,7 @@ def witness(study: Study) -> dict[str, str] | None:
     """A certified configuration: the reference where it is one, else what the blocks found; None where one has none.
 
     What nothing constrains is 0. Parameters have the values that the configuration was found with; where blocks that
-    share one were found with several, there is no configuration of the whole.
+    share one were found with several, there is no configuration of the system.
     """
     outcome = study.outcome
     if outcome.consistent is not True or any(a.witness is None for a in outcome.answers):

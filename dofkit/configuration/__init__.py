@@ -10,7 +10,7 @@ Mechanisms, in the order in which they are tried
        met [Menger1928].
     2. At a reference configuration, `at_reference` gives the instantaneous freedom by rank, and for dependent
        equations the local dimension, in coordinates that no linear equation gives. `local` decides it by the table
-       `CRITERIA` in the order of cost: independent equations [ImplicitFunctions], rigidity to first order
+       `CRITERIA` in the order of cost: independent equations [ImplicitFunctions], infinitesimal rigidity
        [AsimowRoth1978], vanishing along a random curve [SchwartzZippel], second order, a branch continued to high
        precision.
     3. `measured` is the one numerical route for a scene with a tolerance, in lengths of the scene's size: rank with its
@@ -20,8 +20,8 @@ Mechanisms, in the order in which they are tried
        component exists [Krull1928]; `cases` divides a set where a factor, or a coefficient, vanishes, which also finds
        the points of a set that is singular throughout; else one of them is brought to high precision.
 
-`finite_blocks` puts these together for blocks of finite relations. `rigid_motions` are the motions of the system as one
-rigid body. `implied_relations` asks whether a dependent relation is implied by others near the reference configuration.
-`states` are configurations together with a velocity that the constraints allow, for relations nonlinear in the
-velocities.
+`finite_blocks` puts these together for blocks of geometric equations. `rigid_motions` are the motions of the system as
+one rigid body. `implied_relations` asks whether a dependent relation is implied by others near the reference
+configuration. `states` are configurations together with a velocity that the constraints allow, for relations nonlinear
+in the velocities.
 """

@@ -3,12 +3,12 @@
 Where the equations are dependent there, only what is dependent has to be looked at. Let B be a basis of the rows of the
 Jacobian at P, and M the manifold on which the equations of B are satisfied. The set that all equations cut out is M if
 those outside B vanish on M too. One of them that is a combination of rows S of B is looked at together with any set of
-equations that holds S: where these cut out the manifold M' of their part of B [ImplicitFunctions], it vanishes on M',
-and M lies in M'. So equations in no dependent set (coloops) are not looked at, and mechanisms that share nothing are
-apart.
+equations that contains S: where these cut out the manifold M' of their part of B [ImplicitFunctions], it vanishes on
+M', and M lies in M'. So equations in no dependent set (coloops) are not looked at, and mechanisms that share nothing
+are apart.
 
 Two rows are in one class if a minimal dependent set holds both. Together with a class those equations are kept that
-mention its coordinates only: without them a bar across a square could not tell that the square is held. Where that is
+mention its coordinates only: without them a bar across a square could not tell that the square is fixed. Where that is
 not enough, all equations are looked at together.
 """
 
@@ -60,7 +60,7 @@ EXPLICIT = "each equation determines one coordinate in terms of others, so the s
 
 @dataclass(frozen=True)
 class AtReference:
-    """``instantaneous``: velocities allowed to first order; ``local``: the dimension of the finite motion.
+    """``instantaneous``: infinitesimal motions allowed; ``local``: the dimension of the finite motion.
 
     ``matrix`` is the Jacobian there over GF(``modulus``), or the pattern of its dependent rows. ``dependent``: columns
     that the others determine, where the matrix does not tell. ``looked``: what was looked at of the relations.
@@ -91,7 +91,7 @@ def at_reference(chart: Chart, reference: Mapping[Expr, Expr]) -> AtReference | 
 def _is_exact(chart: Chart, pose: Mapping[Expr, Expr], answer: AtReference) -> bool:
     """Return whether the rank, which is not too large over GF(p), is proved not to be too small.
 
-    So it is where no row depends on others, where only motions of the whole are left, and at a rational point.
+    So it is where no row depends on others, where only rigid motions of the system are left, and at a rational point.
     """
     velocities = answer.instantaneous
     if chart.coordinates - velocities == len(answer.matrix) or velocities == answer.rigid:
@@ -135,7 +135,7 @@ def _with_fewer(
 ) -> tuple[LocalDimension, int]:
     """Return the local dimension by a chart with fewer coordinates, where there is one, and how many went.
 
-    ``fields``: the motions of the whole as one body over the chart's columns; what they are on fewer is what is left.
+    ``fields``: the motions of the system as one body over the chart's columns; what they are on fewer is what is left.
     """
     small, free = smaller(chart)
     spared = chart.coordinates - small.coordinates

@@ -1,4 +1,4 @@
-"""A set of zeros told apart into cases: a product is 0 where a factor is, a x + b where x = -b/a or where a = b = 0.
+"""A set of zeros divided into cases: a product is 0 where a factor is, a x + b where x = -b/a or where a = b = 0.
 
 On each case all relations but a few give one coordinate each. Elimination that divides by ``a`` sees the first kind
 only; a part on which ``a`` is 0 may be larger.
@@ -22,7 +22,7 @@ from dofkit.expressions.tree import Expr
 from dofkit.relations.linear_relations import linear
 from dofkit.relations.normal.zero_set import zero_set
 
-#: Cases that are told apart, in all; nodes of an expression past which no coordinate is put into it.
+#: Cases that are distinguished, in all; nodes of an expression past which no coordinate is put into it.
 MAX_CASES, MAX_NODES = 48, 300
 
 
@@ -96,7 +96,7 @@ def _cases_of(
 
 
 def _split(case: ZeroCase, moving: frozenset[Expr], positive: frozenset[Expr]) -> list[ZeroCase] | None:
-    """Return the cases within one; None where it is told apart no further."""
+    """Return the cases within one; None where it is divided no further."""
     if case.fresh:
         g, unsplit = case.fresh[0], case.fresh[1:]
         branches = zero_set(g, positive, moving)[0]
@@ -162,7 +162,7 @@ def _same_zeros(e: Expr, other: Expr, positive: frozenset[Expr]) -> bool:
 
 
 def _bounded(case: ZeroCase, unknowns: Sequence[Expr], positive: frozenset[Expr]) -> BoundedCase:
-    """Return a case that is told apart no further, with the bound of its dimension: -1 where it has no point.
+    """Return a case that is divided no further, with the bound of its dimension: -1 where it has no point.
 
     One relation takes one dimension away, unless it holds everywhere; several take that of a Groebner basis.
     """

@@ -49,14 +49,14 @@ class RelationPart(NamedTuple):
     unknowns: tuple[Expr, ...]
 
 
-def of_largest_part(chart: Chart, variety: Variety, find: Callable[[Chart], Variety], of_case: bool = False) -> Variety:
-    """What is known of the set, for its largest part; ``find`` gives that of another chart.
+def largest_component(chart: Chart, variety: Variety, find: Callable[[Chart], Variety], case: bool = False) -> Variety:
+    """What is known of the set, for its component of largest dimension; ``find`` gives that of another chart.
 
-    ``of_case``: what was found is the set of a case, which is a part of this one.
+    ``case``: what was found is the set of a case, which is a part of this one.
     """
     if variety.dimension is None or not variety.consistent:
         return variety
-    near = _near_its_point if of_case else _near
+    near = _near_its_point if case else _near
     if _in_regions(chart) or len(chart.relations) > MAX_RELATIONS:
         return near(variety)
     if len(chart.relations) < 2:
@@ -150,7 +150,7 @@ def _by(variety: Variety, argument: ArgumentKey) -> Variety:
 
 
 def _near(variety: Variety) -> Variety:
-    """What was found, told of its own part only."""
+    """The variety, as a claim about its own component only."""
     return replace(variety, about="component", reasons=[*variety.reasons, NEAR])
 
 

@@ -1,4 +1,4 @@
-"""Blocks of finite relations only: the freedom at the reference configuration, or at generic points."""
+"""Blocks of geometric equations only: the freedom at the reference configuration, or at generic points."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ ONE_MOMENT = "the reference configuration satisfies the equations at this instan
 
 
 def finite_answer(block: Block, setting: Setting) -> Answer:
-    """The answer to a block of finite relations, at the reference where it satisfies them and else generically."""
+    """The answer to a block of geometric equations, at the reference where it satisfies them and else generically."""
     chart = make_chart(block, setting)
     measured = is_measured(block, setting)
     result = _within_tolerance(block, chart) if measured else _finite_answer(chart)

@@ -1,6 +1,6 @@
 """The dimension of the configuration space at its generic points, by rank, and near points that are singular.
 
-A rank over GF(p) is held against a certified real point, without which a set over GF(p) says nothing.
+A rank over GF(p) is compared with that at a certified real point, without which a set over GF(p) says nothing.
 """
 
 from __future__ import annotations
@@ -72,7 +72,7 @@ def near_real_point(chart: Chart, real: RealPoint | None, core: Sequence[int]) -
     if real.certain and real.part.rank == real.solved == len(core) == len(chart.nodes):
         return Variety(True, columns - real.part.rank - timed, "proved", [], real, argument="regular point")
     if not real.certain:
-        return _left_open(Variety(None, None, "undecided", [], real), SINGULAR)
+        return _undecided(Variety(None, None, "undecided", [], real), SINGULAR)
     if real.part.gap > 1e3:
         why = gap_in_words(real.part.gap, "pivot")
         dimension = columns - real.part.rank - timed
@@ -112,7 +112,7 @@ def with_reality(chart: Chart, variety: Variety, rank: int) -> Variety:
     if real is None:
         return _without_reality(chart, variety)
     if not real.certain:
-        return _left_open(variety, SINGULAR)
+        return _undecided(variety, SINGULAR)
     if real.solved < real.part.rank:
         variety.verdict, variety.gap = weakest(variety.verdict, "numeric"), real.part.gap
         variety.reasons.append(NEARLY)
@@ -146,7 +146,7 @@ def _by_field_alone(chart: Chart, variety: Variety) -> Variety:
     if independent_on_set(chart.ring, chart.nodes):
         variety.verdict = weakest(variety.verdict, "probable")
         return variety
-    return _left_open(variety, "the functions that occur may satisfy an identity that points over GF(p) do not detect")
+    return _undecided(variety, "the functions that occur may satisfy an identity that points over GF(p) do not detect")
 
 
 def _without_reality(chart: Chart, variety: Variety) -> Variety:
@@ -156,10 +156,10 @@ def _without_reality(chart: Chart, variety: Variety) -> Variety:
         variety.verdict = weakest(variety.verdict, "probable")
         variety.reasons.append(ALLOWING)
         return variety
-    return _left_open(variety, "no real configuration was found, and none was excluded")
+    return _undecided(variety, "no real configuration was found, and none was excluded")
 
 
-def _left_open(variety: Variety, why: str) -> Variety:
+def _undecided(variety: Variety, why: str) -> Variety:
     variety.consistent, variety.dimension, variety.verdict = None, None, "undecided"
     variety.reasons.append(why)
     return variety
@@ -195,7 +195,7 @@ MAX_ROWS, TINY = 20, 1e-12
 
 
 def numeric_local(chart: Chart, real: RealPoint) -> LocalDimension | None:
-    """Return the local dimension near a singular point that a real search ran into; None where it cannot be told."""
+    """Return the local dimension near a singular point that a real search ran into; None where it is not known."""
     if len(chart.nodes) > MAX_ROWS:
         return None
     with ctx.workprec(BITS):

@@ -40,7 +40,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Chart
 
-#: Points that are looked for beside a drawing, and how far they are begun, in the columns' scales.
+#: Points that are looked for near a reference, and how far they are begun, in the columns' scales.
 BESIDE, AWAY = 12, 0.05
 #: From where on a point is another one, and how near to a relation one is that satisfies it: half the digits.
 MOVED, TOGETHER, TINY = 1e-3, 1e-6, 1e-300
@@ -48,14 +48,14 @@ MOVED, TOGETHER, TINY = 1e-3, 1e-6, 1e-300
 
 @dataclass(frozen=True)
 class ImpliedRelations:
-    """What the relations of a chart imply of each other near the drawing, at t = 0; asked once each."""
+    """What the relations of a chart imply of each other near the reference, at t = 0; asked once each."""
 
     chart: Chart
     drawing: Mapping[Expr, Expr]
     _answers: dict[tuple[int, ...], bool | None] = field(default_factory=dict)
 
     def follows(self, row: int, others: Sequence[int], afar: bool = True) -> bool | None:
-        """Return whether relation ``row`` vanishes near the drawing where ``others``, independent there, do.
+        """Return whether relation ``row`` vanishes near the reference where ``others``, independent there, do.
 
         None where it was not decided. Not ``afar``: True says only that it vanishes to some order.
         """
@@ -70,7 +70,7 @@ class ImpliedRelations:
         return self._answers[key]
 
     def needed(self, row: int, others: Sequence[int]) -> list[int]:
-        """Which of others a relation needs that follows from them: those with a multiplier along a curve.
+        """Which of others a relation needs that they imply: those with a multiplier along a curve.
 
         All of them where that is not known.
         """
@@ -87,7 +87,7 @@ class ImpliedRelations:
             return list(others)
 
     def rigid(self, rows: Sequence[int]) -> int:
-        """Return the dimension of the motions of the whole that keep some relations, over the coordinates they mention.
+        """Return the dimension of the rigid motions that keep some relations, over the coordinates they mention.
 
         0 where they mention not all, or the motions are not known.
         """
@@ -96,7 +96,7 @@ class ImpliedRelations:
         return 0 if point is None or len(subchart.symbols) < len(self.chart.symbols) else rigid_motions(subchart, point)
 
     def seem_to_follow(self, rows: Sequence[int], others: Sequence[int]) -> bool:
-        """Return whether relations hold at every point, searched for near the drawing from random starts, of others.
+        """Return whether relations are satisfied at points of others, sampled near the reference from random starts.
 
         Numbers, no proof: for sets that are singular all along, whose branches are found as their points are.
         """
@@ -120,7 +120,7 @@ class ImpliedRelations:
         return seen >= BESIDE // 2
 
     def _distance(self, symbols: Mapping[Expr, float], rows: Sequence[int]) -> float:
-        """How far, in the columns' scales, a point is from where some relations hold, to first order."""
+        """How far, in the columns' scales, a point is from the zeros of some relations, by their differentials."""
         chart, point = self.chart, FloatPoint(symbols)
         at = values(chart.ring, point)
         columns = [c for c in chart.columns if c >= 0]

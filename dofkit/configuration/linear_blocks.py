@@ -1,8 +1,8 @@
 """Blocks all of whose relations are linear with rational coefficients: answered, or confirmed, by exact elimination.
 
 A q + r(t) = 0 and B dq + s(t) dt = 0, where r and s may hold parameters: a row that is a sum of others over the
-rationals follows from them if its right side is the same sum, and else contradicts them; nothing else can happen. All
-forms are closed, so every one is a consequence of finite relations, and n - rank coordinates are free everywhere.
+rationals is implied by them if its right side is the same sum, and else contradicts them; nothing else can happen. All
+forms are closed, so every one is a consequence of geometric equations, and n - rank coordinates are free everywhere.
 """
 
 from __future__ import annotations
@@ -122,7 +122,7 @@ def _number(value: Any) -> fmpq:
 
 
 def eliminated(block: Block, setting: Setting) -> Answer | None:
-    """Return the answer to a large block of finite relations, away from any drawing; None for any other.
+    """Return the answer to a large block of geometric equations, away from any drawing; None for any other.
 
     Smaller ones are answered at points like all others, and `confirmed`.
     """

@@ -119,7 +119,7 @@ def _keeps(
 
 
 class RigidOrbit(NamedTuple):
-    """Displacement fields of the whole at the reference, over GF(p): what is independent there is independent."""
+    """Fields of the rigid motions at the reference, over GF(p): what is independent there is independent."""
 
     names: list[str]
     fields: list[list[Any]]

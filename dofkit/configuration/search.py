@@ -13,7 +13,7 @@ from contextlib import suppress
 from functools import partial
 
 from dofkit.base.errors import NoValueError
-from dofkit.configuration.components import by_cases, of_largest_part
+from dofkit.configuration.components import by_cases, largest_component
 from dofkit.configuration.generic_dimension import (
     ALLOWING,
     near_real_point,
@@ -72,12 +72,12 @@ def find(chart: Chart, pose: Mapping[Expr, Expr], seed: int = 0) -> Variety:
     if by_case and not timed:
         variety = by_cases(chart, variety, find_variety)
     if variety.consistent is not False and variety.dimension is None and near.dimension is not None:
-        return of_largest_part(chart, near, find_variety)
-    return of_largest_part(chart, variety, find_variety, by_case or timed)
+        return largest_component(chart, near, find_variety)
+    return largest_component(chart, variety, find_variety, by_case or timed)
 
 
 def _fixes_time(chart: Chart, variety: Variety) -> bool:
-    """Return whether the relations hold at single instants only near all points that were found."""
+    """Return whether the relations are satisfied at single instants only near all points that were found."""
     if chart.time is None or not variety.consistent:
         return False
     if variety.samples or variety.real is None:

@@ -43,8 +43,8 @@ SOLVED = ("symbol", "call", "cos", "sin")
 class States:
     """The states of some rows; ``more`` expressions can be evaluated at them.
 
-    ``still``: configurations only, without velocities. ``finite``, ``linear`` (rates of finite relations, then forms)
-    and ``curved`` are the nodes of the relations.
+    ``still``: configurations only, without velocities. ``finite``, ``linear`` (rates of geometric equations, then
+    forms) and ``curved`` are the nodes of the relations.
     """
 
     def __init__(
@@ -125,7 +125,7 @@ class States:
         return None
 
     def _base(self, seed: int) -> FieldPoint | None:
-        """Return a random configuration over GF(p) that satisfies the finite relations."""
+        """Return a random configuration over GF(p) that satisfies the geometric equations."""
         if self.finite:
             return self._standing.draw(seed)
         try:
@@ -201,7 +201,7 @@ class States:
 
 
 def state_relations(rows: Sequence[Row], hidden: Sequence[Expr]) -> tuple[list[Expr], list[Expr], list[Expr]]:
-    """Return the finite relations, those linear in the velocities (their rates, then forms), and the nonlinear ones."""
+    """Return the geometric equations, the linear ones in velocities (rates, then forms), and the nonlinear ones."""
     finite = [*(r.piece.expr for r in rows if isinstance(r.piece, Finite)), *hidden]
     forms = [r.piece.rate for r in rows if isinstance(r.piece, Pfaffian)]
     return finite, [*map(rate, finite), *forms], [r.piece.expr for r in rows if isinstance(r.piece, Nonlinear)]

@@ -32,13 +32,13 @@ from dofkit.relations.linear_relations import explicit_relations, linear, number
 
 @dataclass
 class Variety:
-    """The set {g = 0} of a block's finite relations, as far as it is known.
+    """The set {g = 0} of a block's geometric equations, as far as it is known.
 
     ``consistent``: None where it is not known. ``dimension``: of the configuration space at fixed time (None:
-    not decided). ``samples``: points over GF(p) on it; ``real``: a real point with balls; ``about``: is it told of
-    the largest part, or of the ``component`` of these points? ``argument``, ``gap``, ``witness``: see `Answer`.
-    ``parted``: these points lie on different parts of it. ``separating``: expressions each of which vanishes on every
-    component of this dimension, where there may be others.
+    not decided). ``samples``: points over GF(p) on it; ``real``: a real point with balls; ``about``: is it about
+    the component of largest dimension, or the ``component`` of these points? ``argument``, ``gap``, ``witness``: see
+    `Answer`. ``parted``: these points lie on different parts of it. ``separating``: expressions each of which vanishes
+    on every component of this dimension, where there may be others.
     """
 
     consistent: bool | None
@@ -149,7 +149,7 @@ def field_jacobian(chart: Chart, point: FieldPoint, nodes: Sequence[int] | None 
 
 
 def on_variety(chart: Chart, point: FieldPoint) -> bool:
-    """Return whether all finite relations hold at the point."""
+    """Return whether the point satisfies all geometric equations."""
     return vanish(chart.ring, point, chart.nodes)
 
 
@@ -208,7 +208,7 @@ def pose_samples(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> list[Fie
 
 
 def time_is_free(chart: Chart, point: FieldPoint) -> bool:
-    """Return whether the relations leave the time free to first order at a point."""
+    """Return whether the differentials of the relations leave the time free at a point."""
     rows = field_jacobian(chart, point)
     return chart.time is None or rank_of_rows(without_time(rows, chart.coordinates), point.p) == rank_of_rows(
         rows, point.p
@@ -229,7 +229,7 @@ def has_same_signs(chart: Chart, point: FieldPoint, real: RealPoint) -> bool:
 
 
 def generators_of(chart: Chart) -> set[int]:
-    """Return the generators that the finite relations reach."""
+    """Return the generators that the geometric equations reach."""
     code = chart.ring.code
     return {code[i][1] for i in reachable(chart.ring, chart.nodes) if code[i][0] == VAR}
 

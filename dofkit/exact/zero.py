@@ -36,7 +36,7 @@ STARTS, TRIES = 8, 60
 
 
 def is_zero(e: Expr, positive: frozenset[Expr]) -> bool:
-    """Return whether the expression is taken for zero identically; `zero_and_verdict` says how sure that is."""
+    """Return whether the expression is taken for zero identically; `zero_and_verdict` says how certain that is."""
     return bool(zero_and_verdict(e, positive)[0])
 
 
@@ -46,7 +46,7 @@ def is_proved_zero(e: Expr, positive: frozenset[Expr]) -> bool:
 
 
 def zero_and_verdict(e: Expr, positive: frozenset[Expr], engines: Engines = BOTH) -> tuple[bool | None, Verdict]:
-    """Return whether the expression is zero identically, and how sure that is.
+    """Return whether the expression is zero identically, and how certain that is.
 
     None where one engine alone cannot decide it, or where the expression has no value at any point that was tried.
     Zero in the canonical ring is a proof; so is a value that is not zero there, or at a point over GF(p) where the

@@ -29,7 +29,7 @@ class ExpressionShape(NamedTuple):
     """An expression without its names.
 
     ``skeleton``: the expression with its names replaced by numbers, in the order in which they first occur; ``names``:
-    these, in that order; ``kept``: the names of symbols that are no such names, sorted; ``occurring``: told by the
+    these, in that order; ``kept``: the names of symbols that are no such names, sorted; ``occurring``: stated by the
     skeleton.
 
     >>> from dofkit.expressions.tree import coordinate, velocity

@@ -45,7 +45,7 @@ from dofkit.homework.variants import NobodysVariantError, sheet_of
 ANSWER_SECONDS = 5.0
 #: Answers that are remembered, each of at most so many characters.
 MOST_REMEMBERED, LONGEST_REMEMBERED = 10_000, 4000
-#: Answers to what was not asked that are told, and characters of their names.
+#: Answers to what was not asked that are listed, and characters of their names.
 MOST_UNASKED, LONGEST_NAME = 100, 200
 
 #: An answer to judge, as a text: its problem, its question, what it says, and the numbers that it may follow from.
@@ -90,7 +90,7 @@ class Grader:
             yield Result.refused(submission.student, self.prepared.max_score, error)
 
     def _of_variant(self, student: str) -> Grader:
-        """Return the grader of a student's own sheet."""
+        """Return the grader of a student's variant."""
         if not self.prepared.combinations:
             return self
         sheet = sheet_of(self.prepared, student)
@@ -180,7 +180,7 @@ class Grader:
             return needs_review("", say("an internal error occurred ({error}).", error=type(error).__name__))
 
     def _read(self, question: QuestionBase, answer: Given, key: Key, earlier: Earlier) -> Judgement:
-        """Return what an answer is worth, or why it is open if it cannot be read in one way."""
+        """Return what an answer is worth, or why it is undecided if it cannot be read in one way."""
         try:
             readings = question.readings(answer, key.declared)
         except DoubtError as error:

@@ -14,7 +14,7 @@ from dofkit.homework.sentences import Language, Said, meanings, say
 #: What stands in a submission as an answer.
 Given = str | int | float | Fraction | Sequence["Given"]
 
-#: What is told: a whole sentence, or one with places; nothing where it is empty.
+#: What feedback says: a whole sentence, or one with places; nothing where it is empty.
 Sentence = str | Said
 
 FULL, HALF, NOTHING = Fraction(1), Fraction(1, 2), Fraction(0)

@@ -44,7 +44,7 @@ Decisions = Mapping[str, Decision]
 
 @dataclass(frozen=True)
 class ReviewRow:
-    """One row, every cell as text; ``decision`` is what its last columns say, None while it is open."""
+    """One row, every cell as text; ``decision`` is what its last columns say, None until there is one."""
 
     cells: Mapping[str, str]
     decision: Decision | None = None
@@ -166,7 +166,7 @@ def _who(queued: QueuedAnswer) -> dict[str, str]:
     return {"students": str(queued.count), "given_by": named}
 
 
-#: What a person writes may be so long; faults of a table that are told; bytes that are read.
+#: What a person writes may be so long; faults of a table that are listed; bytes that are read.
 MOST_REMARKED, MOST_FAULTS, MOST_BYTES = 2000, 50, 200_000_000
 _NEEDED = ("id", "points")
 _ID = re.compile(r"q[0-9a-f]{8}-[0-9a-f]{16}")

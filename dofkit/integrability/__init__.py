@@ -1,6 +1,6 @@
 """Integrability: which differential constraints are consequences of equations between coordinates, and what are these?
 
-The rows of a block are one-forms: the differentials of its finite relations and its Pfaffian forms. They span the
+The rows of a block are one-forms: the differentials of its geometric equations and its Pfaffian forms. They span the
 codistribution I, whose kernel D holds the admissible velocities. A constraint is holonomic where its form lies in the
 last term of the derived flag of I [Frobenius1877].
 

@@ -2,9 +2,9 @@
 
 f is a combination of few products of the block's own functions (coordinates, sines, exponentials, parameters) with
 rational coefficients. X f = 0 for every X in D = ker I is linear in the coefficients; it is imposed along one random
-curve over GF(p), or at random points on the finite relations, and the solutions are read as rationals. An integral is
-returned only if it holds identically: the bordered minors of df under the rows vanish in the canonical ring (modulo a
-finite relation, if there is one), or, where that grows too large or several finite relations hold, at fresh points
+curve over GF(p), or at random points on the geometric equations, and the solutions are read as rationals. An integral
+is returned only if it holds identically: the bordered minors of df under the rows vanish in the canonical ring (modulo
+a geometric equation, if there is one), or, where that grows too large or there are several of them, at fresh points
 modulo fresh primes.
 """
 
@@ -54,7 +54,7 @@ class FirstIntegral:
 def first_integrals(forms: Codistribution, number: int) -> list[FirstIntegral]:
     """Return up to ``number`` independent f with df in the span of the rows, the simplest first.
 
-    None of them is a consequence of the finite relations.
+    None of them is a consequence of the geometric equations.
     """
     search = IntegralSearch(forms)
     integrals: list[FirstIntegral] = []
@@ -176,7 +176,7 @@ class IntegralSearch:
         return pairing(self._gradient(f, sample), [v])[0]
 
     def is_independent(self, f: Expr, integrals: Sequence[Expr]) -> bool:
-        """Return whether df is independent of the finite relations and of the integrals that are known."""
+        """Return whether df is independent of the geometric equations and of the integrals that are known."""
         sample = self.points[0]
         rows = [list(r) for r in sample.matrix[: self.forms.finite]]
         rows += [self._gradient(e, sample) for e in (*integrals, f)]
@@ -275,7 +275,7 @@ def _sample_of(
 
 
 def is_short(forms: Codistribution) -> bool:
-    """Return whether few forms stand beside one finite relation at most, so that minors can be written out."""
+    """Return whether there are few forms and one geometric equation at most, so that minors can be written out."""
     return len(forms.chart.nodes) <= 1 and len(forms.rows.entries) <= MAX_ROWS
 
 
@@ -290,8 +290,8 @@ class BorderedMinors:
     def vanish(self, f: Expr) -> bool | None:
         """Return whether df depends on the forms: all minors of the forms together with df are 0.
 
-        None where the minors are too long to be written out, and where one is not 0 beside finite relations, on which
-        it may vanish all the same.
+        None where the minors are too long to be written out, and where one is not 0 beside geometric equations, on
+        which it may vanish all the same.
         """
         ring, symbols = self.chart.ring, self.chart.symbols
         if not is_short(self.forms):
@@ -303,7 +303,7 @@ class BorderedMinors:
     def is_combination(self, row: Mapping[int, int], on_relation: bool) -> bool | None:
         """Return whether a row, its nodes by column, is a combination of the rows wherever their minor is not 0.
 
-        ``on_relation``: where the only finite relation is satisfied. None where the minors have no value or are long.
+        ``on_relation``: where the only geometric equation is satisfied. None where minors have no value or are long.
         """
         if len(self.frame.rows) > MAX_ROWS:
             return None
@@ -338,7 +338,7 @@ class BorderedMinors:
         return self.canon
 
     def _of(self, nodes: Mapping[int, int], on_relation: bool) -> Iterator[Poly]:
-        """Yield the minors, one for each free column, on request modulo a finite relation. Raises NoValueError."""
+        """Yield the minors, one for each free column, on request modulo a geometric equation. Raises NoValueError."""
         canon = self._current_canon()
         relation = canon.quotient(self.chart.nodes[0])[0] if on_relation and len(self.chart.nodes) == 1 else None
         row = polynomials(canon, nodes, len(self.chart.symbols))

@@ -3,7 +3,7 @@
 Along a curve of X the brackets ad_X^j B, j < k, span a subspace S_k of D_k. It is all of D_k where one more derivative,
 across the curve, finds nothing new: if D_j = S_j for j <= k near the point, then D_k+1 = S_k + [D, ad_X^(k-1) B], for
 the brackets with ad_X^j B, j < k - 1, lie in D_k already; so S_k+1 = D_k+1 if and only if [b, ad_X^(k-1) B] lies in
-S_k+1 for a random b in D. The derivative across is the curve's variation, to first order in a dual number.
+S_k+1 for a random b in D. The derivative across is the curve's variation, the derivative by a dual number.
 Where one curve is not enough, S_k is what several span together.
 """
 
@@ -28,7 +28,7 @@ from dofkit.integrability.lie_algebra import (
     some_columns,
 )
 
-#: Curves tried before the flag is left open.
+#: Curves tried before the flag is undecided.
 MAX_CURVES = 24
 
 
@@ -144,7 +144,7 @@ def random_column(flow: AdmissibleCurve, size: int) -> Matrix:
 
 
 def varied_frame(flow: AdmissibleCurve, start: Matrix) -> MatrixSeries:
-    """(start . grad) V_k at the point: the curve's start moved to first order, the controls kept."""
+    """(start . grad) V_k at the point: the derivative by the curve's start, the controls kept."""
     numbers, order = flow.numbers, flow.order
     moved = _path_variation(flow, start)
     series = [Series(numbers.polynomial([m[i, 0] for m in moved]), order) for i in range(len(flow.path))]

@@ -5,7 +5,7 @@ generate by brackets is what the smallest affine space around C generates: where
 tells what integrates, and no relation in use is linear in disguise, because C would then lie in less.
 
 Together with the others such a relation f(q, qdot, t) = 0 reads as a linear form, and may be integrable then; but it
-follows from finite relations only where it holds for all velocities that those leave. With I^(inf) the largest
+is implied by geometric equations only where it holds for all velocities that those leave. With I^(inf) the largest
 integrable part, f is holonomic in the system iff it vanishes on every velocity (dt = 1) in the kernel of I^(inf) at a
 generic configuration, which is the Lie algebra of the admissible velocities [HermannNagano]; for a linear f that says
 that its form lies in I^(inf).
@@ -69,8 +69,8 @@ FLAT = "the admissible velocities form linear subspaces, which were not written 
 def set_velocity_freedom(block: Block, setting: Setting, result: Answer) -> None:
     """Set the velocity freedom to the rank of the Jacobian by the velocities, at states of motion.
 
-    The ranks: by coordinates and velocities (``whole``), by velocities, and of the finite relations. Constraints that
-    determine all velocities integrate: one equation where others leave a curve, or several on a component.
+    The ranks: by coordinates and velocities (``whole``), by velocities, and of the geometric equations. Constraints
+    that determine all velocities integrate: one equation where others leave a curve, or several on a component.
     """
     if not block.nonlinear or result.velocity_dof is None:
         return
@@ -229,7 +229,7 @@ def _joint_block(slot: RewrittenRow, blocks: Sequence[Block], numbers: Sequence[
 def with_reductions_checked(
     rewritten: Sequence[RewrittenRow], blocks: Sequence[Block], answers: Sequence[Answer], setting: Setting
 ) -> list[Answer]:
-    """Return the answers, undecided where a relation as written does not hold at the states that its reduction leaves.
+    """Return the answers, undecided where the states that its reduction leaves do not satisfy a relation as written.
 
     A reduction writes a relation more simply, such as (xdot - ydot)^2 = 0 as xdot = ydot. Blocks without a state cannot
     leave one, and are not checked.
@@ -265,7 +265,7 @@ def _holds(
 def label_modulo_others(
     slot: RewrittenRow, blocks: Sequence[Block], answers: Sequence[Answer], setting: Setting
 ) -> tuple[HolonomyLabel, Answer]:
-    """Whether a reduced relation is a consequence of finite relations, and the answer of the blocks it touches."""
+    """Whether a reduced relation is a consequence of geometric equations, and the answer of the blocks it touches."""
     numbers = blocks_of(slot, blocks)
     touched = [answers[k] for k in numbers]
     weak = max(touched, key=lambda a: VERDICTS.index(a.verdict), default=Answer(argument="nothing constrains"))

@@ -1,8 +1,8 @@
 """A block's relations as one-forms, and the hidden equations that they force.
 
-I is spanned by the differentials of the finite relations and by the Pfaffian forms. If lambda A = 0 for the
+I is spanned by the differentials of the geometric equations and by the Pfaffian forms. If lambda A = 0 for the
 coordinates' columns A and lambda b is not 0 for the time column b, the rows imply (lambda b) dt = 0, so motion through
-an interval of time needs a finite relation that nobody wrote (x + y = t with xdot + ydot = z forces z = 1):
+an interval of time needs a geometric equation that nobody wrote (x + y = t with xdot + ydot = z forces z = 1):
 prolongation in the sense of Cartan. The locus is where the largest minors of [A b] vanish; their common factor is the
 relation (single minors carry factors of A of their own).
 """
@@ -50,7 +50,7 @@ class Codistribution:
 def codistribution(
     block: Block, setting: Setting, extra: Sequence[Expr], more: Sequence[Expr] = (), on: Sequence[Expr] | None = None
 ) -> Codistribution:
-    """Return dg for every finite relation (those ``extra`` included), then the Pfaffian forms.
+    """Return dg for every geometric equation (those ``extra`` included), then the Pfaffian forms.
 
     ``more`` is evaluated too; the points of the chart satisfy the relations ``on``, by default the finite ones.
     """

@@ -99,7 +99,7 @@ class SampledForms:
 
     @cached_property
     def rank_finite(self) -> int:
-        """Independent differentials of finite relations."""
+        """Independent differentials of geometric equations."""
         return rank_of(self.sampled.matrix[: self.forms.finite], self.point.p)
 
 
@@ -165,7 +165,7 @@ def _set_freedom(forms_at_points: SampledForms, result: Answer, setting: Setting
 
 
 def _set_labels(forms_at_points: SampledForms, proof_of: Certificate | None, result: Answer) -> None:
-    """The label of every row, finite ones and forms; one that is left open leaves the freedom open too."""
+    """The label of every row, finite ones and forms; where one is undecided, so is the freedom."""
     for i, row, place in linear_rows(forms_at_points.block, forms_at_points.forms):
         if isinstance(row.piece, Finite):
             result.labels[i] = HolonomyLabel(True, "proved")
@@ -181,7 +181,7 @@ def _set_labels(forms_at_points: SampledForms, proof_of: Certificate | None, res
 def certificate(forms_at_points: SampledForms, variety: Variety) -> Certificate | None:
     """A span and a matrix whose non-zero values are proved not to be 0.
 
-    Where the generators are known to be independent and no finite relation holds among them, what is not 0 at a
+    Where the generators are known to be independent and no geometric equation relates them, what is not 0 at a
     point over GF(p) is not 0 as a function; else balls at a real point, up to `CERTIFIED_COLUMNS`.
     """
     real = variety.real
@@ -197,7 +197,7 @@ def certificate(forms_at_points: SampledForms, variety: Variety) -> Certificate 
 def _depend_identically(forms_at_points: SampledForms, proof_of: Certificate | None, on_relation: bool) -> bool:
     """Return whether each row that depends on others is a combination of these, by identities and near a point.
 
-    ``on_relation``: where the only finite relation is satisfied; else everywhere.
+    ``on_relation``: where the only geometric equation is satisfied; else everywhere.
     """
     forms, sampled, p = forms_at_points.forms, forms_at_points.sampled, forms_at_points.point.p
     for i, support in echelon(sparse(sampled.matrix), p, supports=True).supports.items():
@@ -213,7 +213,7 @@ def _depend_identically(forms_at_points: SampledForms, proof_of: Certificate | N
 def _rank_verdict(
     forms_at_points: SampledForms, proof_of: Certificate | None, result: Answer, setting: Setting
 ) -> Verdict:
-    """How sure the rank and the Lie algebra's dimension are.
+    """How certain the rank and the Lie algebra's dimension are.
 
     Independent rows have their rank certified by the ball, others depend on them by identities. The dimension is not
     too large by a certificate of the ball; not too small where it is everything, where D is a line or involutive, and

@@ -50,7 +50,7 @@ def traits_of(piece: Clause, positive: frozenset[Expr], engines: Engines = BOTH)
 
 
 def timeless(piece: Clause, positive: frozenset[Expr], engines: Engines = BOTH) -> TraitAnswer:
-    """Return whether t does not occur explicitly, once removable factors are taken out, and how sure that is.
+    """Return whether t does not occur explicitly, once removable factors are taken out, and how certain that is.
 
     A piece is the zero set of a function of coordinates, velocities and time, or the side of it where the function is
     positive. What is left of t in the function does not matter where the set is the same at all times.
@@ -111,7 +111,7 @@ def _is_cone(e: Expr, positive: frozenset[Expr], engines: Engines) -> TraitAnswe
 def vanishes_on(
     g: Expr, slope: Expr, positive: frozenset[Expr], engines: Engines = BOTH, regular_in: Sequence[Expr] | None = None
 ) -> TraitAnswer:
-    """Return whether ``slope`` = 0 wherever g = 0, and how sure that is.
+    """Return whether ``slope`` = 0 wherever g = 0, and how certain that is.
 
     A certified point where it is not is a proof that it is not. With ``regular_in``, for a slope along a direction, g
     must not be stationary in these symbols there: otherwise that slope does not tell whether the set is the same along

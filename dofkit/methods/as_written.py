@@ -78,7 +78,7 @@ def as_written(scene: Scene | System) -> Written:
 
 
 def _read(e: Expr) -> Expr | Pfaffian | str:
-    """A finite relation, a form, or why it is neither."""
+    """A geometric equation, a form, or why it is neither."""
     try:
         moving, divided = in_velocities(e)
     except TextError:
@@ -152,7 +152,7 @@ class WrittenRows:
 
 @dataclass(frozen=True)
 class SampledRows:
-    """Rows of the finite equations and of the forms, their exterior derivatives, and what the finite equations give."""
+    """Rows of the geometric equations and of the forms, the exterior derivatives of these, and what the former give."""
 
     finite: Matrix
     forms: Matrix
@@ -174,7 +174,7 @@ class SampledPoints:
 
 
 def sampled_points(written: Written, numbers: Decider) -> SampledPoints | None:
-    """At the drawing where there is one, else at the points that the numbers find; None where they find none."""
+    """At the reference where there is one, else at the points that the numbers find; None where they find none."""
     rows = WrittenRows(written)
     drawn = written.system.reference is not None
     samples = [rows.at(p, numbers.zero) for p in numbers.points(written, rows, drawn)]
@@ -200,7 +200,7 @@ def _flat(curl: Matrix, basis: Matrix, numbers: Decider) -> bool:
 
 
 def freedom(sampled: SampledPoints, numbers: Decider) -> int:
-    """Coordinates less the rank of the finite equations and of the forms that pass: the least over the points."""
+    """Coordinates less the rank of the geometric equations and of the forms that pass: the least over the points."""
     n = sampled.rows.n
     kept = [[*s.finite, *(f for f, p in zip(s.forms, sampled.passing, strict=True) if p)] for s in sampled.samples]
     return min(n - numbers.rank([row[:n] for row in rows]) for rows in kept)
@@ -229,7 +229,7 @@ def droppable(sampled: SampledPoints, numbers: Decider) -> list[str]:
 def without_loss(written: Written, ranks: Callable[[Sequence[int], Sequence[int]], tuple[int, int]]) -> list[str]:
     """Return the constraints without which ``ranks`` stay, forms and the last written first; finite ones fix finite.
 
-    ``ranks`` are those of some of the finite equations and forms, by number. Inequalities and what is nonlinear in
+    ``ranks`` are those of some of the geometric equations and forms, by number. Inequalities and what is nonlinear in
     velocities are left in.
     """
     finite, forms = [i for i, _ in written.finite], [i for i, _ in written.forms]

@@ -18,7 +18,7 @@ _BELOW = (
 
 
 def naive(written: Written) -> int:
-    """f = N d - k: coordinates less every finite equation that was written."""
+    """f = N d - k: coordinates less every geometric equation that was written."""
     return len(written.coordinates) - len(written.finite)
 
 
@@ -43,7 +43,7 @@ def integrability(scene: Scene | System) -> Reply:
 def redundancy(scene: Scene | System) -> Reply:
     """Return no redundant constraint where the count leaves at least the freedom that is certain; else None.
 
-    Certain is the motion of the whole as a rigid body, d(d+1)/2, where nothing holds it to the ground. A count that
+    Certain is the motion of the system as a rigid body, d(d+1)/2, where nothing holds it to the ground. A count that
     leaves less proves that something is redundant, and cannot name it.
     """
     written = as_written(scene)

@@ -1,4 +1,4 @@
-"""Rational arithmetic at one configuration: the drawing, or a rational point that the equations can be solved for."""
+"""Rational arithmetic at one configuration: the reference, or a rational point that the equations can be solved for."""
 
 from __future__ import annotations
 

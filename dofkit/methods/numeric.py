@@ -1,4 +1,4 @@
-"""Floating point: singular values above a tolerance, at the drawing or where Newton's method ends."""
+"""Floating point: singular values above a tolerance, at the reference or where Newton's method ends."""
 
 from __future__ import annotations
 

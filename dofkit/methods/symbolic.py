@@ -1,6 +1,6 @@
 """SymPy as one would use it: the rank of a Jacobian, wedge products, simplify. A rival: nothing of dofkit rests on it.
 
-The answers are what SymPy says, whether it is right or not; the ranks are those of the whole space, not of the set
+The answers are what SymPy says, whether it is right or not; the ranks are those of all of the space, not of the set
 on which the constraints hold, but for a drawing that is put in.
 """
 
@@ -60,7 +60,7 @@ class Symbols:
         return {(k,): g.diff(s) for k, s in enumerate(self.columns)}
 
     def rows(self, of: Sequence[int], more: Sequence[int]) -> Any:
-        """The matrix of some finite equations and of some forms, by the coordinates, the drawing put in."""
+        """The matrix of some geometric equations and of some forms, by the coordinates, the reference put in."""
         rows = [self.row(self.differential(self.finite[k][1])) for k in of]
         rows += [self.row(self.forms[k][1]) for k in more]
         matrix = sympy.Matrix(len(rows), len(self.columns), [entry for row in rows for entry in row])

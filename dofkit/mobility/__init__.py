@@ -12,7 +12,7 @@ Mechanisms, cheapest first
        needs no equation at all.
     3. `graph` decides links in general position: the graphic matroid on a line, the (2,3) pebble game in the plane
        [Laman1970], ranks at random positions in space, where no count suffices.
-    4. `placement` puts the same connections at random places modulo a prime, as drawn, or in floating point;
+    4. `placement` puts the same connections at random places modulo a prime, at the reference, or in floating point;
        `general_position` is the mobility at random places, and answers blocks that are graphs of links.
     5. `special_position` names what makes a geometry special: parallel or concurrent lines, points on one line, plane
        or conic [BolkerRoth1980].

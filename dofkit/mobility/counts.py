@@ -21,7 +21,7 @@ from dofkit.mobility.placement import TURNS, Located, Member, Placement, rows_of
 from dofkit.report import ConstraintEntry, Count, Mobility
 from dofkit.system import DRIVE, GROUND, System
 
-#: More loops than this are not looked at one by one, and more than these are not told.
+#: More loops than this are not looked at one by one, and more than these are not listed.
 MOST_LOOPS, MOST_TOLD = 60, 4
 
 #: Where the connections are drawn, once it is asked for.
@@ -208,7 +208,7 @@ def _loops(joints: Sequence[CountedJoint]) -> list[list[CountedJoint]]:
 
 @dataclass(frozen=True)
 class CountedFacts:
-    """What the count is held against."""
+    """What the count is compared with."""
 
     written: int
     dof: int | None

@@ -46,7 +46,7 @@ NOWHERE = "the equations have no value at the random positions that were tried"
 
 @dataclass(frozen=True)
 class General:
-    """``rank``: of the finite relations in general position; None where it was not counted, and ``why``."""
+    """``rank``: of the geometric equations in general position; None where it was not counted, and ``why``."""
 
     rank: int | None
     verdict: Verdict = "undecided"
@@ -54,7 +54,7 @@ class General:
 
 
 def in_general_position(system: System, rows: Sequence[Row], setting: Setting) -> General:
-    """Return the rank of the finite relations ``rows`` with all given geometry random."""
+    """Return the rank of the geometric equations ``rows`` with all given geometry random."""
     if any(not isinstance(row.piece, Finite) for row in rows):
         return General(None, why=DIFFERENTIAL)
     pairs = linked_particles(system) if "cheapest" in setting.reductions else None

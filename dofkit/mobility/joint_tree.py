@@ -6,7 +6,7 @@ of the others, one of S up to rigid motions, and any value q of the joint: M = M
 joint's own manifold of dimension f, and the map from there is a diffeomorphism. So the joint's d(d+1)/2 - f equations
 are independent of all others, everywhere, whatever M_others and M_S are; and so on for every bridge, one after another.
 
-A text refers to fixed places, so that what it names is held by the ground; so is what any other constraint names that
+A text refers to fixed places, so that what it names is fixed to the ground; so is what any other constraint names that
 is not known to stay the same when all its members are moved together.
 """
 
@@ -24,7 +24,7 @@ from dofkit.system import GROUND, Connection, Constraint, System
 def tree_coordinates(system: System) -> list[str] | None:
     """An independent choice, in the order written; None where bodies form no tree of joints, or a factor is no number.
 
-    Of a coupling the joint that it names first is told by the others. What hangs on nothing has its first body's own
+    Of a coupling the joint that it names first depends on the others. What hangs on nothing has its first body's own
     coordinates, and what nothing joins its own.
     """
     joints = system.joints
@@ -79,7 +79,7 @@ def _coupled(system: System) -> Iterator[dict[str, Fraction]]:
 
 
 def _first_of_each(rows: list[dict[str, Fraction]]) -> set[str]:
-    """What the rows tell by the others: of each the first that no row before it told already."""
+    """What the rows determine from the others: of each the first that no row before it determined."""
     pivots: dict[str, dict[str, Fraction]] = {}
     for row in rows:
         for name, pivot in pivots.items():
@@ -120,7 +120,7 @@ def bridges(system: System) -> Bridges:
 
 
 def _graph(system: System, joints: Mapping[int, Sequence[Node]]) -> nx.Graph[Node]:
-    """Who is held together by what, from every constraint to all that it holds.
+    """What connects which members, from every constraint to all that it connects.
 
     One between coordinates that are nobody's is left out: with all that holds these too it ends at the ground.
     """

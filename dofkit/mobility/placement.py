@@ -1,6 +1,6 @@
-"""Connections with numbers, as drawn or in general position, and the linear relations between velocities that they are.
+"""Connections with numbers, at the reference or in general position: linear relations between velocities.
 
-NumberTuple are integers that stand for GF(p), or floats. A body has the velocity v of the point of it that stands at
+Numbers are integers that stand for GF(p), or floats. A body has the velocity v of the point of it that stands at
 ``start``, and the angular velocity w: its point at a moves by v + w x (a - start). Columns are v, then w, of every
 member in order. No angles occur: a singular choice of coordinates is no singularity here.
 """
@@ -63,7 +63,7 @@ def drawn_placement(system: System, positive: frozenset[Expr]) -> Placement | No
 
 
 def measured_placement(system: System) -> Placement | None:
-    """Return the drawing in floating point, lengths in units of the scene's size; None where it holds parameters."""
+    """Return the reference in floating point, lengths in units of the scene's size; None where it holds parameters."""
     numbers = {e: approximate(e) for e in _wanted(system)}
     if None in numbers.values():
         return None
@@ -76,7 +76,7 @@ def general_placement(system: System, p: int, seed: int = 0) -> Placement:
 
 
 class _Drawn:
-    """The numbers of the drawing, in units of ``size``; a particle that is not drawn stands at one random place."""
+    """The numbers of the reference, in units of ``size``; a particle that is not drawn stands at one random place."""
 
     def __init__(self, p: int, numbers: Mapping[Expr, Any], size: float = 1.0) -> None:
         self.p, self._numbers, self._size = p, numbers, size
@@ -158,7 +158,7 @@ def _key(point: DrawnPoint) -> Hashable:
 
 
 def _wanted(system: System) -> set[Expr]:
-    """Return every number of the drawing."""
+    """Return every number of the reference configuration."""
     vectors: list[Vector | None] = [*system.starts.values()]
     numbers = [c.number for c in system.connections if c.number is not None]
     for c in system.connections:

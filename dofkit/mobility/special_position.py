@@ -28,7 +28,7 @@ _OTHERWISE = (
 
 @dataclass(frozen=True)
 class DrawnLine:
-    """A line of the drawing with what it is called, and the points between which it is a bar."""
+    """A line of the reference with what it is called, and the points between which it is a bar."""
 
     name: str
     through: tuple[Any, ...]
@@ -72,7 +72,7 @@ class Geometry:
 def special_facts(
     system: System, placement: Placement, sets: Sequence[Sequence[int]], tolerance: float = 0.0
 ) -> list[str]:
-    """What is special in each dependent set of constraints, as text; told once."""
+    """What is special in each dependent set of constraints, as text; each once."""
     geometry = Geometry(system, placement, tolerance)
     facts: list[str] = []
     for members in sets:

@@ -18,7 +18,7 @@ from dofkit.base.wording import first_of
 _SHOWN = ("textures", "skins", "sensors", "keys")
 #: A mass where a body has none that could be read.
 LEAST = 1e-6
-#: The drawing satisfies an equality to within this; steps that look for a drawing which does.
+#: The reference satisfies an equality to within this; steps that look for a reference which does.
 CLOSED, STEPS = 1e-8, 60
 #: Where a weld says how strongly it holds the turn of a body against its place; 0 for not at all.
 _TORQUE = 10

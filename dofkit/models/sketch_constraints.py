@@ -139,7 +139,7 @@ def _bracketed(text: str) -> str:
 
 
 def at_angle(a: Arrow, b: Arrow, degrees: float) -> str:
-    """Return the equation of two lines at an angle: a x b cos w = +- a . b sin w, with the sign of the drawing."""
+    """Return the equation of two lines at an angle: a x b cos w = +- a . b sin w, with the sign of the reference."""
     if degrees % 180 == 90:
         return f"{dot(a, b)} = 0"
     if degrees % 180 == 0:

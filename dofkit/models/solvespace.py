@@ -2,7 +2,7 @@
 
 One workplane is read, the one in which most points were drawn; what lies in space or is derived from a sketch is left
 out, and the scene says so. Names are those that SolveSpace shows: r004 for what was drawn fourth, c001 for the first
-constraint. All groups hold at once: SolveSpace solves each after those before it, which then stay as they are.
+constraint. All groups are satisfied at once: SolveSpace solves each after those before it, which then stay as they are.
 """
 
 from __future__ import annotations

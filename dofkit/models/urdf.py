@@ -193,7 +193,7 @@ class Closure(NamedTuple):
     def is_closed(self, size: float, tolerance: float) -> bool:
         """Return whether the ends meet in the reference configuration.
 
-        The drawing is right to within ``tolerance``, a fraction of its ``size``: lengths and angles to the last digit
+        The reference is right to within ``tolerance``, a fraction of its ``size``: lengths and angles to the last digit
         that is written, and places to what such angles move them by.
         """
         arm = self.first.turn.T @ (self.second.at - self.first.at)

@@ -6,7 +6,7 @@ does a motion pass through? The results are a `MotionReport` and a list of confi
 `lagrange`, in the order of a derivation
     1. `energies` reads T, V, D and the applied forces of a scene; `joint_motion` gives those of a tree of bodies in
        the angles and displacements of its joints.
-    2. `elimination` solves finite relations in closed form; `model` has the energies and the constraints that are left.
+    2. `elimination` solves geometric equations in closed form; `model` has the energies and the remaining constraints.
     3. `derivation` has Lagrange's equations of the second kind, which `tidying` writes as on a board.
     4. `small_motions` has the linearization about an equilibrium, `equations` cyclic coordinates and first
        integrals [Noether1918] and the entry point `dofkit.lagrange`, `report` its result.

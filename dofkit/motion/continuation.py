@@ -1,9 +1,9 @@
 """Following a motion: steps along the null space of the constraints, and back onto them (arclength continuation).
 
-With A the derivatives of the finite relations and the one-forms, a direction d with A d = 0 is transported along the
+With A the derivatives of the geometric equations and the one-forms, a direction d with A d = 0 is transported along the
 path as straight as the constraints allow: reflected at each chord, and projected. A step of length h solves g(z) = 0,
-(z - z0 - h d).d = 0 and, for forms, omega(midpoint)(z - z0) = 0, so a form is held to the third order of a step. Where
-time occurs it is what advances.
+(z - z0 - h d).d = 0 and, for forms, omega(midpoint)(z - z0) = 0, so a form is satisfied to the third order of a step.
+Where time occurs it is what advances.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ import numpy as np
 from dofkit.exact.matrices.dense import array_step
 from dofkit.motion.poses import FAULTS, Array, Pose, PoseRelations
 
-#: Relative residual of what is held, rounds of Newton's method, and those with much damping.
+#: Relative residual of what is enforced, rounds of Newton's method, and those with much damping.
 HELD, ROUNDS, EASY = 1e-12, 60, 8
 #: Singular values below this, of rows of length 1, count as 0.
 SMALL = 1e-7
@@ -56,7 +56,7 @@ class Follower:
         self.clock = relations.time if runs else None
 
     def holds(self, pose: Pose) -> bool:
-        """Return whether the finite relations are satisfied."""
+        """Return whether the geometric equations are satisfied."""
         return self._is_met(pose, self.relations.at(pose)[0])
 
     def _is_met(self, pose: Pose, f: Array) -> bool:
@@ -64,7 +64,7 @@ class Follower:
         return f.size == 0 or float(np.max(np.abs(f))) < HELD * reach
 
     def onto(self, pose: Pose, any_time: bool = False) -> Pose | None:
-        """The nearest pose at which the finite relations hold, at the same time unless any will do."""
+        """The nearest pose at which the geometric equations hold, at the same time unless any will do."""
         start = pose
         try:
             for k in range(4 * ROUNDS):
@@ -79,7 +79,7 @@ class Follower:
         return pose if np.all(np.isfinite(self.relations.between(start, pose))) and self.holds(pose) else None
 
     def null_space(self, pose: Pose) -> Array:
-        """An orthonormal basis of the admissible directions to first order, as rows."""
+        """An orthonormal basis of the admissible velocities, as rows."""
         _, j = self.relations.at(pose)
         rows = np.vstack([j, self.relations.forms_at(pose), self.held])
         if not rows.size:

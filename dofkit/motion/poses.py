@@ -25,7 +25,7 @@ from dofkit.relations.normal.pieces import Pfaffian
 from dofkit.system import System
 
 Array = np.ndarray[Any, Any]
-#: Below this w the relations are evaluated as balls, and this is the least that is told from 0.
+#: Below this w the relations are evaluated as balls, and this is the least that is distinguished from 0.
 HALF_TURN, NO_LESS = 1e-3, 1e-14
 #: A gradient shorter than this part of what is usual for its relation is left as it is; poses that tell what is usual.
 FLAT, USUAL = 1e-9, 5
@@ -43,7 +43,7 @@ class Pose:
 
 
 class PoseRelations:
-    """Finite relations and one-forms over the columns: plain coordinates, three for each turn, then time."""
+    """Geometric equations and one-forms over the columns: plain coordinates, three for each turn, then time."""
 
     def __init__(
         self,
@@ -112,7 +112,7 @@ class PoseRelations:
         return np.concatenate([(last.plain - first.plain) / self.scales, *turns])
 
     def at(self, pose: Pose) -> tuple[Array, Array]:
-        """The finite relations and their derivatives by the scaled columns, rows of length 1 where they can be."""
+        """The geometric equations and their derivatives by the scaled columns, rows of length 1 where they can be."""
         f, j = self._gradients(pose)
         norms = np.linalg.norm(j, axis=1)
         usual = self._usual
@@ -121,7 +121,7 @@ class PoseRelations:
 
     @cached_property
     def _usual(self) -> Array:
-        """The length of each finite relation's gradient at random poses."""
+        """The length of each geometric equation's gradient at random poses."""
         rng = np.random.default_rng(1)
         lengths = np.zeros(len(self.finite))
         for _ in range(USUAL):
@@ -188,7 +188,7 @@ class PoseRelations:
         return (BallPoint(symbols) if exact else FloatPoint(symbols)), vectors
 
     def _gradients(self, pose: Pose) -> tuple[Array, Array]:
-        """Return the values of the finite relations and their derivatives by the scaled columns."""
+        """Return the values of the geometric equations and their derivatives by the scaled columns."""
         point, vectors = self._point(pose)
         at, zero = values(self.ring, point), point.number(ex.ZERO.args[0])
         lines = jacobian(self.ring, at, point, self.finite, self.generators, zero)
@@ -205,7 +205,7 @@ class PoseRelations:
         return j
 
     def coordinate_values(self, pose: Pose, last: Mapping[str, float]) -> dict[str, float]:
-        """The values of all coordinates (Euler angles near those told ``last``), and of time where it occurs."""
+        """The values of all coordinates (Euler angles near those returned ``last``), and of time where it occurs."""
         coordinates = {str(s.args[1]): float(v) for s, v in zip(self.plain, pose.plain, strict=True) if s != ex.TIME}
         for r, q in zip(self.rotations, pose.turns, strict=True):
             initial = [number(e) for e in r.initial]

@@ -93,7 +93,7 @@ class Arrangement:
         return place([self.number(e) for e in at])
 
 
-def finite_relations(system: System, senses: Sequence[str] = ("=",)) -> list[Expr]:
+def geometric_equations(system: System, senses: Sequence[str] = ("=",)) -> list[Expr]:
     """Return the relations between coordinates alone, of some senses."""
     relations = (r for c in system.constraints for r in c.relations if r.sense in senses)
     return [r.expr for r in relations if all(s.args[0] in ("coordinate", "parameter", "time") for s in r.expr.symbols)]
@@ -123,7 +123,7 @@ def _finite_values(exprs: Mapping[Expr, Expr], numbers: Mapping[Expr, float]) ->
 
 def onto(system: System, numbers: Mapping[Expr, float]) -> dict[Expr, float] | None:
     """Return nearby numbers for coordinates and generic lengths that satisfy the equations, or None."""
-    equations, limits = finite_relations(system), finite_relations(system, (">=", ">"))
+    equations, limits = geometric_equations(system), geometric_equations(system, (">=", ">"))
     moving = [*(coordinate(c.name) for c in system.coordinates), *map(parameter, system.generic)]
     now = dict(numbers)
     if len(moving) > MOST_COORDINATES:
@@ -194,7 +194,7 @@ def _lone(system: System, numbers: Mapping[Expr, float], d: int) -> Array:
         solved = onto(system, {**numbers, **dict(zip(symbols, map(float, place), strict=False))})
         return math.inf if solved is None else math.dist([solved[s] for s in symbols], place)
 
-    return down if finite_relations(system) and gap(down) <= gap(up) + MET else up
+    return down if geometric_equations(system) and gap(down) <= gap(up) + MET else up
 
 
 def _links(system: System) -> tuple[nx.Graph, dict[str, list[float]]]:
@@ -292,7 +292,7 @@ def free_motions(arrangement: Arrangement, chosen: Sequence[str] = (), freedom: 
 def velocity_rows(system: System, numbers: Mapping[Expr, float]) -> tuple[Array, list[Expr]]:
     """Return linear equations of the velocities, and their columns: coordinates, then time if it occurs."""
     columns = [coordinate(c.name) for c in system.coordinates]
-    finite = finite_relations(system)
+    finite = geometric_equations(system)
     others = [r.expr for c in system.constraints for r in c.relations if r.sense == "=" and r.expr not in set(finite)]
     if any(TIME in e.symbols or DT in e.symbols for e in [*finite, *others]):
         columns.append(TIME)

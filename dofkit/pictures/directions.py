@@ -12,7 +12,7 @@ import numpy as np
 from dofkit.base.errors import DofkitError
 from dofkit.expressions.tree import TIME, Expr, coordinate
 from dofkit.motion.loops import Field, bracket, by_pivots, by_size, fields_of_pivots
-from dofkit.pictures.arrangement import Arrangement, finite_relations, is_linear, velocity_rows
+from dofkit.pictures.arrangement import Arrangement, geometric_equations, is_linear, velocity_rows
 from dofkit.pictures.evaluation import kernel
 from dofkit.pictures.loci import half_of
 from dofkit.pictures.mechanism import notes_of, sketch_of
@@ -261,7 +261,7 @@ def _axes(stage: StagedScene) -> Iterator[Shape]:
 def _field(stage: StagedScene) -> Iterator[Shape]:
     """Yield the directions that constraints of velocities allow, over the plane of two coordinates."""
     system = stage.system
-    finite = finite_relations(system, ("=", ">=", ">"))
+    finite = geometric_equations(system, ("=", ">=", ">"))
     written = [r.expr for c in system.constraints for r in c.relations]
     if system.dimension == 2 and len(written) > len(finite) and is_linear(system):
         yield from elements(Distribution(stage.arrangement), 0.9 * half_of(stage))

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 from dofkit.expressions.tree import TIME, ZERO, Expr, coordinate
-from dofkit.pictures.arrangement import finite_relations
+from dofkit.pictures.arrangement import geometric_equations
 from dofkit.pictures.evaluation import evaluated
 from dofkit.pictures.stage import StagedScene
 from dofkit.system import GROUND
@@ -93,7 +93,7 @@ def planar_program(stage: StagedScene, dimension: int) -> PlanarProgram | None:
     if dimension > 2 or (stage.system.dimension > 2 and stage.system.bodies):
         return None
     system = stage.system
-    finite = set(finite_relations(system))
+    finite = set(geometric_equations(system))
     equations = [(c.name, r.expr) for c in system.constraints for r in c.relations if r.sense == "="]
     columns = [*(coordinate(c.name) for c in system.coordinates), TIME]
     program = PlanarProgram(
@@ -102,7 +102,7 @@ def planar_program(stage: StagedScene, dimension: int) -> PlanarProgram | None:
         numbers=stage.arrangement.numbers,
         poses={GROUND: (ZERO, ZERO), **{name: p.planar() for name, p in stage.arrangement.placements.items()}},
         relations=tuple((name, e) for name, e in equations if e in finite),
-        limits=tuple(finite_relations(system, (">=", ">"))),
+        limits=tuple(geometric_equations(system, (">=", ">"))),
         can_drag=bool(stage.motions) and all(e in finite for _, e in equations),
     )
     try:

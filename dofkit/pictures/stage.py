@@ -13,8 +13,8 @@ from dofkit.pictures.arrangement import (
     Arrangement,
     FreeMotion,
     arrangement_of,
-    finite_relations,
     free_motions,
+    geometric_equations,
     is_linear,
     movers,
 )
@@ -51,7 +51,7 @@ class StagedScene:
     """A scene with its positions.
 
     ``places``: of each constraint's symbol in the reference configuration (None: it has none); ``unit``: the size of
-    symbols, ``size`` that of the whole, ``schematic``: some positions are invented; ``measurable``: lengths mean
+    symbols, ``size`` that of the system, ``schematic``: some positions are invented; ``measurable``: lengths mean
     something; ``unseen``: why it was not determined what moves.
     """
 
@@ -196,7 +196,7 @@ def stage_of(scene: Scene, report: Report) -> StagedScene:
 def has_set(system: System) -> bool:
     """Return whether the constraints of coordinates alone describe a set that can be seen: curves, surfaces, lines."""
     count = len(system.coordinates)
-    return (count == 2 and bool(system.constraints)) or (count == 3 and bool(finite_relations(system)))
+    return (count == 2 and bool(system.constraints)) or (count == 3 and bool(geometric_equations(system)))
 
 
 def as_particle(scene: Scene) -> Scene:

@@ -20,9 +20,9 @@ BITS, GAP = 30, 1e3
 
 @dataclass(frozen=True)
 class HolonomyLabel:
-    """Whether a row is a consequence of finite relations, how sure, and why.
+    """Whether a row is a consequence of geometric equations, how certain, and why.
 
-    ``modulo``: it is none, but one of finite relations together with the other rows.
+    ``modulo``: it is none, but one of geometric equations together with the other rows.
     """
 
     holonomic: bool | None
@@ -32,14 +32,14 @@ class HolonomyLabel:
 
 
 class RealRows(NamedTuple):
-    """The Jacobian of finite relations at a certified real point, in balls, by coordinates."""
+    """The Jacobian of geometric equations at a certified real point, in balls, by coordinates."""
 
     names: tuple[str, ...]
     matrix: Sequence[Sequence[arb]]
 
 
 class Size(NamedTuple):
-    """What was computed with: coordinates, finite relations, and one-forms that were put to an integrability test."""
+    """What was computed with: coordinates, geometric equations, and one-forms that were tested for integrability."""
 
     coordinates: int = 0
     relations: int = 0
@@ -69,13 +69,13 @@ class Answer:
     """What is known of a block. Numbers are None where undecided; ``reasons`` say why.
 
     ``matrix``: the rows (in the block's order) over the coordinates and time at a generic point over GF(p), for
-    redundancy; ``supports``: where something else than the matrix tells what depends on what; ``hidden`` the finite
-    relations that the differential ones force, ``hidden_branches`` those on each of several branches; ``doubt``:
+    redundancy; ``supports``: where something else than the matrix tells what depends on what; ``hidden`` the geometric
+    equations that the differential ones force, ``hidden_branches`` those on each of several branches; ``doubt``:
     functions or numbers occur that may be related in a way that GF(p) does not show; ``late``: no time was left;
     ``conflict``: a minimal set of constraints that cannot hold together, where the proof shows one;
     ``linear``: every relation is linear with rational coefficients, and all of them were eliminated exactly;
     ``looked``: what was looked at of the relations; ``size``: of the model that was computed with; ``about``: of which
-    points it is told; ``argument``: by which row of the table, with a chance of error below 2^-``bits``, or a ``gap``;
+    points it is; ``argument``: by which row of the table, with a chance of error below 2^-``bits``, or a ``gap``;
     ``witness``: a certified configuration, as text, and ``real`` the rows there; ``first_order_sure``: is the
     number of velocities at the reference proved? ``exists``: and that the relations hold there at all times?
     ``trusted``: is what is not 0 over GF(p) known not to be 0? ``identical``: do dependent rows depend on the others in
@@ -129,7 +129,7 @@ class Answer:
 
     @property
     def claim(self) -> Claim:
-        """How sure the freedom is, or that there is none; open, and logged as a defect, without an argument."""
+        """How certain the freedom is, or that there is none; undecided, and logged as a defect, without an argument."""
         if self.argument is None and self.verdict != "undecided":
             DEFECTS.error("an answer that is %s names no argument (method: %s)", self.verdict, self.method)
             return OPEN
@@ -137,7 +137,7 @@ class Answer:
 
     @property
     def first_order(self) -> Claim:
-        """How sure the velocities at the reference are."""
+        """How certain the velocities at the reference are."""
         if self.instantaneous is None:
             return OPEN
         sure: Verdict = "numeric" if self.verdict == "numeric" else "proved" if self.first_order_sure else "probable"
@@ -152,9 +152,9 @@ COUNTED, IDENTITY = Claim("proved", "count"), Claim("proved", "identity")
 class Redundancies:
     """Which constraints of some that share coordinates depend on which, by their numbers.
 
-    ``independent``: how many equations of each are independent of those before; ``redundant``: what can be dropped
-    together; ``groups``: (nullity, members); ``circuits``: what a redundant one depends on; ``undecided``: of which it
-    is not known whether they can be dropped.
+    ``independent``: how many equations of each are independent of those before; ``redundant``: a maximal redundant
+    set; ``groups``: (nullity, members); ``circuits``: what a redundant one depends on; ``undecided``: of which it
+    is not known whether they are redundant.
     ``equations``: which scalar equations of a constraint follow from those before them, where that is known.
     ``uncounted``: constraints of which it is not known how many of their equations do; ``seen``: of which some were
     seen in numbers to do. ``claim``: of what is redundant and of how many equations are independent, given the freedom.

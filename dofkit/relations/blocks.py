@@ -150,7 +150,7 @@ def is_measured(block: Block, setting: Setting) -> bool:
 
 @dataclass(frozen=True)
 class Chart:
-    """A block's ring, its finite relations and its columns: coordinates, then time where it occurs.
+    """A block's ring, its geometric equations and its columns: coordinates, then time where it occurs.
 
     ``columns`` are generator indices (-1: the symbol occurs nowhere); ``unknowns`` are the symbols that a real search
     moves: coordinates and generic geometry. ``relations`` are what the nodes compute.
@@ -182,7 +182,7 @@ class Chart:
 
 
 def aliases(block: Block, finite: Sequence[Expr]) -> dict[Expr, Expr]:
-    """Return the coordinates that finite relations give explicitly (theta = w t), if they stand inside functions."""
+    """Return the coordinates that geometric equations give explicitly (theta = w t), if they stand inside functions."""
     if not finite:
         return {}
     inside = {s for e in (*expressions(block), *finite) for s in _inside_functions(e)}
@@ -202,7 +202,7 @@ def _inside_functions(e: Expr) -> frozenset[Expr]:
 
 
 def make_chart(block: Block, setting: Setting, extra: Sequence[Expr] = (), more: Sequence[Expr] = ()) -> Chart:
-    """The ring of a block with its finite relations and ``extra`` ones; ``more`` is evaluated too."""
+    """The ring of a block with its geometric equations and ``extra`` ones; ``more`` is evaluated too."""
     finite = [r.piece.expr for r in block.finite if isinstance(r.piece, Finite)] + list(extra)
     everything = [*expressions(block), *extra, *more]
     alias = aliases(block, finite) if block.forms or block.nonlinear else {}

@@ -55,7 +55,7 @@ class Setting:
     the vectors from the bodies' origins to their material points at the scene's centre. ``tilts``: the second of the
     Euler angles of bodies whose angles texts name; where its sine is 0 the other two turn alike. ``bridges``: the
     joints that close no loop; ``afloat``: the constraints that nothing else ties to the ground. ``joint_rows``: of
-    constraints at the drawing, where the geometry of joints alone tells them.
+    constraints at the reference, where the geometry of joints alone tells them.
     """
 
     positive: frozenset[Expr]

@@ -27,7 +27,7 @@ MAX_ALTERNATIVES, MAX_ROUNDS = 16, 6
 
 
 def rate(g: Expr) -> Expr:
-    """dg/dt along a motion, for a finite relation."""
+    """dg/dt along a motion, for a geometric equation."""
     moving = sorted((s for s in g.symbols if s.args[0] == "coordinate"), key=repr)
     terms = [diff(g, s) * ex.velocity(str(s.args[1])) for s in moving]
     return ex.add(*terms, diff(g, ex.TIME))
@@ -53,7 +53,7 @@ def with_boundaries(rows: Sequence[Row]) -> list[Row]:
 
 @dataclass(frozen=True)
 class RewrittenRow:
-    """A row as it was written and what it says beside the others: no row where it says nothing new."""
+    """A row as it was written and what it says together with the others: no row where it says nothing new."""
 
     written: Row
     rows: tuple[Row, ...]

@@ -1,4 +1,4 @@
-"""The drawing of a scene: frames and positions before any constraint is read, its size, its reference configuration."""
+"""Where a scene places its frames and points before any constraint is read; its size, its reference configuration."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class Drawing:
 
 
 def drawing_of(scene: Declarations, vocabulary: Vocabulary, mentioned: frozenset[str], faults: list[Fault]) -> Drawing:
-    """Return the drawing of a scene; a spatial body of whose angles one is ``mentioned`` keeps its Euler angles.
+    """Return the places of a scene; a spatial body of whose angles one is ``mentioned`` keeps its Euler angles.
 
     The faults of the configuration and of the particles' positions are added to ``faults``.
     """
@@ -130,7 +130,7 @@ def _diameter(points: list[tuple[float, ...]]) -> float:
 
 
 def _extremes(points: list[tuple[float, ...]]) -> list[tuple[float, ...]]:
-    """Return the points that reach furthest along axes and diagonals, enough to measure how large the drawing is."""
+    """Return the points that reach furthest along axes and diagonals, enough to measure the size of the scene."""
     extremes = set()
     for direction in every_product((-1, 0, 1), repeat=len(points[0])):
         if direction > (0,) * len(direction):

@@ -194,7 +194,7 @@ def _hint(fault: Fault, value: Mapping[str, Any]) -> str:
 
 
 def _said_twice(fault: Fault, value: Mapping[str, Any]) -> str | None:
-    """Return what to do about a key of a constraint that is another word for one which is given too."""
+    """Return what to do about a key of a constraint that is a synonym of one which is given too."""
     key = fault.where[-1] if fault.where and fault.message.startswith(UNKNOWN_KEY) else ""
     kind = _type_at(value, fault.where[1]) if fault.where[:1] == ("constraints",) and len(fault.where) == 3 else None
     meant = other_keys(kind).get(str(key)) if kind is not None else None

@@ -1,6 +1,6 @@
 """From what a person wrote to the mathematics: names, frames and constraints with their faults, then a `System`.
 
-Faults are collected on the way, in the order of the scene's keys; those that need the size of the whole drawing last.
+Faults are collected on the way, in the order of the scene's keys; those that need the size of the scene last.
 """
 
 from __future__ import annotations
@@ -61,7 +61,7 @@ LEVEL = (
 class Survey:
     """All that is known of a scene: the world of its constraints, their relations, what they connect, and its faults.
 
-    ``drawn``: the bodies that the drawing places; ``size``: that of the drawing.
+    ``drawn``: the bodies that the scene places; ``size``: that of the reference.
     """
 
     world: World

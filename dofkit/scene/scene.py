@@ -1,7 +1,7 @@
 """A scene as a person writes it: particles, bodies, coordinates, and the constraints on them.
 
 `Scene` checks its structure when it is built; `lowering.check` finds every fault across its fields and in its texts:
-names that are not declared, joints without their axis, lengths that contradict the drawing.
+names that are not declared, joints without their axis, lengths that contradict the reference.
 """
 
 from __future__ import annotations

@@ -28,7 +28,7 @@ class Stroke(NamedTuple):
 class Symbol(NamedTuple):
     """A type's symbol in the plane (``plane``) and in ``space``, and its ``run``.
 
-    ``rails``: half the length of rails, of which the ground's is hatched; without, what is held by the ground has a
+    ``rails``: half the length of rails, of which the ground's is hatched; without, what is fixed to the ground has a
     stand. ``size``: the field that holds a wheel's radius.
     """
 
@@ -95,5 +95,5 @@ def axle(half: float, member: int = 1) -> Stroke:
 
 #: A pin or a ball: a small ring.
 RING = Stroke(((0.0, 0.0, 0.0),), filled=True)
-#: A point that is held.
+#: A point that is fixed.
 POINT = Stroke(((0.0, 0.0, 0.0),), filled=True, radius=0.32)

@@ -125,7 +125,7 @@ def _constraint(entry: Mapping[str, Any], here: Path, dimension: int, places: di
 
 @cache
 def synonyms() -> Mapping[str, str]:
-    """Another word for a type -> the type; no word is itself a type."""
+    """A synonym of a type -> the type; no synonym is itself a type."""
     return {word: kind for kind, cls in TYPES.items() for word in cls.synonyms}
 
 

@@ -40,7 +40,7 @@ class Direction(NamedTuple):
 
 
 class Misfit(NamedTuple):
-    """A fault, unless ``distance`` (None: no number) is within the tolerance once the size of the drawing is known.
+    """A fault, unless ``distance`` (None: no number) is within the tolerance once the size of the scene is known.
 
     With a ``body``: a fault only where the reference configuration turns out to place that one.
     """
@@ -69,7 +69,7 @@ class World(Texts):
     scene by their names. Of all entries that were read so far: ``generic`` parameters; ``points`` that are given;
     ``drawn``, the bodies that these place; ``welds`` by their two ends; ``links`` and ``distances`` by the number of
     their constraint; ``misfits`` and ``warnings``. ``special``: symbolic lengths meet a drawing with numbers;
-    ``special_of``: they do where the drawing turns out to place one of these bodies.
+    ``special_of``: they do where the reference turns out to place one of these bodies.
     """
 
     def __init__(
@@ -226,8 +226,8 @@ class World(Texts):
     def differs(self, gap: Expr, body: str | None = None) -> bool:
         """Return whether what should vanish in the reference configuration certainly does not.
 
-        A gap that holds parameters vanishes only at special values of them: it is no contradiction, but the drawing is
-        no reference configuration then. With a ``body``: only where the drawing turns out to place that one.
+        A gap that holds parameters vanishes only at special values of them: it is no contradiction, but what is given
+        is no reference configuration then. With a ``body``: only where the reference turns out to place that one.
         """
         gap = substitute(gap, {TIME: ZERO})
         if gap.is_zero or any(symbol.args[0] != "parameter" for symbol in gap.symbols) or not differs_from_zero(gap):

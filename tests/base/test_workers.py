@@ -172,7 +172,7 @@ def test_a_worker_that_is_killed_from_outside_is_replaced(tmp_path: Path) -> Non
     worker.kill()
 
 
-def test_a_worker_that_cannot_start_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_worker_that_cannot_start_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
     assert Worker(modules=["no_such_module"]).run(Job(worker_jobs.same, 1, 5)).ended == "absent"
     monkeypatch.setattr(sys, "executable", "/no/such/python")
     outcome = Worker().run(Job(worker_jobs.same, 1, 5))

@@ -278,7 +278,7 @@ def test_the_command_runs_tells_and_redraws(tmp_path: Path) -> None:
         (["--out", "/proc/none"], "nothing can be written to /proc/none"),
     ],
 )
-def test_what_cannot_be_charted_is_told(arguments: list[str], told: str, tmp_path: Path) -> None:
+def test_what_cannot_be_charted_is_reported(arguments: list[str], told: str, tmp_path: Path) -> None:
     if "--out" not in arguments:
         arguments = [*arguments, "--out", str(tmp_path)]
     elif sys.platform != "linux":

@@ -13,7 +13,7 @@ from shared.known_scenes import CATALOG, OURS, few, report_of, scene_of, stem, s
 
 import dofkit
 from dofkit.checker import verify
-from dofkit.methods.certificates.lowering import document_of_scene, told_fields
+from dofkit.methods.certificates.lowering import document_of_scene, verdicts_of
 
 #: What is proved and not verified today: why, and of which scenes. A name may only go.
 UNCOVERED: Mapping[str, tuple[str, str]] = {
@@ -36,7 +36,7 @@ def _shown(path: Path) -> tuple[int, set[str]]:
     verification = verify(scene, json.dumps(report.certificate))
     assert not verification.failed
     assert not any("a second program" in warning for warning in report.warnings)
-    return sum(told.verdict == "proved" for _, _, told in told_fields(report)), set(verification.uncovered)
+    return sum(told.verdict == "proved" for _, _, told in verdicts_of(report)), set(verification.uncovered)
 
 
 def _expected(path: Path) -> set[str]:
@@ -50,8 +50,8 @@ def _expected(path: Path) -> set[str]:
 
 @pytest.mark.parametrize("path", CATALOG, ids=stem)
 def test_what_the_catalog_expects_as_proved_is_checked(path: Path) -> None:
-    proved = {field for field, _, told in told_fields(report_of(path)) if told.verdict == "proved"}
-    checked = {field for field, _, told in told_fields(strict_report_of(path)) if told.verdict == "proved"}
+    proved = {field for field, _, told in verdicts_of(report_of(path)) if told.verdict == "proved"}
+    checked = {field for field, _, told in verdicts_of(strict_report_of(path)) if told.verdict == "proved"}
     assert (proved - checked) & _expected(path) == _uncovered(path) & _expected(path)
 
 

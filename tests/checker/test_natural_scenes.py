@@ -12,7 +12,7 @@ from shared.known_scenes import spread
 
 import dofkit
 from dofkit.checker import verify
-from dofkit.methods.certificates.lowering import told_fields
+from dofkit.methods.certificates.lowering import verdicts_of
 
 LINES = Path(__file__).with_name("natural_scenes.yaml").read_text(encoding="utf-8").splitlines()
 SCENES = [line for line in LINES if line.startswith("- ")]
@@ -28,7 +28,7 @@ def checked(line: str) -> list[bool]:
     for verification in (verify(None, certificate), dofkit.verify(written, certificate)):
         assert verification.claims == verification.verified > 0
         assert verification.trusted == certificate["scene"].get("readings", {})
-    return [bool(told.checked) for _, _, told in told_fields(report) if told.verdict == "proved"]
+    return [bool(told.checked) for _, _, told in verdicts_of(report) if told.verdict == "proved"]
 
 
 @pytest.mark.parametrize("line", spread(SCENES, 12), ids=lambda line: f"line-{LINES.index(line) + 1}")
@@ -59,7 +59,7 @@ READINGS = [
 
 
 @pytest.mark.parametrize(("written", "plain"), READINGS)
-def test_what_stands_for_a_text_is_told(written: str, plain: str) -> None:
+def test_what_stands_for_a_text_is_reported(written: str, plain: str) -> None:
     scene = {"coordinates": ["x", "y"], "constraints": [written]}
     certificate = dofkit.classify(scene, certificate=True).certificate
     assert certificate is not None

@@ -88,7 +88,7 @@ def test_every_field_of_a_report_says_how_sure_it_is(path: Path, caplog: pytest.
     assert (report.instantaneous_dof is not None) or about != "reference"
 
 
-def test_the_argument_that_is_told_is_the_one_that_decided() -> None:
+def test_the_argument_that_is_reported_is_the_one_that_decided() -> None:
     """Two circles that touch: no rank says that they meet in a point only, their difference does."""
     scene = {"coordinates": ["x", "y"], "constraints": ["x^2 + y^2 = 1", "(x - 3)^2 + y^2 = 4"]}
     report = dofkit.classify(scene)

@@ -95,7 +95,7 @@ def test_what_is_redundant_on_one_branch_says_so() -> None:
         (("x^2 = 2", "dz = x dy"), "everywhere", "z - x y = C for both roots"),
     ],
 )
-def test_what_integrates_on_one_branch_is_told_of_that_branch(texts: Sequence[str], about: str, why: str) -> None:
+def test_what_integrates_on_one_branch_is_reported_of_that_branch(texts: Sequence[str], about: str, why: str) -> None:
     report = dofkit.classify(coordinates("x y z", *texts))
     form = report.constraints[1]
     assert (report.dof, form.holonomic, form.verdicts["integral"].about) == (1, True, about), why

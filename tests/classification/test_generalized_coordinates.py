@@ -38,7 +38,7 @@ def test_a_hook_that_hangs_aslant_may_be() -> None:
 @pytest.mark.parametrize(
     ("at", "free"), [([1, 0], "y_P"), ([0, 1], "x_P"), (["3/5", "4/5"], "x_P")], ids=["right", "top", "between"]
 )
-def test_beside_a_form_a_circle_is_told_by_what_changes_along_it(at: list[Any], free: str) -> None:
+def test_beside_a_form_a_circle_is_reported_by_what_changes_along_it(at: list[Any], free: str) -> None:
     report = dofkit.classify(
         {
             "dimension": 2,

@@ -12,7 +12,7 @@ def told(coordinates: str, *constraints: str, **more: Any) -> dofkit.Report:
     return dofkit.classify({"coordinates": coordinates.split(), "constraints": list(constraints), **more})
 
 
-def test_every_block_is_told_in_its_own_names() -> None:
+def test_every_block_is_reported_in_its_own_names() -> None:
     report = told("x1 y1 u v", "x1 dy1 + y1 dx1 = 0", "v du + u dv = 0")
     assert [e.integral for e in report.constraints] == ["x1*y1 = C", "u*v = C"]
     assert (report.dof, report.velocity_dof) == (2, 2)
@@ -64,7 +64,7 @@ def test_links_of_one_length_and_of_others() -> None:
     assert report.constraints[-1].text == "link A-G, length 2"
 
 
-def test_a_fault_of_a_text_like_others_is_told_at_its_place() -> None:
+def test_a_fault_of_a_text_like_others_is_reported_at_its_place() -> None:
     """The pattern of what was read is no pattern of what cannot be read."""
     texts = ["dx = R cos(y) dz", "du = R cos(v) dw", "du = R cos(w) dq", "du = R cos(v) + dw", "2u = v", "2e5x = v"]
     scene = {"parameters": ["R"], "coordinates": [*"xyzuvw"], "constraints": texts}

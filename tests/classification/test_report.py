@@ -99,7 +99,7 @@ def test_a_proof_by_counting_needs_no_warning() -> None:
     assert (report.verdict, report.warnings) == ("proved", [])
 
 
-def test_that_nothing_can_be_dropped_is_told_of_all_components() -> None:
+def test_that_nothing_can_be_dropped_is_reported_of_all_components() -> None:
     """Without the first r may be negative, without another x or y has either sign; near a point one of them follows."""
     texts = ["r = sqrt(x^2 + y^2)", "x = r*cos(theta)", "y = r*sin(theta)"]
     report = dofkit.classify({"coordinates": ["x", "y", "r", "theta"], "constraints": texts})

@@ -101,7 +101,7 @@ def test_dimensions_where_the_lowest_order_decides(n: int, functions: list[str],
         (2, ["x^40 y^40"]),  # two lines
     ],
 )
-def test_what_the_lowest_order_does_not_decide_is_left_open(n: int, functions: list[str]) -> None:
+def test_what_the_lowest_order_does_not_decide_is_undecided(n: int, functions: list[str]) -> None:
     told = local_dimension(Germ(*on_plane(n, *functions), 0))
     assert told.dimension is None
     assert told.verdict == "undecided"

@@ -303,7 +303,7 @@ def test_a_platform_with_three_infinitesimal_motions_is_not_called_rigid_within_
         ("watt-straight-line-guided", "which ones was not decided"),
     ],
 )
-def test_what_leaves_its_line_by_less_than_the_tolerance_is_left_open(name: str, why: str) -> None:
+def test_what_leaves_its_line_by_less_than_the_tolerance_is_undecided(name: str, why: str) -> None:
     """No linkage of this kind draws a line, and within the tolerance both go on for a quarter of their size."""
     report = within(name, 1e-3)
     assert (report.dof, report.consistent) == (None, True)

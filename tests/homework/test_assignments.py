@@ -67,7 +67,7 @@ BAD: list[tuple[str, list[str]]] = [
 
 
 @pytest.mark.parametrize(("text", "told"), BAD, ids=range(len(BAD)))
-def test_every_fault_is_told_with_its_place(text: str, told: list[str], tmp_path: Path) -> None:
+def test_every_fault_is_reported_with_its_place(text: str, told: list[str], tmp_path: Path) -> None:
     path = tmp_path / "assignment.yaml"
     path.write_text(text, encoding="utf-8")
     with pytest.raises(AssignmentError) as caught:

@@ -47,7 +47,7 @@ def test_points_of_a_problem_are_shared_as_its_questions_have_them() -> None:
     assert [float(q.points) for q in problem.questions] == [2.5, 7.5]
 
 
-def test_a_place_that_no_value_fills_is_told() -> None:
+def test_a_place_that_no_value_fills_is_reported() -> None:
     with pytest.raises(AssignmentError, match=r"\[\[rodd\]\] is not a name in `vary`") as caught:
         sheet(pendulum(text="The rod is [[rodd]]."))
     assert all(fault.hint for fault in caught.value.faults)
@@ -93,7 +93,7 @@ def test_a_set_of_coordinates_is_not_drawn() -> None:
     assert unanswered(scene, dofkit.classify(scene), "Problem") is None
 
 
-def test_a_lecturer_is_told_what_a_sheet_does_not_say() -> None:
+def test_a_lecturer_is_reported_what_a_sheet_does_not_say() -> None:
     scene = {"coordinates": ["x"], "parameters": ["m"], "energies": {"kinetic": "1/2 m xdot^2"}}
     asked = {"id": "p", "scene": scene, "questions": [{"id": "l", "ask": "lagrangian"}]}
     assert [r for r in remarks(sheet(asked)) if "state them in `text`" in r]

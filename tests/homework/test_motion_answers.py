@@ -52,7 +52,7 @@ def test_what_has_no_equations_of_motion_is_left_to_a_person() -> None:
         assert graded("disc-rolling-on-plane", ask, "", answer) == ("needs_review", None, [])
 
 
-def test_what_cannot_be_asked_is_told_of_the_assignment() -> None:
+def test_what_cannot_be_asked_is_reported_of_the_assignment() -> None:
     problem = {"id": "p", "scene": "orbit-polar", "questions": [{"id": "q", "ask": "momentum", "coordinate": "phi"}]}
     with pytest.raises(dofkit.DofkitError, match="no coordinate 'phi'"):
         dofkit.load_assignment({"title": "t", "problems": [problem]})

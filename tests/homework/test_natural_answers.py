@@ -86,7 +86,7 @@ def test_what_contradicts_itself_waits_for_a_person() -> None:
         assert verdict != "open" or waits or item.status == "unreadable", (place, answer)
 
 
-def test_every_way_to_read_a_contradiction_is_told_with_what_it_earns() -> None:
+def test_every_way_to_read_a_contradiction_is_reported_with_what_it_earns() -> None:
     item = graded("contradictions", "shaken.label", "holonomic and non-holonomic, rheonomic")
     assert item.feedback.endswith("it can be read in more than one way.")
     assert [(way.read_as, way.score) for way in item.readings] == [
@@ -103,7 +103,7 @@ def test_ninety_seven_in_a_hundred_right_answers_get_full_marks() -> None:
 
 
 @pytest.mark.sweep
-def test_what_is_not_right_is_told_why() -> None:
+def test_what_is_not_right_is_reported_why() -> None:
     assert [row for row in every() if row[3] != "right" and not row[4].strip()] == []
 
 

@@ -49,7 +49,7 @@ def test_own_coordinates(also: dict[str, str], ask: str, answer: str, status: st
     assert item(sheet(also, ask=ask), answer).status == status
 
 
-def test_a_constant_under_another_name_is_told() -> None:
+def test_a_constant_under_another_name_is_reported() -> None:
     found = item(sheet({}, ask="equation", constraint="rod"), "x^2 + y^2 = R^2")
     assert (found.status, found.read_as) == ("right", "x^2 + y^2 = R^2")
     assert found.feedback == "The names were matched to those of the problem: R = l."
@@ -143,7 +143,7 @@ def test_an_equation_in_an_offered_coordinate_is_never_wrong_unseen() -> None:
     assert item(asked, "θ = 3").status == "needs_review"
 
 
-def test_a_correct_answer_is_told_in_the_offered_coordinates() -> None:
+def test_a_correct_answer_is_reported_in_the_offered_coordinates() -> None:
     problem = {"id": "p", "scene": SCENE, "also": ANGLE, "questions": [{"id": "q", "ask": "motion"}]}
     prepared = load_assignment({"title": "One", "feedback": "full", "problems": [problem]})
     told = item(prepared, "thetaddot = g/l sin(theta)").feedback

@@ -120,7 +120,7 @@ def _filled(part: ast.expr) -> str:
 
 
 @pytest.mark.parametrize("language", ["de", "fr", "es"])
-def test_why_reading_stopped_is_told_in_the_language(language: Language) -> None:
+def test_why_reading_stopped_is_reported_in_the_language(language: Language) -> None:
     rooms = [path for name in ("answers", "key", "questions") for path in (ROOM / name).glob("*.py")]
     told = {text for path in rooms for text in faults(tree_at(path))}
     assert len(told) > 15
@@ -137,7 +137,7 @@ ENGLISH = re.compile(r"\b(the|is|are|write|there|here|did|you|not|cannot|stands|
     ["x^2 + zz = 1", "x + (y = 1", "x ~ 1", "sin = 3", "x = 1)", "x =", "= x", "x : y", "x + dy = 0", "3 cm + x = 1",
      "\\int x = 3", "x = 5 5", "sin(dx) = 0", "x = 3! + y", "(x, y) = 1", "x @ y = 0", "x = \u00bf"],
 )  # fmt: skip
-def test_an_answer_that_is_not_read_is_told_so_in_the_language(language: str, answer: str) -> None:
+def test_an_answer_that_is_not_read_is_reported_so_in_the_language(language: str, answer: str) -> None:
     scene = {"coordinates": ["x", "y"], "constraints": [{"name": "c", "type": "equation", "text": "x^2 + y^2 = 1"}]}
     asked = {"id": "p", "scene": scene, "questions": [{"id": "q", "ask": "equation", "constraint": "c"}]}
     sheet = load_assignment({"title": "One", "language": language, "problems": [asked]})

@@ -113,7 +113,7 @@ def test_the_reason_tells_what_is_left_of_it() -> None:
     assert "It is implied by c1, c2." in helix["constraints"][2]["reason"]
 
 
-def test_more_constraints_than_are_tried_one_by_one_are_left_open(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_more_constraints_than_are_tried_one_by_one_are_undecided(monkeypatch: pytest.MonkeyPatch) -> None:
     """What is not sought is not denied: that the last follows from the first."""
     for module in (implied_constraints, redundancy):
         monkeypatch.setattr(module, "MAX_CHOICES", 2)
@@ -142,7 +142,7 @@ def test_at_a_reference_velocities_are_those_that_it_allows(
 
 
 @pytest.mark.parametrize("constraint", ["exp(xdot) = y", "log(y) (xdot^2 + zdot^2 - 1) = 0", "xdot^2 = y"])
-def test_a_reference_outside_the_domain_is_told(constraint: str) -> None:
+def test_a_reference_outside_the_domain_is_reported(constraint: str) -> None:
     at = {"x": 0, "y": -1, "z": 0}
     report = dofkit.classify({"coordinates": ["x", "y", "z"], "constraints": [constraint], "configuration": at})
     assert report.dof is None or any("not for the reference configuration itself" in told for told in report.warnings)

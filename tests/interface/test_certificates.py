@@ -108,7 +108,7 @@ def test_several_certificates_go_to_a_folder_and_none_hides_another(
     assert sorted(p.name for p in (tmp_path / "out").iterdir()) == ["same-2.json", "same.json"]
 
 
-def test_a_place_that_cannot_be_written_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_place_that_cannot_be_written_is_reported(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "file").write_text("")
     status, _, err = called(capsys, "classify", "four-bar-linkage", "--certificate", str(tmp_path / "file" / "x.json"))
     assert status == 2

@@ -270,7 +270,7 @@ def test_a_cluster_gives_the_same_reports(folder: Path, tmp_path: Path, capsys: 
     assert told(tmp_path / "there") == told(tmp_path / "here")
 
 
-def test_a_scheduler_that_does_not_answer_is_told(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_scheduler_that_does_not_answer_is_reported(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     status, _, err = called(capsys, "classify", str(folder), "--scheduler", "nonsense://1")
     assert status == 2
     assert "the scheduler at nonsense://1 does not answer" in err or "pip install 'dofkit[cluster]'" in err

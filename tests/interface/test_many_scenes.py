@@ -185,7 +185,7 @@ def test_what_is_undecided_is_not_said_to_be_the_same() -> None:
         swept("coordinates: [x, y]\nconstraints: [x = y, x = y]", "redundant"),
     ],
 )
-def test_a_run_fails_on_what_it_is_told(
+def test_a_run_fails_on_what_it_is_reported(
     text: str, what: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     file = tmp_path / "scene.yaml"

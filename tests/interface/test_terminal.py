@@ -88,14 +88,14 @@ def test_time_is_counted_in_a_growth_vector_that_begins_above_the_velocities() -
     assert re.search(r"growth vector +\(9, 10\)\n", shown(report(growth_vector=[9, 10])))
 
 
-def test_the_way_is_told_without_the_words_of_the_engines() -> None:
+def test_the_way_is_reported_without_the_words_of_the_engines() -> None:
     text = shown(report(method="rank over GF(p) and balls; count of rows over GF(p)"), how=True, width=400)
     assert "the rank of the equations, computed twice" in text
     assert "GF(p)" not in text
     assert "balls" not in text
 
 
-def test_a_singular_configuration_is_told() -> None:
+def test_a_singular_configuration_is_reported() -> None:
     text = shown(report(instantaneous_dof=11, singular=True))
     assert re.search(r"instantaneous freedom +11  at the reference configuration; exceeds", text)
     assert "singular configuration" in text

@@ -202,7 +202,7 @@ def test_independent_equations_at_the_reference_prove_the_freedom() -> None:
         assert (told.dof, told.verdicts["dof"].verdict) == (3, sure)
 
 
-def test_a_form_that_is_not_closed_is_left_open_by_the_count() -> None:
+def test_a_form_that_is_not_closed_is_undecided_by_the_count() -> None:
     entry = report(FACTOR, "count").constraints[0]
     assert (entry.holonomic, entry.verdict) == (None, "undecided")
     closed = report(scene("x dy + y dx = 0"), "count").constraints[0]

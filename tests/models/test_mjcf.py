@@ -47,7 +47,7 @@ def test_names_places_and_masses_are_kept() -> None:
     assert scene.tolerance is None
 
 
-def test_what_is_left_out_is_told_with_why() -> None:
+def test_what_is_left_out_is_reported_with_why() -> None:
     told = load(ARM).left_out
     assert any("tip" in one and "marker" in one for one in told)
     assert any("table" in one and "fixed to the world" in one for one in told)
@@ -186,7 +186,7 @@ def test_an_equality_that_is_not_read_is_a_warning() -> None:
     assert any("the tendons t, which wrap around shapes" in told for told in scene.left_out)
 
 
-def test_what_is_no_number_is_told_in_its_line() -> None:
+def test_what_is_no_number_is_reported_in_its_line() -> None:
     with pytest.raises(SceneError) as raised:
         load(model(f"<body name='a'\n pos='0 nan 0'>\n<joint axis='0 0 -INF'/>{GEOM}</body>"))
     told = [(fault.line, fault.message) for fault in raised.value.faults]
@@ -223,7 +223,7 @@ def test_faults_of_the_compiler_name_their_line() -> None:
     assert "colour" in fault.message
 
 
-def test_a_fault_of_the_scene_is_told_in_the_line_of_the_model() -> None:
+def test_a_fault_of_the_scene_is_reported_in_the_line_of_the_model() -> None:
     """Two couplings of one joint contradict each other: the drawing satisfies one of them only."""
     clash = "<equality>\n<joint name='one' joint1='p' polycoef='0.5'/>\n<joint name='two' joint1='p'/></equality>"
     with pytest.raises(SceneError, match="satisfied neither in the given pose"):
@@ -237,7 +237,7 @@ def test_lagrange_works_on_a_pendulum() -> None:
     assert report.equations
 
 
-def test_what_only_moves_it_is_told() -> None:
+def test_what_only_moves_it_is_reported() -> None:
     """A spring, friction and a rotor: without a word of them energy would be conserved."""
     joint = "<joint name='j' type='slide' axis='0 0 1' stiffness='3' damping='1' armature='2'/>"
     told = " ".join(load(model(f"<body name='bob' gravcomp='1'>{joint}{GEOM}</body>")).left_out)

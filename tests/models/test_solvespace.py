@@ -116,7 +116,7 @@ def test_a_circle_has_no_end_to_be_tangent_at() -> None:
     )
 
 
-def test_an_arc_that_is_a_whole_circle_is_told_once() -> None:
+def test_an_arc_that_is_a_whole_circle_is_reported_once() -> None:
     """Its ends in one place are as far from the centre: 6 coordinates less 2."""
     sketch = RandomSketch()
     sketch.arc((0.0, 0.0), 1.0, (0.0, math.tau))

@@ -266,13 +266,13 @@ def test_meshes_are_not_looked_for(tmp_path: Path) -> None:
     assert dofkit.classify(place).dof == 1
 
 
-def test_a_stranger_element_is_told() -> None:
+def test_a_stranger_element_is_reported() -> None:
     scene: Any = load(robot(link("a"), "<magic/>", "<gazebo/>"))
     assert any("<magic>" in told for told in scene.left_out)
     assert any("Gazebo" in told for told in scene.left_out)
 
 
-def test_friction_is_told() -> None:
+def test_friction_is_reported() -> None:
     rubs = [
         joint("j", "continuous", "a", "b", f"<dynamics damping='{value}' friction='0.0'/>") for value in ("0.0", "2")
     ]

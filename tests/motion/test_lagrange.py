@@ -377,7 +377,7 @@ MOVES = {"kinetic": "xdot^2"}
         ({"bodies": [{"name": "B", "mass": 1, "inertia": [1, 2]}]}, "three principal moments"),
     ],
 )
-def test_what_cannot_be_derived_is_told(made: dict[str, Any], said: str) -> None:
+def test_what_cannot_be_derived_is_reported(made: dict[str, Any], said: str) -> None:
     with pytest.raises(SceneError, match=said):
         dofkit.lagrange(dofkit.load(made))
 

@@ -25,7 +25,7 @@ def test_a_drawing_is_taken_as_it_is() -> None:
     assert [found.poses[p].shift.tolist() for p in "AB"] == [[0, 0, 0], [4, 0, 0]]
 
 
-def test_places_that_are_left_open_meet_the_constraints() -> None:
+def test_places_that_are_undecided_meet_the_constraints() -> None:
     found = numbers("double-pendulum-links")
     assert math.hypot(found["x_A"], found["y_A"]) == pytest.approx(1, abs=1e-8)
     assert math.hypot(found["x_B"] - found["x_A"], found["y_B"] - found["y_A"]) == pytest.approx(1, abs=1e-8)

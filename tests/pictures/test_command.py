@@ -50,7 +50,7 @@ def test_the_ending_decides_the_format(capsys: pytest.CaptureFixture[str], tmp_p
 
 
 @pytest.mark.sweep
-def test_what_is_no_picture_is_told(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+def test_what_is_no_picture_is_reported(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     status, _, err = called(capsys, "draw", "four-bar-linkage", "--out", str(tmp_path / "a.jpg"))
     assert status == 2
     assert "there is no ending '.jpg'" in err

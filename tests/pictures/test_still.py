@@ -196,7 +196,7 @@ def test_what_was_not_looked_at_is_not_held_still(monkeypatch: pytest.MonkeyPatc
     assert stage.TOO_MANY in picture.sketch.notes
 
 
-def test_what_is_redundant_in_part_is_told() -> None:
+def test_what_is_redundant_in_part_is_reported() -> None:
     """A third parallel crank: one equation too many, and no joint that could be left out."""
     cranks = [("a", 0), ("b", 2), ("c", 4)]
     joints = [{"name": f"{k}0", "type": "revolute", "between": ["ground", k], "at": [x, 0]} for k, x in cranks]

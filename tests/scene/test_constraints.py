@@ -530,7 +530,7 @@ def _planetary(*more: dict[str, Any], **gear: Any) -> tuple[str, ...]:
     return lower(dofkit.load(scene)).warnings
 
 
-def test_a_gear_on_a_moving_arm_is_told_of_its_carrier() -> None:
+def test_a_gear_on_a_moving_arm_is_reported_of_its_carrier() -> None:
     (told,) = _planetary()
     assert "'mesh'" in told
     assert "'planet' turns on 'arm'" in told

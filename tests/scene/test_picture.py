@@ -47,7 +47,7 @@ def test_the_example_of_each_shape_is_read(kind: str) -> None:
         ("disc", (4, 3), "a shape is a mapping"),
     ],
 )
-def test_a_fault_is_told_with_its_place(entry: str, place: tuple[int, int], message: str) -> None:
+def test_a_fault_is_reported_with_its_place(entry: str, place: tuple[int, int], message: str) -> None:
     with pytest.raises(SceneError) as caught:
         dofkit.loads(f"{HEAD}- {entry}\n")
     fault = caught.value.faults[0]

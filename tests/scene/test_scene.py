@@ -362,7 +362,7 @@ BAD: list[tuple[Any, tuple[str | int, ...], int | None, str, str]] = [
 
 
 @pytest.mark.parametrize(("scene", "where", "column", "message", "hint"), BAD)
-def test_bad_input_is_told(
+def test_bad_input_is_reported(
     scene: Any, where: tuple[str | int, ...], column: int | None, message: str, hint: str
 ) -> None:
     (fault,) = faults(scene)

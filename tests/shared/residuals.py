@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 import numpy as np
 
 from dofkit.expressions.tree import Expr, coordinate
-from dofkit.pictures.arrangement import Arrangement, finite_relations, velocity_rows
+from dofkit.pictures.arrangement import Arrangement, geometric_equations, velocity_rows
 from dofkit.pictures.evaluation import derivatives, values_at
 from dofkit.pictures.shapes import quaternion
 from dofkit.system import System
@@ -21,7 +21,7 @@ def residual(system: System, path: Iterable[Mapping[Expr, float]], *, chords: bo
 
     ``path``: numbers for all symbols, with Euler angles of bodies; ``chords``: forms count along them too.
     """
-    symbols, finite = [coordinate(c.name) for c in system.coordinates], finite_relations(system)
+    symbols, finite = [coordinate(c.name) for c in system.coordinates], geometric_equations(system)
     worst, last = 0.0, None
     for numbers in (_in_gibbs_vectors(system, q) for q in path):
         if numbers is not None and finite:

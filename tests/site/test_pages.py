@@ -67,7 +67,7 @@ def test_a_type_names_the_scenes_of_the_catalog_that_have_it(types: dict[str, st
     assert "In the catalog" not in types[f"{FOLDER}/cam.md"]
 
 
-def test_every_field_and_verdict_is_told_of() -> None:
+def test_every_field_and_verdict_is_reported_of() -> None:
     glossary = next(page.text for page in report_pages(WRITTEN_GLOSSARY) if page.path == GLOSSARY)
     assert all(f"| `{field}` |" in glossary for field in {*Report.model_fields, *ConstraintEntry.model_fields})
     assert all(f"| `{v}` |" in glossary for v in ("proved", "probable", "numeric", "undecided"))
@@ -91,7 +91,7 @@ def test_every_theorem_has_its_place_and_no_table_is_left() -> None:
     assert "|---" not in told
 
 
-def test_every_command_and_option_is_told_of() -> None:
+def test_every_command_and_option_is_reported_of() -> None:
     (page,) = command_pages()
     names = [path for path, _ in commands()]
     assert {"dofkit classify", "dofkit catalog", "dofkit export gradescope"} <= set(names)

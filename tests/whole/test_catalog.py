@@ -63,12 +63,12 @@ def test_every_constraint_type_has_a_scene_whose_answers_are_known() -> None:
 TOLD: dict[str, Any] = dofkit.base.documents.read_document((BAD / "expected.yaml").read_bytes(), "expected").value
 
 
-def test_every_bad_file_says_what_is_told() -> None:
+def test_every_bad_file_says_what_is_reported() -> None:
     assert sorted(TOLD) == sorted(path.name for path in BAD.iterdir() if path.name != "expected.yaml")
 
 
 @pytest.mark.parametrize("name", TOLD)
-def test_a_bad_file_is_told_where_and_why(name: str) -> None:
+def test_a_bad_file_is_reported_where_and_why(name: str) -> None:
     with pytest.raises(SceneError) as caught:
         dofkit.load(BAD / name)
     wanted, faults = TOLD[name], caught.value.faults

@@ -106,7 +106,7 @@ def test_other_functions_say_what_they_take() -> None:
         dofkit.ask(lower(dofkit.load(MAPPING)), "equivalence", {"constraint": "c1", "text": "x = 1"})
 
 
-def test_a_wrong_method_or_question_is_told_with_the_right_ones() -> None:
+def test_a_wrong_method_or_question_is_reported_with_the_right_ones() -> None:
     with pytest.raises(dofkit.DofkitError, match="no method 'exakt'") as caught:
         ANY.classify(MAPPING, method="exakt")
     assert "did you mean 'exact'?" in str(caught.value)

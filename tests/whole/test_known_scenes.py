@@ -75,7 +75,7 @@ def test_the_first_of_each_group_is_not_answered_wrongly(family: str, group: str
 
 @pytest.mark.sweep
 @pytest.mark.parametrize("family", FAMILIES)
-def test_nothing_is_answered_wrongly_and_little_is_left_open(family: str) -> None:
+def test_nothing_is_answered_wrongly_and_little_is_undecided(family: str) -> None:
     made, floor = FAMILIES[family]
     assert share_right(islice(made(), 0, None, STEPS.get(family, 1))) >= floor
 

@@ -11,7 +11,7 @@ from shared.equation_texts import scenes
 from shared.known_scenes import VARIED, few, report_of, scene_of, stem
 
 import dofkit
-from dofkit.methods.certificates.lowering import told_fields, with_certificate
+from dofkit.methods.certificates.lowering import verdicts_of, with_certificate
 from dofkit.methods.classify import classified
 
 #: Seconds for one scene of any texts.
@@ -65,9 +65,9 @@ def test_asking_for_evidence_takes_no_answer_away(path: Path) -> None:
     report = report_of(path)
     asked = with_certificate(scene_of(path), report)
     kept = (
-        (place, value, verdict.model_copy(update={"checked": None})) for place, value, verdict in told_fields(asked)
+        (place, value, verdict.model_copy(update={"checked": None})) for place, value, verdict in verdicts_of(asked)
     )
-    assert [*kept] == [*told_fields(report)]
+    assert [*kept] == [*verdicts_of(report)]
     assert asked.warnings == report.warnings
 
 

@@ -425,7 +425,7 @@ def test_redundancy_that_is_not_decided_is_not_called_none() -> None:
     assert report.verdict == "undecided"
 
 
-def test_of_what_follows_only_with_what_is_written_later_less_is_told() -> None:
+def test_of_what_follows_only_with_what_is_written_later_less_is_reported() -> None:
     """DF before the cranks does not follow from DE and EF; that it can go is known, and of which equation it is not."""
     report = dofkit.classify(cranks("DE", "EF", "DF", "AD", "BE", "CF"))
     assert (report.dof, report.redundant_equations) == (1, 1)
@@ -462,7 +462,7 @@ SCOPES = [
 
 
 @pytest.mark.parametrize(("made", "about"), SCOPES, ids=["branches", "a copy", "a branch", "a drawing"])
-def test_it_is_known_of_which_points_redundancy_is_told(made: dict[str, Any], about: str) -> None:
+def test_it_is_known_of_which_points_redundancy_is_reported(made: dict[str, Any], about: str) -> None:
     assert dofkit.classify(made).verdicts["redundant"].about == about
 
 

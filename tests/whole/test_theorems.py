@@ -62,7 +62,7 @@ def test_every_key_in_the_table_is_used() -> None:
     assert not set(rows()) - set(uses())
 
 
-def test_where_a_theorem_is_used_is_told() -> None:
+def test_where_a_theorem_is_used_is_reported() -> None:
     """Each path exists and holds the key, and no file that holds it is left out."""
     found = uses()
     assert {key: re.findall(r"`([^`]+)`", where) for key, (*_, where) in rows().items()} == found

@@ -19,7 +19,7 @@ def _loop(hinges: Sequence[tuple[Place, Place]], bodies: int) -> dict[str, Any]:
 
 
 def doors() -> Iterator[KnownScene]:
-    """A door on n hinges: on one line it turns, and all but the first say nothing new; off the line it is held."""
+    """A door on n hinges: on one line it turns, and all but the first say nothing new; off the line it is fixed."""
     for n in (2, 3, 4, 8, 16):
         # name, the places and axes of the hinges, dof, how many of the first are needed
         rows: list[tuple[str, list[tuple[Place, Place]], int, int]] = [

@@ -13,7 +13,7 @@ import yaml
 from dofkit.methods.table import Question
 
 #: ``dof``: a number (-1: the constraints contradict each other); ``integrability``: whether each constraint is
-#: holonomic in the system, by name; ``redundancy``: the names of what can be dropped, sorted; ``equivalence``: whether
+#: holonomic in the system, by name; ``redundancy``: the names of what is redundant, sorted; ``equivalence``: whether
 #: ``answer`` is the same constraint as the one that it names.
 Truth = int | bool | list[str] | dict[str, bool]
 
@@ -96,7 +96,7 @@ class Answers(TypedDict, total=False):
     """Answers to the questions of a trial; those that are None, or left out, are not known.
 
     ``dof`` -1: the constraints contradict each other; ``integrability``: whether each constraint is holonomic in the
-    system; ``redundancy``: what can be dropped; ``equivalence``: see `KnownScene`.
+    system; ``redundancy``: what is redundant; ``equivalence``: see `KnownScene`.
     """
 
     dof: int | None

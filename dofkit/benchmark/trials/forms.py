@@ -9,7 +9,7 @@ from dofkit.benchmark.trials.construction import KnownScene, Row, every, known_s
 
 
 def together() -> Iterator[KnownScene]:
-    """Forms with their system: the label of each is one of the whole.
+    """Forms with their system: each label is the one within the system.
 
     Among them are five variables of growth 2, 3, 5 [Cartan1910].
     """
@@ -25,7 +25,7 @@ def rheonomic() -> Iterator[KnownScene]:
 
 
 def hidden_by_time() -> Iterator[KnownScene]:
-    """Chains ``xk' = x(k+1)``: one finite relation of x0 or of the last fixes all, and none leaves all free."""
+    """Chains ``xk' = x(k+1)``: one geometric equation of x0 or of the last fixes all, and none leaves all free."""
     for n in (2, 3, 4, 6):
         names = [f"x{k}" for k in range(n)]
         rates = [f"x{k}dot = x{k + 1}" for k in range(n - 1)]

@@ -140,7 +140,7 @@ def dependent(drawn: Framework) -> list[int]:
 
 @dataclass(frozen=True)
 class RandomBodies:
-    """A scene of bodies with its truth: velocities at the drawing, and the freedom where it follows from them."""
+    """A scene of bodies with its truth: the velocities at the reference, and the freedom where they imply it."""
 
     scene: dict[str, Any]
     equations: int

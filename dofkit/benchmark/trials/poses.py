@@ -58,7 +58,7 @@ class FrameworkPose:
 
 
 class HingedPose(FrameworkPose):
-    """A loop of hinged bodies that is overconstrained at step 0; a single body is held by all hinges."""
+    """A loop of hinged bodies that is overconstrained at step 0; a single body is on all hinges."""
 
     def placed(self, name: str, step: Fraction, move: Move, **more: Any) -> KnownScene:
         """Return the scene with one hinge displaced by ``step`` from the singular pose, and all positions moved."""

@@ -1,7 +1,7 @@
 """Which constraints depend on which: redundant ones, groups, circuits, by rank over GF(p).
 
 A row is a scalar equation's differential at a generic point; finite rows come before differential ones,
-because only a finite relation fixes the constant. Dependent sets of constraints are those whose rows are.
+because only a geometric equation fixes the constant. Dependent sets of constraints are those whose rows are.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ class OwnedRows:
 
 
 def analyse(matrices: Sequence[OwnedRows], needed: Collection[int] = ()) -> Redundancies:
-    """Redundant constraints, groups and circuits of blocks that share constraints; those ``needed`` cannot go."""
+    """Redundant constraints, groups and circuits of blocks that share constraints; the ``needed`` are not redundant."""
     order = _order(matrices)
     bases = [_Basis(part) for part in matrices]
     kept = Counter(b.owners[i] for b in bases for i in b.pivots)

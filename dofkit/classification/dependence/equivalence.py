@@ -1,7 +1,7 @@
 """Is an answer the same constraint as the one that was asked for, in the presence of the scene's others?
 
-With O the other constraints, F those asked for and G the answer: they say the same where G follows from O and F, and F
-from O and G. What else there is, is told apart: the same set, but irregular there (the gradient vanishes on it), one
+With O the other constraints, F those asked for and G the answer: they say the same where O and F imply G, and O and G
+imply F. What else there is, is distinguished: the same set, but irregular there (the gradient vanishes on it), one
 branch, weaker, stronger, different, empty, differentiated, integrated with or without its constant.
 """
 
@@ -60,7 +60,7 @@ class Sameness(Enum):
 
 
 class Leaves(Enum):
-    """What finite relations are beside forms: a family of leaves through every point, one leaf, or neither."""
+    """What geometric equations are beside forms: a family of leaves through every point, one leaf, or neither."""
 
     ALL = "ALL"
     ONE = "ONE"
@@ -92,7 +92,7 @@ def compare(
 
 
 def is_integral(system: System, asked: Sequence[int], answer: Sequence[int]) -> bool | None:
-    """Return whether the constraints ``answer`` are finite relations to which those numbered ``asked`` integrate.
+    """Return whether the constraints ``answer`` are geometric equations to which those numbered ``asked`` integrate.
 
     Are the differentials of the answer and the forms the same in the presence of the others? None: undecided.
     """
@@ -219,7 +219,7 @@ class Equivalence:
     # differentials
 
     def _differentiated(self) -> bool | None:
-        """Return whether the answer is obtained by differentiating the finite relations that were asked for.
+        """Return whether the answer is obtained by differentiating the geometric equations that were asked for.
 
         None where that was not decided.
         """
@@ -229,7 +229,7 @@ class Equivalence:
         return self._follow([_differential(g) for g in finite], self._answer)
 
     def _integrated(self) -> Sameness | None:
-        """Return how the answer states in finite relations what was asked for in forms; None if it does not."""
+        """Return how the answer states in geometric equations what was asked for in forms; None if it does not."""
         integrates = self.integrates()
         if not integrates:
             return None if integrates is False else Sameness.UNDECIDED
@@ -240,7 +240,7 @@ class Equivalence:
     def integrates(self) -> bool | None:
         """Return whether the answer is finite, and its differentials are the forms that were asked for.
 
-        Finite relations among what was asked for follow from the answer itself. None where that was not decided.
+        Geometric equations among what was asked for follow from the answer itself. None where that was not decided.
         """
         finite = _finite(self._answer)
         standing = [n for n in self._all_wanted if all(isinstance(p, Finite) for p in n.pieces)]
@@ -326,7 +326,7 @@ def _normals(constraints: Sequence[Reduced]) -> list[Normal]:
 
 
 def _finite(normals: Sequence[Normal]) -> list[Expr]:
-    """The finite relations of normals with one branch; none where something else occurs."""
+    """The geometric equations of normals with one branch; none where something else occurs."""
     pieces = [p for n in normals for p in n.pieces]
     if any(len(n.branches) != 1 for n in normals) or not all(isinstance(p, Finite) for p in pieces):
         return []

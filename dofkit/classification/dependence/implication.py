@@ -1,7 +1,7 @@
-"""What follows from what: does a relation hold at every state of motion that other constraints leave?
+"""What is implied by what: is a relation satisfied at every state of motion that other constraints leave?
 
 Asked on every choice of the others' branches, at generic states over GF(p); where one of those does not satisfy the
-relation and complex solutions may be meant, at real states with balls. What is finite follows from finite relations
+relation and complex solutions may be meant, at real states with balls. What is finite is implied by geometric equations
 only, the hidden ones included: a rate does not fix the constant.
 """
 
@@ -130,7 +130,7 @@ def _on_hidden(
 
 
 def _on_all_components(rows: Sequence[Row], branches: Sequence[AskedBranch], setting: Setting) -> bool | None:
-    """Return whether no component of a set of finite relations is known on which all branches fail.
+    """Return whether no component of a set of geometric equations is known on which all branches fail.
 
     Drawn states may miss one: two minors of a matrix imply the third, but not where the column that they share is 0.
     The branches fail at a complex point where s g = 1 has a solution [Rabinowitsch1929]; that is certified at a real
@@ -273,7 +273,7 @@ class BlockImplication:
 
 
 class NearDrawing(BlockImplication):
-    """Of finite relations that hold at the reference: what they imply near it. The others are independent there."""
+    """Of geometric equations satisfied at the reference: what they imply near it. The others are independent there."""
 
     @cached_property
     def _relations(self) -> ImpliedRelations:
@@ -306,13 +306,13 @@ class NearDrawing(BlockImplication):
     def is_orbit(self, rows: Sequence[int], dof: int | None) -> bool:
         """Return whether the set of ``dof`` dimensions that some relations leave is an orbit near the reference.
 
-        It is a union of orbits of the whole, finitely many of that dimension, and all of them pass through the drawing.
+        It is a union of orbits of rigid motions, finitely many of that dimension, and all pass through the reference.
         """
         return dof is not None and self._relations.rigid(rows) == dof
 
 
 class Everywhere(BlockImplication):
-    """Of any rows: what holds at every state of motion that the others leave, on all parts of their set."""
+    """Of any rows: what is satisfied at every state of motion that the others leave, on all parts of their set."""
 
     def follows(self, row: int, others: Sequence[int]) -> bool | None:
         """Return whether what a row says is satisfied wherever the others are.

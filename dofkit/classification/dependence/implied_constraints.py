@@ -1,4 +1,4 @@
-"""What can go because it holds at every state of motion that the others leave, on all their branches."""
+"""What is redundant because it is satisfied at every state of motion that the others leave, on all their branches."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ MAX_CHOICES, LEAVING_SECONDS = 40, 5.0
 
 
 def implied(reduced: Sequence[Reduced], setting: Setting, numbers: Sequence[int]) -> Redundancies:
-    """By implication; left open where the constraints are too many or there is no time left for them."""
+    """By implication; undecided where the constraints are too many or there is no time left for them."""
     if len(numbers) > MAX_CHOICES:
         return undecided_dependence(numbers)
     return unless_late(partial(_by_implication, reduced, setting, numbers), undecided_dependence(numbers))
 
 
 def _by_implication(reduced: Sequence[Reduced], setting: Setting, numbers: Sequence[int]) -> Redundancies:
-    """A constraint is redundant where it holds at every state of motion that the others leave, on all their branches.
+    """A constraint is redundant where every state of motion that the others leave, on all their branches, satisfies it.
 
     The last in the order goes first; where more can go together in its place, they do.
     """
@@ -179,7 +179,7 @@ class ConstraintSets:
         return bool(numbers) and unless_late(partial(self.inconsistent, numbers), False)
 
     def satisfied(self, numbers: Sequence[int]) -> Claim:
-        """Return how sure it was, when some constraints were examined, that they are satisfied somewhere."""
+        """Return how certain it was, when some constraints were examined, that they are satisfied somewhere."""
         consistent, proved = self._answers.get(tuple(numbers), (None, False))
         return OPEN if consistent is not True else MINIMAL if proved else LEFT_OUT
 

@@ -4,7 +4,7 @@ The oracle is a rank, an implication or a proof of a contradiction; the search i
 suffices for, every larger set suffices for, and what can be left out together can be left out one by one.
 
 Rows of a block that are dependent at a point need not imply each other. Three points on a line: the first two distances
-give the third to first order, but not beside it. A form with a coefficient that is 0 on the set is another form at its
+give the third infinitesimally, and not nearby. A form with a coefficient that is 0 on the set is another form at its
 points: where y = 0, dx - y dz is dx. So a row's support is asked whether it implies the row, and else all independent
 rows are, less those that are not needed.
 """

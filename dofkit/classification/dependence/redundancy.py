@@ -1,4 +1,4 @@
-"""Which constraints of a system can be dropped: by rank, over branches, by leaving out, and copies."""
+"""Which constraints of a system are redundant: by rank, over branches, by leaving out, and copies."""
 
 from __future__ import annotations
 
@@ -30,9 +30,9 @@ BlocksOf = dict[int, list[tuple[Block, Answer]]]
 
 
 def redundancies(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome) -> list[Redundancies]:
-    """Part by part, by the rank of the rows; where that does not measure dependence, by what follows from what.
+    """Part by part, by the rank of the rows; where that does not measure dependence, by what is implied by what.
 
-    Where there is no time or no way to tell, the constraints concerned are left open.
+    Where there is no time or no way to tell, the constraints concerned are undecided.
     """
     result = _void(reduced)
     if not outcome.consistent:
@@ -70,7 +70,7 @@ def _is_conditional(n: Normal) -> bool:
 
 
 def all_needed(dependent: Sequence[Redundancies], reduced: Sequence[Reduced], outcome: Outcome) -> list[Redundancies]:
-    """With no equation too many, what was left open is needed, where every equation takes one freedom at most.
+    """With no equation too many, what was undecided is needed, where every equation takes one freedom at most.
 
     One that says several things (a sum of squares), hidden relations or a singular set may hide that another follows.
     """
@@ -160,8 +160,8 @@ def _scope(
 
     x^2 + y^2 = 1, x = 1, y = 0: the first two have one gradient at the solution, but without x = 1 there is x = -1.
     Only few algebraic equations are examined on all components, which may miss one; so the answer is about the
-    component on which the rank was taken. Finite equations beside forms are compared with each other: of
-    sin(z) = 0 and z = 0 the first is redundant. None: undecided.
+    component on which the rank was taken. Where forms occur, geometric equations are compared with each other:
+    of sin(z) = 0 and z = 0 the first is redundant. None: undecided.
     """
     dropped = {i for r in by_rank for i in r.redundant}
     if setting.reference is not None:
@@ -190,7 +190,7 @@ def _as_free(implied: Redundancies, reduced: Sequence[Reduced], blocks: Sequence
 
     No more equations are independent than take freedom away, and the groups hold all others. Where the order in which
     equations imply each other says otherwise, their rows are counted, at the points where the freedom was determined:
-    none of what is satisfied on a whole region; of x z = 0 and z = 0 one, though neither follows from those before it.
+    none of what is satisfied on a whole region; of x z = 0 and z = 0 one, though neither is implied by those before it.
     """
     if implied.undecided or any(a.velocity_dof is None for _, a in blocks):
         return implied
@@ -326,7 +326,7 @@ def merged(dependent: Sequence[Redundancies]) -> list[tuple[int, list[int]]]:
 def _void(reduced: Sequence[Reduced]) -> list[Redundancies]:
     """Relations that are always satisfied (0 = 0) are redundant by themselves.
 
-    What only holds on a region takes no freedom away either; where it is a part of a constraint it is counted here.
+    What is satisfied on a region only does not reduce the freedom either; as a part of a constraint it is counted here.
     """
     result = []
     for i, r in enumerate(reduced):

@@ -1,17 +1,17 @@
-"""What can go without changing the set: constraints left out one by one, the last in the order first.
+"""What is redundant because the set stays the same: constraints left out one by one, the last in the order first.
 
-Where leaving a constraint out gives freedom, it is needed. Where it gives none, what the constraint says must follow
-from what is left: the set may lose a part and keep its dimension.
+Where leaving a constraint out gives freedom, it is needed. Where it gives none, the others must also imply what the
+constraint says: the set may lose a component and keep its dimension.
 
 How many equations are independent of all before them where relations are dependent at the reference only.
 
 An equation is independent of others where it is no combination of them, with coefficients that are analytic near the
-drawing. One after another they are held against those before. A row that is no sum of rows before it at the drawing is
-of an independent equation. One that is such a sum is of a dependent equation where that vanishes on the manifold of the
-independent ones before it [ImplicitFunctions]; the first that does not is independent, and so is a later one that takes
-freedom away. Of several of one constraint all but one are dependent where they hold, in numbers, at the points near the
-drawing where that one does: creases that meet in a point close up by one condition of the second order, told by several
-equations. What was counted must be what the freedom says.
+reference. Each is compared with those before it. A row that is no sum of rows before it at the reference belongs to an
+independent equation. One that is such a sum is of a dependent equation where that vanishes on the manifold of the
+independent ones before it [ImplicitFunctions]; the first that does not is independent, and so is a later one that
+reduces the freedom. Of several of one constraint all but one are dependent where they are satisfied, in numbers, at the
+points near the reference where that one is: creases that meet in a point close up by one condition of the second order,
+which several equations state. What was counted must agree with the freedom.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ from dofkit.relations.setting import Setting
 
 
 def by_removal(block: Block, setting: Setting, a: Answer, nullity: int, numbered: Sequence[int]) -> Redundancies:
-    """Return what is redundant in a block of finite equations whose rank does not tell, the last written first.
+    """Return what is redundant in a block of geometric equations whose rank does not tell, the last written first.
 
     ``nullity``: dependent rows by the freedom; ``numbered``: the equation each row belongs to.
     """
@@ -177,7 +177,7 @@ def counted(block: Block, setting: Setting, a: Answer, numbered: Sequence[int]) 
 
 @dataclass
 class _Counting:
-    """What follows from what, row by row; ``bent``: rows dependent at the reference only; ``seen``: as in the count."""
+    """What is implied by what, row by row; ``bent``: rows dependent at the reference only; ``seen``: as counted."""
 
     block: Block
     setting: Setting
@@ -200,7 +200,7 @@ class _Counting:
         return echelon(self.a.matrix, self.a.modulus, supports=True).supports
 
     def supports(self) -> dict[int, list[int]] | None:
-        """For every row that follows from those before it rows from which it does; None where that is open.
+        """For every row that those before it imply, rows that do; None where that is undecided.
 
         The rows of one constraint stand in no order: of those that say the same beside others any may be the first.
         """

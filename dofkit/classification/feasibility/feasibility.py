@@ -25,7 +25,7 @@ from dofkit.expressions.calculus import substitute
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import BITS, GAP, Answer
-from dofkit.relations.normal.domain import holds_at
+from dofkit.relations.normal.domain import is_satisfied_at
 from dofkit.relations.normal.no_solution import refuted
 from dofkit.relations.normal.sign_claims import contradictory, point_of_linear
 from dofkit.report import FieldVerdict
@@ -47,7 +47,7 @@ NOT_MINIMAL = (
 
 @dataclass(frozen=True)
 class Feasibility:
-    """Whether all inequalities can be satisfied together with the constraints, and how sure that is.
+    """Whether all inequalities can be satisfied together with the constraints, and how certain that is.
 
     ``at``: where they are, values of the symbols that are coupled to them; ``infeasible``: where they cannot, the
     numbers of constraints that cannot all be met, none of which can be left out unless ``reasons`` say so.
@@ -169,7 +169,7 @@ def _state(study: Study, part: Part, problem: StateProblem, fixed: bool) -> Valu
 
 def _is_met(problem: StateProblem, configuration: Mapping[Expr, Expr], positive: frozenset[Expr]) -> bool:
     """Return whether a configuration at rest satisfies equations and conditions, those strictly."""
-    if not all(holds_at(c, configuration, positive, strictly=True) for c in problem.conditions):
+    if not all(is_satisfied_at(c, configuration, positive, strictly=True) for c in problem.conditions):
         return False
     return all(is_proved_zero(substitute(e, configuration), positive) for e in problem.equations)
 
@@ -200,7 +200,7 @@ def inequalities_together(study: Study, fields: Mapping[str, Any]) -> Mapping[st
 
 
 def _claims(feasibility: Feasibility) -> dict[str, FieldVerdict]:
-    """How sure it is, and by which argument."""
+    """How certain it is, and by which argument."""
     if feasibility.feasible is None:
         return {"feasible": FieldVerdict.of(Claim("undecided"))}
     argument: ArgumentKey = "met at a point" if feasibility.feasible else "excluded together"
@@ -217,7 +217,7 @@ def _moved(witness: Mapping[str, str] | None, at: Mapping[str, str]) -> dict[str
 def _texts(system: System, at: Values) -> dict[str, str]:
     """The values of the scene's symbols, coordinates first.
 
-    Gibbs vectors, which no text names, are left out; a vector that is 0 stands for the angles of the drawing.
+    Gibbs vectors, which no text names, are left out; a vector that is 0 stands for the angles of the reference.
     """
     answer = {_name(s): v for s, v in at.items()}
     for rotation in system.rotations:

@@ -1,7 +1,7 @@
 """What a state of motion has to satisfy for the inequalities to hold, and certified states that satisfy it.
 
 Where nothing depends on time and every relation between velocities allows rest, a configuration at rest is a motion,
-and only the finite relations count. Else a motion passes through a state (q, v) at the time t at which the rows that
+and only the geometric equations count. Else a motion passes through a state (q, v) at the time t at which the rows that
 are linear in v by their differentials are independent: there v is a smooth function of (q, t) and free numbers
 [ImplicitFunctions], and what holds strictly there holds for a while.
 
@@ -78,7 +78,7 @@ class StateProblem:
 
     @property
     def claims(self) -> list[SignClaim]:
-        """What holds at a solution; what is only != 0 is left out."""
+        """What is 0 at a solution; what is only != 0 is left out."""
         sided = [SignClaim(c.expr, ">" if c.sense == ">" else ">=") for c in self.conditions if c.sense != "!="]
         return [*(SignClaim(e, "=") for e in self.equations), *sided]
 

@@ -45,7 +45,7 @@ from dofkit.relations.normal.pieces import Finite
 from dofkit.relations.setting import Setting
 
 RELATED = "the functions or numbers that occur may satisfy an identity that arithmetic modulo primes does not detect"
-#: Rounds of prolongation: each finds one hidden finite relation.
+#: Rounds of prolongation: each finds one hidden geometric equation.
 MAX_ROUNDS = 12
 #: Branches of one hidden relation that are followed.
 MAX_HIDDEN_BRANCHES = 12
@@ -148,7 +148,7 @@ def _answer(block: Block, setting: Setting) -> Answer:
 
 
 def _tested(block: Block, setting: Setting, finite: Answer) -> Answer:
-    """The answer of finite relations once their differentials were put to the integrability test that they pass."""
+    """The answer of geometric equations once their differentials were put to the integrability test that they pass."""
     forms = codistribution(block, setting, ())
     for point, sampled in _spans(forms, find(forms.chart, setting.pose)):
         if any(v != 0 for row in sampled.matrix for v in pairing(row, sampled.span.vectors)):

@@ -378,7 +378,7 @@ def _identity(block: Block) -> Hashable:
 
 
 def _shape(block: Block) -> Hashable:
-    """Equal for blocks that differ in names only, and soon told."""
+    """Equal for blocks that differ in names only, and quickly computed."""
     return len(block.coordinates), tuple(type(row.piece) for row in block.rows), len(block.conditions)
 
 

@@ -24,8 +24,8 @@ def bridged_answer(block: Block, setting: Setting, solve: Callable[[Block, Setti
     """Return the answer of a block from those of the parts into which it falls without its bridges, by ``solve``.
 
     A bridge is a joint that closes no loop: it gives one free coordinate and takes one away with its equation. None
-    where a part does not satisfy its equations at the reference configuration, where there are other than finite
-    relations, and where the block does not move: then it is answered as one.
+    where a part does not satisfy its equations at the reference configuration, where there are other than geometric
+    equations, and where the block does not move: then it is answered as one.
     """
     joints = [row for row in block.rows if row.constraint in setting.bridges]
     if not joints or not _is_eligible(block, joints, setting):
@@ -47,7 +47,7 @@ def _is_satisfied(part: AnsweredPart) -> bool:
 def _answer_afloat(core: Block, setting: Setting, solve: Callable[[Block, Setting], Answer]) -> Answer | None:
     """Return the answer of a part that nothing ties to the ground, seen from the body of most rows; else None.
 
-    Its set is that of the body's own coordinates times what is left where they are as drawn: all moves along with it.
+    Its set is that of the body's own coordinates times what is left where the body is fixed: all moves along with it.
     """
     host = _host(core, setting)
     if not host or setting.reference is None:
@@ -98,7 +98,7 @@ def _is_open_tree(block: Block, joints: Sequence[Row], setting: Setting) -> bool
 
 
 def _together(block: Block, setting: Setting, answered: Sequence[AnsweredPart], free: int) -> Answer:
-    """The answer of the whole from those of its parts; ``free``: how many coordinates are in no part."""
+    """The answer of a block from those of its parts; ``free``: how many coordinates are in no part."""
     drawn = setting.reference is not None
     reference = setting.reference if setting.reference is not None else setting.pose
     symbols = [ex.coordinate(name) for name in block.coordinates]

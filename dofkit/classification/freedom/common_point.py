@@ -1,4 +1,4 @@
-"""One configuration at one time for the whole system: every equation is satisfied, and has a value as it was written.
+"""One configuration at one time for the system: every equation is satisfied, and has a value as it was written.
 
 Blocks share no coordinate, but the time, parameters and unknown functions: x^2 = t - 3 and y^2 = 2 - t are satisfied at
 some time each, and at no time together. And what was cancelled keeps its domain: y = x/x has no value at x = 0.
@@ -30,7 +30,7 @@ from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, Chart, Row, expressions, make_chart, uses_time
 from dofkit.relations.linear_relations import explicit_relations, number_coefficients
-from dofkit.relations.normal.domain import DomainCondition, holds_at
+from dofkit.relations.normal.domain import DomainCondition, is_satisfied_at
 from dofkit.relations.normal.no_solution import hold_nowhere
 from dofkit.relations.normal.pieces import Finite, JointEquation
 from dofkit.relations.setting import Setting
@@ -52,7 +52,7 @@ def restricted_to_domain(block: Block, result: Answer, setting: Setting) -> Answ
         return _nowhere(block, result) if _is_empty(block, result, setting) else result
     if setting.reference is not None and result.instantaneous is not None:
         here = {**setting.reference, ex.TIME: ex.ZERO}
-        inside = all(holds_at(c, here, setting.positive, strictly=True) for c in block.conditions)
+        inside = all(is_satisfied_at(c, here, setting.positive, strictly=True) for c in block.conditions)
         return result if inside else _undecided(block, result)
     return _at_a_point(block, result, setting)
 
@@ -71,7 +71,7 @@ def _equations(block: Block, result: Answer) -> list[Expr]:
 
 
 def _is_empty(block: Block, result: Answer, setting: Setting) -> bool:
-    """Return whether the conditions are proved to be satisfied nowhere where the finite equations are."""
+    """Return whether the conditions are proved to be satisfied nowhere where the geometric equations are."""
     return hold_nowhere(_equations(block, result), block.conditions, setting.positive)
 
 
@@ -90,7 +90,7 @@ def _at_a_point(block: Block, result: Answer, setting: Setting) -> Answer:
 def _point_within(chart: Chart, conditions: Sequence[DomainCondition], dof: int | None) -> RealPoint | None:
     """Return a certified regular point, of the largest rank that was seen, at which all conditions hold strictly.
 
-    For finite equations alone the rank there has to agree with ``dof``: other components may be larger or smaller.
+    For geometric equations alone the rank there has to agree with ``dof``: other components may be larger or smaller.
     """
     search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.setting.positive, chart.symbols)
     points = []
@@ -176,7 +176,7 @@ def at_one_point(
 ) -> CommonPoint:
     """Return the answers, where all blocks are consistent, held against one point of the system.
 
-    ``domain``: where each constraint, as it was written, has a value. What does not hold at the blocks' witnesses is
+    ``domain``: where each constraint, as it was written, has a value. What the blocks' witnesses do not satisfy is
     put beside the rows that share a coordinate with it, and these are ``answered`` again.
     """
     written = _with_conditions(blocks, domain)

@@ -30,8 +30,8 @@ class Likeness(NamedTuple):
 class Likenesses:
     """What blocks of one system are compared by.
 
-    What the engines know of a block goes in: its rows, which of them are measured, and its coordinates' places in the
-    drawing, values and roles. Of names only who owns which coordinate counts, and which is the same as which.
+    What the engines know of a block goes in: its rows, which of them are measured, and its coordinates' places at the
+    reference, values and roles. Of names only who owns which coordinate counts, and which is the same as which.
     """
 
     def __init__(self, setting: Setting) -> None:

@@ -21,7 +21,7 @@ from dofkit.expressions.tree import Expr
 from dofkit.mobility.joint_tree import Bridges, bridges
 from dofkit.mobility.placement import RowsAtReference
 from dofkit.relations.blocks import Block, Row, coordinates_of, make_chart
-from dofkit.relations.normal.domain import DomainCondition, arguments_of, holds_at
+from dofkit.relations.normal.domain import DomainCondition, arguments_of, is_satisfied_at
 from dofkit.relations.normal.normal_form import normalise
 from dofkit.relations.normal.pieces import (
     INSTANT_NOTE,
@@ -40,7 +40,7 @@ from dofkit.relations.setting import ALL, Reductions, Setting
 from dofkit.relations.velocity_reductions import Alternative, RewrittenRow
 from dofkit.system import System
 
-#: The kinds of symbols that no finite relation holds.
+#: The kinds of symbols that no geometric equation determines.
 RATES = frozenset({"velocity", "differential", "dt"})
 
 
@@ -189,7 +189,7 @@ def has_kink_at_reference(normal: Normal, setting: Setting) -> bool:
 
 
 def passes_reference(branch: Sequence[Piece], setting: Setting) -> bool:
-    """Return whether the finite relations of a branch hold at the reference configuration."""
+    """Return whether the reference configuration satisfies the geometric equations of a branch."""
     finite = [p for p in branch if isinstance(p, Finite)]
     configuration = {**(setting.reference or {}), ex.TIME: ex.ZERO}
     chart = make_chart(_block(finite), setting)
@@ -199,7 +199,7 @@ def passes_reference(branch: Sequence[Piece], setting: Setting) -> bool:
     if point_at(chart, configuration, 5) is None:
         return False
     conditions = (p for p in branch if isinstance(p, DomainCondition))
-    return not any(holds_at(c, configuration, setting.positive) is False for c in conditions)
+    return not any(is_satisfied_at(c, configuration, setting.positive) is False for c in conditions)
 
 
 def _block(pieces: Sequence[Finite]) -> Block:

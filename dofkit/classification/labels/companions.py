@@ -1,4 +1,4 @@
-"""What a form integrates to with the help of others: which of them it needs, and the finite relation they give."""
+"""What a form integrates to with the help of others: which of them it needs, and the geometric equation they give."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ class Companionship:
         return None if others.finite or a.hidden or advances else True
 
     def modulo(self, constraint: int, block: Block, a: Answer) -> Others:
-        """For a constraint that is not: a finite relation that it says in the presence of all the others."""
+        """For a constraint that is not: a geometric equation that it implies together with all the others."""
         owners = list(dict.fromkeys(r.constraint for r in block.rows))
         if a.dof is None or len(owners) > MAX_CONSTRAINTS or len(block.coordinates) > MAX_COORDINATES:
             return Others()
@@ -102,7 +102,7 @@ class Companionship:
         return kept
 
     def _holds(self, f: FirstIntegral, block: Block, a: Answer) -> bool:
-        """Return whether f is constant along every motion of the whole block.
+        """Return whether f is constant along every motion of the block.
 
         What some of its rows integrate to need not be: where y = 0, dx = y dz says nothing of z, though it makes z
         constant beside x = 0 alone.

@@ -46,7 +46,7 @@ def entries_of(
     for i, (r, dependence) in enumerate(zip(reduced, dependences, strict=True)):
         try:
             check()
-            likeness = None if dependence.is_told else _likeness(r, answer[i], setting)
+            likeness = None if dependence.has_dependence else _likeness(r, answer[i], setting)
             kind = None if likeness is None else (likeness, dependence)
             if kind in by_kind:
                 named = {"name": r.constraint.name, "text": r.constraint.text}
@@ -66,7 +66,7 @@ def entries_of(
 def _likeness(r: Reduced, rows: Sequence[LabelledRow], setting: Setting) -> Hashable:
     """Return what is equal for constraints whose entries differ in name and text only; None where that is not clear.
 
-    Of finite relations without time their number alone matters, of others also what they say, names apart.
+    Of geometric equations without time their number alone matters, of others also what they say, names apart.
     """
     pieces = [*(p for n in r.normals for p in n.pieces), *(t.row.piece for t in rows)]
     branched = any(len(n.branches) > 1 for n in r.normals)
@@ -136,7 +136,7 @@ def _dependences(
 def labels_in_system(
     reduced: Sequence[Reduced], setting: Setting, outcome: Outcome
 ) -> list[tuple[bool | None, Verdict]]:
-    """Whether each constraint is holonomic in the system, and how sure; what needs an integral found is left None."""
+    """Whether each constraint is holonomic in the system, and how certain; None for what needs an integral."""
     answer = _labelled_rows(len(reduced), outcome, setting)
     if not outcome.consistent:
         return [(None, "undecided")] * len(reduced)
@@ -222,9 +222,9 @@ def by_itself(r: Reduced, labelled: Sequence[LabelledRow], answered: AnsweredBlo
 def integrable_part(
     outcome: Outcome, entries: Sequence[ConstraintEntry], company: Companionship
 ) -> IntegrablePart | None:
-    """What the differential constraints say in finite relations; None where there are none or it is undecided.
+    """What the differential constraints say in geometric equations; None where there are none or it is undecided.
 
-    The rank of I^(inf), the bottom of the derived flag, over all coordinates; its basis beyond the finite relations
+    The rank of I^(inf), the bottom of the derived flag, over all coordinates; its basis beyond the geometric equations
     that were written: hidden ones, and integrals of which each block's are independent.
     """
     blocks = [(b, a) for b, a in zip(outcome.blocks, outcome.answers, strict=True) if b.forms]

@@ -1,4 +1,4 @@
-"""One constraint's entry in the report: its labels, how sure they are, and sentences for a student."""
+"""One constraint's entry in the report: its labels, how certain they are, and sentences for a student."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ class Evidence:
 
 
 def entry(reduced: Reduced, evidence: Evidence, setting: Setting, consistent: bool | None) -> ConstraintEntry:
-    """Everything that is told of one constraint."""
+    """Everything that is known about one constraint."""
     constraint, normals, dependence = reduced.constraint, reduced.normals, evidence.dependence
     pieces: list[Clause] = [p for normal in normals for p in normal.pieces] + list(reduced.inequalities)
     form: Form = max((form_of(p) for p in pieces), key=FORMS.index, default="finite")
@@ -132,7 +132,7 @@ def _integrable_forms(normals: Sequence[Normal], rows: Sequence[LabelledRow]) ->
     """The forms that are put to the test of integrability, each once: of the branches like the one in use.
 
     xdot^2 - 2 z xdot ydot + ydot^2 = 0 says xdot = ydot = 0 where abs(z) < 1, and one form where abs(z) > 1; on the
-    circle between it holds finite relations too.
+    circle between it holds geometric equations too.
     """
     used = [t.row.piece for t in rows if isinstance(t.row.piece, Pfaffian)]
     chosen: list[Pfaffian] = []
@@ -254,7 +254,7 @@ def _numbered(integral: str | None, number: int) -> str | None:
 def _integral_of(
     form: Form, labels: EntryLabels, own_integral: str | None, evidence: Evidence, consistent: bool
 ) -> tuple[str | None, Others]:
-    """Return the finite relation that a constraint integrates to, and what the others do for it."""
+    """Return the geometric equation that a constraint integrates to, and what the others do for it."""
     others = Others()
     if form == "pfaffian" and labels.in_system is not None and consistent and not (labels.alone and own_integral):
         others = evidence.companions_of(labels.in_system)
@@ -279,7 +279,7 @@ def label_in_system(
     proofs: Sequence[Integrability],
     forms: Sequence[Pfaffian],
 ) -> TraitAnswer:
-    """Return whether all rows are consequences of finite equations, which an inequality never is."""
+    """Return whether all rows are consequences of geometric equations, which an inequality never is."""
     if inequalities:
         return False, "proved"
     integrable = [f for f, p in zip(forms, proofs, strict=False) if p.proved]

@@ -43,7 +43,7 @@ class Others:
 
 
 class EntryLabels(NamedTuple):
-    """Holonomic in the system and alone, how sure each is, and why it was left undecided where it was.
+    """Holonomic in the system and alone, how certain each is, and why it was left undecided where it was.
 
     ``relates``: there is a row; ``with_others``: what the others make of one that is nonlinear in the velocities.
     """
@@ -197,7 +197,7 @@ class EntryDependence(NamedTuple):
     claim: Claim
 
     @property
-    def is_told(self) -> bool:
+    def has_dependence(self) -> bool:
         """Return whether more is stated than how many equations are independent."""
         return bool(self.circuit is not None or self.redundant or self.open or self.seen or self.following)
 
@@ -228,7 +228,7 @@ class EntryDependence(NamedTuple):
 
 
 class EntryTraits(NamedTuple):
-    """What all pieces of a constraint carry, and how sure each label is.
+    """What all pieces of a constraint carry, and how certain each label is.
 
     ``by``: the field on which ``scleronomic`` rests where t does not occur in the constraint as it is written, and a
     term without velocities does: whether it integrates.
@@ -284,9 +284,9 @@ def traits_together(
 
 
 def branches_of_time(reduced: Reduced, consistent: bool, positive: frozenset[Expr]) -> Iterator[Traits]:
-    """Yield whether t occurs in an equation whose branches hold at different times, or one of which fixes the time.
+    """Yield whether t occurs in an equation with branches at different times, or with one that fixes the time.
 
-    A branch that holds at an instant only was left out, which changes nothing where motions satisfy the others.
+    A branch that is satisfied at an instant only was left out, which changes nothing where motions satisfy the others.
     """
     for k, n in enumerate(reduced.normals):
         conditions = ([p.expr for p in b if isinstance(p, DomainCondition)] for b in n.branches)
@@ -372,7 +372,7 @@ class Ground(NamedTuple):
 
 
 def claim_of_dependence(ground: Ground, dependence: EntryDependence, all_needed: bool) -> Claim:
-    """How sure it is how many equations are independent of those before, and of what the others follow."""
+    """How certain it is how many equations are independent of those before, and of what the others follow."""
     if dependence.claim.argument == "identity":
         return dependence.claim
     of_blocks = together(*(a.claim for a in ground.answers))

@@ -1,4 +1,4 @@
-"""The special cases of a small scene, each confirmed and told in a sentence."""
+"""The special cases of a small scene, each confirmed, in a sentence."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """Candidates for where a block's rank drops, or the curvature on the kernel of its rows: loci, as equations.
 
-Rows are the differentials of the finite relations and the Pfaffian forms, each times its denominators. Rows with
+Rows are the differentials of the geometric equations and the Pfaffian forms, each times its denominators. Rows with
 a coefficient that never vanishes are eliminated first: the rank drops where that of the rest does. The rest is then
 eliminated where its pivots do not vanish, and the curvature d(omega)(u, v) of every form on every two vectors of the
 kernel is a polynomial as well. Both are matrices, whose largest minors vanish on the loci.

@@ -41,7 +41,7 @@ def largest_branch(ball: Manifold, forms: Sequence[Form], wanted: int) -> int | 
     """Return the largest dimension found among the branches of the set through the point; None where none was found.
 
     A branch begins along a real zero of the second-order ``forms`` and is followed towards the point: at each distance
-    a real point of the set is brought to high precision, the rank of all relations there is told by a gap, and the
+    a real point of the set is brought to high precision, the rank of all relations there is decided by a gap, and the
     dependent ones vanish along a random curve.
     """
     try:

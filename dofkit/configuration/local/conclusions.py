@@ -13,7 +13,7 @@ Beyond: one relation is f = Q(y) + g(z) in suitable coordinates, Q its second-or
 on N (splitting lemma). Of several, N is a branch of the set if all of them vanish on it, and the second-order cone
 bounds what else there is; the same holds for a branch that is continued numerically.
 
-Where time is a column it is held against the set: if it is constant there, nothing moves through it (``confined``). A
+Where time is a column, the set decides: if it is constant there, nothing moves through it (``confined``). A
 definite form stops it, and the cone of an indefinite one lies in no hyperplane dt = 0.
 """
 
@@ -42,7 +42,7 @@ def manifold(germ: Germ) -> Conclusion | None:
 
 
 def orbit(germ: Germ) -> Conclusion | None:
-    """m = mu: the set holds the orbit of the whole, and its tangents are no more than the orbit's [AsimowRoth1978]."""
+    """m = mu: the set contains the rigid motions' orbit, and its tangents are those of the orbit [AsimowRoth1978]."""
     return Conclusion(germ.rigid, WHOLE, germ.time is not None) if germ.m == germ.rigid else None
 
 
@@ -85,7 +85,7 @@ def isolated_zero(germ: Germ) -> Conclusion | None:
 
 
 def _timed(germ: Germ, conclusion: Conclusion) -> Conclusion:
-    """``conclusion`` of the whole manifold M, with time held against a random curve of it."""
+    """``conclusion`` for all of the manifold M, with time held against a random curve of it."""
     if germ.time is None or any(time_moves(germ.manifold, germ.time, order) for order in (2, LONG_ORDER)):
         return conclusion
     return conclusion._replace(verdict="probable", confined=True)

@@ -35,8 +35,8 @@ WITHOUT_VALUE = LocalDimension(
 class Criterion(NamedTuple):
     """A row of the table: its ``key`` among the arguments (`classification/arguments.yaml`), where its words stand.
 
-    ``decide`` checks the hypotheses and returns the conclusion, None where it comes to none. ``verdict``: how sure that
-    is at the best, undecided where no later row is asked; with balls alone it is "numeric".
+    ``decide`` checks the hypotheses and returns the conclusion, None where it comes to none. ``verdict``: how certain
+    that is at the best, undecided where no later row is asked; with balls alone it is "numeric".
     """
 
     key: ArgumentKey
@@ -119,7 +119,7 @@ def _manifolds(
 def vanish_near(chart: Chart, point: FieldPoint, ball: BallPoint | None, rigid: int, rank: int) -> bool | None:
     """Return whether relations have no higher rank than ``rank`` at a point, and are 0 on the manifold of that rank.
 
-    The dependent ones are 0 along a random curve of it [SchwartzZippel], or nothing but motions of the whole is left.
+    The dependent ones are 0 along a random curve of it [SchwartzZippel], or nothing but rigid motions is left.
     None where they are too high in degree, or could not be followed to a distance, which is asked of a ``ball``.
     """
     frame = frame_at(chart, point)

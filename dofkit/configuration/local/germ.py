@@ -2,7 +2,7 @@
 
 Let J be the Jacobian at P, of rank r, on n columns, and m = n - r. As many independent relations as there are give a
 manifold M of dimension m through P; the others are functions f_1, ..., f_k on M without linear part. The set is
-{f_1 = ... = f_k = 0} on M. The motions of the whole as one rigid body are mu dimensions of it.
+{f_1 = ... = f_k = 0} on M. The motions of the system as one rigid body are mu dimensions of it.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from dofkit.exact.zero import degree_bound
 ORDER, LONG_ORDER = 8, 16
 #: Relations of this degree are followed to the long order only, over balls those beyond it: they may begin later.
 LONGEST = 65
-#: With more motions than this beside those of the whole, balls look at one random curve only.
+#: With more motions than this besides the rigid ones, balls look at one random curve only.
 MANY_WAYS = 60
 #: The order to which they are followed on their critical set, and random directions in which a sign is looked at.
 CRITICAL_ORDER, DIRECTIONS = 12, 12

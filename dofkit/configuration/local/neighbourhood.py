@@ -1,4 +1,4 @@
-"""What holds at a distance: the set near a point looked at in floating point and confirmed to high precision."""
+"""What is true at a distance: the set near a point looked at in floating point and confirmed to high precision."""
 
 from __future__ import annotations
 
@@ -148,14 +148,14 @@ def holds_away(ball: Manifold, direction: Sequence[float], deep: bool) -> bool |
                 return largest(here.floats(u, ball.others)[0]) <= ROUGH
             if u is not None:
                 with ctx.workprec(DEEP if deep else ctx.prec):
-                    return _holds_at(here, u, DEEP_SURE if deep else SURE)
+                    return _is_satisfied_near(here, u, DEEP_SURE if deep else SURE)
             reach /= 4
     except FAULTS:
         return None
     return None
 
 
-def _holds_at(here: Neighbourhood, u: Vector, sure: float) -> bool | None:
+def _is_satisfied_near(here: Neighbourhood, u: Vector, sure: float) -> bool | None:
     ball = here.ball
     rows, columns = independent(here.floats(u, ball.rows)[1], 0.0) if ball.rows else ([], [])
     if len(rows) < len(ball.rows):

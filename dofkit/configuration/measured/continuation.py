@@ -131,7 +131,7 @@ def _largest(f: Any) -> float:
 
 
 def _tangent(a: Any, ahead: Any) -> Any:
-    """Return the part of a direction along which the combinations stay 0 to first order."""
+    """Return the part of a direction along which the derivatives of the combinations are 0."""
     return ahead - np.linalg.lstsq(a, a @ ahead, rcond=None)[0] if len(a) else ahead
 
 

@@ -84,7 +84,7 @@ def measured_freedom(chart: Chart, pose: Mapping[Expr, Expr]) -> MeasuredFreedom
 def _compared_with_exact(freedom: MeasuredFreedom, exact: AtReference) -> MeasuredFreedom:
     """Return what the geometry exactly as written says of a measured freedom, if its rank is the same.
 
-    It decides a motion of as many dimensions as the tolerance allows; it leaves open a motion that it does not have.
+    It decides a motion of as many dimensions as the tolerance allows; a motion that it does not have is undecided.
     """
     dimension = exact.local.dimension
     if exact.instantaneous != freedom.instantaneous or dimension in (None, freedom.dimension):
@@ -158,7 +158,7 @@ def _independent(problem: _Problem) -> Conclusion | None:
     return Conclusion(problem.first_order, "all equations are independent within the tolerance")
 
 
-def _rigid_to_first_order(problem: _Problem) -> Conclusion | None:
+def _infinitesimally_rigid(problem: _Problem) -> Conclusion | None:
     """Nothing moves but the system as a rigid body [AsimowRoth1978]."""
     if problem.first_order > problem.rigid:
         return None
@@ -218,7 +218,7 @@ def _undecided(problem: _Problem) -> Conclusion:
 #: The criteria in the order in which they are asked; the first that comes to a conclusion decides.
 CRITERIA: tuple[Callable[[_Problem], Conclusion | None], ...] = (
     _independent,
-    _rigid_to_first_order,
+    _infinitesimally_rigid,
     _indistinct,
     _indefinite_form,
     _definite_combination,

@@ -67,7 +67,7 @@ def cross(a: Numbers, b: Numbers) -> tuple[Any, ...]:
 
 
 SparseRow = dict[int, int]
-#: For every row that depends on rows before it a minimal set of those; told where it is asked for.
+#: For every row that depends on rows before it a minimal set of those; given where it is asked for.
 Supports = Callable[[], Mapping[int, Sequence[int]]]
 
 RationalRow = dict[int, fmpq]

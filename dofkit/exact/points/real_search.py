@@ -22,7 +22,7 @@ from dofkit.exact.ring.ring import Ring
 from dofkit.expressions.tree import TIME, Expr
 
 STARTS, ITERATIONS, NEWTON_STEPS = 12, 80, 24
-#: Moments that are looked for, how much later one of two is begun, and the parts of a unit that they are told in.
+#: Moments that are looked for, how much later one of two is begun, and the parts of a unit in which they are written.
 MOMENTS, LATER, TICKS = 8, 4.0, 512
 #: So often a step that leaves the domain of the functions is halved.
 HALVINGS = 8

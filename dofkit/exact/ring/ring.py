@@ -125,7 +125,7 @@ class Ring(Instructions):
     """The program and its generators.
 
     ``expressions`` are all that will be asked for (their angles fix the basis). ``positive`` symbols are
-    their own absolute value. ``alias`` replaces symbols in the arguments of functions: where a finite
+    their own absolute value. ``alias`` replaces symbols in the arguments of functions: where a geometric
     constraint says theta = w t, cos(theta) and cos(w t) are one generator.
     """
 

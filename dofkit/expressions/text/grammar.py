@@ -139,7 +139,7 @@ class Parser(TextReader):
     # Relations and sums
 
     def relations(self) -> tuple[Comparison, ...]:
-        """Return the relations of the whole text: of a value, which is 0, of a relation or of a chain of them."""
+        """Return the relations of the text: of a value, which is 0, of a relation or of a chain of them."""
         first = self.next
         left_side = self.computed(first, bounded, self.sum())
         token = self.take()

@@ -66,7 +66,7 @@ class Script:
         return TextError(error.message, column, error.hint)
 
 
-#: Stands between equations of which one follows from another.
+#: Stands between equations of which one implies the other.
 ARROW = "⇒"
 _NAME = r"(?:\\[A-Za-z]+|[A-Za-zα-ωΑ-Ω])(?:_\{?\w+\}?)?"
 _DOTTED = rf"\\dd?ot\s*\{{?\s*{_NAME}\s*\}}?"

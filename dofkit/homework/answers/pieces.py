@@ -40,7 +40,7 @@ _INTRODUCED = re.compile(
     r"|tenemos|abbiamo|temos)"
     r"(?:\s+(?:that|to|zu|als|comme|como|come))?\s*:?\s+(?=\S)", re.IGNORECASE,
 )  # fmt: skip
-#: That an equation holds at all times, behind it.
+#: That an equation is true at all times, behind it.
 _ALWAYS = re.compile(
     r"(?<=\S)\s+(?:for\s+(?:all|every)|at\s+all|f[üu]r\s+alle?|zu\s+allen|pour\s+tout|para\s+todo|per\s+ogni|∀|\\forall)"
     r"\s*(?:t|times?|zeiten|temps|tiempo|tempo)\s*\.?\s*\Z",

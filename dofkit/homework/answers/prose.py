@@ -93,7 +93,7 @@ FILLING = word_list("filling")
 
 
 def takes_back(remark: str) -> bool:
-    """Return whether a short remark leaves open what precedes it: `?`, `not sure`, `maybe 2`.
+    """Return whether a short remark questions what precedes it: `?`, `not sure`, `maybe 2`.
 
     >>> takes_back("not sure"), takes_back("it would be 2 without the rod")
     (True, False)

@@ -1,6 +1,6 @@
 """Where submissions come from: files, folders of files, tables, lines of JSON; one by one, as they were handed in.
 
-What is in them is read later, by a worker: here they are only told apart.
+What is in them is read later, by a worker: here they are only distinguished.
 """
 
 from __future__ import annotations

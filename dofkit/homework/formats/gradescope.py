@@ -9,8 +9,8 @@ and says nothing of assignments that have none at all: the autograder asks for `
 would ever see a point. How an answer was read, or where it could not be, is shown at once in any case.
 
 An answer that needs a review is a test without ``score`` and ``status``: Gradescope shows its output and neither
-points nor a colour. The ``score`` of the whole, which Gradescope asks for, is the sum of what is decided; ``output``
-says first that it is not final and how many points are open, and ``extra_data`` has the same as numbers.
+points nor a colour. The ``score`` of the submission, which Gradescope asks for, is the sum of what is decided;
+``output`` says first that it is not final and how many points are open, and ``extra_data`` has the same as numbers.
 """
 
 from __future__ import annotations

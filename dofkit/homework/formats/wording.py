@@ -53,7 +53,7 @@ def line(text: str) -> str:
 
 
 def identity(student: str) -> str:
-    """A student's name where others are told apart by it: what cannot be shown is never left out.
+    """A student's name where it distinguishes others: what cannot be shown is never left out.
 
     Dropped, it would turn the name into another student's.
 

@@ -1,4 +1,4 @@
-"""Sheets written to files: one Markdown text, told in the format that is asked for."""
+"""Sheets written to files: one Markdown text, written in the format that is asked for."""
 
 from __future__ import annotations
 

@@ -34,7 +34,7 @@ def euler(e: Expr, name: str) -> Expr:
 def same_lagrangian(answer: Expr, right: Expr, motion: RightMotion) -> bool | None:
     """Is the difference a total derivative by time? Euler's equation of it is then 0 identically, and only then.
 
-    Beside finite relations it is enough that it gives no other force than the relations do, where they hold.
+    Beside geometric equations it is enough that it gives no other force than the relations do, where they hold.
     """
     gap = answer - right
     if any(s.args[0] == "acceleration" for s in gap.symbols):

@@ -32,7 +32,7 @@ class SceneCounts:
         Bars between particles, those of rigid sets included; pairs of particles joined by one bar and by nothing else;
         sets of three particles or more of which each keeps its distance from each.
     surplus, on_curves
-        Surfaces beyond one for each particle that is held on a curve in space; particles that one curve holds.
+        Surfaces beyond one for each particle that is kept on a curve in space; particles that one curve keeps.
     planes, fixed
         Equations of their own that hold one Cartesian coordinate, or any coordinate, at a number.
     forces, energies, entries

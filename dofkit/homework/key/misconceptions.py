@@ -21,7 +21,7 @@ Count: TypeAlias = Callable[[SceneCounts], int | Fraction]
 class Misconception(NamedTuple):
     """An error: its stable ``code``, and the number f that it predicts ``where`` something is so of the scene.
 
-    ``anyway``: it gives this number whichever freedom is asked for; ``alone``: told where no other error gives it.
+    ``anyway``: it gives this number whichever freedom is asked for; ``alone``: reported where no other error gives it.
     """
 
     code: str

@@ -95,7 +95,7 @@ def _equations(key: Key, name: str) -> list[str]:
 
 
 def implied(key: Key, text: str) -> bool:
-    """Return whether a relation follows from the scene's constraints."""
+    """Return whether the scene's constraints imply a relation."""
     return key.once(("implied", text), lambda: _follows(key, text))
 
 

@@ -1,7 +1,7 @@
 """Inequalities of an answer beside those asked for: the regions that they describe, compared as sets.
 
 Two regions are the same if neither has a point that the other lacks. Each difference is a system of inequalities, which
-the engine shows to be empty or finds a certified point of; what it leaves open is not judged.
+the engine shows to be empty or finds a certified point of; what is undecided is not judged.
 """
 
 from __future__ import annotations

@@ -64,7 +64,7 @@ class RightMotion:
         return zero_everywhere if zero_everywhere is not False or not self.relations else self._zero_there(moved)
 
     def _zero_there(self, e: Expr) -> bool | None:
-        """At points where the finite relations hold."""
+        """At points where the geometric equations hold."""
         ring = Ring([e, *self.relations], self.positive)
         node = ring.node(e)
         zeros = [node_values[node] == 0 for _, node_values in points(ring, self.relations)]
@@ -138,7 +138,7 @@ def _add_rate(form: Expr, rates: dict[Expr, Expr], positive: frozenset[Expr]) ->
 
 
 def is_zero(e: Expr, positive: frozenset[Expr]) -> bool | None:
-    """Zero identically? None where it is too large, has no value or was told by figures only."""
+    """Zero identically? None where it is too large, has no value or was decided by figures only."""
     if sum(1 for _ in ex.nodes(e)) > MOST_NODES:
         return None
     try:

@@ -1,4 +1,4 @@
-"""Choices of names: do coordinates fix the configuration, and can constraints be dropped together?"""
+"""Choices of names: do coordinates fix the configuration, and is a set of constraints redundant?"""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def determine(scene: Scene, names: Sequence[str], report: Report) -> bool | None
     the configuration.
 
     Where differentials do not decide it, the coordinates are held at their values in the reference configuration: if
-    no velocity is allowed there to first order, their differentials are independent there, and so nearby.
+    there is no infinitesimal motion, their differentials are independent there, and so nearby.
     """
     basis = report.integrable_part.basis if report.integrable_part is not None else []
     if basis is None:
@@ -81,7 +81,7 @@ def _finite(normals: Sequence[Normal]) -> tuple[Normal, ...]:
     return tuple(n for n in normals if all(isinstance(p, Finite) for p in n.pieces))
 
 
-def can_be_dropped(scene: Scene, names: Sequence[str], report: Report) -> bool | None:
+def is_redundant_set(scene: Scene, names: Sequence[str], report: Report) -> bool | None:
     """Return whether the set of motions is the same without the constraints of these names.
 
     They follow from the others, or, near a drawn or generic pose, all is finite and as free there without them.

@@ -1,4 +1,4 @@
-"""The equation of a constraint, and the finite relation that a differential one integrates to."""
+"""The equation of a constraint, and the geometric equation that a differential one integrates to."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ class EquationQuestion(QuestionBase):
 
 
 class IntegralQuestion(QuestionBase):
-    """The finite relation; its constant is named by the student, or left out; ``none`` where there is none."""
+    """The geometric equation; its constant is named by the student, or left out; ``none`` where there is none."""
 
     wanted: ClassVar[str] = "Is {about} integrable? If so, give its integral."
     how: ClassVar[str] = (

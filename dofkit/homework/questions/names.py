@@ -11,7 +11,7 @@ from dofkit.homework.answers.words import alternatives, is_none, lists_only, nam
 from dofkit.homework.judgement import Given, Judgement, Reading, Sentence, needs_review, right, wrong
 from dofkit.homework.key.key import Key
 from dofkit.homework.key.own_coordinates import chosen_coordinates, with_chosen
-from dofkit.homework.key.selection import can_be_dropped, determine
+from dofkit.homework.key.selection import determine, is_redundant_set
 from dofkit.homework.questions.base import Earlier, QuestionBase
 from dofkit.homework.sentences import say
 
@@ -50,7 +50,7 @@ class Coordinates(QuestionBase):
 
 
 class Redundant(QuestionBase):
-    """Constraints that can all be dropped together without changing anything, as many as possible."""
+    """A maximal redundant set of constraints: without all of them nothing changes."""
 
     wanted: ClassVar[str] = (
         "Which constraints are redundant? Give a largest set that may be removed without changing the motion."
@@ -84,7 +84,7 @@ class Redundant(QuestionBase):
             return right(text)
         if not names:
             return wrong(text, "REDUNDANT_MISSED")
-        dropped = key.decided(can_be_dropped, names)
+        dropped = key.decided(is_redundant_set, names)
         if dropped is None:
             return needs_review(text, "it could not be decided whether these constraints may be removed together.")
         if not dropped:

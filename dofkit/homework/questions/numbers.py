@@ -18,7 +18,7 @@ from dofkit.homework.questions.base import Earlier, QuestionBase
 from dofkit.homework.sentences import say
 from dofkit.scene.fields import as_written
 
-#: A number that follows from an earlier wrong one; the number of the other convention.
+#: A number that an earlier wrong one leads to; the number of the other convention.
 CARRIED, OTHER_CONVENTION = "CARRIED", "OTHER_CONVENTION"
 _CONFIGURATION = "Count the coordinates and subtract the number of independent holonomic equations."
 _VELOCITIES = (

@@ -1,4 +1,4 @@
-"""What students are told, in English, German, French and Spanish: sentences with places for what differs."""
+"""Feedback for students, in English, German, French and Spanish: sentences with places for what differs."""
 
 from __future__ import annotations
 

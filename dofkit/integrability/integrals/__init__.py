@@ -1,1 +1,1 @@
-"""Finite relations that Pfaffian forms integrate to, each proved by differentiating."""
+"""Geometric equations that Pfaffian forms integrate to, each proved by differentiating."""

@@ -37,7 +37,7 @@ def _in_words(text: str, what: str) -> str:
     return text
 
 
-def how_sure(report: Report) -> list[Remark]:
+def certainty(report: Report) -> list[Remark]:
     """Return the model, the method, the meaning of the verdicts and the argument behind each answer."""
     model, *lacks = _in_words(report.modelled, "models").split(LEFT_OUT)
     remarks = [Remark(label, text) for label, text in (("model", model), ("method", method_in_words(report))) if text]

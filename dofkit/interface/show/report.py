@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 
 from dofkit.base.wording import first_of, many, sentence, verb
-from dofkit.interface.show.assurance import checked_claims, how_sure, left_out, not_proved, reservation
+from dofkit.interface.show.assurance import certainty, checked_claims, left_out, not_proved, reservation
 from dofkit.interface.show.sheet import TONES, Column, Fact, Formula, Grid, Remark, Sheet, SheetSection, Tone
 from dofkit.report import ConstraintEntry, Report, SpecialCase
 
@@ -66,7 +66,7 @@ def _sections(report: Report, how: bool) -> Iterator[SheetSection]:
     yield _listed("Warnings", [Remark("!", sentence(warning)) for warning in report.warnings])
     yield _listed("Checked", checked_claims(report))
     if how:
-        yield SheetSection("How", how_sure(report))
+        yield SheetSection("How", certainty(report))
         yield SheetSection("Not proved", not_proved(report))
 
 

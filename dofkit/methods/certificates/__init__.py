@@ -13,7 +13,7 @@ From a report to a certificate
     1. `certificate` has a table: for each field of a report the function that yields evidence for it.
     2. `points` searches for a point by Newton's method in floats (`numerics`) and makes it exact, or a box for interval
        Newton.
-    3. `freedom` writes numbers and redundancy, `dimension` what holds of the whole set and at points where rows are
+    3. `freedom` writes numbers and redundancy, `dimension` what holds of all of the set and at points where rows are
        stationary, `labels` labels and integrals, `fields` velocity fields and brackets, `emptiness` contradictions
        between equations. `steps` writes what these rest on: equations that follow from others by cofactors.
     4. `lowering` says in each verdict whether it is checked, and makes a claim undecided whose evidence gives another

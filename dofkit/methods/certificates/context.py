@@ -129,12 +129,12 @@ class Context:
 
     @cached_property
     def rates(self) -> list[str]:
-        """The steps for the rates of the finite relations."""
+        """The steps for the rates of the geometric equations."""
         return [step for name in self.scenery.evidence.finite if (step := rate_of(self.scenery, name))]
 
     @property
     def equations(self) -> tuple[str, ...]:
-        """All finite relations, then those of velocities: the order in which one is independent of those before it."""
+        """All geometric equations, then those of velocities: the order in which independent ones are counted."""
         return self.scenery.evidence.equations
 
     def standing_of(
@@ -173,7 +173,7 @@ class Context:
 
     @cached_property
     def finite_standing(self) -> Standing | None:
-        """The same for the finite relations."""
+        """The same for the geometric equations."""
         return self.accounted(self.scenery.evidence.finite) if self.scenery.evidence.moving else self.standing
 
     def accounted(self, names: Sequence[str]) -> Standing | None:

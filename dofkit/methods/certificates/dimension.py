@@ -93,7 +93,7 @@ def _from(value: str, q: str) -> str:
 
 
 def everywhere(context: Context) -> Iterator[Told]:
-    """dof of the whole set; with forms from that near the main point."""
+    """dof of all of the set; with forms from that near the main point."""
     if context.scenery.cayley or context.standing is None:
         return
     evidence, finite = context.scenery.evidence, context.finite_standing
@@ -218,7 +218,7 @@ ISOLATED, CROSSING = "isolated zero of one variable", "indefinite form"
 
 
 def stationary(context: Context) -> Iterator[Told]:
-    """Yield dof near a point at which a relation depends on the others to first order alone, by the rule `isolated`."""
+    """Yield dof near a point at which only the differential of a relation depends on others, by the rule `isolated`."""
     standing = context.standing
     if standing is None or context.report.verdicts["dof"].argument not in (ISOLATED, CROSSING):
         return

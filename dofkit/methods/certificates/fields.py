@@ -47,7 +47,7 @@ def backing(context: Context, standing: Standing | None) -> Told | None:
 
 
 def covering(context: Context, standing: Standing) -> list[Told] | None:
-    """Blocks of relations whose rank is told by how many there are, or by rigid motions."""
+    """Blocks of relations whose rank is given by how many there are, or by rigid motions."""
     scenery, blocks = context.scenery, []
     accounted = {*standing.rows, *standing.dependent}
     for names in parts_of(scenery, [name for name in scenery.evidence.finite if name in accounted]):
@@ -163,7 +163,7 @@ def words_of(context: Context, standing: Standing, most: int) -> Words | None:
 
 
 def reach(context: Context) -> int:
-    """How many directions all words of the scene's fields span at most, as far as it is told."""
+    """How many directions all words of the scene's fields span at most, as far as it is claimed."""
     whole = len(context.problem.coordinates) if context.report.dof is None else context.report.dof
     return whole + context.scenery.evidence.timed
 
@@ -240,7 +240,7 @@ def _most(context: Context, dof: int) -> Iterator[Told]:
 
 
 def integrable_names(context: Context) -> list[str]:
-    """The finite relations, and the forms that are said to be holonomic."""
+    """The geometric equations, and the forms that are said to be holonomic."""
     owners = {entry.name for entry in context.report.constraints if entry.holonomic}
     return [
         relation.name

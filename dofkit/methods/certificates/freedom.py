@@ -41,7 +41,7 @@ def _inequalities(context: Context) -> dict[str, str] | None:
 
 
 def _meeting(context: Context, inequalities: list[str]) -> FoundPoint | None:
-    """Return a point at which inequalities hold, and the finite relations; if they hold velocities, all relations."""
+    """Return a point that satisfies inequalities and the geometric equations; all relations, if velocities occur."""
     evidence = context.scenery.evidence
     moving = any(evidence.met_by(evidence.relation(name).tree) for name in inequalities)
     names, unknowns = states_of(context) if moving else (evidence.finite, context.problem.coordinates)
@@ -100,12 +100,12 @@ def instantaneous(context: Context) -> Iterator[Told]:
 
 
 def counted(context: Context) -> Iterator[Told]:
-    """What follows from other claims."""
+    """What other claims imply."""
     yield {"rule": "count"}
 
 
 def redundant(context: Context) -> Iterator[Told]:
-    """What is dropped follows from the rest."""
+    """What is redundant is implied by the other constraints."""
     dropped = set(context.report.redundant or [])
     relation = context.scenery.evidence.relation
     names = sorted(context.equations, key=lambda name: relation(name).owner in dropped)
@@ -173,7 +173,7 @@ def independent(context: Context, entry: ConstraintEntry, field: str) -> Iterato
 
 
 def circuit(context: Context, entry: ConstraintEntry, field: str) -> Iterator[Told]:
-    """The constraint follows from those of its circuit, and from no fewer."""
+    """The constraint is implied by those of its circuit, and by no fewer."""
     members, evidence = entry.circuit, context.scenery.evidence
     if members is None or context.point is None:
         return

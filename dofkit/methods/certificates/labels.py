@@ -44,7 +44,7 @@ def combined_integral(context: Context, function: str, alone: str = "") -> str |
 
 
 def add_step_from_integrals(context: Context, name: str, steps: Sequence[str], alone: bool = False) -> bool:
-    """Add the step by which a form follows from integrals, and finite relations if not ``alone``; return whether."""
+    """Add the step by which integrals imply a form, and geometric equations if not ``alone``; return whether."""
     step = f"{context.scenery.label}{name} from {' and '.join(steps) if alone else 'integrals'}"
     if step in context.scenery.steps:
         return True
@@ -54,7 +54,7 @@ def add_step_from_integrals(context: Context, name: str, steps: Sequence[str], a
 
 
 def integral_alone(context: Context, entry: ConstraintEntry, name: str) -> str | None:
-    """Return the step of the integral that is claimed of a form, where each follows from the other alone."""
+    """Return the step of the integral that is claimed of a form, where each implies the other on its own."""
     function = function_in(entry.integral)
     step = combined_integral(context, function, name) if function and form_or_none(context, name) is not None else None
     return step if step and add_step_from_integrals(context, name, [step], alone=True) else None
@@ -184,7 +184,7 @@ def function_in(text: str | None) -> str:
 
 
 def integral(context: Context, entry: ConstraintEntry, field: str) -> Iterator[Told]:
-    """The integral that is told: of the form alone, or in the system."""
+    """The integral that is reported: of the form alone, or in the system."""
     names = context.scenery.evidence.owned(entry.name, ("velocity",))
     function = function_in(entry.integral)
     if len(names) != 1 or context.point is None or not function:

@@ -1,4 +1,4 @@
-"""A report with its certificate: what the evidence contradicts is no longer told as proved."""
+"""A report with its certificate: what the evidence contradicts is no longer reported as proved."""
 
 from __future__ import annotations
 
@@ -45,20 +45,20 @@ def with_certificate(scene: Scene, report: Report, strict: bool = False) -> Repo
     """Return the report with a certificate, and in each verdict whether the checker accepted evidence for it.
 
     A claim whose evidence gives another value is undecided, with a warning. If ``strict``, what is proved without
-    evidence is probable, and a number is told of the points of which it is shown.
+    evidence is probable, and a number is about the points for which it is shown.
     """
     document, readings = scene_of_checker(scene)
     making = Certifying(document, report, readings)
     certificate = making.written()
-    told_of_others = () if strict else certificate["uncovered"]
-    claims = (claim for claim in certificate["claims"] if f"/verdicts{claim['path']}/about" not in told_of_others)
+    uncovered = () if strict else certificate["uncovered"]
+    claims = (claim for claim in certificate["claims"] if f"/verdicts{claim['path']}/about" not in uncovered)
     confirmed = {claim["path"]: claim.get("about") for claim in claims}
     checked = _checked(report, confirmed, making.contradictions, strict)
     return checked.model_copy(update={"certificate": certificate})
 
 
-def told_fields(report: Report) -> Iterator[tuple[str, Any, FieldVerdict]]:
-    """Every field with a verdict: its path, its value and how sure it is."""
+def verdicts_of(report: Report) -> Iterator[tuple[str, Any, FieldVerdict]]:
+    """Every field with a verdict: its path, its value and how certain it is."""
     for field, verdict in report.verdicts.items():
         yield f"/{field}", getattr(report, field), verdict
     for entry in report.constraints:

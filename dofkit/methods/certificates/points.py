@@ -67,7 +67,7 @@ class PointSearch:
         self.witness = {name: _fraction(text) for name, text in (witness or {}).items()}
 
     def reference(self) -> FoundPoint | None:
-        """The scene's own configuration, where it meets the finite relations."""
+        """The scene's own configuration, where it meets the geometric equations."""
         if not self.problem.reference:
             return None
         chosen = self.scenery.parameters

@@ -1,4 +1,4 @@
-"""The checker's reading of a scene, with choices for what it leaves open, and its trees as texts."""
+"""The checker's reading of a scene, with choices for what it does not determine, and its trees as texts."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ def _applied(tree: Tree) -> str:
     return f"{tree.value}{primes}({', '.join(text_of(part) for part in tree.below)})"
 
 
-# The checker's reading of a scene, with choices made for what it leaves open.
+# The checker's reading of a scene, with choices made for what it does not determine.
 
 #: What is farther from 0 than this, in floats, is not 0.
 FAR = 1e-7
@@ -110,7 +110,7 @@ class Scenery:
         return any(not {"t", "tdot"}.isdisjoint(relation.tree.symbols) for relation in self.problem.relations)
 
     def linear(self, name: str) -> bool:
-        """Whether a relation is a linear form in the velocities; False where that cannot be told."""
+        """Whether a relation is a linear form in the velocities; False where that is not known."""
         try:
             return self.evidence.is_linear(name)
         except CheckError:

@@ -27,7 +27,7 @@ def is_accepted(scenery: Scenery, step: Step) -> bool:
     return True
 
 
-# Coordinates that finite relations give by others: put into a relation, they may leave nothing of it.
+# Coordinates that geometric equations give by others: put into a relation, they may leave nothing of it.
 
 #: Relations, each with the coordinate that it gives; whether it gives it.
 Order = list[list[str]]
@@ -60,14 +60,14 @@ def solving_order(
 
 
 def moved_by(scenery: Scenery, name: str) -> set[str]:
-    """The variables of a finite relation; those with velocities in another."""
+    """The variables of a geometric equation; those with velocities in another."""
     equation, variables = scenery.evidence.relation(name), scenery.evidence.variables
     dot = "" if equation.kind == "finite" else "dot"
     return {q for q in variables if q + dot in equation.tree.symbols}
 
 
 def puts(scenery: Scenery, names: Sequence[str]) -> Order:
-    """Return finite relations with the coordinates that they give, in the order in which these are put into others.
+    """Return geometric equations with the coordinates that they give, in the order in which these are put into others.
 
     The later one is put in, the fewer coordinates its relation holds that another one gives.
     """
@@ -141,7 +141,7 @@ MOST_TERMS = 4_000
 
 
 def accounted(scenery: Scenery, name: str, rows: Sequence[str], point: FoundPoint, what: str = "others") -> bool:
-    """Whether a step was found by which a relation follows from others near the point.
+    """Whether a step was found by which others imply a relation near the point.
 
     The cofactors are numbers: as the relations are, or after coordinates that some of them give are put in.
     """

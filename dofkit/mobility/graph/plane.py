@@ -70,7 +70,7 @@ class PebbleGame:
         first, (tail, head, *_) = self.first, self.net
         for i in reversed(self._played_for()):
             a, b = tail[i], head[i]
-            if self._is_held(a, b):
+            if self._is_rigid_pair(a, b):
                 self.redundant.append(i)
                 continue
             reached = self.gather(a, b)
@@ -127,8 +127,8 @@ class PebbleGame:
             if remaining <= 2:
                 queue.append(w)
 
-    def _is_held(self, a: int, b: int) -> bool:
-        """Return whether one block fixes both joints, and let it hold both from now on.
+    def _is_rigid_pair(self, a: int, b: int) -> bool:
+        """Return whether one block contains both joints, and let it contain both from now on.
 
         A joint that lies in no block pays for links of its own, and none of them makes the block rigid: in their stead
         it pays for links to the poles, so that what is paid for stays independent and spans the same. In every circuit

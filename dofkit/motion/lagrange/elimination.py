@@ -1,4 +1,4 @@
-"""Finite relations solved for coordinates in closed form; what was solved is checked against the relation identically.
+"""Geometric equations solved for coordinates in closed form; a solution is put into the equation, which is then 0 = 0.
 
 A relation g = 0 that is linear in a coordinate q gives q = -g(0)/g_q where g_q is not 0; one that is quadratic gives
 two branches, of which one is taken: that through the reference configuration, else that of lower potential energy.

@@ -1,7 +1,7 @@
 """The energies of a tree of bodies in space in the angles and displacements of its joints.
 
-A body's point that is drawn at a stands at g(a); over a joint g' = g o J, with J a turn or a shift by q that is told in
-the drawing. Velocities are kept in the axes of each body: c = R^T (velocity of a point), s = R^T (angular velocity).
+A body's point that is drawn at a stands at g(a); over a joint g' = g o J, with J a turn or a shift by q written at the
+reference. Velocities are kept in the axes of each body: c = R^T (velocity of a point), s = R^T (angular velocity).
 """
 
 from __future__ import annotations
@@ -68,7 +68,7 @@ class MovingBody(NamedTuple):
     fall: Expr
 
     def at(self, point: Vec) -> MovingBody:
-        """The same told of another point."""
+        """The same, about another point."""
         arm = minus(point, self.point)
         return MovingBody(
             point, plus(self.velocity, cross(self.spin, arm)), self.spin, self.pull, self.fall + dot(self.pull, arm)

@@ -72,7 +72,7 @@ class LagrangeModel:
 
     @property
     def holonomic(self) -> list[Expr]:
-        """g of the finite relations g(q, t) = 0 that keep a multiplier."""
+        """g of the geometric equations g(q, t) = 0 that keep a multiplier."""
         return [c.expr for c in self.constraints if isinstance(c, Finite)]
 
     @property
@@ -146,7 +146,7 @@ def _possible(study: Examined) -> None:
 
 
 def _integrals(study: Examined, names: Names) -> Iterator[EliminatedRelation]:
-    """The finite relations that holonomic differential constraints integrate to."""
+    """The geometric equations that holonomic differential constraints integrate to."""
     owners = {r.constraint for r in study.outcome.rows if isinstance(r.piece, Pfaffian)}
     for i in sorted(owners):
         entry = study.report.constraints[i]

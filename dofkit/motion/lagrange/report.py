@@ -1,4 +1,4 @@
-"""What is told of the equations of motion. Field names are fixed; see the docstrings."""
+"""The equations of motion as they are reported. Field names are fixed; see the docstrings."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ class MotionReport(DisplayedFormulas, ReportModel):
     non-conservative ones; ``equations`` end in ``= 0``, one for each coordinate; ``constraints`` are those that keep a
     multiplier, in the order of ``multipliers``; ``left_out``: redundant ones. ``non_conservative``: the coordinates
     along which a force acts that is no part of the Lagrangian. ``cyclic``: coordinates that do not occur
-    in the Lagrangian. ``verdict``: how sure the classification is that the constraints are used by.
+    in the Lagrangian. ``verdict``: how certain the classification is that the constraints are used by.
     """
 
     _in_brief: ClassVar[tuple[str, ...]] = ("scene", "equations", "verdict")

@@ -227,7 +227,7 @@ class _Linearization:
         return total if factor == "1" else f"{factor}*({total})"
 
     def _frequency(self, square: Any) -> str:
-        """Return the root of the square of a frequency: of the whole, or of its factors, whichever is shorter."""
+        """Return the root of the square of a frequency: of the polynomial, or of its factors, whichever is shorter."""
         import sympy
 
         factored = sympy.factor(square)

@@ -81,7 +81,7 @@ def is_always_satisfied(c: DomainCondition, positive: frozenset[Expr]) -> bool:
     return never_holds(-c.expr, c.sense == ">=", positive)
 
 
-def holds_at(
+def is_satisfied_at(
     c: DomainCondition, configuration: Mapping[Expr, Expr], positive: frozenset[Expr], strictly: bool = False
 ) -> bool | None:
     """Return whether a condition is satisfied at a configuration, ``strictly`` for > also in place of >=.

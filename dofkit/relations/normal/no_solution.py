@@ -189,7 +189,7 @@ def holds_somewhere(e: Expr, strict: bool, positive: frozenset[Expr]) -> bool | 
         plain = _with_constant_functions(e)
     except PoleError:  # a divisor holds derivatives of unknown functions only
         plain = None
-    if plain is not None and any(_holds_at(plain, strict, point) for point in _points(plain, positive)):
+    if plain is not None and any(_is_satisfied(plain, strict, point) for point in _points(plain, positive)):
         return True
     if refuted([SignClaim(e, ">" if strict else ">=")], positive):
         return False
@@ -218,7 +218,7 @@ def _points(e: Expr, positive: frozenset[Expr]) -> Iterator[dict[Expr, Expr]]:
         yield {s: ex.ONE if s in positive else rng.choice(_SIMPLE) for s in symbols}
 
 
-def _holds_at(e: Expr, strict: bool, point: dict[Expr, Expr]) -> bool:
+def _is_satisfied(e: Expr, strict: bool, point: dict[Expr, Expr]) -> bool:
     check()
     try:
         there = substitute(e, point)

@@ -83,7 +83,7 @@ def regular(function: Expr, value: int) -> Expr:
     return sin - cos if value == 1 else sin + cos
 
 
-#: More branches than this are not told apart: the expression is then kept as it is.
+#: More branches than this are not distinguished: the expression is then kept as it is.
 MAX_BRANCHES = 16
 
 Conjunction = tuple[Expr, ...]

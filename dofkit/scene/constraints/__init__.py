@@ -19,7 +19,7 @@ from dofkit.scene.constraints.places import Coincident, Fixed, Slot
 
 __all__ = ["TYPES", "AnyConstraint", "ConstraintBase"]
 
-#: Every type, told apart by ``type``, in the order of the contract's table.
+#: Every type, distinguished by ``type``, in the order of the contract's table.
 AnyConstraint = Annotated[
     Equation | On | Link | Rigid | Fixed | Revolute | Prismatic | Weld | Cylindrical | Screw | Universal | Spherical
     | Planar | Coincident | Slot | Roll | String | Gear | Cam | Coupling,

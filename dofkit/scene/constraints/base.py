@@ -96,7 +96,7 @@ def component_relations(vector: Vec, label: str = "{}", about: Vec = ()) -> Iter
 
 
 def meet(world: World, first: Placed, second: Placed, *where: str | int) -> None:
-    """Check that two points that must coincide do so in the drawing."""
+    """Check that two points that must coincide do so at the reference."""
     if first.reference is None or second.reference is None:
         return
     gap = minus(second.reference, first.reference)

@@ -115,7 +115,7 @@ def _body_coordinates(frame: Frame, point: Placed) -> dict[Expr, Expr]:
 
 
 class DrawnContact(NamedTuple):
-    """g and its gradient at the drawing, in the world's axes; no value, and no slope at a corner, are None and 0."""
+    """g and its gradient at the reference, in the world's axes; no value, and no slope at a corner, are None and 0."""
 
     gap: Expr | None
     slope: Vec

@@ -181,7 +181,7 @@ class Coupling(ConstraintBase):
         return MeasuredJoint(first, second, JointGeometry(place, () if axis is None else (axis,)), measure, "")
 
     def _fits(self, world: World, e: Expr, measured: Mapping[Expr, MeasuredJoint]) -> bool:
-        """Record the rates at the drawing, where every joint stands at 0; whether the relation has a value there."""
+        """Record the rates at the reference, where every joint stands at 0; whether the relation has a value there."""
         at: dict[Expr, Expr] = {**dict.fromkeys(measured, ZERO), TIME: ZERO}
         try:
             gap = substitute(e, at)

@@ -108,7 +108,7 @@ def distance(world: World, first: Placed, second: Placed, length: Expr | None) -
 
 
 def _check_length(world: World, length: Expr, drawn: Expr | None, before: str, after: str) -> None:
-    """A length that contradicts the drawing is a fault that shows both, the latter between two pieces of text."""
+    """A length that contradicts the reference is a fault that shows both, the latter between two pieces of text."""
     start = substitute(length, {TIME: ZERO})
     figure = approximate(start)
     if figure is not None and figure < 0:

@@ -3,7 +3,7 @@
 A joint is a row of parts. Each part has its relations between the two frames and the rows of the same equations in
 velocities, so that no type states either.
 
-Material points at the same place ``a`` of the drawing are X_i = p_i + R_i (a - p0_i). Where both
+Material points at the same place ``a`` of the reference are X_i = p_i + R_i (a - p0_i). Where both
 bodies are written in Gibbs vectors g_i, the rotation R1^T R2 is the quaternion (s, v) with
 s = 1 + g1.g2 and v = g2 - g1 - g1 x g2, and a shared axis n is v.u = 0 for the u across n: of the
 two ways to keep the lines parallel this leaves out the one with the axis turned over.
@@ -148,7 +148,7 @@ def slide_rate(at: Kinematics) -> VelocityRow:
 
 
 class HeldPart(NamedTuple):
-    """A part of a relative motion that is held: its ``relations``, and the rows of its ``velocities``."""
+    """A part of a relative motion that is fixed: its ``relations``, and the rows of its ``velocities``."""
 
     relations: Callable[[Frame, Frame, JointGeometry], Iterator[Relation]]
     velocities: Callable[[Kinematics], Iterable[VelocityRow]]

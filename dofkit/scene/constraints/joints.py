@@ -56,7 +56,7 @@ class Joint(ConstraintBase):
         yield from ()
 
     def joined(self, world: World, first: Frame, second: Frame) -> Sequence[Relation]:
-        """Return the relations between the two frames, written out later where the drawing states what they mention."""
+        """Return the relations between the two frames, written out where the reference states what they mention."""
         drawn = self.geometry(world)
         laws = tuple(self.laws(world, first, second, drawn))
         equations = partial(self.holds.relations, first, second, drawn)

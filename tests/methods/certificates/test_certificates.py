@@ -68,7 +68,7 @@ def test_a_redundant_link_is_covered_by_rigid_motions() -> None:
         ({"coordinates": ["x", "y"], "constraints": ["x = 2 y"]}, {"holonomic": False}, "/holonomic"),
     ],
 )
-def test_what_is_told_wrongly_is_contradicted(scene: Any, changes: dict[str, Any], path: str) -> None:
+def test_what_is_reported_wrongly_is_contradicted(scene: Any, changes: dict[str, Any], path: str) -> None:
     certificate, failed = certified(scene, **changes)
     assert path in failed
     assert failed[path].startswith("the evidence gives")
@@ -114,7 +114,7 @@ def test_a_point_is_found_where_a_claim_shows(texts: list[str], path: str, value
 
 
 @pytest.mark.parametrize(("more", "about", "checked"), [([], "everywhere", True), ([[6, 0]], "component", False)])
-def test_a_strict_number_is_told_of_the_points_of_which_it_is_shown(more: list[Any], about: str, checked: bool) -> None:
+def test_a_strict_number_is_about_the_points_for_which_it_is_shown(more: list[Any], about: str, checked: bool) -> None:
     """The evidence for a double pendulum is about all of it, that for a four-bar linkage about a point."""
     ends = zip([[0, 0], "A", "B"], ["A", "B", *more], [2, 5, 4], strict=False)
     links = [{"type": "link", "between": [*pair], "length": length} for *pair, length in ends]
