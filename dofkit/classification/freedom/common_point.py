@@ -7,6 +7,7 @@ some time each, and at no time together. And what was cancelled keeps its domain
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
 from types import MappingProxyType
@@ -14,7 +15,7 @@ from typing import NamedTuple
 
 from flint import arb
 
-from dofkit.base.errors import NoValueError, TextError
+from dofkit.base.errors import NoValueError, PoleError, TextError
 from dofkit.base.verdicts import weakest
 from dofkit.configuration.generic_dimension import BALL_COLUMNS
 from dofkit.configuration.variety import Witness, of_real_point
@@ -59,11 +60,12 @@ def restricted_to_domain(block: Block, result: Answer, setting: Setting) -> Answ
 
 def _without_satisfied_conditions(block: Block) -> Block:
     """Return the block without conditions u >= 0 where its equations give coordinates such that u is 0."""
-    weak = any(c.sense == ">=" for c in block.conditions)
-    finite = (r.piece.expr for r in block.finite if isinstance(r.piece, Finite) and weak)
-    explicit = explicit_relations(finite, number_coefficients).by_others
-    conditions = (c for c in block.conditions if c.sense != ">=" or not substitute(c.expr, explicit).is_zero)
-    return replace(block, conditions=tuple(conditions)) if explicit else block
+    finite = (r.piece.expr for r in block.finite if isinstance(r.piece, Finite))
+    with suppress(PoleError):
+        explicit = explicit_relations(finite, number_coefficients).by_others
+        conditions = (c for c in block.conditions if c.sense != ">=" or not substitute(c.expr, explicit).is_zero)
+        return replace(block, conditions=tuple(conditions))
+    return block
 
 
 def _equations(block: Block, result: Answer) -> list[Expr]:
@@ -273,7 +275,7 @@ def _may_restrict(block: Block, a: Answer) -> bool:
     """Return whether a block may be satisfied at some times, or for some parameters, only."""
     if a.linear or not (block.finite or a.hidden or block.nonlinear or block.conditions):
         return False
-    relations = [*(row.piece.expr for row in block.finite if isinstance(row.piece, Finite)), *a.hidden]
+    relations = _equations(block, a)
     if block.nonlinear or block.conditions or len(relations) > BALL_COLUMNS:
         return True
     smooth = all(is_analytic(g, g.symbols, poles=False) for g in relations)
