@@ -26,8 +26,6 @@ STARTS, ITERATIONS, NEWTON_STEPS = 12, 80, 24
 MOMENTS, LATER, TICKS = 8, 4.0, 512
 #: So often a step that leaves the domain of the functions is halved.
 HALVINGS = 8
-#: After this many singular points no regular one is looked for.
-SINGULAR_TRIES = 4
 #: Multiplications by which the Jacobian is eliminated exactly at a point near the zero set.
 MAX_ELIMINATED = 20_000
 #: A Newton step smaller than the precision by so many bits ends the refinement.
@@ -97,17 +95,13 @@ class RealSearch:
     ) -> RealPoint | None:
         """Return the first certified point found, else any; the search begins at ``initial`` values of symbols."""
         singular: RealPoint | None = None
-        tries = 0
         for attempt in range(starts):
             symbols = self.start(seed * STARTS + attempt, initial or {})
             slopes = self.descend(symbols, seed, steps)
             refined = None if slopes is None else self.refine(symbols, slopes, seed)
             if refined is not None and refined.certain:
                 return refined
-            tries += refined is not None
             singular = singular or refined
-            if tries == SINGULAR_TRIES:
-                break
         return singular
 
     def descend(self, symbols: dict[Expr, float], seed: int, steps: int = ITERATIONS) -> list[list[float]] | None:
