@@ -258,15 +258,11 @@ def smaller(chart: Chart) -> tuple[Chart, int]:
     """
     if chart.time is not None or "eliminations" not in chart.setting.reductions:
         return chart, 0
-    solved = explicit_relations(chart.relations, _linear_coefficients)
+    solved = explicit_relations(chart.relations, lambda g: {} if linear(g) is None else number_coefficients(g))
     if not solved.explicit:
         return chart, 0
     small = chart_of_relations(chart, solved.implicit)
     return small, len(chart.symbols) - len(solved.explicit) - len(small.symbols)
-
-
-def _linear_coefficients(g: Expr) -> Mapping[Expr, Expr]:
-    return {} if linear(g) is None else number_coefficients(g)
 
 
 def frame_at(chart: Chart, point: FieldPoint) -> Pivots:

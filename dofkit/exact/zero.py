@@ -133,9 +133,10 @@ INVERSE = ("asin", "atan", "atan2")
 
 
 def odd_constants(ring: Ring) -> bool:
-    """Return whether constants occur that may be related: nested roots, inverse functions, logarithms of numbers."""
+    """Return whether constants occur that may be related: nested roots, inverse functions, logarithms, e and pi."""
     constant = [v for v in ring.vars if not ring.var_expr[v.index].symbols]
-    return any(v.kind in (*INVERSE, "log", "sign") or _root_of_more(v) for v in constant)
+    odd = any(v.kind in (*INVERSE, "log", "sign") or _root_of_more(v) for v in constant)
+    return odd or not _one_constant(ring)
 
 
 def independent_generators(ring: Ring) -> bool:
