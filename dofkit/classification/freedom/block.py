@@ -256,7 +256,11 @@ def _largest(a: Answer) -> tuple[int, int, int]:
 
 def _with_spans(block: Block, forms: Codistribution, points: Variety, extra: list[Expr], setting: Setting) -> Answer:
     result = Answer(True, hidden=extra, reasons=list(points.reasons), verdict=points.verdict, about=points.about)
-    result.argument, result.gap, result.witness = points.argument, points.gap, of_real_point(forms.chart, points.real)
+    result.argument, result.gap, result.witness = (
+        points.argument,
+        points.gap,
+        of_real_point(forms.chart.symbols, points.real),
+    )
     result.separating = points.separating
     here = None if setting.reference is None else span_at_reference(forms, setting.reference)
     irregular = replace(result, consistent=None, verdict="undecided", reasons=[*points.reasons, IRREGULAR])
@@ -270,7 +274,7 @@ def _with_spans(block: Block, forms: Codistribution, points: Variety, extra: lis
                 real = on_the_same_part(forms, points, largest)
                 if real is None:
                     return replace(result, consistent=None, verdict="undecided", reasons=[*points.reasons, APART])
-                points.real, result.witness = real, of_real_point(forms.chart, real)
+                points.real, result.witness = real, of_real_point(forms.chart.symbols, real)
             field_labels(block, forms, points, good, result, setting)
             if here is not None and result.dof is not None:
                 set_at_reference(forms, here, result)
