@@ -90,7 +90,7 @@ def first_order_freedom(block: Block, setting: Setting, reference: Mapping[Expr,
     forms = codistribution(block, setting, ())
     there = {**reference, ex.TIME: ex.ZERO}
     point = point_at(forms.chart, there, 3) if "field" in setting.engines else None
-    if point is None or odd_constants(forms.chart.ring):
+    if point is None or odd_constants(forms.chart.ring, named=True):
         return None, False
     matrix = forms.rows.matrix(values(forms.chart.ring, point), point.number(ex.ZERO.args[0]))
     rank = rank_of([row[: forms.n] for row in matrix], point.p)

@@ -335,7 +335,7 @@ def reference_points(forms: Codistribution, reference: Mapping[Expr, Expr]) -> l
     """
     points = [pose_point(forms.chart, {**reference, ex.TIME: ex.ZERO}, 11 + k) for k in range(SAMPLES)]
     drawn = [point for point in points if point is not None]
-    if len(drawn) < SAMPLES or odd_constants(forms.chart.ring):
+    if len(drawn) < SAMPLES or odd_constants(forms.chart.ring, named=True):
         return None
     return drawn if all(on_variety(forms.chart, point) for point in drawn) else []
 

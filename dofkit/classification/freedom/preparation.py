@@ -197,7 +197,7 @@ def passes_reference(branch: Sequence[Piece], setting: Setting) -> bool:
     configuration = {**(setting.reference or {}), ex.TIME: ex.ZERO}
     chart = make_chart(_block(finite), setting)
     point = point_at(chart, configuration, 5) if "field" in setting.engines else None
-    if "field" not in setting.engines or odd_constants(chart.ring):
+    if "field" not in setting.engines or odd_constants(chart.ring, named=True):
         ball = ball_point(chart, configuration)
         return ball is not None and ball_matrix(chart, ball, True) is not None
     if point is None:
