@@ -252,19 +252,17 @@ def ball_matrix(chart: Chart, ball: BallPoint, exact: bool) -> list[list[arb]] |
 
 
 def ball_point(chart: Chart, pose: Mapping[Expr, Expr]) -> BallPoint | None:
-    """Return the reference configuration with balls; symbols without a value get random ones."""
+    """Return the reference configuration with balls; symbols without a value get random ones, in its values too."""
     rng, symbols = random.Random("dofkit reference"), dict[Expr, Any]()
     with ctx.workprec(precision()):
-        for var in (var for var in chart.ring.vars if var.kind == "symbol"):
-            value = pose.get(var.key)
-            if value is None:
-                symbols[var.key] = arb(rng.randrange(257, 1023)) / 512
-                continue
-            ring = Ring([value])
-            node = ring.node(value)
-            constants = {v.key: arb(3) / 4 for v in ring.vars if v.kind == "symbol"}
+        keys = [var.key for var in chart.ring.vars if var.kind == "symbol"]
+        symbols |= {s: arb(rng.randrange(257, 1023)) / 512 for s in keys if pose.get(s) is None}
+        for s in (s for s in keys if s not in symbols):
+            ring = Ring([pose[s]])
+            node = ring.node(pose[s])
+            constants = {v.key: symbols.get(v.key, arb(3) / 4) for v in ring.vars if v.kind == "symbol"}
             try:
-                symbols[var.key] = values(ring, BallPoint(constants))[node]
+                symbols[s] = values(ring, BallPoint(constants))[node]
             except NoValueError:
                 return None
     return BallPoint(symbols)

@@ -218,7 +218,7 @@ def is_irreducible(chart: Chart) -> bool:
     """Return whether the set is known to have one component: what is generic at a regular point is so at all of them.
 
     So have a graph, and the zeros of one polynomial without factors: parts that it may have over larger numbers are
-    conjugate, and as good as each other.
+    conjugate, and as good as each other where no such number occurs (x - sqrt(2) y is 0 on one part of x^2 = 2 y^2).
     """
     if len(chart.relations) > MAX_RELATIONS or _in_regions(chart) or _has_branches(chart):
         return False
@@ -231,7 +231,11 @@ def is_irreducible(chart: Chart) -> bool:
     except NoValueError:
         return False
     ring = canon.ring
-    plain = all(ring.vars[i].kind == "symbol" for i in canon.generators_in(top))
+    numbers = any(
+        v.kind in ("root", "cos") and chart.ring.var_expr[v.index].symbols.isdisjoint(chart.symbols)
+        for v in chart.ring.vars
+    )
+    plain = not numbers and all(ring.vars[i].kind == "symbol" for i in canon.generators_in(top))
     moving = [i for s in chart.symbols if s != ex.TIME and (i := ring.var_index(s)) is not None]
     return plain and sum(not {*canon.generators_in(f)}.isdisjoint(moving) for f, _ in factors) == 1
 

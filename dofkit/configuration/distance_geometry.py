@@ -8,11 +8,11 @@ contradicted.
 from __future__ import annotations
 
 import random
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
 from functools import partial
 from itertools import combinations, pairwise
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from dofkit.base.deadline import check
 from dofkit.base.libraries import nx
@@ -62,7 +62,8 @@ def lengths_unmet(block: Block, setting: Setting) -> Answer | None:
     for side in (side for side in sides if not side.at_most):
         check()
         cutoff = side.length * (1 + SLACK)
-        routes = nx.single_source_dijkstra(graph, side.first, cutoff=cutoff, weight=partial(_length_but, side))[1]
+        length = partial(lambda hidden, u, v, edge: None if edge["side"] is hidden else edge["side"].length, side)
+        routes = nx.single_source_dijkstra(graph, side.first, cutoff=cutoff, weight=length)[1]
         visits += len(routes)
         route = routes.get(side.second, ())
         others = [graph.edges[pair]["side"] for pair in pairwise(route)]
@@ -71,10 +72,6 @@ def lengths_unmet(block: Block, setting: Setting) -> Answer | None:
         if visits > MAX_VISITS:
             break
     return None
-
-
-def _length_but(hidden: Side, _u: Place, _v: Place, edge: Mapping[str, Any]) -> float | None:
-    return None if edge["side"] is hidden else edge["side"].length
 
 
 def _unmet(side: Side, others: Sequence[Side], route: str) -> Answer:

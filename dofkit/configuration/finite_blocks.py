@@ -65,7 +65,7 @@ def _finite_answer(chart: Chart) -> Answer:
     variety = find(chart, setting.pose)
     result = _answer_of(variety)
     result.bits = error_bits(chart.ring, chart.nodes, len(chart.columns))
-    result.witness = variety.witness or of_real_point(chart, variety.real)
+    result.witness = variety.witness or of_real_point(chart.symbols, variety.real)
     result.separating = variety.separating
     if variety.argument in ("cases", "regular point"):
         result.real = _real_rows(chart, variety.real)

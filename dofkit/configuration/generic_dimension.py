@@ -23,7 +23,7 @@ from dofkit.configuration.variety import Variety, field_jacobian, generators_of,
 from dofkit.exact.matrices.certified import independent_part
 from dofkit.exact.matrices.dense import length
 from dofkit.exact.matrices.sparse import Pivots, rank_of_rows
-from dofkit.exact.points.balls import BallPoint, jacobian
+from dofkit.exact.points.balls import BallPoint, jacobian, precision
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.real_search import RealPoint, RealSearch, at_another_time
 from dofkit.exact.ring.program import raising_no_value, values
@@ -196,8 +196,8 @@ MAX_ROWS, TINY = 20, 1e-12
 
 def numeric_local(chart: Chart, real: RealPoint) -> LocalDimension | None:
     """Return the local dimension near a singular point that a real search ran into; None where it is not known."""
-    if len(chart.nodes) > MAX_ROWS:
-        return None
+    if len(chart.nodes) > MAX_ROWS or precision() > DEPENDENT_BITS:
+        return None  # numbers so long may differ by less than what is taken for 0
     with ctx.workprec(BITS):
         try:
             return _dimension_near(chart, real)

@@ -63,12 +63,12 @@ DIGITS = 25
 Witness = Mapping[Expr, str]
 
 
-def of_real_point(chart: Chart, real: RealPoint | None) -> Witness | None:
+def of_real_point(symbols: Iterable[Expr], real: RealPoint | None) -> Witness | None:
     """Coordinates, time and named parameters at a point whose ball holds a true zero; None without one."""
     if real is None or not real.certain or real.solved < real.part.rank:
         return None
-    named = {s: v for s, v in real.point.symbols.items() if not str(s.args[-1]).startswith("_")}
-    return {**dict.fromkeys(chart.symbols, "0"), **{s: _text(v) for s, v in named.items()}}
+    pose = {s: v for s, v in real.point.symbols.items() if s.args[0] != "velocity" and str(s.args[-1])[0] != "_"}
+    return {**dict.fromkeys(symbols, "0"), **{s: _text(v) for s, v in pose.items()}}
 
 
 def of_reference(symbols: Iterable[Expr], reference: Mapping[Expr, Expr]) -> Witness:
@@ -258,15 +258,11 @@ def smaller(chart: Chart) -> tuple[Chart, int]:
     """
     if chart.time is not None or "eliminations" not in chart.setting.reductions:
         return chart, 0
-    solved = explicit_relations(chart.relations, _linear_coefficients)
+    solved = explicit_relations(chart.relations, lambda g: {} if linear(g) is None else number_coefficients(g))
     if not solved.explicit:
         return chart, 0
     small = chart_of_relations(chart, solved.implicit)
     return small, len(chart.symbols) - len(solved.explicit) - len(small.symbols)
-
-
-def _linear_coefficients(g: Expr) -> Mapping[Expr, Expr]:
-    return {} if linear(g) is None else number_coefficients(g)
 
 
 def frame_at(chart: Chart, point: FieldPoint) -> Pivots:

@@ -14,7 +14,7 @@ from functools import cache
 from dofkit.base.deadline import check
 from dofkit.base.errors import NoValueError
 from dofkit.exact.points.field import FieldPoint, field_point
-from dofkit.exact.ring.program import NoPointError, raising_no_value
+from dofkit.exact.ring.program import NoPointError, raising_no_value, value_of
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.unknowns import Unit, circle, root_relations, roots_of, units_in, univariate, value_along
 
@@ -147,10 +147,15 @@ def _rank(ring: Ring, unit: Unit) -> tuple[int, int]:
 
 
 def _point(ring: Ring, seed: int) -> FieldPoint | None:
+    """Return a random point at which functions of numbers, such as sqrt(pi), have a value; None where none is found."""
+    numbers = [node for e, node in zip(ring.var_expr, ring.var_node, strict=True) if not e.symbols]
     for attempt in range(DRAWS):
         try:
-            return field_point([ring], seed + attempt)
-        except NoPointError:
+            point = field_point([ring], seed + attempt)
+            for node in numbers:
+                value_of(ring, point, node)
+            return point
+        except NoValueError:
             continue
     return None
 

@@ -132,10 +132,15 @@ MOST_TERMS = 20_000
 INVERSE = ("asin", "atan", "atan2")
 
 
-def odd_constants(ring: Ring) -> bool:
-    """Return whether constants occur that may be related: nested roots, inverse functions, logarithms of numbers."""
-    constant = [v for v in ring.vars if not ring.var_expr[v.index].symbols]
-    return any(v.kind in (*INVERSE, "log", "sign") or _root_of_more(v) for v in constant)
+def odd_constants(ring: Ring, named: bool = False) -> bool:
+    """Return whether constants occur that may be related: nested roots, inverse functions, logarithms, e and pi.
+
+    ``named``: parameters are constants too, and several roots of them may be related, or one of a square.
+    """
+    constant = [v for v in ring.vars if all(named and s.args[0] == "parameter" for s in ring.var_expr[v.index].symbols)]
+    radicands = [ring.var_expr[v.index].args[0] for v in constant if _root_of_more(v)]
+    odd = any(v.kind in (*INVERSE, "log", "sign") for v in constant) or not _one_constant(ring)
+    return odd or len(radicands) > 1 or not all(map(_linear_somewhere, radicands))
 
 
 def independent_generators(ring: Ring) -> bool:

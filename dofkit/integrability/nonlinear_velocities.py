@@ -24,7 +24,7 @@ from dofkit.base.verdicts import VERDICTS, weakest
 from dofkit.configuration.local.manifold import Manifold
 from dofkit.configuration.search import find
 from dofkit.configuration.states import States, moves, rows_at, state_relations, value_at
-from dofkit.configuration.variety import Variety
+from dofkit.configuration.variety import Variety, of_real_point
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.sparse import Pivots
 from dofkit.exact.points.balls import BallPoint
@@ -69,8 +69,9 @@ FLAT = "the admissible velocities form linear subspaces, which were not written 
 def set_velocity_freedom(block: Block, setting: Setting, result: Answer) -> None:
     """Set the velocity freedom to the rank of the Jacobian by the velocities, at states of motion.
 
-    The ranks: by coordinates and velocities (``whole``), by velocities, and of the geometric equations. Constraints
-    that determine all velocities integrate: one equation where others leave a curve, or several on a component.
+    The ranks: by coordinates and velocities (``whole``), by velocities, and of the geometric equations. The witness has
+    such velocities at its time. Constraints that determine all velocities integrate: one equation where others leave a
+    curve, or several on a component.
     """
     if not block.nonlinear or result.velocity_dof is None:
         return
@@ -97,6 +98,7 @@ def set_velocity_freedom(block: Block, setting: Setting, result: Answer) -> None
         _undecided(result, FLAT)
     else:
         result.curved, result.argument = bends, "states of motion" if bends else "line field"
+        result.witness = of_real_point(states.places, real)
         result.velocity_dof = len(block.coordinates) - moving
         full = ball_part(states.by_velocity(real.point, states.moving)).rank == len(block.rows)
         result.verdict = weakest(result.verdict, "numeric" if point is None else "proved" if full else "probable")

@@ -24,6 +24,7 @@ from dofkit.exact.matrices.sparse import rank_of
 from dofkit.exact.points.frames import FormRows, rank_over
 from dofkit.exact.ring.canonical import Canon, determinant, divided, polynomials
 from dofkit.exact.ring.program import Point, values
+from dofkit.exact.zero import odd_constants
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
@@ -83,12 +84,13 @@ def linear_rows(block: Block, forms: Codistribution) -> Iterator[tuple[int, Row,
 def first_order_freedom(block: Block, setting: Setting, reference: Mapping[Expr, Expr]) -> tuple[int | None, bool]:
     """Velocities that the rows allow at the reference configuration, and whether that is proved.
 
-    None where it is not on the variety. A rank over GF(p) is not too large; of as many rows it is not too small.
+    None where it is not on the variety, or numbers there may be related in a way that is not known. Else a rank over
+    GF(p) is not too large; of as many rows it is not too small.
     """
     forms = codistribution(block, setting, ())
     there = {**reference, ex.TIME: ex.ZERO}
     point = point_at(forms.chart, there, 3) if "field" in setting.engines else None
-    if point is None:
+    if point is None or odd_constants(forms.chart.ring, named=True):
         return None, False
     matrix = forms.rows.matrix(values(forms.chart.ring, point), point.number(ex.ZERO.args[0]))
     rank = rank_of([row[: forms.n] for row in matrix], point.p)

@@ -24,7 +24,7 @@ from dofkit.exact.points.frames import field_frame, pairing, rank_over, vanishes
 from dofkit.exact.points.real_search import RealPoint
 from dofkit.exact.residues import null_vectors, residue_matrix
 from dofkit.exact.ring.program import Scalar, values
-from dofkit.exact.zero import error_bits, independent_on_set
+from dofkit.exact.zero import error_bits, independent_on_set, odd_constants
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.first_integrals import BorderedMinors, first_integrals, is_short
@@ -335,19 +335,16 @@ def reference_points(forms: Codistribution, reference: Mapping[Expr, Expr]) -> l
     """
     points = [pose_point(forms.chart, {**reference, ex.TIME: ex.ZERO}, 11 + k) for k in range(SAMPLES)]
     drawn = [point for point in points if point is not None]
-    if len(drawn) < SAMPLES:
+    if len(drawn) < SAMPLES or odd_constants(forms.chart.ring, named=True):
         return None
     return drawn if all(on_variety(forms.chart, point) for point in drawn) else []
 
 
 def span_at_reference(forms: Codistribution, reference: Mapping[Expr, Expr]) -> tuple[FieldPoint, SampledSpan] | None:
     """Return the reference configuration over GF(p) and the Lie algebra there; None where it has no such point."""
-    if "field" not in forms.chart.setting.engines:
-        return None
-    for point in reference_points(forms, reference) or []:
-        sampled = span_at(forms, point, True)
-        return None if sampled is None else (point, sampled)
-    return None
+    points = reference_points(forms, reference) if "field" in forms.chart.setting.engines else None
+    sampled = span_at(forms, points[0], True) if points else None
+    return (points[0], sampled) if points and sampled else None
 
 
 def set_at_reference(forms: Codistribution, reference: tuple[FieldPoint, SampledSpan], result: Answer) -> None:

@@ -147,10 +147,18 @@ def vanishes_on(
 
 
 def _is_irreducible(g: Expr, positive: frozenset[Expr]) -> bool:
-    """Return whether g has one factor over the rationals; False where it is too large to be factored."""
+    """Return whether g has one factor over the rationals; False where it is too large to be factored.
+
+    Roots of numbers may make factors that are none over the rationals: x^2 + sqrt(2) x (1 - t) - 2 t is a product.
+    """
     try:
         canon, [(top, _)] = quotients_of([g], positive)
-        return len(canon.factors(top)) == 1
+        numbers = any(
+            canon.ring.vars[i].kind in ("root", "cos", "sin")
+            for i in canon.generators_in(top)
+            if not canon.ring.var_expr[i].symbols
+        )
+        return not numbers and len(canon.factors(top)) == 1
     except NoValueError:
         return False
 

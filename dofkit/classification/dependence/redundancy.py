@@ -131,7 +131,8 @@ def _of_relations(
     for group in _joined([a for a in answered if isinstance(a, OwnedRows)]):
         undecided = undecided_dependence(o for rows in group for o in rows.owners)
         by_rank.append(unless_late(partial(analyse, group, needed), undecided))
-    if any(_is_restricted(reduced[i]) for r in by_rank for i in r.redundant):
+    redundant = [reduced[i] for r in by_rank for i in r.redundant]
+    if any(isinstance(p, DomainCondition) for r in redundant for n in r.normals for b in n.branches for p in b):
         return [*settled, _as_free(implied(reduced, setting, numbers), reduced, blocks)]
     is_linear = all(a.linear for _, a in blocks)
     scope = "everywhere" if is_linear else unless_late(partial(_scope, reduced, setting, numbers, by_rank), None)
@@ -178,11 +179,6 @@ def _scope(
     if len(finite) < len(numbers):
         return False if follow is False else "component"
     return "component" if follow else follow
-
-
-def _is_restricted(r: Reduced) -> bool:
-    """Return whether a constraint has domain conditions: its rows alone do not show whether it is implied."""
-    return any(isinstance(p, DomainCondition) for n in r.normals for b in n.branches for p in b)
 
 
 def _as_free(implied: Redundancies, reduced: Sequence[Reduced], blocks: Sequence[tuple[Block, Answer]]) -> Redundancies:

@@ -224,22 +224,24 @@ def _of_hidden_branches(alternatives: Sequence[Answer]) -> Answer:
 
 def _points(forms: Codistribution, setting: Setting) -> Variety:
     """Generic points to look at the forms; where there is a reference, of a set that is known to be alike there."""
+    reference, by_field = setting.reference, "field" in forms.chart.setting.engines
+    points = reference_points(forms, reference) if reference is not None and by_field else None
+    if points is None and reference is not None and by_field:
+        return Variety(None, None, "undecided", reasons=[IRREGULAR])
     if is_unconstrained(forms.chart):
         return all_configurations(forms.chart)
-    alike = is_irreducible(forms.chart) if setting.reference is None else is_graph(forms.chart)
-    if setting.reference is None or alike:
+    alike = is_irreducible(forms.chart) if reference is None else is_graph(forms.chart)
+    if reference is None or alike:
         result = find(forms.chart, setting.pose)
         return result if alike else replace(result, about="component")
-    points = reference_points(forms, setting.reference) if "field" in forms.chart.setting.engines else None
     if points == []:
         return replace(find(forms.chart, setting.pose), about="component")
-    if points and is_irreducible(forms.chart) and _as_large(forms, setting.reference):
+    if points and is_irreducible(forms.chart) and _as_large(forms, reference):
         return find(forms.chart, setting.pose)
     near = next(near_reference(forms.chart, forms.finite), None) if points else None
     if near is None:
         return Variety(None, None, "undecided", reasons=[IRREGULAR])
-    dimension = forms.n - forms.finite
-    return Variety(True, dimension, "proved", real=near, about="reference", argument="regular point")
+    return Variety(True, forms.n - forms.finite, "proved", real=near, about="reference", argument="regular point")
 
 
 def _as_large(forms: Codistribution, reference: Mapping[Expr, Expr]) -> bool:
@@ -254,7 +256,11 @@ def _largest(a: Answer) -> tuple[int, int, int]:
 
 def _with_spans(block: Block, forms: Codistribution, points: Variety, extra: list[Expr], setting: Setting) -> Answer:
     result = Answer(True, hidden=extra, reasons=list(points.reasons), verdict=points.verdict, about=points.about)
-    result.argument, result.gap, result.witness = points.argument, points.gap, of_real_point(forms.chart, points.real)
+    result.argument, result.gap, result.witness = (
+        points.argument,
+        points.gap,
+        of_real_point(forms.chart.symbols, points.real),
+    )
     result.separating = points.separating
     here = None if setting.reference is None else span_at_reference(forms, setting.reference)
     irregular = replace(result, consistent=None, verdict="undecided", reasons=[*points.reasons, IRREGULAR])
@@ -268,7 +274,7 @@ def _with_spans(block: Block, forms: Codistribution, points: Variety, extra: lis
                 real = on_the_same_part(forms, points, largest)
                 if real is None:
                     return replace(result, consistent=None, verdict="undecided", reasons=[*points.reasons, APART])
-                points.real, result.witness = real, of_real_point(forms.chart, real)
+                points.real, result.witness = real, of_real_point(forms.chart.symbols, real)
             field_labels(block, forms, points, good, result, setting)
             if here is not None and result.dof is not None:
                 set_at_reference(forms, here, result)

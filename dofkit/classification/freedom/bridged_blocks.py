@@ -78,23 +78,20 @@ def _host(core: Block, setting: Setting) -> tuple[str, ...]:
 
 
 def _is_eligible(block: Block, joints: Sequence[Row], setting: Setting) -> bool:
-    """Return whether all of a block is finite and has a reference, and time does not enter."""
-    if "field" not in setting.engines or block.conditions:
+    """Return whether all of a block is finite and has a reference, and time does not enter.
+
+    Without one there must be equations of drawn joints alone, and no Euler angles, whose charts may be left.
+    """
+    if "field" not in setting.engines or block.conditions or block.forms or block.nonlinear:
         return False
-    if setting.reference is None and not _is_open_tree(block, joints, setting):
-        return False
-    if block.forms or block.nonlinear:
+    is_open_tree = len(joints) == len(block.rows) and setting.tilts.isdisjoint(block.coordinates)
+    if setting.reference is None and not is_open_tree:
         return False
     written = not any(isinstance(row.piece, JointEquation) for row in joints)
     if written and len(block.coordinates) <= FEW:
         return False
     others = tuple(row for row in block.rows if row.constraint not in setting.bridges)
     return not uses_time(Block(block.coordinates, others))
-
-
-def _is_open_tree(block: Block, joints: Sequence[Row], setting: Setting) -> bool:
-    """Return whether there are only equations of drawn joints, and no Euler angles, whose charts may be left."""
-    return len(joints) == len(block.rows) and setting.tilts.isdisjoint(block.coordinates)
 
 
 def _together(block: Block, setting: Setting, answered: Sequence[AnsweredPart], free: int) -> Answer:

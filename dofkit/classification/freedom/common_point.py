@@ -85,7 +85,7 @@ def _at_a_point(block: Block, result: Answer, setting: Setting) -> Answer:
     point = _point_within(chart, block.conditions, dof)
     if point is not None and _is_same_component(block, result):
         within = _is_strict_at_witness(block, result)
-        return result if within else replace(result, witness=of_real_point(chart, point))
+        return result if within else replace(result, witness=of_real_point(chart.symbols, point))
     return _nowhere(block, result) if _is_empty(block, result, setting) else _undecided(block, result)
 
 

@@ -13,7 +13,7 @@ from dofkit.base.errors import Fault, NoValueError, SceneError, TextError
 from dofkit.configuration.at_reference import ball_matrix, ball_point
 from dofkit.configuration.variety import point_at
 from dofkit.exact.analyticity import is_analytic
-from dofkit.exact.zero import is_zero
+from dofkit.exact.zero import is_zero, odd_constants
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.renaming import Renaming, Unwritten, kinds_in, shape_of
@@ -189,14 +189,18 @@ def has_kink_at_reference(normal: Normal, setting: Setting) -> bool:
 
 
 def passes_reference(branch: Sequence[Piece], setting: Setting) -> bool:
-    """Return whether the reference configuration satisfies the geometric equations of a branch."""
+    """Return whether the reference configuration satisfies the geometric equations of a branch.
+
+    Balls decide where numbers may be related in a way that arithmetic modulo primes does not see.
+    """
     finite = [p for p in branch if isinstance(p, Finite)]
     configuration = {**(setting.reference or {}), ex.TIME: ex.ZERO}
     chart = make_chart(_block(finite), setting)
-    if "field" not in setting.engines:
+    point = point_at(chart, configuration, 5) if "field" in setting.engines else None
+    if "field" not in setting.engines or odd_constants(chart.ring, named=True):
         ball = ball_point(chart, configuration)
         return ball is not None and ball_matrix(chart, ball, True) is not None
-    if point_at(chart, configuration, 5) is None:
+    if point is None:
         return False
     conditions = (p for p in branch if isinstance(p, DomainCondition))
     return not any(is_satisfied_at(c, configuration, setting.positive) is False for c in conditions)
@@ -243,7 +247,7 @@ def copies(reduced: Sequence[Reduced]) -> dict[int, int]:
     seen: dict[Hashable, int] = {}
     result = {}
     for i in sorted(i for numbers in alike.values() if len(numbers) > 1 for i in numbers):
-        keys = [_up_to_a_number(normal) for normal in reduced[i].normals]
+        keys = [tuple(tuple(map(_scaled, branch)) for branch in normal.branches) for normal in reduced[i].normals]
         key: Hashable = keys[0] if len(keys) == 1 else frozenset(Counter(keys).items())
         if key in seen:
             result[i] = seen[key]
@@ -269,10 +273,6 @@ def _says_nothing(normal: Normal) -> bool:
     """Return whether there is nothing to compare: it is satisfied always or never, or is a joint's equation."""
     branches = normal.branches
     return branches in ((), ((),)) or any(isinstance(p, JointEquation) for p in branches[0])
-
-
-def _up_to_a_number(normal: Normal) -> Hashable:
-    return tuple(tuple(_scaled(p) for p in branch) for branch in normal.branches)
 
 
 def _scaled(piece: object) -> Hashable:

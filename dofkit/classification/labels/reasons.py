@@ -165,15 +165,11 @@ def in_words(relation: Relation, otherwise: str) -> str:
     """
     word, _, remainder = relation.part.partition(" ")
     answer = _SAYS[word].format(remainder) if word in _SAYS else relation.part or otherwise
-    if word not in _ABOUT or not relation.vector or not _is_specific(relation.vector):
+    general = any(str(s.args[1]).startswith("_") for part in relation.vector or () for s in part.symbols)
+    if word not in _ABOUT or not relation.vector or general:
         return answer
     about = _ABOUT[word].format(f"({', '.join(to_text(part) for part in relation.vector)})")
     return answer + about if about.startswith(" ") else about
-
-
-def _is_specific(vector: tuple[Expr, ...]) -> bool:
-    """Return whether nothing is in general position."""
-    return not any(str(s.args[1]).startswith("_") for part in vector for s in part.symbols)
 
 
 REDUNDANT = " It is redundant: the other constraints, including those written after it, allow the same motions."

@@ -152,7 +152,10 @@ def _array_pivoted(residual: np.ndarray, least: float, most: int) -> Pivoting:
         direction = residual[best].copy()
         for _ in range(PASSES):
             direction -= basis[:k].T @ (basis[:k] @ direction)
-            direction /= np.linalg.norm(direction)
+            size = float(np.linalg.norm(direction))
+            if not size:
+                return Pivoting(order, sizes, basis[:k].tolist())
+            direction /= size
         order.append(best)
         sizes.append(float(lengths[best]))
         basis[k] = direction

@@ -170,13 +170,9 @@ def prime_for(order: int, roots: tuple[tuple[int, int], ...], seed: int | str) -
         p = step * (rng.getrandbits(PRIME_BITS) // step) + 1
         if p.bit_length() < PRIME_BITS - 1 or not fmpz(p).is_probable_prime():
             continue
-        if all(_has_root(value, degree, p) for value, degree in roots):
+        if all(pow(value, (p - 1) // gcd(degree, p - 1), p) == 1 for value, degree in roots):
             return p
     raise NoPointError("no prime has all the roots of numbers that occur")
-
-
-def _has_root(value: int, degree: int, p: int) -> bool:
-    return pow(value, (p - 1) // gcd(degree, p - 1), p) == 1
 
 
 class FieldPoint:

@@ -74,7 +74,8 @@ def solve(a: list[list[Scalar]], b: list[list[Scalar]]) -> list[list[Scalar]]:
 def _eliminate(work: list[list[Any]], n: int) -> list[list[Any]]:
     for c in range(n):
         check()
-        pivot = next((r for r in range(c, n) if _invertible(work[r][c])), None)
+        entries = ((r, work[r][c]) for r in range(c, n))
+        pivot = next((r for r, v in entries if (v.invertible if isinstance(v, Series) else v != 0)), None)
         if pivot is None:
             raise PoleError("no pivot")
         work[c], work[pivot] = work[pivot], work[c]
@@ -86,10 +87,6 @@ def _eliminate(work: list[list[Any]], n: int) -> list[list[Any]]:
                 if not (isinstance(factor, Series) and factor.poly.degree() < 0):
                     work[r][c + 1 :] = [v - factor * w for v, w in zip(work[r][c + 1 :], work[c][c + 1 :], strict=True)]
     return [row[n:] for row in work]
-
-
-def _invertible(value: Any) -> bool:
-    return value.invertible if isinstance(value, Series) else bool(value != 0)
 
 
 def rank_over(vectors: Sequence[Sequence[Scalar]], sample: Scalar) -> int:

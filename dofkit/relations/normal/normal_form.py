@@ -103,7 +103,8 @@ def _completed(
     slopes = [diff(square.root, v) for v in velocities]
     if any(_has(u, velocities) for u in (square.radicand, *factors, *slopes)):
         return None
-    return square if all(_vanishes_nowhere(u, positive) for u in factors) else None
+    nowhere = (never_vanishes(u, positive) if _varying(u) else not is_proved_zero(u, positive) for u in factors)
+    return square if all(nowhere) else None  # parameters are generic
 
 
 def _square_content(poly: Any) -> fmpq:
@@ -133,11 +134,6 @@ def _has(e: Expr, symbols: Collection[Expr]) -> bool:
 
 def _varying(e: Expr) -> frozenset[Expr]:
     return frozenset(s for s in e.symbols if s.args[0] != "parameter")
-
-
-def _vanishes_nowhere(e: Expr, positive: frozenset[Expr]) -> bool:
-    """Return whether ``e`` is not 0 anywhere; parameters are generic."""
-    return never_vanishes(e, positive) if _varying(e) else not is_proved_zero(e, positive)
 
 
 def velocities_of(e: Expr) -> list[Expr]:
@@ -258,7 +254,8 @@ def _velocity_pieces(e: Expr, positive: frozenset[Expr]) -> tuple[list[tuple[Pie
     branches = linear_branches(e, velocities_of(e), positive)
     if branches is None:
         return [(Nonlinear(e),)], ""
-    return [tuple(map(_linear_piece, branch)) for branch in branches], QUADRATIC_NOTE
+    roots = [c for g in branches[0] for c in conditions_of(g, positive) if not _varying(c.expr)]
+    return [(*map(_linear_piece, branch), *roots) for branch in branches], QUADRATIC_NOTE
 
 
 def _linear_piece(e: Expr) -> Finite | Pfaffian:

@@ -89,7 +89,8 @@ class _WrittenZeros:
     def _product(self, e: Expr) -> Zeros | None:
         branches: list[Conjunction] = []
         notes: list[str] = []
-        if any(_below(factor) and self._may_vanish(factor.args[0]) for factor in e.args):
+        below = [factor.args[0] for factor in e.args if _below(factor)]
+        if any(not self.variables.isdisjoint(g.symbols) and self.of(g)[0] for g in below):
             return None
         for factor in e.args:
             if factor.op == "num" or _below(factor):
@@ -102,9 +103,6 @@ class _WrittenZeros:
             notes += [n for n in said if n not in (EMPTY_NOTE, FACTOR_NOTE)] if result else [FACTOR_NOTE]
             branches += [b for b in result if b not in branches]
         return branches_of(branches, notes)
-
-    def _may_vanish(self, e: Expr) -> bool:
-        return not self.variables.isdisjoint(e.symbols) and bool(self.of(e)[0])
 
     def _even_sum(self, e: Expr) -> Zeros | None:
         """A sum of even powers with coefficients of one sign, as written."""
