@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
-from dofkit.base.errors import NoValueError, TextError
+from dofkit.base.errors import NoValueError, TextError, false_without_value
 from dofkit.base.verdicts import TraitAnswer, Verdict, all_of, weakest
 from dofkit.exact.analyticity import is_analytic
 from dofkit.exact.points.real_search import RealPoint, RealSearch, at_another_time
@@ -146,13 +146,11 @@ def vanishes_on(
     return (False, "numeric") if point is not None and apart else (None, "undecided")
 
 
+@false_without_value
 def _is_irreducible(g: Expr, positive: frozenset[Expr]) -> bool:
     """Return whether g has one factor over the rationals; False where it is too large to be factored."""
-    try:
-        canon, [(top, _)] = quotients_of([g], positive)
-        return len(canon.factors(top)) == 1
-    except NoValueError:
-        return False
+    canon, [(top, _)] = quotients_of([g], positive)
+    return len(canon.factors(top)) == 1
 
 
 def _real_point(ring: Ring, node: int, g: Expr, positive: frozenset[Expr]) -> RealPoint | None:

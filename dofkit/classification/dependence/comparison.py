@@ -16,7 +16,7 @@ from itertools import product as cartesian
 
 from flint import arb
 
-from dofkit.base.errors import NoValueError
+from dofkit.base.errors import NoValueError, false_without_value
 from dofkit.classification.dependence.implication import follows
 from dofkit.configuration.search import find
 from dofkit.configuration.variety import field_jacobian
@@ -89,14 +89,12 @@ def _terms(normal: Normal) -> list[tuple[str, Expr]]:
     return []
 
 
+@false_without_value
 def _proportional(a: Sequence[tuple[str, Expr]], b: Sequence[tuple[str, Expr]], positive: frozenset[Expr]) -> bool:
     """Return whether a_i = c b_i identically for one number c other than 0; proved in the canonical ring."""
     first, second = dict(a), dict(b)
     names = sorted(first.keys() | second.keys())
-    try:
-        canon, quotients = quotients_of([form.get(name, ZERO) for name in names for form in (first, second)], positive)
-    except NoValueError:
-        return False
+    canon, quotients = quotients_of([form.get(name, ZERO) for name in names for form in (first, second)], positive)
     tops = [top for top, _ in quotients]
     result = list(zip(tops[::2], tops[1::2], strict=True))
     if not _entire(canon.ring) or any((x == 0) != (y == 0) for x, y in result):

@@ -8,10 +8,10 @@ How many equations are independent of all before them where relations are depend
 An equation is independent of others where it is no combination of them, with coefficients that are analytic near the
 drawing. One after another they are held against those before. A row that is no sum of rows before it at the drawing is
 of an independent equation. One that is such a sum is of a dependent equation where that vanishes on the manifold of the
-independent ones before it [ImplicitFunctions]; the first that does not is independent, and so is a later one that takes
-freedom away. Of several of one constraint all but one are dependent where they hold, in numbers, at the points near the
-drawing where that one does: creases that meet in a point close up by one condition of the second order, told by several
-equations. What was counted must be what the freedom says.
+independent ones before it [ImplicitFunctions]; the first that does not is independent, and no other is counted then. Of
+several of one constraint all but one are dependent where they hold, in numbers, at the points near the drawing where
+that one does: creases that meet in a point close up by one condition of the second order, told by several equations.
+What was counted must be what the freedom says.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from itertools import groupby
 from typing import NamedTuple
 
 from dofkit.base.deadline import OutOfTimeError, check, limited, unless_late
-from dofkit.base.verdicts import About, Claim, Verdict, weakest
+from dofkit.base.verdicts import About, Claim, Verdict
 from dofkit.classification.dependence.implication import Everywhere, NearDrawing, is_drawn
 from dofkit.classification.dependence.implied_constraints import LEAVING_SECONDS
 from dofkit.classification.dependence.minimal_sets import SufficientSets, largest_redundant_set, minimal_set
@@ -50,10 +50,10 @@ def by_removal(block: Block, setting: Setting, a: Answer, nullity: int, numbered
     nullity = max(nullity, sum(o in largest.members for o in owners))
     groups = [(nullity, sorted(order))] if largest.members else []
     undecided = tuple(largest.undecided)
-    answer = Redundancies({}, largest.members, groups, circuits, undecided, claim=_claim(removal.verdict, a.about))
+    answer = Redundancies({}, largest.members, groups, circuits, undecided, claim=_claim("probable", a.about))
     count = counted(block, setting, a, numbered) if is_drawn(block, a, setting) else None
     if count is not None:
-        claim = _claim(weakest(removal.verdict, "numeric" if count.seen else "probable"), a.about)
+        claim = _claim("numeric" if count.seen else "probable", a.about)
         counts = replace(answer, independent=count.independent, equations=count.equations, seen=count.seen)
         return replace(counts, groups=groups or count.groups, claim=claim)
     independent = {o: 0 for o, circuit in circuits.items() if circuit and max(circuit) < o}
@@ -86,12 +86,11 @@ def owners_of(block: Block) -> list[int]:
 
 @dataclass
 class Removal:
-    """A block without some of its constraints; ``verdict``: that of the weakest argument so far."""
+    """A block without some of its constraints."""
 
     block: Block
     setting: Setting
     whole: Answer
-    verdict: Verdict = "probable"
     _answers: dict[tuple[frozenset[int], frozenset[int]], bool | None] = field(default_factory=dict)
     _dofs: dict[frozenset[int], int | None] = field(default_factory=dict)
 
@@ -122,17 +121,13 @@ class Removal:
         return self._dofs[kept]
 
     def _is_same_set(self, removed: frozenset[int], kept: frozenset[int]) -> bool | None:
-        """Return whether what is removed is implied: always where only rigid motions of the system are left."""
+        """Return whether what is removed is implied; None where that is undecided."""
         rows, others = (
             [i for i, r in enumerate(self.block.rows) if r.constraint in constraints] for constraints in (removed, kept)
         )
         if not is_drawn(self.block, self.whole, self.setting):
             return all_of(Everywhere(self.block, self.setting).follows(i, others) for i in rows)
-        near = NearDrawing(self.block, self.setting)
-        if near.is_orbit(others, self._dof(kept)) or near.imply(others, rows, self.whole):
-            return True
-        self.verdict = "numeric"
-        return near.seem_to_imply(others, rows) or None
+        return NearDrawing(self.block, self.setting).imply(others, rows, self.whole) or None
 
 
 def freedom(coordinates: Sequence[str], rows: Sequence[Row], setting: Setting) -> int | None:
@@ -177,13 +172,13 @@ def counted(block: Block, setting: Setting, a: Answer, numbered: Sequence[int]) 
 
 @dataclass
 class _Counting:
-    """What follows from what, row by row; ``bent``: rows dependent at the reference only; ``seen``: as in the count."""
+    """What follows from what, row by row; ``bent``: one is dependent at the reference only; ``seen``: as in a count."""
 
     block: Block
     setting: Setting
     a: Answer
     seen: list[int] = field(default_factory=list)
-    bent: list[int] = field(default_factory=list)
+    bent: bool = False
     following: dict[int, list[int]] = field(default_factory=dict)
 
     @cached_property
@@ -206,7 +201,7 @@ class _Counting:
         """
         for owner, rows in groupby(sorted(self._dependent), key=self._owners.__getitem__):
             remaining = self._independent_rows(rows)
-            if remaining is None or not (self._by_one(owner, remaining) or self._by_freedom(remaining)):
+            if remaining is None or not self._by_one(owner, remaining):
                 return None
         return self.following
 
@@ -226,30 +221,16 @@ class _Counting:
         return result
 
     def _by_one(self, owner: int, rows: Sequence[int]) -> bool:
-        """Return whether, in numbers, several rows of a constraint hold where one of them and those before do."""
-        if len(rows) < 2:
-            return False
+        """Return whether, in numbers, rows of a constraint hold where one of them and those before do.
+
+        There may be such rows of one constraint only.
+        """
         pivots = [k for k, o in enumerate(self._owners) if o <= owner and k not in self._dependent]
-        for first in rows:
+        for first in () if self.bent else rows:
             others = [i for i in rows if i != first]
-            premises = [*pivots, *self.bent, first]
-            if self._near.seem_to_imply(premises, others) and (not self.bent or self._takes_freedom(first)):
-                self.bent.append(first)
-                self.following |= dict.fromkeys(others, premises)
-                self.seen.append(owner)
+            if not others or self._near.seem_to_imply([*pivots, first], others):
+                self.bent = True
+                self.following |= {i: [*pivots, first] for i in others}
+                self.seen += [owner] if others else []
                 return True
-        return False
-
-    def _by_freedom(self, rows: Sequence[int]) -> bool:
-        """Return whether each of some rows removes freedom, the first of all apart: they are independent then."""
-        for i in rows:
-            if self.bent and not self._takes_freedom(i):
-                return False
-            self.bent.append(i)
-        return True
-
-    def _takes_freedom(self, row: int) -> bool:
-        """Return whether the rows before this one that are not implied leave less freedom with it than without it."""
-        rows = [self.block.rows[k] for k in range(row + 1) if k not in self.following]
-        before, after = (freedom(self.block.coordinates, some, self.setting) for some in (rows[:-1], rows))
-        return before is not None and after is not None and after < before
+        return not rows

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product as cartesian
 
-from dofkit.base.errors import NoValueError
+from dofkit.base.errors import NoValueError, false_without_value
 from dofkit.exact.points.balls import random_ball_point
 from dofkit.exact.ring.canonical import lowest_terms, quotients_of, square_root
 from dofkit.exact.ring.program import values
@@ -81,6 +81,7 @@ def is_always_satisfied(c: DomainCondition, positive: frozenset[Expr]) -> bool:
     return never_holds(-c.expr, c.sense == ">=", positive)
 
 
+@false_without_value
 def holds_at(
     c: DomainCondition, configuration: Mapping[Expr, Expr], positive: frozenset[Expr], strictly: bool = False
 ) -> bool | None:
@@ -88,10 +89,7 @@ def holds_at(
 
     None where its sign there is not known.
     """
-    try:
-        sign = _sign(substitute(c.expr, configuration), positive)
-    except NoValueError:
-        return False
+    sign = _sign(substitute(c.expr, configuration), positive)
     if sign is None:
         return None
     if sign == 0:
