@@ -140,9 +140,6 @@ def vanishes_on(
     apart = real is not None and _is_apart(ring, real, rate, others)
     if real is not None and apart and real.certified:
         return False, "proved"
-    if "field" not in engines:
-        certain = real is not None and real.certified and _is_irreducible(g, positive)
-        return (True, "numeric") if certain else (None, "undecided")
     return (False, "numeric") if point is not None and apart else (None, "undecided")
 
 
