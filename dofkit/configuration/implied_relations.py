@@ -86,6 +86,15 @@ class ImpliedRelations:
         except (ArithmeticError, NoValueError):
             return list(others)
 
+    def rigid(self, rows: Sequence[int]) -> int:
+        """Return the dimension of the motions of the whole that keep some relations, over the coordinates they mention.
+
+        0 where they mention not all, or the motions are not known.
+        """
+        subchart = chart_of_rows(self.chart, rows)
+        point = pose_point(subchart, {**self.drawing, ex.TIME: ex.ZERO}, 3)
+        return 0 if point is None or len(subchart.symbols) < len(self.chart.symbols) else rigid_motions(subchart, point)
+
     def seem_to_follow(self, rows: Sequence[int], others: Sequence[int]) -> bool:
         """Return whether relations hold at every point, searched for near the drawing from random starts, of others.
 

@@ -303,6 +303,13 @@ class NearDrawing(BlockImplication):
         """Return whether others are satisfied at all sampled points near the reference at which some relations are."""
         return self._relations.seem_to_follow(rows, others)
 
+    def is_orbit(self, rows: Sequence[int], dof: int | None) -> bool:
+        """Return whether the set of ``dof`` dimensions that some relations leave is an orbit near the reference.
+
+        It is a union of orbits of the whole, finitely many of that dimension, and all of them pass through the drawing.
+        """
+        return dof is not None and self._relations.rigid(rows) == dof
+
 
 class Everywhere(BlockImplication):
     """Of any rows: what holds at every state of motion that the others leave, on all parts of their set."""

@@ -24,7 +24,7 @@ from itertools import groupby
 from typing import NamedTuple
 
 from dofkit.base.deadline import OutOfTimeError, check, limited, unless_late
-from dofkit.base.verdicts import About, Claim, Verdict
+from dofkit.base.verdicts import About, Claim, Verdict, weakest
 from dofkit.classification.dependence.implication import Everywhere, NearDrawing, is_drawn
 from dofkit.classification.dependence.implied_constraints import LEAVING_SECONDS
 from dofkit.classification.dependence.minimal_sets import SufficientSets, largest_redundant_set, minimal_set
@@ -50,10 +50,10 @@ def by_removal(block: Block, setting: Setting, a: Answer, nullity: int, numbered
     nullity = max(nullity, sum(o in largest.members for o in owners))
     groups = [(nullity, sorted(order))] if largest.members else []
     undecided = tuple(largest.undecided)
-    answer = Redundancies({}, largest.members, groups, circuits, undecided, claim=_claim("probable", a.about))
+    answer = Redundancies({}, largest.members, groups, circuits, undecided, claim=_claim(removal.verdict, a.about))
     count = counted(block, setting, a, numbered) if is_drawn(block, a, setting) else None
     if count is not None:
-        claim = _claim("numeric" if count.seen else "probable", a.about)
+        claim = _claim(weakest(removal.verdict, "numeric" if count.seen else "probable"), a.about)
         counts = replace(answer, independent=count.independent, equations=count.equations, seen=count.seen)
         return replace(counts, groups=groups or count.groups, claim=claim)
     independent = {o: 0 for o, circuit in circuits.items() if circuit and max(circuit) < o}
@@ -86,11 +86,12 @@ def owners_of(block: Block) -> list[int]:
 
 @dataclass
 class Removal:
-    """A block without some of its constraints."""
+    """A block without some of its constraints; ``verdict``: that of the weakest argument so far."""
 
     block: Block
     setting: Setting
     whole: Answer
+    verdict: Verdict = "probable"
     _answers: dict[tuple[frozenset[int], frozenset[int]], bool | None] = field(default_factory=dict)
     _dofs: dict[frozenset[int], int | None] = field(default_factory=dict)
 
@@ -121,13 +122,17 @@ class Removal:
         return self._dofs[kept]
 
     def _is_same_set(self, removed: frozenset[int], kept: frozenset[int]) -> bool | None:
-        """Return whether what is removed is implied; None where that is undecided."""
+        """Return whether what is removed is implied: always where only rigid motions of the system are left."""
         rows, others = (
             [i for i, r in enumerate(self.block.rows) if r.constraint in constraints] for constraints in (removed, kept)
         )
         if not is_drawn(self.block, self.whole, self.setting):
             return all_of(Everywhere(self.block, self.setting).follows(i, others) for i in rows)
-        return NearDrawing(self.block, self.setting).imply(others, rows, self.whole) or None
+        near = NearDrawing(self.block, self.setting)
+        if near.is_orbit(others, self._dof(kept)) or near.imply(others, rows, self.whole):
+            return True
+        self.verdict = "numeric"
+        return near.seem_to_imply(others, rows) or None
 
 
 def freedom(coordinates: Sequence[str], rows: Sequence[Row], setting: Setting) -> int | None:
