@@ -26,8 +26,6 @@ AWAY, ZERO = (0.05, 0.05, 0.05, 0.05, 0.3, 0.6, 0.6, 1.0), 1e-7
 FAINT = 1e-10
 #: The length of secants, and the least share of it that counts: the set is curved, and found to half its digits.
 SECANT, SPREAD, SETTLING = 1e-4, 3e-2, 60
-#: So many steps without half the error are the end: rounding, far from the origin, allows no less.
-STALLED = 8
 #: Powers of the error by which steps are damped: weakly first, then more.
 DAMPED = (2, 1)
 #: The same at a singular point, which a descent reaches to half its digits.
@@ -113,20 +111,16 @@ def _secants(chart: Chart, search: RealSearch, symbols: dict[Expr, float], dof: 
 
 def _settles(search: RealSearch, symbols: dict[Expr, float], seed: int, power: int) -> bool:
     """Moves ``symbols`` to the set nearby, by damped steps: where the gradients are dependent others go far away."""
-    errors: list[float] = []
     for _ in range(SETTLING):
         f, j = search.float_system(symbols, seed)
         scale = [largest(row) + 1e-300 for row in j]
         f = [v / size for v, size in zip(f, scale, strict=True)]
         j = [[v / size for v in row] for row, size in zip(j, scale, strict=True)]
-        errors.append(largest(f))
-        if errors[-1] < 1e-15:
+        if largest(f) < 1e-15:
             return True
-        if len(errors) > STALLED and min(errors[-STALLED:]) > min(errors[:-STALLED]) / 2:
-            break
         for u, s in zip(search.unknowns, damped(j, f, power), strict=True):
             symbols[u] += s
-    return errors[-1] < 1e-13
+    return False
 
 
 def _tangent(chart: Chart, symbols: dict[Expr, float], turning: Sequence[Rotation], dof: int) -> Any:

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from dofkit.base.deadline import check
-from dofkit.base.errors import NoValueError
+from dofkit.base.errors import false_without_value
 from dofkit.exact.analyticity import is_analytic
 from dofkit.exact.ideals import dimension_of, echelon_by_degree
 from dofkit.exact.ring.canonical import Canon, is_identically_zero, quotients_of
@@ -150,14 +150,12 @@ def _linear(relations: Sequence[Expr], moving: frozenset[Expr]) -> Iterator[tupl
             yield (not moving.isdisjoint(slope.symbols), sum(1 for _ in ex.nodes(slope))), g, s, slope
 
 
+@false_without_value
 def _same_zeros(e: Expr, other: Expr, positive: frozenset[Expr]) -> bool:
     """Return whether two expressions are the same up to a number."""
     if e.symbols != other.symbols:
         return False
-    try:
-        _, [(first, _), (second, _)] = quotients_of([e, other], positive)
-    except NoValueError:
-        return False
+    _, [(first, _), (second, _)] = quotients_of([e, other], positive)
     return bool(first * second.leading_coefficient() == second * first.leading_coefficient())
 
 

@@ -16,7 +16,7 @@ from itertools import product as cartesian
 from math import prod
 from typing import NamedTuple
 
-from dofkit.base.errors import NoValueError
+from dofkit.base.errors import NoValueError, false_without_value
 from dofkit.base.verdicts import ArgumentKey, weakest
 from dofkit.configuration import cases as all_cases
 from dofkit.configuration.variety import BRANCHED, Variety, chart_of_relations, field_jacobian, on_variety
@@ -214,6 +214,7 @@ def _has_branches(chart: Chart) -> bool:
     )
 
 
+@false_without_value
 def is_irreducible(chart: Chart) -> bool:
     """Return whether the set is known to have one component: what is generic at a regular point is so at all of them.
 
@@ -225,11 +226,8 @@ def is_irreducible(chart: Chart) -> bool:
     implicit = explicit_relations(chart.relations).implicit
     if len(implicit) != 1:
         return not implicit
-    try:
-        canon, [(top, _)] = quotients_of(implicit, chart.setting.positive)
-        factors = canon.factors(top)
-    except NoValueError:
-        return False
+    canon, [(top, _)] = quotients_of(implicit, chart.setting.positive)
+    factors = canon.factors(top)
     ring = canon.ring
     numbers = any(
         v.kind in ("root", "cos") and chart.ring.var_expr[v.index].symbols.isdisjoint(chart.symbols)

@@ -136,9 +136,6 @@ def _reductions(chart: Chart, solved: Explicit) -> Iterator[tuple[Explicit, list
 
 def _refuted(chart: Chart, solver: TriangularSolver) -> Variety | None:
     """What elimination alone says against the relations; None where it says nothing."""
-    if solver.plan.special:
-        why = "the equations can be satisfied only for special values of the parameters"
-        return Variety(False, None, "probable", reasons=[why], argument="number left over")
     if not solver.plan.contradictory or _signed(chart.ring, solver.plan.witness):
         return None
     if "balls" in chart.setting.engines:

@@ -12,7 +12,7 @@ from typing import Any
 from flint import arb, ctx
 
 from dofkit.base.deadline import check
-from dofkit.base.errors import NoValueError, PoleError
+from dofkit.base.errors import NoValueError, PoleError, false_without_value
 from dofkit.base.verdicts import About, ArgumentKey, Verdict
 from dofkit.exact.matrices.certified import PivotedPart
 from dofkit.exact.matrices.sparse import Pivots, SparseRow, rank_of_rows, sparse_frame, without_time
@@ -215,16 +215,14 @@ def time_is_free(chart: Chart, point: FieldPoint) -> bool:
     )
 
 
+@false_without_value
 def has_same_signs(chart: Chart, point: FieldPoint, real: RealPoint) -> bool:
     """Return whether what stands in absolute values has the same signs at a point over GF(p) as at a real one."""
     ring = chart.ring
     signs = [i for i in generators_of(chart) if ring.vars[i].kind == "sign"]
     if not signs:
         return True
-    try:
-        here, there = values(ring, point), values(ring, real.point)
-    except NoValueError:
-        return False
+    here, there = values(ring, point), values(ring, real.point)
     return all((here[ring.var_node[i]] == 1) == bool(there[ring.var_node[i]] > 0) for i in signs)
 
 

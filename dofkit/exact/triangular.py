@@ -26,15 +26,13 @@ DRAWS = 60
 class Plan:
     """How points are found: ``steps`` in the order of solving; ``free`` unknowns are drawn at random.
 
-    ``contradictory``: a relation between no unknowns does not hold; ``witness`` is that relation. ``special``: one is
-    between parameters only, and holds for special values. ``stuck``: relations were left that cannot be solved one
-    unknown at a time.
+    ``contradictory``: a relation between no unknowns does not hold; ``witness`` is that relation. ``stuck``: relations
+    were left that cannot be solved one unknown at a time.
     """
 
     steps: list[tuple[int, Unit]] = field(default_factory=list)
     free: list[Unit] = field(default_factory=list)
     contradictory: bool = False
-    special: bool = False
     witness: int = -1
     stuck: bool = False
 
@@ -114,8 +112,6 @@ class Planner:
         assert probe is not None
         for node in remaining:
             check()
-            if self._parameters_only(node):
-                self.plan.special = True
             if any(self.degree(node, u) for u in units_in(self.ring, node) - self.fixed):
                 kept.append(node)
             elif value_along(self.ring, node, {}, probe) != 0 and not self.fixed:

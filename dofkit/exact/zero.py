@@ -8,7 +8,7 @@ from typing import Literal
 
 from flint import arb, ctx, fmpq_mat
 
-from dofkit.base.errors import NoValueError
+from dofkit.base.errors import NoValueError, false_without_value
 from dofkit.base.verdicts import Verdict
 from dofkit.exact.points.balls import fixed_bits, random_ball_point
 from dofkit.exact.points.field import MOST_REDUCED, field_point
@@ -201,6 +201,7 @@ def _of_symbol(var: Var) -> bool:
     return isinstance(var.key[0], Expr) and var.key[0].op == "sym"
 
 
+@false_without_value
 def _independent_arguments(ring: Ring, kind: str) -> bool:
     """Return whether the exponents, or the angles, are linearly independent over Q modulo constants [Ax1971].
 
@@ -210,14 +211,11 @@ def _independent_arguments(ring: Ring, kind: str) -> bool:
     if len(moving) < 2 or all(_of_symbol(v) for v in moving):
         return True
     canon = Canon(ring)
-    try:
-        pairs = [canon.quotient(v.args[0]) for v in moving]
-        below = canon.unit
-        for _, bottom in pairs:
-            below = below * divided(bottom, below.gcd(bottom))
-        rows = [below, *(top * divided(below, bottom) for top, bottom in pairs)]
-    except NoValueError:
-        return False
+    pairs = [canon.quotient(v.args[0]) for v in moving]
+    below = canon.unit
+    for _, bottom in pairs:
+        below = below * divided(bottom, below.gcd(bottom))
+    rows = [below, *(top * divided(below, bottom) for top, bottom in pairs)]
     terms = sorted({m for row in rows for m in row.to_dict()})
     if len(rows) * len(terms) > MOST_TERMS:
         return False

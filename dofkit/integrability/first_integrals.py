@@ -16,7 +16,7 @@ from fractions import Fraction
 from itertools import combinations, combinations_with_replacement
 
 from dofkit.base.deadline import check
-from dofkit.base.errors import NoValueError
+from dofkit.base.errors import NoValueError, false_without_value
 from dofkit.configuration.variety import pose_point
 from dofkit.exact.matrices.sparse import Pivots, rank_of, reconstructed
 from dofkit.exact.points.field import FieldPoint
@@ -312,24 +312,21 @@ class BorderedMinors:
         except NoValueError:
             return None
 
+    @false_without_value
     def are_involutive(self, forms: Sequence[Mapping[Expr, Expr]]) -> bool:
         """Return whether d(omega)(X, Y) = 0 for all X and Y that the rows annihilate, by identities [Frobenius1877]."""
         derivatives = [exterior_derivative({s: form.get(s, ex.ZERO) for s in self.chart.symbols}) for form in forms]
         nodes = [{k: self.chart.ring.node(e) for k, e in enumerate(d.values())} for d in derivatives]
         canon = self._current_canon()
         zero = canon.unit * 0
-        try:
-            cofactors = [self._along(canon, j) for j in self.frame.free]
-            fields = [[x.get(c, zero) for c in range(len(self.chart.symbols))] for x in cofactors]
-            coefficients = [polynomials(canon, row, len(row)) for row in nodes]
-            return all(
-                canon.reduce(sum((p * (x[i] * y[j] - x[j] * y[i]) for (i, j), p in zip(d, row, strict=True)), zero))
-                == 0
-                for d, row in zip(derivatives, coefficients, strict=True)
-                for x, y in combinations(fields, 2)
-            )
-        except NoValueError:
-            return False
+        cofactors = [self._along(canon, j) for j in self.frame.free]
+        fields = [[x.get(c, zero) for c in range(len(self.chart.symbols))] for x in cofactors]
+        coefficients = [polynomials(canon, row, len(row)) for row in nodes]
+        return all(
+            canon.reduce(sum((p * (x[i] * y[j] - x[j] * y[i]) for (i, j), p in zip(d, row, strict=True)), zero)) == 0
+            for d, row in zip(derivatives, coefficients, strict=True)
+            for x, y in combinations(fields, 2)
+        )
 
     def _current_canon(self) -> Canon:
         """The canonical ring with all generators that there are by now."""

@@ -19,7 +19,7 @@ from dataclasses import replace
 from flint import arb
 
 from dofkit.base.deadline import OutOfTimeError
-from dofkit.base.errors import NoValueError
+from dofkit.base.errors import NoValueError, false_without_value
 from dofkit.base.verdicts import VERDICTS, weakest
 from dofkit.configuration.local.manifold import Manifold
 from dofkit.configuration.search import find
@@ -119,6 +119,7 @@ def _rows_at_reference(block: Block, setting: Setting, result: Answer) -> tuple[
     return rows_at(relations, configuration)
 
 
+@false_without_value
 def _moves_at_reference(block: Block, setting: Setting, result: Answer, moving: int) -> bool:
     """Return whether real velocities at the reference are as regular as elsewhere; True without a reference on the set.
 
@@ -126,13 +127,10 @@ def _moves_at_reference(block: Block, setting: Setting, result: Answer, moving: 
     """
     if setting.reference is None:
         return True
-    try:
-        rows = _rows_at_reference(block, setting, result)
-        if not rows:
-            return rows is None
-        there = States(block.coordinates, rows, (), replace(setting, reference=None))
-    except NoValueError:
-        return False
+    rows = _rows_at_reference(block, setting, result)
+    if not rows:
+        return rows is None
+    there = States(block.coordinates, rows, (), replace(setting, reference=None))
     return any(there.ranks(point)[1] == moving for point in there.certain(SEEDS))
 
 
@@ -170,18 +168,16 @@ def _undecided(result: Answer, why: str) -> None:
             result.labels[i] = HolonomyLabel(None, "undecided", why)
 
 
+@false_without_value
 def _bends(states: States, point: BallPoint) -> bool:
     """Return whether the allowed velocities span the affine space that the linear relations cut out.
 
     The derivatives of curves through a velocity lie in the smallest affine space around them; balls prove how many are
     independent.
     """
-    try:
-        rows = states.by_velocity(point, states.moving)
-        wanted = len(states.velocities) - ball_part(rows[: len(states.linear)]).rank
-        return ball_part(_derivatives(states, rows, point, wanted)).rank == wanted
-    except NoValueError:
-        return False
+    rows = states.by_velocity(point, states.moving)
+    wanted = len(states.velocities) - ball_part(rows[: len(states.linear)]).rank
+    return ball_part(_derivatives(states, rows, point, wanted)).rank == wanted
 
 
 @raising_no_value

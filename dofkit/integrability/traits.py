@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
-from dofkit.base.errors import NoValueError, TextError
+from dofkit.base.errors import NoValueError, TextError, false_without_value
 from dofkit.base.verdicts import TraitAnswer, Verdict, all_of, weakest
 from dofkit.exact.analyticity import is_analytic
 from dofkit.exact.points.real_search import RealPoint, RealSearch, at_another_time
@@ -140,27 +140,22 @@ def vanishes_on(
     apart = real is not None and _is_apart(ring, real, rate, others)
     if real is not None and apart and real.certified:
         return False, "proved"
-    if "field" not in engines:
-        certain = real is not None and real.certified and _is_irreducible(g, positive)
-        return (True, "numeric") if certain else (None, "undecided")
     return (False, "numeric") if point is not None and apart else (None, "undecided")
 
 
+@false_without_value
 def _is_irreducible(g: Expr, positive: frozenset[Expr]) -> bool:
     """Return whether g has one factor over the rationals; False where it is too large to be factored.
 
     Roots of numbers may make factors that are none over the rationals: x^2 + sqrt(2) x (1 - t) - 2 t is a product.
     """
-    try:
-        canon, [(top, _)] = quotients_of([g], positive)
-        numbers = any(
-            canon.ring.vars[i].kind in ("root", "cos", "sin")
-            for i in canon.generators_in(top)
-            if not canon.ring.var_expr[i].symbols
-        )
-        return not numbers and len(canon.factors(top)) == 1
-    except NoValueError:
-        return False
+    canon, [(top, _)] = quotients_of([g], positive)
+    numbers = any(
+        canon.ring.vars[i].kind in ("root", "cos", "sin")
+        for i in canon.generators_in(top)
+        if not canon.ring.var_expr[i].symbols
+    )
+    return not numbers and len(canon.factors(top)) == 1
 
 
 def _real_point(ring: Ring, node: int, g: Expr, positive: frozenset[Expr]) -> RealPoint | None:

@@ -16,7 +16,7 @@ from itertools import product as cartesian
 
 from flint import arb
 
-from dofkit.base.errors import NoValueError
+from dofkit.base.errors import NoValueError, false_without_value
 from dofkit.classification.dependence.implication import follows
 from dofkit.configuration.search import find
 from dofkit.configuration.variety import field_jacobian
@@ -89,23 +89,18 @@ def _terms(normal: Normal) -> list[tuple[str, Expr]]:
     return []
 
 
+@false_without_value
 def _proportional(a: Sequence[tuple[str, Expr]], b: Sequence[tuple[str, Expr]], positive: frozenset[Expr]) -> bool:
     """Return whether a_i = c b_i identically for one number c other than 0; proved in the canonical ring."""
     first, second = dict(a), dict(b)
     names = sorted(first.keys() | second.keys())
-    try:
-        canon, quotients = quotients_of([form.get(name, ZERO) for name in names for form in (first, second)], positive)
-    except NoValueError:
-        return False
+    canon, quotients = quotients_of([form.get(name, ZERO) for name in names for form in (first, second)], positive)
     tops = [top for top, _ in quotients]
     result = list(zip(tops[::2], tops[1::2], strict=True))
     if not _entire(canon.ring) or any((x == 0) != (y == 0) for x, y in result):
         return False
-    remaining = [(x, y) for x, y in result if x != 0]
-    if not remaining:
-        return False
-    c, d = (poly.leading_coefficient() for poly in remaining[0])
-    return all(x * d == y * c for x, y in remaining)
+    leading = [(x.leading_coefficient(), y.leading_coefficient()) for x, y in result if x != 0]
+    return all(x * d == y * c for x, y in result for c, d in leading[:1])
 
 
 #: Choices of branches on which gradients are looked at.
@@ -206,8 +201,8 @@ def same_side(a: Inequality, b: Inequality, others: Sequence[Normal], setting: S
     """Return whether a >= 0 and b >= 0 agree at all configurations that the others allow; None if undecided.
 
     The signs differ at some point (a ball proves it), or agree at all that are drawn and the boundaries are the same.
-    Where the others leave the boundary only, all of space is looked at. Of one that includes its boundary and one that
-    does not, nothing is proved here unless the signs differ.
+    Where the others leave the boundary only, all of space is looked at. Nothing is proved where only the boundaries
+    differ, as of x >= 0 and x (x - 1)^2 >= 0, or only whether they are included.
     """
     if a == b:
         return True
@@ -218,8 +213,6 @@ def same_side(a: Inequality, b: Inequality, others: Sequence[Normal], setting: S
     if any(first != other for first, other in seen):
         return False
     sides = [follows(_boundary(x), [*others, _boundary(y)], setting) for x, y in ((a, b), (b, a))]
-    if False in sides:
-        return False
     return True if seen and all(sides) and a.strict == b.strict else None
 
 

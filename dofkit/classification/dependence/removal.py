@@ -8,10 +8,10 @@ How many equations are independent of all before them where relations are depend
 An equation is independent of others where it is no combination of them, with coefficients that are analytic near the
 reference. Each is compared with those before it. A row that is no sum of rows before it at the reference belongs to an
 independent equation. One that is such a sum is of a dependent equation where that vanishes on the manifold of the
-independent ones before it [ImplicitFunctions]; the first that does not is independent, and so is a later one that
-reduces the freedom. Of several of one constraint all but one are dependent where they are satisfied, in numbers, at the
-points near the reference where that one is: creases that meet in a point close up by one condition of the second order,
-which several equations state. What was counted must agree with the freedom.
+independent ones before it [ImplicitFunctions]; the first that does not is independent, and no other is counted then. Of
+several of one constraint all but one are dependent where they are satisfied, in numbers, at the points near the
+reference where that one is: creases that meet in a point close up by one condition of the second order, which several
+equations state. What was counted must agree with the freedom.
 """
 
 from __future__ import annotations
@@ -177,13 +177,13 @@ def counted(block: Block, setting: Setting, a: Answer, numbered: Sequence[int]) 
 
 @dataclass
 class _Counting:
-    """What is implied by what, row by row; ``bent``: rows dependent at the reference only; ``seen``: as counted."""
+    """What is implied by what, row by row; ``bent``: one is dependent at the reference only; ``seen``: as counted."""
 
     block: Block
     setting: Setting
     a: Answer
     seen: list[int] = field(default_factory=list)
-    bent: list[int] = field(default_factory=list)
+    bent: bool = False
     following: dict[int, list[int]] = field(default_factory=dict)
 
     @cached_property
@@ -206,7 +206,7 @@ class _Counting:
         """
         for owner, rows in groupby(sorted(self._dependent), key=self._owners.__getitem__):
             remaining = self._independent_rows(rows)
-            if remaining is None or not (self._by_one(owner, remaining) or self._by_freedom(remaining)):
+            if remaining is None or not self._by_one(owner, remaining):
                 return None
         return self.following
 
@@ -226,30 +226,16 @@ class _Counting:
         return result
 
     def _by_one(self, owner: int, rows: Sequence[int]) -> bool:
-        """Return whether, in numbers, several rows of a constraint hold where one of them and those before do."""
-        if len(rows) < 2:
-            return False
+        """Return whether, in numbers, rows of a constraint hold where one of them and those before do.
+
+        There may be such rows of one constraint only.
+        """
         pivots = [k for k, o in enumerate(self._owners) if o <= owner and k not in self._dependent]
-        for first in rows:
+        for first in () if self.bent else rows:
             others = [i for i in rows if i != first]
-            premises = [*pivots, *self.bent, first]
-            if self._near.seem_to_imply(premises, others) and (not self.bent or self._takes_freedom(first)):
-                self.bent.append(first)
-                self.following |= dict.fromkeys(others, premises)
-                self.seen.append(owner)
+            if not others or self._near.seem_to_imply([*pivots, first], others):
+                self.bent = True
+                self.following |= {i: [*pivots, first] for i in others}
+                self.seen += [owner] if others else []
                 return True
-        return False
-
-    def _by_freedom(self, rows: Sequence[int]) -> bool:
-        """Return whether each of some rows removes freedom, the first of all apart: they are independent then."""
-        for i in rows:
-            if self.bent and not self._takes_freedom(i):
-                return False
-            self.bent.append(i)
-        return True
-
-    def _takes_freedom(self, row: int) -> bool:
-        """Return whether the rows before this one that are not implied leave less freedom with it than without it."""
-        rows = [self.block.rows[k] for k in range(row + 1) if k not in self.following]
-        before, after = (freedom(self.block.coordinates, some, self.setting) for some in (rows[:-1], rows))
-        return before is not None and after is not None and after < before
+        return not rows

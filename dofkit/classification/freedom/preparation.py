@@ -9,7 +9,7 @@ from collections import Counter
 from collections.abc import Hashable, Iterable, Sequence
 
 from dofkit.base.deadline import check
-from dofkit.base.errors import Fault, NoValueError, SceneError, TextError
+from dofkit.base.errors import Fault, SceneError, TextError, false_without_value
 from dofkit.configuration.at_reference import ball_matrix, ball_point
 from dofkit.configuration.variety import point_at
 from dofkit.exact.analyticity import is_analytic
@@ -169,6 +169,7 @@ def reductions_at_reference(alternatives: Sequence[Alternative], setting: Settin
     return [a for a in alternatives if all(map(is_valid, a.slots))] or alternatives
 
 
+@false_without_value
 def has_kink_at_reference(normal: Normal, setting: Setting) -> bool:
     """Return whether the argument of an absolute value vanishes at the reference configuration.
 
@@ -181,11 +182,8 @@ def has_kink_at_reference(normal: Normal, setting: Setting) -> bool:
     if not pieces:
         return False
     configuration = {**setting.reference, ex.TIME: ex.ZERO}
-    try:
-        arguments = [substitute(u, configuration) for p in pieces for u in arguments_of(p.expr)]
-        return any(is_zero(u, setting.positive) for u in arguments)
-    except NoValueError:
-        return False
+    arguments = [substitute(u, configuration) for p in pieces for u in arguments_of(p.expr)]
+    return any(is_zero(u, setting.positive) for u in arguments)
 
 
 def passes_reference(branch: Sequence[Piece], setting: Setting) -> bool:

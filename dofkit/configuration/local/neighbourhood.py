@@ -80,7 +80,6 @@ class Neighbourhood:
     def newton(self, symbols: dict[Expr, arb], nodes: Sequence[int], moved: Sequence[int]) -> dict[Expr, arb] | None:
         """``nodes`` solved for the columns numbered ``moved``, to high precision; None where it does not converge."""
         columns = [self.columns[i] for i in moved]
-        last = arb(1)
         for _ in range(ROUNDS):
             check()
             point = BallPoint(symbols)

@@ -278,12 +278,10 @@ def exact_rank(
     present = [c for c in columns if c >= 0]
     if len(nodes) * len(present) > MAX_ENTRIES:
         return None
-    if not nodes or not present:
-        return 0
     point = ExactPoint(symbols)
     try:
         at = values(ring, point)
         slopes = [gradient(ring, at, point, [(node, fmpq(1))]) for node in nodes]
     except NoValueError:
         return None
-    return int(fmpq_mat([[row.get(c, fmpq(0)) for c in present] for row in slopes]).rref()[1])
+    return int(fmpq_mat(len(nodes), len(present), [row.get(c, fmpq(0)) for row in slopes for c in present]).rref()[1])

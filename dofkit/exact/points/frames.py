@@ -101,10 +101,4 @@ def vanishes(value: Scalar) -> bool:
 
 def pairing(row: Sequence[Scalar], vectors: Sequence[Sequence[Scalar]]) -> list[Scalar]:
     """Return the values of a form on vectors."""
-    values = []
-    for vector in vectors:
-        total = row[0] * vector[0] if row else 0
-        for a, v in zip(row[1:], vector[1:], strict=True):
-            total = total + a * v
-        values.append(total)
-    return values
+    return [sum(a * v for a, v in zip(row, vector, strict=True)) for vector in vectors]

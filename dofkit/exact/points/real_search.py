@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from flint import arb, arb_mat, ctx
 
 from dofkit.base.deadline import check
-from dofkit.base.errors import NoValueError
+from dofkit.base.errors import NoValueError, false_without_value
 from dofkit.exact.matrices.certified import PivotedPart, ball_part, independent_part
 from dofkit.exact.matrices.dense import largest, length, step
 from dofkit.exact.points.balls import BallPoint, FloatPoint, jacobian, precision, random_values
@@ -251,6 +251,7 @@ class RealSearch:
         return arb_mat([[at[n]] for n in nodes]), arb_mat(j)
 
 
+@false_without_value
 def are_joined(search: RealSearch, start: Mapping[Expr, arb], end: RealPoint, rank: int) -> bool:
     """Return whether it is proved that a curve of zeros leads from ``start`` to ``end``.
 
@@ -264,11 +265,8 @@ def are_joined(search: RealSearch, start: Mapping[Expr, arb], end: RealPoint, ra
     middle = {u: box[u].mid() for u in unknowns}
     nodes, indices = [search.nodes[r] for r in part.rows], [search.columns[c] for c in part.columns]
     for _ in range(INFLATIONS if part.rank == rank else 0):
-        try:
-            f = search._ball_system({**box, **middle}, nodes, indices, end.point.seed)[0]
-            step = _solution(search._ball_system(box, nodes, indices, end.point.seed)[1], f)
-        except NoValueError:
-            return False
+        f = search._ball_system({**box, **middle}, nodes, indices, end.point.seed)[0]
+        step = _solution(search._ball_system(box, nodes, indices, end.point.seed)[1], f)
         reached = {u: v - step[i, 0] for i, (u, v) in enumerate(middle.items())}
         if all(box[u].contains_interior(v) for u, v in reached.items()):
             return True

@@ -51,8 +51,7 @@ def rationalised(canon: Canon, quotient: Quotient) -> Quotient:
             continue
         gen = canon.gens[var.index] ** (var.degree - 1 if var.kind == "root" else 1)
         other = in_lowest_terms(canon.reduce(best[0] * gen), canon.reduce(best[1] * gen))
-        if _length(other) < _length(best):
-            best = other
+        best = min(best, other, key=_length)
     return best
 
 

@@ -292,7 +292,7 @@ def upright(e: Expr) -> Expr:
     if last.op != "fn" or last.args[0] != "atan":
         return e
     inside: Expr = last.args[1]
-    divided = any(as_power(f)[1] < 0 for f in (inside.args if inside.op == "mul" else (inside,)))
+    divided = any(as_power(f)[1] <= -1 for f in (inside.args if inside.op == "mul" else (inside,)))
     return -ex.mul(*e.args[:-1], ex.fn("atan", 1 / inside)) if divided else e
 
 

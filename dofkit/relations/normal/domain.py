@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product as cartesian
 
-from dofkit.base.errors import NoValueError
+from dofkit.base.errors import NoValueError, false_without_value
 from dofkit.exact.points.balls import random_ball_point
 from dofkit.exact.ring.canonical import lowest_terms, quotients_of, square_root
 from dofkit.exact.ring.program import values
@@ -81,6 +81,7 @@ def is_always_satisfied(c: DomainCondition, positive: frozenset[Expr]) -> bool:
     return never_holds(-c.expr, c.sense == ">=", positive)
 
 
+@false_without_value
 def is_satisfied_at(
     c: DomainCondition, configuration: Mapping[Expr, Expr], positive: frozenset[Expr], strictly: bool = False
 ) -> bool | None:
@@ -88,10 +89,7 @@ def is_satisfied_at(
 
     None where its sign there is not known.
     """
-    try:
-        sign = _sign(substitute(c.expr, configuration), positive)
-    except NoValueError:
-        return False
+    sign = _sign(substitute(c.expr, configuration), positive)
     if sign is None:
         return None
     if sign == 0:
@@ -174,7 +172,7 @@ def up_to_a_number(e: Expr) -> frozenset[tuple[Expr, Fraction]]:
 
 
 def squared(e: Expr, positive: frozenset[Expr]) -> tuple[Expr, DomainCondition] | None:
-    """a sqrt(u) + b = 0 as a^2 u - b^2 = 0 where -a b >= 0; None where there is not one square root, linearly."""
+    """a sqrt(u) + b = 0 as a^2 u - b^2 = 0 where -a b >= 0; None where there is not one root, linearly, and b."""
     try:
         canon, [(top, _)] = quotients_of([e], positive)
         ring = canon.ring
@@ -185,8 +183,8 @@ def squared(e: Expr, positive: frozenset[Expr]) -> tuple[Expr, DomainCondition] 
         if any(ring.var_expr[index] in ex.nodes(ring.var_expr[v.index]) for v in ring.vars if v.index != index):
             return None
         coefficients = canon.collected(top, {index})
-        a, b = coefficients.pop(((index, 1),), canon.unit * 0), coefficients.pop((), canon.unit * 0)
-        if a == 0 or coefficients:
+        a, b = coefficients.pop(((index, 1),), None), coefficients.pop((), None)
+        if a is None or b is None or coefficients:
             return None
         u, below = canon.quotient(roots[0].args[0])
         norm, sided = canon.reduce(a * a * u - b * b * below), canon.reduce(-a * b)

@@ -15,7 +15,7 @@ from itertools import combinations, islice
 from typing import Any
 
 from dofkit.base.deadline import OutOfTimeError, check
-from dofkit.base.errors import NoValueError, PoleError
+from dofkit.base.errors import NoValueError, PoleError, false_without_value
 from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.canonical import Canon, quotients_of
 from dofkit.exact.ring.program import values
@@ -46,14 +46,12 @@ def no_solution(relations: Sequence[Expr], positive: frozenset[Expr], conditions
     return refuted([*(SignClaim(e, "=") for e in relations), *(SignClaim(e, ">=") for e in conditions)], positive)
 
 
+@false_without_value
 def refuted(claims: Sequence[SignClaim], positive: frozenset[Expr]) -> bool:
     """Return whether it is proved that no real point satisfies all claims, at which all they hold has a value."""
-    try:
-        within = dict.fromkeys(d for c in claims for d in conditions_of(c.expr, positive))
-        sided = [*claims, *(SignClaim(d.expr, d.sense) for d in within if d.sense != "!=")]
-        return _is_refuted(sided, positive) or _is_refuted(_with_values(sided, positive), positive)
-    except NoValueError:
-        return False
+    within = dict.fromkeys(d for c in claims for d in conditions_of(c.expr, positive))
+    sided = [*claims, *(SignClaim(d.expr, d.sense) for d in within if d.sense != "!=")]
+    return _is_refuted(sided, positive) or _is_refuted(_with_values(sided, positive), positive)
 
 
 def hold_nowhere(relations: Sequence[Expr], conditions: Sequence[DomainCondition], positive: frozenset[Expr]) -> bool:
@@ -132,17 +130,15 @@ def _is_exp(e: Expr) -> bool:
     return e.op == "fn" and e.args[0] in ("exp", "cosh")
 
 
+@false_without_value
 def _some_resultant_never_vanishes(relations: Sequence[Expr], positive: frozenset[Expr]) -> bool:
     """Return whether a polynomial that vanishes wherever the relations hold has no real zero: them, or a resultant."""
     if not _faithful(relations, positive):
         return False
-    try:
-        canon, quotients = quotients_of(relations, positive)
-        numerators = [p for p, _ in quotients if p != 0]
-        present = {i for p in numerators for i in canon.generators_in(p)}
-        numerators += [g for g in canon.relations if not present.isdisjoint(canon.generators_in(g))]
-    except NoValueError:
-        return False
+    canon, quotients = quotients_of(relations, positive)
+    numerators = [p for p, _ in quotients if p != 0]
+    present = {i for p in numerators for i in canon.generators_in(p)}
+    numerators += [g for g in canon.relations if not present.isdisjoint(canon.generators_in(g))]
     for v in canon.ring.vars:
         if v.kind == "sign":  # where its argument is 0 either sign satisfies them, and abs(u)/u has no value
             canon.ring.var_expr[v.index] = ex.coordinate(f"_sign {v.index}")

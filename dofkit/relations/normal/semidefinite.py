@@ -7,7 +7,7 @@ from typing import Any
 
 from flint import fmpq, fmpq_mat
 
-from dofkit.base.errors import NoValueError
+from dofkit.base.errors import false_without_value
 from dofkit.exact.ring.canonical import Canon, quotients_of
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
@@ -106,15 +106,13 @@ def _sign_of_terms(signs: Signs, poly: Any) -> int:
     return 1 if _some_positive(poly) else -1
 
 
+@false_without_value
 def never_holds(e: Expr, strict: bool, positive: frozenset[Expr]) -> bool:
     """True where ``e >= 0`` (or > 0) is proved to hold nowhere: -e is a sum of terms that are >= 0, one of them > 0.
 
     For > 0 it is enough that no term, or a product with only such factors, is > 0.
     """
-    try:
-        canon, [(top, bottom)] = quotients_of([e], positive)
-    except NoValueError:
-        return False
+    canon, [(top, bottom)] = quotients_of([e], positive)
     if top == 0:
         return strict
     if not bottom.is_constant():
@@ -129,11 +127,9 @@ def never_holds(e: Expr, strict: bool, positive: frozenset[Expr]) -> bool:
     return strict or any(not zeros for zeros in even)
 
 
+@false_without_value
 def _never_positive(canon: Canon, signs: Signs, poly: Any) -> bool:
-    try:
-        return weak_sign(canon, signs, poly) == -1
-    except NoValueError:
-        return False
+    return weak_sign(canon, signs, poly) == -1
 
 
 def _some_positive(poly: Any) -> bool:
