@@ -1,41 +1,15 @@
 """Lagrange's equations of a scene rechecked, on what its relations leave.
 
-The energies and forces are read from the scene's texts, or from masses, springs, dampers, gravity and forces:
-L = T - V, with T = sum m v.v/2 + w.J w/2 (each body's centre of mass at its origin, J in its axes) where no text gives
-it, V of springs and gravity, Rayleigh's D of dampers. A force F at r pushes along q by F . dr/dq.
+The energies are those that the scene gives as texts: L = T - V, Rayleigh's D, and forces along coordinates.
 """
 
-from collections.abc import Iterator
 from typing import Any
 
 from dofkit.checker.constraints import Entry, known_fields
 from dofkit.checker.evidence import CheckedEvidence, Told
-from dofkit.checker.geometry import Vector, dot, length, less, scaled, square
 from dofkit.checker.grammar import parse
 from dofkit.checker.problem import CheckedProblem
-from dofkit.checker.trees import (
-    HALF,
-    MINUS,
-    ONE,
-    ZERO,
-    Tree,
-    add,
-    along,
-    call,
-    derivative,
-    homogeneous_degree,
-    refuse,
-    substituted,
-    symbol,
-)
-
-#: What pulls, and the fields that it has.
-ENTRIES = {
-    "spring": "between stiffness rest_length",
-    "damper": "between damping",
-    "gravity": "acceleration direction",
-    "force": "point body value direction",
-}
+from dofkit.checker.trees import ONE, Tree, add, along, derivative, homogeneous_degree, refuse, substituted, symbol
 
 
 class CheckedEnergies:
@@ -45,100 +19,24 @@ class CheckedEnergies:
     """
 
     def __init__(self, problem: CheckedProblem) -> None:
-        self.scene, self.world, self.d = problem.scene, problem.world, problem.world.dimension
+        self.names, energies = problem.world.names, problem.scene.get("energies", {})
         self.rates = {"t": ONE, **{q: symbol(f"{q}dot") for q in problem.coordinates}}
         self.rates |= {f"{q}dot": symbol(f"{q}ddot") for q in problem.coordinates}
-        energies: Entry = self.scene.get("energies", {})
         known_fields(energies, "kinetic potential dissipation forces")
+        refuse("kinetic" not in energies or "forces" in problem.scene, "energies and forces are not all texts")
         pushed: Entry = energies.get("forces", {})
         refuse(not pushed.keys() <= {*problem.coordinates}, "a force pushes along what is no coordinate")
-        for entry in self.scene.get("forces", []):
-            known_fields(entry, f"type name notes {ENTRIES[entry['type']]}")
-        texts = {key: self.text(value) for key, value in energies.items() if key != "forces"}
-        stored = texts.get("potential") or add(*self.of("spring"), *self.of("gravity"))
-        self.lagrangian = (texts.get("kinetic") or add(*self.kinetic())) - stored
-        self.dissipation = texts.get("dissipation") or add(*self.of("damper"))
+        kinetic, potential, self.dissipation = (
+            self.text(energies.get(key, "0")) for key in ("kinetic", "potential", "dissipation")
+        )
+        self.lagrangian = kinetic - potential
         self.pushes = [(self.text(text), symbol(q)) for q, text in pushed.items()]
-        self.pushes = self.pushes or [pair for pairs in self.of("force") for pair in pairs]
-
-    def of(self, kind: str) -> list[Any]:
-        """What all entries of a kind give."""
-        read = {"spring": self.spring, "gravity": self.gravity, "damper": self.damper, "force": self.force}[kind]
-        return [read(entry) for entry in self.scene.get("forces", []) if entry["type"] == kind]
 
     def text(self, value: Any) -> Tree:
         """A number or text, in which velocities may occur."""
-        tree = value if isinstance(value, Tree) else parse(value, self.world.names)
+        tree = parse(value, self.names)
         refuse(homogeneous_degree(tree, ["dt"]) != 0, "an energy holds differentials")
         return substituted(tree, {"dt": ONE})
-
-    def masses(self) -> Iterator[tuple[Tree, Vector]]:
-        """The mass (a symbol where it is left out) and the place of every particle and body."""
-        places = {name: point.over for name, point in self.world.particles.items()}
-        places |= {name: frame.position for name, frame in self.world.frames.items()}
-        for entry in (*self.scene.get("particles", []), *self.scene.get("bodies", [])):
-            yield self.text(entry.get("mass", symbol(f"mass of {entry['name']}"))), places[entry["name"]]
-
-    def kinetic(self) -> Iterator[Tree]:
-        """m v.v/2 of all, and w.J w/2 of bodies; an inertia is a number, three moments, or three rows."""
-        for mass, place in self.masses():
-            yield HALF * mass * square([self.rates[str(q.value)] for q in place])
-        for entry in self.scene.get("bodies", []) if self.d > 1 else ():
-            spin, inertia = self.spin(entry["name"]), entry.get("inertia", symbol(f"inertia of {entry['name']}"))
-            for w, row in zip(spin, inertia if isinstance(inertia, list) else [inertia] * len(spin), strict=True):
-                whole = isinstance(row, list)
-                yield HALF * w * (dot([*map(self.text, row)], spin) if whole else self.text(row) * w)
-
-    def spin(self, body: str) -> Vector:
-        """The angular velocity; in space by its components in the body's axes."""
-        angles = list(self.world.frames[body].reference)[self.d :]
-        rates = [self.rates[q] for q in angles]
-        if self.d == 2:
-            return tuple(rates)
-        tilt, (_, theta, psi) = rates[0] * call("sin", symbol(angles[1])), map(symbol, angles)
-        s, c = call("sin", psi), call("cos", psi)
-        turned = tilt * s + rates[1] * c, tilt * c - rates[1] * s
-        return *turned, rates[0] * call("cos", theta) + rates[2]
-
-    def extent(self, entry: Entry) -> tuple[Tree, Tree | None]:
-        """How far two points are apart, now and in the drawing; of bodies of the plane the angle between them."""
-        ends, frames = entry["between"], self.world.frames
-        if self.d == 2 and all(isinstance(end, str) and end in frames for end in ends):
-            return frames[ends[1]].angle - frames[ends[0]].angle, ZERO
-        first, second = map(self.world.point, ends)
-        drawn = length(less(second.start, first.start)) if first.start and second.start else None
-        return length(less(second.place, first.place)), drawn
-
-    def spring(self, entry: Entry) -> Tree:
-        """k (d - d0)^2/2, d0 as it is drawn where it is not given."""
-        now, drawn = self.extent(entry)
-        rest_length = self.text(entry.get("rest_length", drawn))
-        return HALF * self.text(entry["stiffness"]) * (now - rest_length) ** 2
-
-    def damper(self, entry: Entry) -> Tree:
-        """c ddot^2/2."""
-        return HALF * self.text(entry["damping"]) * along(self.rates, self.extent(entry)[0]) ** 2
-
-    def gravity(self, entry: Entry) -> Tree:
-        """-sum m g.r."""
-        pull = self.vector(entry, "acceleration", MINUS)
-        return -add(*(mass * dot(pull, place) for mass, place in self.masses()))
-
-    def force(self, entry: Entry) -> list[tuple[Tree, Tree]]:
-        """A force, at a point or at the origin of a body."""
-        body = self.world.frames[entry["body"]].position if "body" in entry else ()
-        place = self.world.point(entry["point"]).place if "point" in entry else body
-        return list(zip(self.vector(entry, "value", ONE), place, strict=True))
-
-    def vector(self, entry: Entry, key: str, last: Tree) -> Vector:
-        """A vector from its components, or from its size and direction (the last axis, or down)."""
-        written, axis = entry[key], entry.get("direction")
-        listed = isinstance(written, list)
-        refuse(key == "value" and self.d > 1 and axis is None and not listed, "no direction is given")
-        texts = written if listed else axis or [*[ZERO] * (self.d - 1), last]
-        components = tuple(map(self.text, texts))
-        refuse(len(components) != self.d, "a vector has as many components as space")
-        return components if texts is written else scaled(self.text(written) / length(components), components)
 
 
 #: What a claim tells: the fields of a report of the motion.
