@@ -10,6 +10,7 @@ from flint import fmpq_mat
 from dofkit.checker.evidence import MOST, CheckedEvidence, CheckedMinor, Told, admissible, independent, of_word, span
 from dofkit.checker.geometry import determinant, dot
 from dofkit.checker.point import CheckedPoint, not_zero
+from dofkit.checker.relations import total_derivative
 from dofkit.checker.trees import ONE, derivative, refuse
 
 MOST_FORMS, HIGHEST_DEGREE = 6, 4
@@ -180,18 +181,21 @@ def redundant(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[st
 def _depend_plainly(evidence: CheckedEvidence, minor: CheckedMinor, others: set[str]) -> None:
     """`CheckError` unless the ``others`` depend on the rows of the minor wherever they are satisfied, near its point.
 
-    A relation that is a combination of rows with constant coefficients is dependent everywhere. One relation alone may
-    have coefficients that are functions, not 0 at the point: then row and relation can be exchanged near it. Where
-    every relation is linear or has a generic length that no other has, all ranks are constant near almost every point,
-    and there is nothing to check.
+    A relation that is a combination of rows, or of their rates, with constant coefficients is dependent everywhere. One
+    relation alone may have coefficients that are functions, not 0 at the point: then row and relation can be exchanged
+    near it. Where every relation is linear or has a generic length that no other has, all ranks are constant near almost
+    every point, and there is nothing to check.
     """
     if not others or (not evidence.moving and all(_is_general(evidence, name) for name in evidence.finite)):
         return
+    finite = [evidence.relation(row).tree for row in minor.rows if row in evidence.finite]
+    rates = [total_derivative(tree, evidence.variables) for tree in finite]
+    rows = {*minor.rows, *(name for name, relation in evidence.by_name.items() if relation.tree in rates)}
     for name in others:
         used = [
             (*step.defined, *step.nonzero)
             for i, step in enumerate(evidence.consequences)
-            if step.target == name and step.defined and {*step.sources} <= {*minor.rows}
+            if step.target == name and step.defined and {*step.sources} <= rows
             if evidence.applies(i, minor.point)
         ]
         plain = any(not any(tree.symbols for tree in trees) for trees in used)
@@ -276,9 +280,10 @@ def everywhere(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     no more, or where all relations are named here, analytic, and the finite ones a graph: then orbits have the
     dimension that the brackets span, which is largest almost everywhere at once (Nagano 1966).
     """
-    order, generic = claim.get("order", []), dict(claim.get("generic", []))
+    order, generic = claim.get("order", []), claim.get("generic", [])
     alone, gram = [claim["alone"]] if "alone" in claim else [], claim.get("gram", {"forms": []})
-    names, size = [*(name for name, _ in order), *gram["forms"], *alone, *generic], len(evidence.problem.coordinates)
+    names = [*(name for name, _ in order), *gram["forms"], *alone, *(name for name, _ in generic)]
+    size = len(evidence.problem.coordinates)
     implied, rank = evidence.closure(names, None), len(names)
     whole, apart = implied.issuperset(evidence.equations), len(set(names)) == rank
     apart = apart and set(names) <= set(evidence.equations) and all(map(evidence.is_linear, names))
@@ -289,7 +294,7 @@ def everywhere(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
         _independent_everywhere(evidence, gram, [f"{q}dot" for _, q in order])
     minor = evidence.accounts(evidence.minor(claim["minor"], names), names) if "minor" in claim else None
     rank, graph = len(minor.rows if minor else names), _is_graph(evidence, order, minor and minor.point) and not generic
-    for name, letter in generic.items():
+    for name, letter in generic:
         refuse(not evidence.own_symbol(name, [letter]), f"`{letter}` is not the own symbol of `{name}`")
     refuse(alone and not (graph and forms in ([], alone)), "what stands alone stands beside a graph, and no form")
     smooth = all(_is_analytic(evidence, name, name in alone or not graph) for name in names)

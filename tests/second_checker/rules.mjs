@@ -477,6 +477,7 @@ export class Rules {
     const general = (r) => linear(r) || this.s.generic.some((g) => r.tree.has(g) && this.e.relations.every((o) => o === r || !o.tree.has(g)));
     if (this.e.relations.every((r) => r.kind === "finite" && general(r))) return;
     const rows = new Set(ids(minor.rows));
+    for (const s of this.e.order) if (s.by === "rate" && rows.has(s.of)) rows.add(s.id);
     for (const other of others) {
       const steps = this.e.order.filter((s) => s.by === "implied" && s.of === other.id && Object.keys(s.c ?? {}).every((id) => rows.has(id)));
       const plain = steps.filter((s) => !s.put && !s.sos && (s.power ?? 1) === 1 && this.e.usable(s, rows, minor.point));
