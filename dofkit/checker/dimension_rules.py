@@ -183,8 +183,8 @@ def _depend_plainly(evidence: CheckedEvidence, minor: CheckedMinor, others: set[
 
     A relation that is a combination of rows, or of their rates, with constant coefficients is dependent everywhere. One
     relation alone may have coefficients that are functions, not 0 at the point: then row and relation can be exchanged
-    near it. Where every relation is linear or has a generic length that no other has, all ranks are constant near almost
-    every point, and there is nothing to check.
+    near it. Where every relation is linear or has a generic length that no other has, all ranks are constant near
+    almost every point, and there is nothing to check.
     """
     if not others or (not evidence.moving and all(_is_general(evidence, name) for name in evidence.finite)):
         return
