@@ -21,6 +21,7 @@ class Surroundings:
     ``names``: what texts may mention; ``signs``: of the parameters that stay symbols. ``generic`` grows by a symbol for
     each length or component that was left out, ``counts`` by name; ``drawn`` by the bodies that the drawing
     places. ``joints``: the constraints by name; ``index``: the place of the constraint that is read, from 1.
+    ``angles``: those of bodies with Cayley parameters that are 0 in the reference.
     """
 
     dimension: int
@@ -32,6 +33,7 @@ class Surroundings:
     counts: dict[str, int] = field(default_factory=dict)
     drawn: set[str] = field(default_factory=set)
     joints: dict[str, Entry] = field(default_factory=dict)
+    angles: dict[str, list[str]] = field(default_factory=dict)
     index: int = 0
 
     def expression(self, value: object, *allowed: str) -> Tree:
@@ -68,6 +70,17 @@ class Surroundings:
             return self.frames[written["on"]].point(self.vector(written["at"]))
         listed = isinstance(written, list)
         return self.frames["ground"].point(self.vector(written)) if listed else self.particles[str(written)]
+
+    def charted(self, names: Sequence[str]) -> list[str]:
+        """What stands for coordinates: for an angle the Cayley parameter of the axis about which it turns, at first.
+
+        Those of z, x and z; where all three angles of a body are named, they stand for all three parameters.
+        """
+        parameters: dict[str, str] = {}
+        for body, (phi, theta, psi) in self.angles.items():
+            a, b, c = list(self.frames[body].reference)[3:]
+            parameters |= {phi: c, theta: a, psi: b if {phi, theta, psi}.issubset(names) else c}
+        return [parameters.get(name, name) for name in names]
 
     def direction(self, values: object) -> tuple[Vector, tuple[Vector, ...]]:
         """A direction n, given or generic, and d - 1 independent vectors across it."""

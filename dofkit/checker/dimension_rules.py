@@ -208,9 +208,9 @@ def _is_general(evidence: CheckedEvidence, name: str) -> bool:
     return all(evidence.ring.rational(slope) is not None for slope in slopes) or bool(evidence.own_symbol(name))
 
 
-def verified_rank(evidence: CheckedEvidence, point: CheckedPoint, verified: Told, exempt: Any = ()) -> int:
-    """Return n - dof, if the dof was verified at this point; in the angles ``exempt`` the point may differ from it."""
-    place = evidence.is_about("here", point, exempt)
+def verified_rank(evidence: CheckedEvidence, point: CheckedPoint, verified: Told) -> int:
+    """Return n - dof, if the dof was verified at this point."""
+    place = evidence.is_about("here", point)
     refuse(verified.get("/dof at") not in (None, place), "dof was verified at another point")
     return len(evidence.problem.coordinates) - int(verified["/dof"])
 
@@ -218,24 +218,15 @@ def verified_rank(evidence: CheckedEvidence, point: CheckedPoint, verified: Told
 def generalized_coordinates(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[str]:
     """All other coordinates are functions of these near the point, whose number is dof there.
 
-    Where angles are no chart of poses at the point, they are beside it: what is left over by all relations, which
-    follow from the rows, is no less in coordinates with the second angle (``beside``: another minor of these rows). Or
-    relations of one coordinate each keep all three.
+    Angles of a body with Cayley parameters stand for these.
     """
-    minor = MOST[claim["rule"]](evidence, claim)
-    whole = sorted((*minor.columns, *names_told(claim))) == sorted(evidence.problem.coordinates)
+    minor, world, names = MOST[claim["rule"]](evidence, claim), evidence.problem.world, names_told(claim)
+    whole = sorted((*minor.columns, *world.charted(names))) == sorted(evidence.problem.coordinates)
+    whole &= world.names.coordinates.union(*world.angles.values()).issuperset(names)
     refuse(not whole, "the columns of the minor are not all the other coordinates")
-    other = evidence.minor(claim.get("beside", claim["minor"]))
-    refuse(other.point is not minor.point or set(other.rows) != set(minor.rows), "another minor is of other rows")
-    held = (evidence.relation(name).tree.symbols for name in evidence.finite)
-    still = {q for names in held for q in names if names <= {q}}
-    turned = [angles for angles in evidence.problem.turns if angles[1] not in other.columns or {*angles} <= still]
-    if turned:
-        evidence.accounts(minor, evidence.finite)
-    rank = verified_rank(evidence, minor.point, verified, turned)
-    refuse(rank != len(minor.rows), "their number is not a verified dof")
+    refuse(verified_rank(evidence, minor.point, verified) != len(minor.rows), "their number is not a verified dof")
     evidence.on_set(minor.point, evidence.finite)
-    return names_told(claim)
+    return names
 
 
 def growth(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[int]:

@@ -162,6 +162,9 @@ def _surroundings(scene: Entry, cayley: frozenset[str]) -> tuple[Surroundings, t
         world.frames[name] = body_frame(name, d, {q: configured.get(q, ZERO) for q in chart}, name in cayley)
         if not configured.keys().isdisjoint(bodies[name]):
             world.drawn.add(name)
+        angles = bodies[name][3:]
+        if name in cayley and all(configured.get(q, ZERO) == ZERO for q in angles):
+            world.angles[name] = angles
     return world, coordinates, configured
 
 

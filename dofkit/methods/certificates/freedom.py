@@ -128,25 +128,17 @@ def _needed(context: Context) -> Iterator[Told]:
 
 
 def generalized_coordinates(context: Context) -> Iterator[Told]:
-    """Yield evidence that the other coordinates are functions of the chosen ones.
-
-    Where the second angle of a body is tied to others, a second minor shows the rank without it as well.
-    """
+    """Yield evidence that the other coordinates are functions of the chosen ones, or of what stands for these."""
     chosen, finite = context.report.generalized_coordinates, context.finite_standing
     if chosen == []:
         yield from counted(context)
     if not chosen or finite is None:
         return
-    others = [q for q in context.problem.coordinates if q not in chosen]
+    moved = context.problem.world.charted(chosen)
+    others = [q for q in context.problem.coordinates if q not in moved]
     solving = context.standing_of(finite.rows, others) if len(others) == len(finite.rows) else None
     if solving is not None and not solving.dependent:
-        minor: Told = {"rule": "minor", "minor": context.minor(solving)}
-        yield minor
-        alone = {q for name in solving.rows if len(row := context.row(name, solving.point)) == 1 for q in row}
-        tilts = {angles[1] for angles in context.problem.turns if not {*angles} <= alone}
-        turned = context.standing_of(solving.rows, [q for q in context.problem.coordinates if q not in tilts])
-        if turned is not None and not turned.dependent:
-            yield {**minor, "beside": context.minor(turned)}
+        yield {"rule": "minor", "minor": context.minor(solving)}
     if context.scenery.evidence.moving:
         yield from involutive_rows(context, integrable_names(context), others)
 
