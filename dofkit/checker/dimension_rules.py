@@ -65,7 +65,7 @@ def counted(evidence: CheckedEvidence, claim: Told, verified: Told) -> object:
         refuse(evidence.moving or claim.get("about", about) != about, "there are velocity relations, or other points")
         return verified["/dof"]
     if path == "/redundancies":
-        return _groups(evidence, verified)
+        return _groups(evidence, claim, verified)
     if path == "/generalized_coordinates":
         refuse(verified["/dof"] != 0, "coordinates are needed: dof is not 0")
         return []
@@ -74,11 +74,17 @@ def counted(evidence: CheckedEvidence, claim: Told, verified: Told) -> object:
     return False not in labels
 
 
-def _groups(evidence: CheckedEvidence, verified: Told) -> list[Told]:
+def _groups(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[Told]:
     """What depends on what: nothing; a circuit where one equation is too many; all, where without any one nothing.
 
     So it is where what can be dropped was verified at the same point: there the dependent equation is a regular one.
+    The circuit was verified, or is that ``of`` a constraint which may be written before others.
     """
+    if "of" in claim:
+        (group,) = claim["value"]
+        members = [name for name in group["members"] if name != claim["of"]]
+        dependence = {**claim, "owner": claim["of"], "value": members}
+        verified[f"circuit {claim['of']}"] = circuit(evidence, dependence, verified)
     surplus, place = verified["/redundant_equations"], verified.get("at /redundant", object())
     constrained = [owner for owner in owners(evidence) if evidence.owned(owner)]
     whole = len(constrained) == 1 or "apart" in verified
@@ -110,7 +116,8 @@ def circuit(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[str]
     """The constraint follows from those named near a point of all; without any one, a row of it is independent."""
     names, point, dependent = names_told(claim), evidence.point(claim["at"]), evidence.owned(claim["owner"])
     before = owners(evidence)[: owners(evidence).index(claim["owner"])]
-    refuse(not dependent or not set(names) <= set(before), "a circuit holds constraints that were written before")
+    late = claim["field"] == "circuit" and not set(names) <= set(before)
+    refuse(not dependent or late, "a circuit holds constraints that were written before")
     verified[f"at circuit {claim['owner']}"] = evidence.is_about("here", point)
     evidence.on_set(point, {*evidence.finite, *relations_of(evidence, names), *dependent})
     evidence.follow(dependent, relations_of(evidence, names), point, "the circuit")

@@ -416,6 +416,12 @@ export class Rules {
     if (surplus === 0) refuse(!same(claim.value, []), "nothing is redundant");
     else if (owners.length === 1) refuse(!same(claim.value, [{ nullity: surplus, members: owners }]), "it is one constraint");
     else {
+      if (claim.of !== undefined) {
+        const value = list(claim.value?.[0]?.members).filter((name) => name !== claim.of);
+        const equations = this.e.relations.filter((r) => r.owner === claim.of);
+        const { place } = this.circuit({ ...claim, rule: "cofactors", value }, claim.of, equations, false);
+        this.verified.set(`/constraints/${escaped(claim.of)}/circuit`, { value, place });
+      }
       const members = this.redundantTogether(surplus, owners);
       refuse(!same(claim.value, [{ nullity: surplus, members }]), "the groups are others");
     }
@@ -764,13 +770,14 @@ export class Rules {
     return {};
   }
 
-  circuit(claim, name, equations) {
+  circuit(claim, name, equations, ordered = true) {
     refuse(claim.rule !== "cofactors", "another rule");
     const point = this.e.point(claim.at);
     const place = this.place(point);
     const members = list(claim.value);
     const written = (o) => this.s.owners.indexOf(o);
-    refuse(members.some((m) => written(m) < 0 || written(m) >= written(name)), "a circuit holds constraints written before");
+    refuse(!equations.length, "the constraint has no equations");
+    refuse(members.some((m) => written(m) < 0 || (ordered && written(m) >= written(name))), "a circuit holds constraints written before");
     refuse(members.includes(name) || new Set(members).size < members.length, "members are other constraints");
     const all = members.flatMap((m) => this.owned(m).filter((r) => r.kind !== "inequality"));
     this.e.relations.forEach((r) => this.e.needHolds(r, point));

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -164,12 +164,26 @@ def independent(context: Context, entry: ConstraintEntry, field: str) -> Iterato
         yield {"rule": "independent", "minor": context.minor(upto), "last": True}
 
 
+def redundancies(context: Context) -> Iterator[Told]:
+    """What follows from other claims; else the circuit of what can be dropped, whatever was written first."""
+    yield from counted(context)
+    members = [name for group in context.report.redundancies for name in group.members]
+    for name in context.report.redundant or []:
+        for evidence in _circuit(context, name, [other for other in members if other != name]):
+            yield {**evidence, "rule": "count", "of": name}
+
+
 def circuit(context: Context, entry: ConstraintEntry, field: str) -> Iterator[Told]:
     """The constraint follows from those of its circuit, and from no fewer."""
-    members, evidence = entry.circuit, context.scenery.evidence
-    if members is None or context.point is None:
+    if entry.circuit is not None:
+        yield from _circuit(context, entry.name, entry.circuit)
+
+
+def _circuit(context: Context, owner: str, members: Sequence[str]) -> Iterator[Told]:
+    evidence = context.scenery.evidence
+    if context.point is None:
         return
-    equations = list(evidence.owned(entry.name))
+    equations = list(evidence.owned(owner))
     rows = {name: list(evidence.owned(name)) for name in members}
     whole = context.accounted([*(row for name in members for row in rows[name]), *equations])
     backed = backing(context, whole)
