@@ -173,7 +173,7 @@ class CheckedEvidence(CheckedRelations):
         if not self.reference:
             return point.name
         for name, tree in {**self.reference, **({"t": ZERO} if "t" in point.balls else {})}.items():
-            told_here = name in point.exact and self.same(point.prepared(symbol(name)), point.prepared(tree))
+            told_here = name in point.exact and self.ring.vanishes(point.prepared(symbol(name) - tree))
             refuse(not told_here, f"`{name}` is not that of the scene's configuration")
         for equation in (self.relation(name).tree for name in self.finite):
             if self.is_open(equation):

@@ -85,11 +85,7 @@ class CheckedRelations:
 
     def identity(self, first: Tree, second: Tree, what: str) -> None:
         """`CheckError` unless two trees are the same in the ring."""
-        refuse(not self.same(first, second), f"{what}: the two sides are not the same")
-
-    def same(self, first: Tree, second: Tree) -> bool:
-        """Whether two trees are the same in the ring."""
-        return self.ring.vanishes(add(first, -second))
+        refuse(not self.ring.vanishes(add(first, -second)), f"{what}: the two sides are not the same")
 
     def is_open(self, tree: Tree) -> bool:
         """Whether parameters, generic lengths or unknown functions occur, for which a point chooses values.
