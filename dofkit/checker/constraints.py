@@ -158,10 +158,10 @@ def rigid(world: Surroundings, entry: Entry) -> Iterator[Tree]:
         yield distance(world, first, second, None)
 
 
-def distance(world: Surroundings, first: MaterialPoint, second: MaterialPoint, given: Tree | None) -> Tree:
+def distance(world: Surroundings, first: MaterialPoint, second: MaterialPoint, prescribed: Tree | None) -> Tree:
     """The relation of a distance that is given, drawn or generic."""
     drawn = first.start and second.start and square(less(first.start, second.start))
-    squared = given**2 if given else drawn or world.fresh("square")
+    squared = prescribed**2 if prescribed else drawn or world.fresh("square")
     arm, under = apart(first, second)
     return square(arm) - squared * under * under
 
