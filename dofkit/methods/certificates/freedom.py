@@ -181,8 +181,6 @@ def circuit(context: Context, entry: ConstraintEntry, field: str) -> Iterator[To
 
 def _circuit(context: Context, owner: str, members: Sequence[str]) -> Iterator[Told]:
     evidence = context.scenery.evidence
-    if context.point is None:
-        return
     equations = list(evidence.owned(owner))
     rows = {name: list(evidence.owned(name)) for name in members}
     whole = context.accounted([*(row for name in members for row in rows[name]), *equations])
@@ -195,8 +193,8 @@ def _circuit(context: Context, owner: str, members: Sequence[str]) -> Iterator[T
             if standing is not None and not standing.dependent:
                 minimal[name] = {"minor": context.minor(standing)}
                 break
-    if backed is not None and len(minimal) == len(members):
-        yield {"rule": "cofactors", "at": context.point.name, "minimal": minimal, **backed}
+    if whole is not None and backed is not None and len(minimal) == len(members):
+        yield {"rule": "cofactors", "at": whole.point.name, "minimal": minimal, **backed}
 
 
 def feasible(context: Context) -> Iterator[Told]:
