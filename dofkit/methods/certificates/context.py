@@ -119,10 +119,10 @@ class Context:
         return max(points, key=lambda point: point.rank == rank, default=None)
 
     def _is_fit(self, point: FoundPoint) -> bool:
-        """Whether the checker accepts a point, and the integrals that the report tells have values there."""
+        """Whether the checker accepts a point for claims, and the integrals that the report tells have values there."""
         texts = (entry.integral.rpartition("=")[0].strip() for entry in self.report.constraints if entry.integral)
         with suppress(CheckError, NoEstimateError):
-            self.scenery.evidence.point(self.add_point(point))
+            self.scenery.evidence.is_about("here", self.scenery.evidence.point(self.add_point(point)))
             for text in texts:
                 point.estimates.value(self.scenery.chosen(self.scenery.evidence.text(text)))
             return True
