@@ -305,7 +305,7 @@ def everywhere(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
         verified[f"{claim['path']} at"] = evidence.is_about("here", minor.point)
     refuse(rank > len(names), "there are more rows than relations that are named")
     if rank < len(names):
-        rows = [row for name in claim["covers"] for row in evidence.seen["covers", name]]
+        (rows,) = (evidence.seen["covers", name] for name in claim["covers"])
         refuse(order or sorted(rows) != sorted(names), "one cover of all holonomic equations is needed")
     if not evidence.moving or claim["path"] == "/velocity_dof":
         refuse(not whole, "each relation stands in one place")
