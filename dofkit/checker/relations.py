@@ -191,11 +191,8 @@ class CheckedRelations:
         while len(implied) > size:
             size = len(implied)
             for i, consequence in enumerate(self.consequences):
-                if (
-                    consequence.target not in implied
-                    and implied.issuperset(consequence.sources)
-                    and self.applies(i, point)
-                ):
+                leads_on = consequence.target not in implied and implied.issuperset(consequence.sources)
+                if leads_on and self.applies(i, point):
                     implied.add(consequence.target)
             self.effort.spend(len(self.consequences) + 1)
         return implied
