@@ -21,6 +21,7 @@ class Surroundings:
     ``names``: what texts may mention; ``signs``: of the parameters that stay symbols. ``generic`` grows by a symbol for
     each length or component that was left out, ``counts`` by name; ``drawn`` by the bodies that the scene
     places. ``joints``: the constraints by name; ``index``: the place of the constraint that is read, from 1.
+    ``angles``: those of bodies with Cayley parameters that are 0 in the reference.
     """
 
     dimension: int
@@ -32,6 +33,7 @@ class Surroundings:
     counts: dict[str, int] = field(default_factory=dict)
     drawn: set[str] = field(default_factory=set)
     joints: dict[str, Entry] = field(default_factory=dict)
+    angles: dict[str, list[str]] = field(default_factory=dict)
     index: int = 0
 
     def expression(self, value: object, *allowed: str) -> Tree:
@@ -40,9 +42,9 @@ class Surroundings:
         refuse(not tree.symbols <= {*self.signs, *allowed}, f"`{value}` mentions what cannot stand there")
         return tree
 
-    def moving(self, value: object) -> Tree:
-        """A length that may change with time and place."""
-        return self.expression(value, "t", *self.names.coordinates)
+    def length(self, entry: Entry) -> Tree | None:
+        """The length that is given, if any; it may change with time and place."""
+        return self.expression(entry["length"], "t", *self.names.coordinates) if "length" in entry else None
 
     def vector(self, values: Any) -> Vector:
         """A place or direction."""
@@ -68,6 +70,17 @@ class Surroundings:
             return self.frames[written["on"]].point(self.vector(written["at"]))
         listed = isinstance(written, list)
         return self.frames["ground"].point(self.vector(written)) if listed else self.particles[str(written)]
+
+    def charted(self, names: Sequence[str]) -> list[str]:
+        """What stands for coordinates: for an angle the Cayley parameter of the axis about which it turns, at first.
+
+        Those of z, x and z; where all three angles of a body are named, they stand for all three parameters.
+        """
+        parameters: dict[str, str] = {}
+        for body, (phi, theta, psi) in self.angles.items():
+            a, b, c = list(self.frames[body].reference)[3:]
+            parameters |= {phi: c, theta: a, psi: b if {phi, theta, psi}.issubset(names) else c}
+        return [parameters.get(name, name) for name in names]
 
     def direction(self, values: object) -> tuple[Vector, tuple[Vector, ...]]:
         """A direction n, given or generic, and d - 1 independent vectors across it."""
@@ -136,7 +149,7 @@ def cam(world: Surroundings, entry: Entry) -> Iterator[Tree]:
 def link(world: Surroundings, entry: Entry) -> Iterator[Tree]:
     """|A - B|^2 - length^2, times the square of the denominator of A - B."""
     first, second = map(world.point, entry["between"])
-    yield distance(world, first, second, world.moving(entry["length"]) ** 2 if "length" in entry else None)
+    yield distance(world, first, second, world.length(entry))
 
 
 def rigid(world: Surroundings, entry: Entry) -> Iterator[Tree]:
@@ -145,11 +158,10 @@ def rigid(world: Surroundings, entry: Entry) -> Iterator[Tree]:
         yield distance(world, first, second, None)
 
 
-def distance(world: Surroundings, first: MaterialPoint, second: MaterialPoint, squared: Tree | None) -> Tree:
-    """The relation of a distance whose square is given, drawn or generic."""
-    if squared is None:
-        drawn = first.start and second.start and square(less(first.start, second.start))
-        squared = drawn or world.fresh("square")
+def distance(world: Surroundings, first: MaterialPoint, second: MaterialPoint, prescribed: Tree | None) -> Tree:
+    """The relation of a distance that is given, drawn or generic."""
+    drawn = first.start and second.start and square(less(first.start, second.start))
+    squared = prescribed**2 if prescribed else drawn or world.fresh("square")
     arm, under = apart(first, second)
     return square(arm) - squared * under * under
 
@@ -158,8 +170,7 @@ def string(world: Surroundings, entry: Entry) -> Iterator[Tree]:
     """The distances along the points add up to the length."""
     pairs = list(pairwise(map(world.point, entry["along"])))
     drawn = [length(less(b.start, a.start)) for a, b in pairs if a.start and b.start]
-    prescribed = world.moving(entry["length"]) if "length" in entry else None
-    total = prescribed or (add(*drawn) if len(drawn) == len(pairs) else world.fresh("length"))
+    total = world.length(entry) or (add(*drawn) if len(drawn) == len(pairs) else world.fresh("length"))
     yield add(*(length(less(b.place, a.place)) for a, b in pairs)) - total
 
 
@@ -229,7 +240,7 @@ def joint(world: Surroundings, entry: Entry, keeps: str) -> Iterator[Tree]:
     refuse(asks and "at" in entry and "axis" not in entry, "a joint with a place has an axis")
     n, across = world.direction(entry.get("axis")) if asks else ((), ())
     moved = second.point(place)
-    slid, turn = partial(displaced, first, moved, place, n), partial(turn_about, first, second, n, across)
+    slid = partial(displaced, first, moved, place, n)
     equations: dict[str, Callable[[], Iterable[Tree]]] = {
         "turn": lambda: parallel(first, second),
         "point": lambda: apart(first.point(place), moved)[0],
@@ -237,7 +248,7 @@ def joint(world: Surroundings, entry: Entry, keeps: str) -> Iterator[Tree]:
         "line": lambda: (first.offset(moved, place, u) for u in across),
         "plane": lambda: [first.offset(moved, place, n)],
         "cross": lambda: [dot(first.carry(a), second.carry(b)) for a, b in [map(world.vector, entry["axes"])]],
-        "thread": lambda: [slid() - world.expression(entry["pitch"]) * TURN * turn()],
+        "thread": lambda: [slid() - world.expression(entry["pitch"]) * TURN * turn_about(first, second, n, across)],
     }
     for kept in keeps.split():
         yield from equations[kept]()

@@ -10,6 +10,7 @@ from flint import fmpq_mat
 from dofkit.checker.evidence import MOST, CheckedEvidence, CheckedMinor, Told, admissible, independent, of_word, span
 from dofkit.checker.geometry import determinant, dot
 from dofkit.checker.point import CheckedPoint, not_zero
+from dofkit.checker.relations import total_derivative
 from dofkit.checker.trees import ONE, derivative, refuse
 
 MOST_FORMS, HIGHEST_DEGREE = 6, 4
@@ -64,7 +65,7 @@ def counted(evidence: CheckedEvidence, claim: Told, verified: Told) -> object:
         refuse(evidence.moving or claim.get("about", about) != about, "there are velocity relations, or other points")
         return verified["/dof"]
     if path == "/redundancies":
-        return _groups(evidence, verified)
+        return _groups(evidence, claim, verified)
     if path == "/generalized_coordinates":
         refuse(verified["/dof"] != 0, "coordinates are needed: dof is not 0")
         return []
@@ -73,11 +74,17 @@ def counted(evidence: CheckedEvidence, claim: Told, verified: Told) -> object:
     return False not in labels
 
 
-def _groups(evidence: CheckedEvidence, verified: Told) -> list[Told]:
+def _groups(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[Told]:
     """What depends on what: nothing; a circuit where one equation is too many; all, where without any one nothing.
 
     So it is where what is redundant was verified at the same point: there the dependent equation is a regular one.
+    The circuit was verified, or is that ``of`` a constraint which may be written before others.
     """
+    if "of" in claim:
+        (group,) = claim["value"]
+        members = [name for name in group["members"] if name != claim["of"]]
+        dependence = {**claim, "owner": claim["of"], "value": members}
+        verified[f"circuit {claim['of']}"] = circuit(evidence, dependence, verified)
     surplus, place = verified["/redundant_equations"], verified.get("at /redundant", object())
     constrained = [owner for owner in owners(evidence) if evidence.owned(owner)]
     whole = len(constrained) == 1 or "apart" in verified
@@ -109,7 +116,8 @@ def circuit(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[str]
     """Those named imply the constraint near a point of all; without any one, a row of it is independent."""
     names, point, dependent = names_told(claim), evidence.point(claim["at"]), evidence.owned(claim["owner"])
     before = owners(evidence)[: owners(evidence).index(claim["owner"])]
-    refuse(not dependent or not set(names) <= set(before), "a circuit holds constraints that were written before")
+    late = claim["field"] == "circuit" and not set(names) <= set(before)
+    refuse(not dependent or late, "a circuit holds constraints that were written before")
     verified[f"at circuit {claim['owner']}"] = evidence.is_about("here", point)
     evidence.on_set(point, {*evidence.finite, *relations_of(evidence, names), *dependent})
     evidence.follow(dependent, relations_of(evidence, names), point, "the circuit")
@@ -180,18 +188,21 @@ def redundant(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[st
 def _depend_plainly(evidence: CheckedEvidence, minor: CheckedMinor, others: set[str]) -> None:
     """`CheckError` unless the ``others`` depend on the rows of the minor wherever they are satisfied, near its point.
 
-    A relation that is a combination of rows with constant coefficients is dependent everywhere. One relation alone may
-    have coefficients that are functions, not 0 at the point: then row and relation can be exchanged near it. Where
-    every relation is linear or has a generic length that no other has, all ranks are constant near almost every point,
-    and there is nothing to check.
+    A relation that is a combination of rows, or of their rates, with constant coefficients is dependent everywhere. One
+    relation alone may have coefficients that are functions, not 0 at the point: then row and relation can be exchanged
+    near it. Where every relation is linear or has a generic length that no other has, all ranks are constant near
+    almost every point, and there is nothing to check.
     """
     if not others or (not evidence.moving and all(_is_general(evidence, name) for name in evidence.finite)):
         return
+    finite = [evidence.relation(row).tree for row in minor.rows if row in evidence.finite]
+    rates = [total_derivative(tree, evidence.variables) for tree in finite]
+    rows = {*minor.rows, *(name for name, relation in evidence.by_name.items() if relation.tree in rates)}
     for name in others:
         used = [
             (*step.defined, *step.nonzero)
             for i, step in enumerate(evidence.consequences)
-            if step.target == name and step.defined and {*step.sources} <= {*minor.rows}
+            if step.target == name and step.defined and {*step.sources} <= rows
             if evidence.applies(i, minor.point)
         ]
         plain = any(not any(tree.symbols for tree in trees) for trees in used)
@@ -204,9 +215,9 @@ def _is_general(evidence: CheckedEvidence, name: str) -> bool:
     return all(evidence.ring.rational(slope) is not None for slope in slopes) or bool(evidence.own_symbol(name))
 
 
-def verified_rank(evidence: CheckedEvidence, point: CheckedPoint, verified: Told, exempt: Any = ()) -> int:
-    """Return n - dof, if the dof was verified at this point; in the angles ``exempt`` the point may differ from it."""
-    place = evidence.is_about("here", point, exempt)
+def verified_rank(evidence: CheckedEvidence, point: CheckedPoint, verified: Told) -> int:
+    """Return n - dof, if the dof was verified at this point."""
+    place = evidence.is_about("here", point)
     refuse(verified.get("/dof at") not in (None, place), "dof was verified at another point")
     return len(evidence.problem.coordinates) - int(verified["/dof"])
 
@@ -214,24 +225,15 @@ def verified_rank(evidence: CheckedEvidence, point: CheckedPoint, verified: Told
 def generalized_coordinates(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[str]:
     """All other coordinates are functions of these near the point, whose number is dof there.
 
-    Where angles are no chart of poses at the point, they are beside it: what is left over by all relations, which
-    follow from the rows, is no less in coordinates with the second angle (``beside``: another minor of these rows). Or
-    relations of one coordinate each keep all three.
+    Angles of a body with Cayley parameters stand for these.
     """
-    minor = MOST[claim["rule"]](evidence, claim)
-    whole = sorted((*minor.columns, *names_told(claim))) == sorted(evidence.problem.coordinates)
+    minor, world, names = MOST[claim["rule"]](evidence, claim), evidence.problem.world, names_told(claim)
+    whole = sorted((*minor.columns, *world.charted(names))) == sorted(evidence.problem.coordinates)
+    whole &= world.names.coordinates.union(*world.angles.values()).issuperset(names)
     refuse(not whole, "the columns of the minor are not all the other coordinates")
-    other = evidence.minor(claim.get("beside", claim["minor"]))
-    refuse(other.point is not minor.point or set(other.rows) != set(minor.rows), "another minor is of other rows")
-    held = (evidence.relation(name).tree.symbols for name in evidence.finite)
-    still = {q for names in held for q in names if names <= {q}}
-    turned = [angles for angles in evidence.problem.turns if angles[1] not in other.columns or {*angles} <= still]
-    if turned:
-        evidence.accounts(minor, evidence.finite)
-    rank = verified_rank(evidence, minor.point, verified, turned)
-    refuse(rank != len(minor.rows), "their number is not a verified dof")
+    refuse(verified_rank(evidence, minor.point, verified) != len(minor.rows), "their number is not a verified dof")
     evidence.on_set(minor.point, evidence.finite)
-    return names_told(claim)
+    return names
 
 
 def growth(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[int]:
@@ -276,9 +278,10 @@ def everywhere(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     allow no more, or where all relations are named here, analytic, and the finite ones a graph: then orbits have the
     dimension that the brackets span, which is largest almost everywhere at once (Nagano 1966).
     """
-    order, generic = claim.get("order", []), dict(claim.get("generic", []))
+    order, generic = claim.get("order", []), claim.get("generic", [])
     alone, gram = [claim["alone"]] if "alone" in claim else [], claim.get("gram", {"forms": []})
-    names, size = [*(name for name, _ in order), *gram["forms"], *alone, *generic], len(evidence.problem.coordinates)
+    names = [*(name for name, _ in order), *gram["forms"], *alone, *(name for name, _ in generic)]
+    size = len(evidence.problem.coordinates)
     implied, rank = evidence.closure(names, None), len(names)
     whole, apart = implied.issuperset(evidence.equations), len(set(names)) == rank
     apart = apart and set(names) <= set(evidence.equations) and all(map(evidence.is_linear, names))
@@ -289,7 +292,7 @@ def everywhere(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
         _independent_everywhere(evidence, gram, [f"{q}dot" for _, q in order])
     minor = evidence.accounts(evidence.minor(claim["minor"], names), names) if "minor" in claim else None
     rank, graph = len(minor.rows if minor else names), _is_graph(evidence, order, minor and minor.point) and not generic
-    for name, letter in generic.items():
+    for name, letter in generic:
         refuse(not evidence.own_symbol(name, [letter]), f"`{letter}` is not the own symbol of `{name}`")
     refuse(alone and not (graph and forms in ([], alone)), "what stands alone stands beside a graph, and no form")
     smooth = all(_is_analytic(evidence, name, name in alone or not graph) for name in names)
@@ -302,7 +305,7 @@ def everywhere(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
         verified[f"{claim['path']} at"] = evidence.is_about("here", minor.point)
     refuse(rank > len(names), "there are more rows than relations that are named")
     if rank < len(names):
-        rows = [row for name in claim["covers"] for row in evidence.seen["covers", name]]
+        (rows,) = (evidence.seen["covers", name] for name in claim["covers"])
         refuse(order or sorted(rows) != sorted(names), "one cover of all holonomic equations is needed")
     if not evidence.moving or claim["path"] == "/velocity_dof":
         refuse(not whole, "each relation stands in one place")

@@ -155,25 +155,25 @@ class CheckedEvidence(CheckedRelations):
         missed = any(not_zero(evaluated(tree, {}, self.effort)) for tree in plain)
         return {} if missed else self.problem.reference
 
-    def is_about(self, about: Any, point: CheckedPoint, exempt: Collection[tuple[str, ...]] = ()) -> Any:
+    def is_about(self, about: Any, point: CheckedPoint) -> Any:
         """The point's name, or ``reference``; `CheckError` unless it is one of those that a claim is about.
 
         ``reference``: the scene's configuration, which meets the relations for all values that a point chooses;
         ``component``: any point, where no configuration is given; ``here``: whichever of both is so.
-        Angles have to be a chart of poses there, but for those ``exempt``.
+        Angles have to be a chart of poses there.
         """
         fits = about in ("here", "reference" if self.reference else "component")
         refuse(not fits, "the claim has to be about the scene's configuration, if it has one")
-        return self.once(("place", point.name, *exempt), lambda: self._place(point, exempt))
+        return self.once(("place", point.name), lambda: self._place(point))
 
-    def _place(self, point: CheckedPoint, exempt: Collection[tuple[str, ...]]) -> str:
-        for tilt in (angles[1] for angles in self.problem.turns if angles not in exempt):
+    def _place(self, point: CheckedPoint) -> str:
+        for _, tilt, _ in self.problem.turns:
             upright = tilt in point.balls and not not_zero(point.value(call("sin", symbol(tilt))))
             refuse(upright, f"the angles are no chart of the poses around, as sin({tilt}) may be 0")
         if not self.reference:
             return point.name
         for name, tree in {**self.reference, **({"t": ZERO} if "t" in point.balls else {})}.items():
-            told_here = name in point.exact and self.same(point.prepared(symbol(name)), point.prepared(tree))
+            told_here = name in point.exact and self.ring.vanishes(point.prepared(symbol(name) - tree))
             refuse(not told_here, f"`{name}` is not that of the scene's configuration")
         for equation in (self.relation(name).tree for name in self.finite):
             if self.is_open(equation):

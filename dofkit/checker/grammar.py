@@ -11,20 +11,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import NamedTuple
 
-from dofkit.checker.trees import (
-    FUNCTIONS,
-    ONE,
-    ZERO,
-    Tree,
-    add,
-    call,
-    keeps_values,
-    number,
-    power,
-    refuse,
-    symbol,
-    times,
-)
+from dofkit.checker.trees import FUNCTIONS, ONE, ZERO, Tree, add, call, is_partial, number, power, refuse, symbol, times
 
 #: The last: how many primes a declared function has.
 MOST_CHARACTERS, LONGEST_NAME, DEEPEST, LARGEST_EXPONENT, MOST_PRIMES = 20_000, 64, 60, 64, 6
@@ -204,7 +191,7 @@ class _Reader:
             quotient = sign == "/" and factor != _STEP
             factors.append(_power(factor, number(-1)) if sign == "/" else factor)
         product = times(*factors)
-        return Tree("product", tuple(factors)) if product == ZERO and any(map(_is_partial, factors)) else product
+        return Tree("product", tuple(factors)) if product == ZERO and any(map(is_partial, factors)) else product
 
     def factor(self) -> Tree:
         """Signs, a primary and its power: ``-x^2`` is -(x^2), ``x^y^z`` is x^(y^z)."""
@@ -273,9 +260,4 @@ def _power(base: Tree, exponent: Tree) -> Tree:
             refuse(raised <= 0 and (value <= 0 if raised == 0 else value.denominator != 1), "there is no such power")
             if value.denominator == 1:
                 return number(raised ** int(value))
-    return Tree("power", (base, ZERO)) if exponent == ZERO and _is_partial(base) else power(base, exponent)
-
-
-def _is_partial(tree: Tree) -> bool:
-    """Whether a tree may have no value somewhere: then 0 times it is not 0 there."""
-    return not keeps_values(tree) or any(map(_is_partial, tree.below))
+    return Tree("power", (base, ZERO)) if exponent == ZERO and is_partial(base) else power(base, exponent)

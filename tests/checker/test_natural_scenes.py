@@ -55,6 +55,7 @@ READINGS = [
     ("0 ≤ |x| ≤ 3", "0 <= abs(x) <= 3"),
     (r"dx = \sin y dy", "dx = sin(y)*dy"),
     ("x = y cos(60°) + ½", "x = y/2 + 1/2"),
+    ("x = √2 y", "x = sqrt(2)*y"),
 ]
 
 

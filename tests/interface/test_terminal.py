@@ -194,7 +194,7 @@ def test_decimals_come_back_as_decimals_where_the_scene_has_decimals() -> None:
 
 def test_a_report_says_how_many_claims_are_checked() -> None:
     assert checked_claims(dofkit.classify("bolt")) == []
-    first, second = checked_claims(dofkit.classify("block-on-table", certificate=True))
+    first, second = checked_claims(dofkit.classify("universal-joint-alone", certificate=True))
     confirmed, _, proved = str(first.label).split()
     assert int(proved) - int(confirmed) == 1
     assert (second.label, second.text) == ("without evidence", "generalized coordinates")

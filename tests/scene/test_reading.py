@@ -192,6 +192,25 @@ def test_all_faults_come_at_once_in_the_order_of_the_file() -> None:
     ]
 
 
+#: Texts with several mistakes: the column and the words of each, and its hint.
+SEVERAL = {
+    "x_A + y_B = thet": [(1, "`x_A` is not", "`x`?"), (7, "`y_B` is not", "`y`?"), (13, "`thet` is not", "`theta`?")],
+    "thet_a = 3 +": [(1, "`thet_a` is not", "`theta`?"), (13, "missing after `+`", "complete")],
+    "2 cm x = 3 kg": [(3, "`cm` is not", "write `2`"), (12, "`kg` is not", "write `3`")],
+    "foo x + bar = foo": [(1, "`foo` is not", "are theta, x, y"), (9, "`bar` is not", "are theta, x, y")],
+    "foo(x) = bar": [(1, "no function `foo`", "the functions are")],
+}
+
+
+@pytest.mark.parametrize("text", SEVERAL)
+def test_all_faults_of_a_text_come_at_once(text: str) -> None:
+    found = faults(f'coordinates: [x, y, theta]\nconstraints: ["{text}"]\n')
+    assert [fault.column for fault in found] == [15 + column for column, _, _ in SEVERAL[text]]
+    for fault, (_, message, hint) in zip(found, SEVERAL[text], strict=True):
+        assert message in fault.message
+        assert hint in (fault.hint or "")
+
+
 #: Scenes with one mistake, in which other things seem wrong because of it -> the line of the fault, and its hint.
 WITH_ECHOES = {
     "a misspelt section": ("coordinates: [r, x]\nparams: {R: 2}\nconstraints: [x = R r]\n", 2, "'parameters'"),

@@ -51,11 +51,10 @@ export class Rules {
   }
 
   /** What a point is to a claim: "reference", or its id where no configuration is given; refuses any other point.
-   *  Angles have to be a chart of poses there, but for those `beside`. */
-  place(point, beside = []) {
-    for (const angles of this.s.turns) {
-      const tilt = angles[1];
-      if (beside.includes(angles) || !point.balls.has(tilt)) continue;
+   *  Angles have to be a chart of poses there. */
+  place(point) {
+    for (const [, tilt] of this.s.turns) {
+      if (!point.balls.has(tilt)) continue;
       refuse(!this.e.at(tr.call("sin", symbol(tilt)), point).nonzero, "Euler angles are no chart there");
     }
     if (!this.reference) return point.id;
@@ -73,8 +72,8 @@ export class Rules {
   }
 
   /** Refuses where /dof was verified at another point. */
-  sameplace(dof, point, beside = []) {
-    const place = this.place(point, beside);
+  sameplace(dof, point) {
+    const place = this.place(point);
     refuse(dof.place !== null && dof.place !== place, "/dof is of another point");
   }
 
@@ -417,6 +416,12 @@ export class Rules {
     if (surplus === 0) refuse(!same(claim.value, []), "nothing is redundant");
     else if (owners.length === 1) refuse(!same(claim.value, [{ nullity: surplus, members: owners }]), "it is one constraint");
     else {
+      if (claim.of !== undefined) {
+        const value = list(claim.value?.[0]?.members).filter((name) => name !== claim.of);
+        const equations = this.e.relations.filter((r) => r.owner === claim.of);
+        const { place } = this.circuit({ ...claim, rule: "cofactors", value }, claim.of, equations, false);
+        this.verified.set(`/constraints/${escaped(claim.of)}/circuit`, { value, place });
+      }
       const members = this.redundantTogether(surplus, owners);
       refuse(!same(claim.value, [{ nullity: surplus, members }]), "the groups are others");
     }
@@ -477,6 +482,7 @@ export class Rules {
     const general = (r) => linear(r) || this.s.generic.some((g) => r.tree.has(g) && this.e.relations.every((o) => o === r || !o.tree.has(g)));
     if (this.e.relations.every((r) => r.kind === "finite" && general(r))) return;
     const rows = new Set(ids(minor.rows));
+    for (const s of this.e.order) if (s.by === "rate" && rows.has(s.of)) rows.add(s.id);
     for (const other of others) {
       const steps = this.e.order.filter((s) => s.by === "implied" && s.of === other.id && Object.keys(s.c ?? {}).every((id) => rows.has(id)));
       const plain = steps.filter((s) => !s.put && !s.sos && (s.power ?? 1) === 1 && this.e.usable(s, rows, minor.point));
@@ -504,19 +510,19 @@ export class Rules {
     if (claim.rule === "minor") refuse(minor.rows.some((r) => r.kind !== "finite"), "all rows are finite or integrals");
     else if (claim.rule === "frobenius") this.frobenius(claim, minor);
     else refuse(true, "another rule");
-    const rest = this.s.coordinates.filter((q) => !value.includes(q));
-    refuse(!value.every((q) => this.s.coordinates.includes(q)), "there is no such coordinate");
+    const standsFor = new Map();
+    for (const [body, [phi, theta, psi]] of this.s.angles) {
+      const third = [phi, theta, psi].every((q) => value.includes(q)) ? "b" : "c";
+      [[phi, "c"], [theta, "a"], [psi, third]].forEach(([q, g]) => standsFor.set(q, `${body}_${g}`));
+    }
+    const moved = value.map((q) => standsFor.get(q) ?? q);
+    refuse(new Set(moved).size < moved.length, "two angles turn about one axis");
+    const rest = this.s.coordinates.filter((q) => !moved.includes(q));
+    refuse(!moved.every((q) => this.s.coordinates.includes(q)), "there is no such coordinate");
+    refuse(!value.every((q) => this.s.written.includes(q)), "it is no coordinate of the scene");
     refuse(rest.length !== minor.columns.length || !rest.every((q) => minor.columns.includes(q)), "the columns are others");
-    const other = claim.beside === undefined ? minor : this.e.minor(claim.beside);
-    const sorted = (m) => ids(m.rows).sort();
-    refuse(other.point !== minor.point || !same(sorted(other), sorted(minor)), "beside is of other rows");
-    const finite = this.e.relations.filter((r) => r.kind === "finite");
-    const alone = finite.map((r) => this.s.coordinates.filter((q) => r.tree.has(q)));
-    const still = new Set(alone.filter((names) => names.length === 1).flat());
-    const turned = this.s.turns.filter((angles) => !other.columns.includes(angles[1]) || angles.every((q) => still.has(q)));
-    finite.forEach((r) => this.e.needHolds(r, minor.point));
-    if (turned.length) this.e.account(minor, finite, claim.covers);
-    this.sameplace(dof, minor.point, turned);
+    this.e.relations.filter((r) => r.kind === "finite").forEach((r) => this.e.needHolds(r, minor.point));
+    this.sameplace(dof, minor.point);
     return {};
   }
 
@@ -764,13 +770,14 @@ export class Rules {
     return {};
   }
 
-  circuit(claim, name, equations) {
+  circuit(claim, name, equations, ordered = true) {
     refuse(claim.rule !== "cofactors", "another rule");
     const point = this.e.point(claim.at);
     const place = this.place(point);
     const members = list(claim.value);
     const written = (o) => this.s.owners.indexOf(o);
-    refuse(members.some((m) => written(m) < 0 || written(m) >= written(name)), "a circuit holds constraints written before");
+    refuse(!equations.length, "the constraint has no equations");
+    refuse(members.some((m) => written(m) < 0 || (ordered && written(m) >= written(name))), "a circuit holds constraints written before");
     refuse(members.includes(name) || new Set(members).size < members.length, "members are other constraints");
     const all = members.flatMap((m) => this.owned(m).filter((r) => r.kind !== "inequality"));
     this.e.relations.forEach((r) => this.e.needHolds(r, point));

@@ -199,7 +199,9 @@ export class Scene {
     const inTexts = [...all(particles), ...all(bodies), ...others];
     this.d = d;
     this.document = scene;
+    this.written = inTexts;
     this.coordinates = [...all(particles), ...all(charts), ...others];
+    this.angles = new Map();
     this.signs = new Map();
     this.generic = [];
     this.counts = new Map();
@@ -227,6 +229,9 @@ export class Scene {
     for (const [name, chart] of charts) {
       this.frames.set(name, new Frame(name, d, new Map(chart.map((q) => [q, given.get(q) ?? ZERO()])), cayley.includes(name)));
       if (bodies.get(name).some((q) => given.has(q))) this.drawn.add(name);
+      const angles = bodies.get(name).slice(3);
+      const straight = angles.every((q) => !given.has(q) || isZero(given.get(q)));
+      if (cayley.includes(name) && straight) this.angles.set(name, angles);
     }
     this.turns = d === 3 ? [...charts.keys()].filter((b) => !cayley.includes(b)).map((b) => charts.get(b).slice(3)) : [];
     this.rates = new Set([...this.coordinates.map((q) => `${q}dot`), "tdot"]);

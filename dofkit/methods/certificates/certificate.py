@@ -29,7 +29,7 @@ NUMBERS: dict[str, Maker] = {
     "holonomic": freedom.counted,
     "scleronomic": freedom.counted,
     "redundant_equations": freedom.counted,
-    "redundancies": freedom.counted,
+    "redundancies": freedom.redundancies,
     "integrable_part": freedom.integrable_part,
     "feasible": freedom.feasible,
     "redundant": freedom.redundant,

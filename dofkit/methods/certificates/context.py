@@ -113,15 +113,16 @@ class Context:
         rank = len(problem.coordinates) - (self.report.dof or 0) if finite else len(names)
         points: list[FoundPoint] = []
         for point in self.search.points(names, unknowns):
-            if point.rank == rank and self._has_integrals(point):
+            if point.rank == rank and self._is_fit(point):
                 return point
             points.append(point)
         return max(points, key=lambda point: point.rank == rank, default=None)
 
-    def _has_integrals(self, point: FoundPoint) -> bool:
-        """Whether the integrals that the report tells have values at a point."""
+    def _is_fit(self, point: FoundPoint) -> bool:
+        """Whether the checker accepts a point for claims, and the integrals that the report tells have values there."""
         texts = (entry.integral.rpartition("=")[0].strip() for entry in self.report.constraints if entry.integral)
         with suppress(CheckError, NoEstimateError):
+            self.scenery.evidence.is_about("here", self.scenery.evidence.point(self.add_point(point)))
             for text in texts:
                 point.estimates.value(self.scenery.chosen(self.scenery.evidence.text(text)))
             return True

@@ -101,19 +101,13 @@ def everywhere(context: Context) -> Iterator[Told]:
         yield from _of_set(context, context.standing)
         return
     for local in orbit(context):
-        for cover in _of_forms(context):
+        for cover in velocities_everywhere(context):
             yield {**local, **cover}
         for cover in _of_set(context, finite) if finite is not None else ():
             yield {**local, **cover}
 
 
 def velocities_everywhere(context: Context) -> Iterator[Told]:
-    """The independent velocities, at the whole set."""
-    if not context.scenery.cayley and context.standing is not None:
-        yield from _of_forms(context)
-
-
-def _of_forms(context: Context) -> Iterator[Told]:
     """Yield claims by the rule `everywhere`: each relation gives a coordinate that those before do not hold.
 
     Then the rank is the number of relations at all points. All relations are in such an order; or the finite ones are,
@@ -121,7 +115,7 @@ def _of_forms(context: Context) -> Iterator[Told]:
     rows that account for all.
     """
     evidence, standing = context.scenery.evidence, context.standing
-    if standing is None or not standing.accounted:
+    if standing is None or not standing.accounted or context.scenery.cayley:
         return
     claim = {"rule": "everywhere", "about": "everywhere", "minor": context.minor(standing)}
     chart = context.scenery, context.problem.coordinates, partial(_gives, context)

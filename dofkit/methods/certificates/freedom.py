@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -128,25 +128,17 @@ def _needed(context: Context) -> Iterator[Told]:
 
 
 def generalized_coordinates(context: Context) -> Iterator[Told]:
-    """Yield evidence that the other coordinates are functions of the chosen ones.
-
-    Where the second angle of a body is tied to others, a second minor shows the rank without it as well.
-    """
+    """Yield evidence that the other coordinates are functions of the chosen ones, or of what stands for these."""
     chosen, finite = context.report.generalized_coordinates, context.finite_standing
     if chosen == []:
         yield from counted(context)
     if not chosen or finite is None:
         return
-    others = [q for q in context.problem.coordinates if q not in chosen]
+    moved = context.problem.world.charted(chosen)
+    others = [q for q in context.problem.coordinates if q not in moved]
     solving = context.standing_of(finite.rows, others) if len(others) == len(finite.rows) else None
     if solving is not None and not solving.dependent:
-        minor: Told = {"rule": "minor", "minor": context.minor(solving)}
-        yield minor
-        alone = {q for name in solving.rows if len(row := context.row(name, solving.point)) == 1 for q in row}
-        tilts = {angles[1] for angles in context.problem.turns if not {*angles} <= alone}
-        turned = context.standing_of(solving.rows, [q for q in context.problem.coordinates if q not in tilts])
-        if turned is not None and not turned.dependent:
-            yield {**minor, "beside": context.minor(turned)}
+        yield {"rule": "minor", "minor": context.minor(solving)}
     if context.scenery.evidence.moving:
         yield from involutive_rows(context, integrable_names(context), others)
 
@@ -172,12 +164,24 @@ def independent(context: Context, entry: ConstraintEntry, field: str) -> Iterato
         yield {"rule": "independent", "minor": context.minor(upto), "last": True}
 
 
+def redundancies(context: Context) -> Iterator[Told]:
+    """What follows from other claims; else the circuit of what can be dropped, whatever was written first."""
+    yield from counted(context)
+    members = [name for group in context.report.redundancies for name in group.members]
+    for name in context.report.redundant or []:
+        for evidence in _circuit(context, name, [other for other in members if other != name]):
+            yield {**evidence, "rule": "count", "of": name}
+
+
 def circuit(context: Context, entry: ConstraintEntry, field: str) -> Iterator[Told]:
     """The constraint is implied by those of its circuit, and by no fewer."""
-    members, evidence = entry.circuit, context.scenery.evidence
-    if members is None or context.point is None:
-        return
-    equations = list(evidence.owned(entry.name))
+    if entry.circuit is not None:
+        yield from _circuit(context, entry.name, entry.circuit)
+
+
+def _circuit(context: Context, owner: str, members: Sequence[str]) -> Iterator[Told]:
+    evidence = context.scenery.evidence
+    equations = list(evidence.owned(owner))
     rows = {name: list(evidence.owned(name)) for name in members}
     whole = context.accounted([*(row for name in members for row in rows[name]), *equations])
     backed = backing(context, whole)
@@ -189,8 +193,8 @@ def circuit(context: Context, entry: ConstraintEntry, field: str) -> Iterator[To
             if standing is not None and not standing.dependent:
                 minimal[name] = {"minor": context.minor(standing)}
                 break
-    if backed is not None and len(minimal) == len(members):
-        yield {"rule": "cofactors", "at": context.point.name, "minimal": minimal, **backed}
+    if whole is not None and backed is not None and len(minimal) == len(members):
+        yield {"rule": "cofactors", "at": whole.point.name, "minimal": minimal, **backed}
 
 
 def feasible(context: Context) -> Iterator[Told]:

@@ -86,11 +86,11 @@ def test_a_contradicted_number_is_undecided() -> None:
 
 
 def test_verdicts_say_whether_they_are_checked() -> None:
-    scene = dofkit.load("block-on-table")
+    scene = dofkit.load("universal-joint-alone")
     report = dofkit.classify(scene)
     assert {verdict.checked for verdict in report.verdicts.values()} == {None}
     checked = {field: verdict.checked for field, verdict in with_certificate(scene, report).verdicts.items()}
-    # Euler's angles are singular at this pose: for a chart in them there is no evidence.
+    # The joint turns about x and y; phi turns about z at this pose and theta about x: no chart of it.
     assert [field for field, accepted in checked.items() if not accepted] == ["generalized_coordinates"]
     strict = with_certificate(scene, report, strict=True)
     assert (strict.verdict, strict.verdicts["generalized_coordinates"].verdict) == ("probable", "probable")
