@@ -154,15 +154,15 @@ def test_equations_of_motion_have_a_certificate(tmp_path: Path, capsys: pytest.C
     """A bead on a parabola: one claim, which is verified, and refused for another mass."""
     scene, place = tmp_path / "bead.yaml", tmp_path / "why" / "bead.json"
     scene.write_text(
-        "parameters: {m: positive, g: positive}\ncoordinates: [x, y]\nconstraints: [y = x^2]\n"
-        "energies: {kinetic: m (xdot^2 + ydot^2)/2, potential: m g y}\n"
+        "dimension: 2\nparameters: {m: positive, g: positive}\nparticles: [{name: P, coordinates: [x, y], mass: m}]\n"
+        "constraints: [y = x^2]\nforces: [{type: gravity, acceleration: g}]\n"
     )
     status, out, err = called(capsys, "lagrange", str(scene), "--certificate", str(place))
     assert (status, err) == (0, "")
     assert "Equations of motion" in out
     status, out, _ = called(capsys, "verify", "--strict", str(scene), str(place))
     assert (status, out) == (0, "bead: 1 of 1 claims verified\n")
-    scene.write_text(scene.read_text().replace("kinetic: m", "kinetic: 2 m"))
+    scene.write_text(scene.read_text().replace("mass: m", "mass: 2 m"))
     certificate = json.loads(place.read_text())
     certificate["scene"]["sha256"] = sha256_of(document_of(scene.read_text()))
     place.write_text(json.dumps(certificate))
