@@ -165,7 +165,7 @@ def independent(context: Context, entry: ConstraintEntry, field: str) -> Iterato
 
 
 def redundancies(context: Context) -> Iterator[Told]:
-    """What follows from other claims; else the circuit of what can be dropped, whatever was written first."""
+    """What other claims imply; else the circuit of what is redundant, whatever was written first."""
     yield from counted(context)
     members = [name for group in context.report.redundancies for name in group.members]
     for name in context.report.redundant or []:
