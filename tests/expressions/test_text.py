@@ -244,6 +244,8 @@ READ: dict[str, Expr] = {
     "atan2(y, x)": fn("atan2", y, x),
     # LaTeX
     r"\frac{1}{2} m \dot{x}^2": m * xdot**2 / 2,
+    r"\frac12 m \dot{x}^2": m * xdot**2 / 2,
+    r"\sqrt2 x": fn("sqrt", num(2)) * x,
     r"\dot\theta - \omega t": thetadot - omega * TIME,
     r"\ddot{x} + g": xddot + g,
     r"R\sin\theta\,d\phi": R * sin(theta) * dphi,

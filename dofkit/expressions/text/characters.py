@@ -207,6 +207,8 @@ _DOTTED = re.compile(
 )
 _UPRIGHT = re.compile(r"\s*\{\s*(\\?[A-Za-z]+)\s*\}")
 _SPACE = re.compile(r"\s*")
+#: Digits without braces, of which TeX takes one for each argument: `\frac12`, `\sqrt2`.
+_DIGITS = {FRACTION_MARK: re.compile(r"\s*(\d)\s*(\d)(?![\d.,])"), " sqrt ": re.compile(r"\s*(\d)(?![\d.,])")}
 
 _PLAIN: dict[str, str] = {
     **{name: f" {name} " for name in ("sin", "cos", "tan", "cot", "sec", "csc", "sinh", "cosh", "tanh", "exp", "log")},
@@ -280,6 +282,8 @@ def _command(name: str, text: str, start: int, end: int, column: int) -> tuple[s
     if plain is None:
         message, hint = refusals("commands").get(name, (f"the LaTeX command `\\{name}` is not read", _PLAIN_HINT))
         raise TextError(message, column, hint)
+    if plain in _DIGITS and (digits := _DIGITS[plain].match(text, end)):
+        return plain + "".join(f"{{{digit}}}" for digit in digits.groups()), digits.end()
     if len(plain) == 1 and plain in GREEK_LETTERS and text[start - 1 : start] == "_":
         raise TextError("a Greek letter as a subscript is not read", column, f"write `_{name}` without the backslash")
     return plain, end
