@@ -19,7 +19,7 @@ from dofkit.exact.matrices.sparse import echelon
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import pairing
 from dofkit.exact.ring.program import NoPointError
-from dofkit.exact.zero import BALLS, BOTH, independent_generators
+from dofkit.exact.zero import BALLS, BOTH, independent_generators, odd_constants
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.lie_algebra import SampledSpan, on_the_same_part, span_at
 from dofkit.integrability.nonlinear_velocities import set_velocity_freedom
@@ -227,15 +227,14 @@ def _points(forms: Codistribution, setting: Setting) -> Variety:
     reference, by_field = setting.reference, "field" in forms.chart.setting.engines
     points = reference_points(forms, reference) if reference is not None and by_field else None
     if points is None and reference is not None and by_field:
-        return Variety(None, None, "undecided", reasons=[IRREGULAR])
+        why = RELATED if odd_constants(forms.chart.ring, named=True) else IRREGULAR
+        return Variety(None, None, "undecided", reasons=[why])
     if is_unconstrained(forms.chart):
         return all_configurations(forms.chart)
     alike = is_irreducible(forms.chart) if reference is None else is_graph(forms.chart)
-    if reference is None or alike:
+    if reference is None or alike or points == []:
         result = find(forms.chart, setting.pose)
         return result if alike else replace(result, about="component")
-    if points == []:
-        return replace(find(forms.chart, setting.pose), about="component")
     if points and is_irreducible(forms.chart) and _as_large(forms, reference):
         return find(forms.chart, setting.pose)
     near = next(near_reference(forms.chart, forms.finite), None) if points else None

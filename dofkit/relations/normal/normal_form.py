@@ -254,8 +254,8 @@ def _velocity_pieces(e: Expr, positive: frozenset[Expr]) -> tuple[list[tuple[Pie
     branches = linear_branches(e, velocities_of(e), positive)
     if branches is None:
         return [(Nonlinear(e),)], ""
-    roots = [c for g in branches[0] for c in conditions_of(g, positive) if not _varying(c.expr)]
-    return [(*map(_linear_piece, branch), *roots) for branch in branches], QUADRATIC_NOTE
+    roots = [[c for g in b for c in conditions_of(g, positive) if not _varying(c.expr)] for b in branches]
+    return [(*map(_linear_piece, b), *c) for b, c in zip(branches, roots, strict=True)], QUADRATIC_NOTE
 
 
 def _linear_piece(e: Expr) -> Finite | Pfaffian:
