@@ -114,6 +114,7 @@ GENERIC = [
     ("three-bars-through-one-point", 0, 0, 1, "meet in one point"),
     ("collinear-one-one-two", 3, 0, 4, "A, B, C lie on one line"),
     ("k33-on-circle", 3, 0, 4, "one conic"),
+    ("plate-between-three-fingers", 0, 0, 1, "the normal of upper and the normal of lower meet in one point"),
     ("prism-of-two-triangles-parallel", 3, 0, 4, "ad, be and cf are parallel"),
     ("rhombus-folded", 1, 0, 2, "A and C coincide"),
     ("four-bar-linkage", 1, 0, 1, None),

@@ -283,7 +283,7 @@ def _product(factors: tuple[Expr, ...]) -> Expr:
 
 
 def upright(e: Expr) -> Expr:
-    """Return -atan(u/v) as atan(v/u), which differs from it by a constant."""
+    """Return -atan(u/v) as atan(v/u), which differs from it by a constant; not for a root v: u may be 0 there."""
     if e.op == "add":
         return ex.add(*map(upright, e.args))
     if e.op != "mul" or e.args[0].op != "num" or e.args[0].args[0] > 0:
