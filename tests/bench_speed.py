@@ -304,7 +304,7 @@ ROWS = {
                             partial(growth, speed_scenes.triangles)),
     "growth-kagome": Row("kagome, braced, the same", Goal("fold", 1.3),
                          partial(growth, partial(speed_scenes.kagome, braced=True))),
-    "cold": Row("`dofkit classify disc-rolling-on-plane`, cold", Goal("share", 1.0),
+    "cold": Row("`dofkit classify disc-rolling-on-plane`, cold", Goal("share", 1.5),
                 partial(cold, "classify", "disc-rolling-on-plane"), SYMPY),
     "many": Row("10^5 lecture scenes by a worker for each core (6 000, scaled)", seconds(240), many_scenes),
 }  # fmt: skip

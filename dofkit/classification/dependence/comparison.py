@@ -11,6 +11,7 @@ from __future__ import annotations
 import random
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from itertools import chain
 from itertools import product as cartesian
 
@@ -195,12 +196,15 @@ def _is_flat(r: Reduced, choice: Sequence[Sequence[Piece]], positive: frozenset[
 
 #: Random points at which signs are compared, and how far out they lie.
 POINTS, SCALES = 24, (1, 1, 10, 1000)
+#: The same near the boundaries: so many points for each value that one of the two sides has there.
+NEAR, SHIFTS = 2, tuple(Fraction(sign, 10**digits) for digits in (2, 15) for sign in (1, -1))
 
 
 def same_side(a: Inequality, b: Inequality, others: Sequence[Normal], setting: Setting) -> bool | None:
     """Return whether a >= 0 and b >= 0 agree at all configurations that the others allow; None if undecided.
 
-    The signs differ at some point (a ball proves it), or agree at all that are drawn and the boundaries are the same.
+    The signs differ at some point (a ball proves it), or agree at all that are drawn, some of them near the boundaries,
+    and the boundaries are the same.
     Where the others leave the boundary only, all of space is looked at. Nothing is proved where only the boundaries
     differ, as of x >= 0 and x (x - 1)^2 >= 0, or only whether they are included.
     """
@@ -210,7 +214,9 @@ def same_side(a: Inequality, b: Inequality, others: Sequence[Normal], setting: S
     seen = list(_signs(a.expr, b.expr, finite, setting))
     if not seen and others:
         return same_side(a, b, (), setting)
-    if any(first != other for first, other in seen):
+    near = (x.expr - ex.num(shift) for x in (a, b) for shift in SHIFTS)
+    close = (pair for g in near for pair in _signs(a.expr, b.expr, [*finite, g], setting, NEAR))
+    if any(first != other for first, other in chain(seen, close)):
         return False
     sides = [follows(_boundary(x), [*others, _boundary(y)], setting) for x, y in ((a, b), (b, a))]
     return True if seen and all(sides) and a.strict == b.strict else None
@@ -220,13 +226,15 @@ def _boundary(q: Inequality) -> Normal:
     return Normal(((Finite(q.expr),),))
 
 
-def _signs(a: Expr, b: Expr, finite: Sequence[Expr], setting: Setting) -> Iterator[tuple[bool, bool]]:
+def _signs(
+    a: Expr, b: Expr, finite: Sequence[Expr], setting: Setting, points: int = POINTS
+) -> Iterator[tuple[bool, bool]]:
     """(a > 0, b > 0) at random points, where both are certain."""
     ring = Ring([a, b, *finite], setting.positive, {})
     nodes = [ring.node(g) for g in finite]
     first, second = ring.node(a), ring.node(b)
     symbols = sorted({s for e in (a, b, *finite) for s in e.symbols}, key=repr)
-    for k in range(POINTS):
+    for k in range(points):
         point = _point(ring, nodes, symbols, setting, k)
         try:
             at = None if point is None else values(ring, point)
@@ -240,7 +248,7 @@ def _point(ring: Ring, nodes: Sequence[int], symbols: Sequence[Expr], setting: S
     if nodes:
         moving = [s for s in symbols if s.args[0] != "parameter"]
         result = RealSearch(ring, nodes, moving, setting.positive).search(seed)
-        return None if result is None else result.point
+        return None if result is None or not result.certain else result.point
     rng = random.Random(f"dofkit side {seed}")
     scale = SCALES[seed % len(SCALES)]
 
