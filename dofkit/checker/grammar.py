@@ -238,7 +238,9 @@ class _Reader:
         values = [self.primary()] if alone else self.arguments()
         longer = self.next.kind in _LONGER or (self.next.kind == "(" and self.next.touching)
         refuse(alone and longer, f"where `{token.name}` ends is unclear")
-        refuse(len(values) != (2 if token.name == "atan2" else 1), f"`{token.name}` has {len(values)} arguments")
+        pair, heads = token.name in ("atan2", "diff"), [value.head for value in values]
+        refuse(len(values) != (2 if pair else 1), f"`{token.name}` has {len(values)} arguments")
+        refuse(token.name == "diff" and heads != ["apply", "symbol"], "`diff` has a function and a name")
         return _power(ONE if (token.name, values) == ("exp", [ZERO]) else call(token.name, *values), exponent)
 
     def declared(self, token: Lexeme) -> Tree:

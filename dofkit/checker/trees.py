@@ -15,7 +15,7 @@ from functools import lru_cache, reduce
 from itertools import chain
 from typing import TypeVar
 
-_NAMES = "sin cos tan cot sec csc asin acos atan atan2 sinh cosh tanh exp log sqrt abs"
+_NAMES = "sin cos tan cot sec csc asin acos atan atan2 sinh cosh tanh exp log sqrt abs diff"
 FUNCTIONS = tuple(_NAMES.split())
 
 #: The size of a tree: its nodes, each as often as powers repeat it, and 64 bits of a number for one; that of a number.
@@ -161,7 +161,7 @@ def power(base: Tree, exponent: Tree) -> Tree:
 
 
 def call(name: str, *arguments: Tree) -> Tree:
-    """An elementary function, written with sines, cosines, exponentials, logarithms, powers and ``atan2``."""
+    """An elementary function, written with sines, cosines, exponentials, logarithms, powers and ``atan2``; a slope."""
     return _MEANINGS[name](*arguments) if name in _MEANINGS else Tree(name, arguments)
 
 
@@ -248,6 +248,9 @@ def derivative(tree: Tree, name: str) -> Tree:
         return add(*(_partial(node, i) * part for i, part in enumerate(inner) if part != ZERO))
 
     return folded(tree, by, lambda node: None if name in node.symbols else ZERO)
+
+
+_MEANINGS["diff"] = lambda function, by: derivative(function, str(by.value))
 
 
 def _partial(node: Tree, place: int) -> Tree:

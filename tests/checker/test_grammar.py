@@ -30,7 +30,7 @@ from dofkit.checker.trees import (
 from dofkit.expressions.text import AmbiguousError, Names, parse_expression
 from dofkit.expressions.tree import num, parameter
 
-FUNCTIONS_OF_ONE = [name for name in HEADS if name != "atan2"]
+FUNCTIONS_OF_ONE = [name for name in HEADS if name not in ("atan2", "diff")]
 COORDINATES = frozenset({"x", "y", "theta", "phi", "s", "x_A", "x1"})
 PARAMETERS = ("R", "L", "m", "g", "l", "v", "omega")
 FUNCTIONS = {"h": ("s",), "f": ("t",), "w": ("x", "t")}
@@ -124,6 +124,8 @@ READ: dict[str, Tree] = {
     # declared functions
     "h(x - f(t))": h(add(x, -Tree("apply", (t,), "f", (0,)))),
     "h'(s)": h(s, 1),
+    "diff(h(s), s)": h(s, 1),
+    "diff(w(x, y), y)": Tree("apply", (x, y), "w", (0, 1)),
     "h''(x)": h(x, 2),
     "h'(2x)": h(times(two, x), 1),
     "w(x, y)": w(x, y),
@@ -193,9 +195,9 @@ MISTAKEN = (
 #: arguments, other signs, names of other forms, derivatives by time.
 FOREIGN = (
     *("$x$", "δx", "δ x", r"\mathbf{x}", "\theta", "x = 1, y = 2", "x = const", "x (t)"),
-    *("xy", "mgl", "vt", "2piR", "[x]", "x^{2}", "h", "w", "h y", "diff(h(s), s)"),
+    *("xy", "mgl", "vt", "2piR", "[x]", "x^{2}", "h", "w", "h y"),
     *("½ x", "x⁻¹", "x₁", "x_1", "|x|", "√x", "x_{1}", "x(t)", "x^2(t)", "x'(t)", "xddot", "x''", "ẍ", "d^2x/dt^2"),
-    *("dh", "dh/dt", "hdot", "diff(w(x, t), t)", "diff(x^2, t)", "sin 2 x", "sin2x", "log sin x", "sqrt3"),
+    *("dh", "dh/dt", "hdot", "diff(x^2, t)", "sin 2 x", "sin2x", "log sin x", "sqrt3"),
 )
 HOSTILE = (
     *("9**9**9", "2**2**40", "64^64^64", "x^65", "x^(1/65)", "(((x+1)^9)^64)^64", "(((2^64)^64)^64)", "1e999999999"),

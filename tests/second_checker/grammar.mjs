@@ -31,6 +31,7 @@ export class Names {
     Object.assign(this, { coordinates, values, functions });
     this.words = new Map(FUNCTIONS.map((name) => [name, { kind: "function", name }]));
     this.words.set("pi", { kind: "value", tree: tr.pi() }).set("t", { kind: "value", tree: symbol("t"), name: "t" });
+    this.words.set("diff", { kind: "function", name: "diff" });
     this.words.set("dt", { kind: "moving", tree: symbol("dt"), step: true });
     for (const q of coordinates) this.words.set(spelledOut(q), { kind: "value", tree: symbol(q), name: q });
     for (const [p, tree] of values) this.words.set(spelledOut(p), { kind: "value", tree, name: p });
@@ -190,6 +191,11 @@ class Reader {
   }
 
   function(token) {
+    if (token.name === "diff") {
+      const [of, by, ...more] = this.arguments();
+      refuse(of.head !== "apply" || by?.head !== "symbol" || more.length > 0, "diff has a function and a name");
+      return tr.derivative(of, by.value);
+    }
     const exponent = this.take("^") ? this.need("number").tree : number(1);
     const alone = this.next.kind === "value";
     const given = alone ? [this.primary()] : this.arguments();
