@@ -34,6 +34,10 @@ KNOWN: dict[tuple[str, MethodName], tuple[tuple[str, ...], str]] = {
         "balls keep which equations depend on which, without the weights: of constraints of several equations each "
         "they name fewer than can go",
     ),
+    ("roots-and-their-squares", "balls"): (
+        ("redundant", "root3.circuit"),
+        "balls look near a point, where a square implies the root",
+    ),
 }
 
 
@@ -47,7 +51,9 @@ OPEN: dict[MethodName, str] = {
         omnidirectional-robot parallel-velocities parallelogram-flattened perpendicular-velocities
         plate-on-four-threads platform-on-parallel-legs pursuit-at-constant-speed rhombus-folded sarrus-folded
         sarrus-stretched speed-by-height spherical-four-bar-stretched three-cranks-in-line three-masses-on-one-rod
-        trap_circles_tangent two-particles-on-sphere waterbomb-vertex-flat wren-platform
+        trap_circles_tangent two-particles-on-sphere waterbomb-vertex-flat wren-platform root-of-pi
+        doubling-with-time roots-and-their-squares forms-with-roots functions-and-their-inverses one-of-each-kind
+        bead-on-a-circle-at-constant-speed
     """,
     "balls": """
         double-watt double-watt-alike holonomic-definition miura-vertex-flat plate-on-four-threads
