@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from functools import wraps
-from typing import ClassVar, ParamSpec, TypeVar
+from typing import ClassVar
 
 from dofkit.base.display import panel_of
 
@@ -129,23 +127,6 @@ class NoValueError(DofkitError, ArithmeticError):
 
     def __init__(self, message: str = "") -> None:
         super().__init__(message or self.reason)
-
-
-P = ParamSpec("P")
-Decision = TypeVar("Decision", bool, bool | None)
-
-
-def false_without_value(function: Callable[P, Decision]) -> Callable[P, Decision]:
-    """Return a function that is False, which says nothing, where something that it works out has no value."""
-
-    @wraps(function)
-    def decision(*args: P.args, **kwargs: P.kwargs) -> Decision:
-        try:
-            return function(*args, **kwargs)
-        except NoValueError:
-            return False
-
-    return decision
 
 
 class PoleError(NoValueError, ZeroDivisionError):

@@ -20,7 +20,7 @@ from dofkit.configuration.at_reference import near_reference
 from dofkit.configuration.variety import field_jacobian, point_at
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.sparse import sparse_frame, without_time
-from dofkit.exact.points.real_search import RealPoint
+from dofkit.exact.points.balls import RealPoint
 from dofkit.expressions import tree as ex
 from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.tree import Expr

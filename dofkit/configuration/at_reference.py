@@ -41,9 +41,9 @@ from dofkit.exact.matrices.sparse import (
     sparse,
     without_time,
 )
-from dofkit.exact.points.balls import BallPoint, exact_rank, jacobian, precision, rational_values
+from dofkit.exact.points.balls import BallPoint, RealPoint, exact_rank, jacobian, precision, rational_values
 from dofkit.exact.points.field import FieldPoint
-from dofkit.exact.points.real_search import RealPoint, RealSearch, are_joined
+from dofkit.exact.points.real_search import RealSearch, are_joined
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex

@@ -10,10 +10,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from dofkit.base.deadline import check
-from dofkit.base.errors import false_without_value
 from dofkit.exact.analyticity import is_analytic
 from dofkit.exact.ideals import dimension_of, echelon_by_degree
 from dofkit.exact.ring.canonical import Canon, is_identically_zero, quotients_of
+from dofkit.exact.ring.program import false_without_value
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero import independent_generators
 from dofkit.expressions import tree as ex

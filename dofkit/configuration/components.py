@@ -16,13 +16,14 @@ from itertools import product as cartesian
 from math import prod
 from typing import NamedTuple
 
-from dofkit.base.errors import NoValueError, false_without_value
+from dofkit.base.errors import NoValueError
 from dofkit.base.verdicts import ArgumentKey, weakest
 from dofkit.configuration import cases as all_cases
 from dofkit.configuration.variety import BRANCHED, Variety, chart_of_relations, field_jacobian, on_variety
 from dofkit.exact.analyticity import is_analytic
 from dofkit.exact.matrices.sparse import components, rank_of_rows
 from dofkit.exact.ring.canonical import is_identically_zero, quotients_of
+from dofkit.exact.ring.program import false_without_value
 from dofkit.exact.zero import independent_generators
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr

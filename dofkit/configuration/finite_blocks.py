@@ -14,8 +14,7 @@ from dofkit.configuration.search import find
 from dofkit.configuration.variety import Variety, field_jacobian, of_real_point, of_reference
 from dofkit.exact.matrices.certified import ball_part, dependencies
 from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows, sparse, sparse_frame, without_time
-from dofkit.exact.points.balls import rational_values, vanish_exactly
-from dofkit.exact.points.real_search import RealPoint
+from dofkit.exact.points.balls import RealPoint, rational_values, vanish_exactly
 from dofkit.exact.zero import error_bits, independent_generators
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr

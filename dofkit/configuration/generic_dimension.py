@@ -23,9 +23,9 @@ from dofkit.configuration.variety import Variety, field_jacobian, generators_of,
 from dofkit.exact.matrices.certified import independent_part
 from dofkit.exact.matrices.dense import length
 from dofkit.exact.matrices.sparse import Pivots, rank_of_rows
-from dofkit.exact.points.balls import BallPoint, jacobian, precision
+from dofkit.exact.points.balls import BallPoint, RealPoint, jacobian, precision
 from dofkit.exact.points.field import FieldPoint
-from dofkit.exact.points.real_search import RealPoint, RealSearch, at_another_time
+from dofkit.exact.points.real_search import RealSearch, at_another_time
 from dofkit.exact.ring.program import raising_no_value, values
 from dofkit.exact.zero import independent_on_set
 from dofkit.expressions import tree as ex

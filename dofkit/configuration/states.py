@@ -11,10 +11,10 @@ from functools import cached_property
 from typing import Any
 
 from dofkit.base.errors import NoValueError
-from dofkit.exact.points.balls import BallPoint, jacobian
+from dofkit.exact.points.balls import BallPoint, RealPoint, jacobian
 from dofkit.exact.points.field import FieldPoint, field_point
 from dofkit.exact.points.frames import rank_over
-from dofkit.exact.points.real_search import RealPoint, RealSearch, at_another_time
+from dofkit.exact.points.real_search import RealSearch, at_another_time
 from dofkit.exact.ring.program import Scalar, values, vanish
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.triangular import TriangularSolver

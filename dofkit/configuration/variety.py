@@ -12,14 +12,13 @@ from typing import Any
 from flint import arb, ctx
 
 from dofkit.base.deadline import check
-from dofkit.base.errors import NoValueError, PoleError, false_without_value
+from dofkit.base.errors import NoValueError, PoleError
 from dofkit.base.verdicts import About, ArgumentKey, Verdict
 from dofkit.exact.matrices.certified import PivotedPart
 from dofkit.exact.matrices.sparse import Pivots, SparseRow, rank_of_rows, sparse_frame, without_time
-from dofkit.exact.points.balls import BallPoint, precision, random_ball_point
+from dofkit.exact.points.balls import BallPoint, RealPoint, precision, random_ball_point
 from dofkit.exact.points.field import FieldPoint, field_point
-from dofkit.exact.points.real_search import RealPoint
-from dofkit.exact.ring.program import VAR, gradient, reachable, value_of, values, vanish
+from dofkit.exact.ring.program import VAR, false_without_value, gradient, reachable, value_of, values, vanish
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute

@@ -14,8 +14,9 @@ from typing import Any
 from flint import Ordering, fmpq, fmpq_mat, fmpz_mpoly_ctx, fmpz_mpoly_vec
 
 from dofkit.base.deadline import check
-from dofkit.base.errors import NoValueError, false_without_value
+from dofkit.base.errors import NoValueError
 from dofkit.exact.ring.canonical import Canon, quotients_of
+from dofkit.exact.ring.program import false_without_value
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions.tree import Expr
 

@@ -8,12 +8,12 @@ from typing import Literal
 
 from flint import arb, ctx, fmpq_mat
 
-from dofkit.base.errors import NoValueError, false_without_value
+from dofkit.base.errors import NoValueError
 from dofkit.base.verdicts import Verdict
 from dofkit.exact.points.balls import fixed_bits, random_ball_point
 from dofkit.exact.points.field import MOST_REDUCED, field_point
 from dofkit.exact.ring.canonical import Canon, divided
-from dofkit.exact.ring.program import ADD, MUL, NUM, POW, VAR, Var, reachable, values
+from dofkit.exact.ring.program import ADD, MUL, NUM, POW, VAR, Var, false_without_value, reachable, values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff

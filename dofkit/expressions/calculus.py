@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from fractions import Fraction
 from functools import partial
+from itertools import combinations
 from math import gcd
 
 from dofkit.base.errors import TextError
@@ -309,3 +310,10 @@ def over_dt(e: Expr) -> Expr | None:
 def is_differential(e: Expr) -> bool:
     """Return whether ``e`` is dq or dt."""
     return e.op == "sym" and e.args[0] in ("differential", "dt")
+
+
+def exterior_derivative(form: Mapping[Expr, Expr]) -> dict[tuple[int, int], Expr]:
+    """Return d(omega), d a_j / d x_i - d a_i / d x_j by places i < j of variables, where it is not written as 0."""
+    pairs = combinations(enumerate(form.items()), 2)
+    curls = {(i, j): diff(b, s) - diff(a, u) for (i, (s, a)), (j, (u, b)) in pairs}
+    return {pair: curl for pair, curl in curls.items() if not curl.is_zero}

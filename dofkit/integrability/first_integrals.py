@@ -16,7 +16,7 @@ from fractions import Fraction
 from itertools import combinations, combinations_with_replacement
 
 from dofkit.base.deadline import check
-from dofkit.base.errors import NoValueError, false_without_value
+from dofkit.base.errors import NoValueError
 from dofkit.configuration.variety import pose_point
 from dofkit.exact.matrices.sparse import Pivots, rank_of, reconstructed
 from dofkit.exact.points.field import FieldPoint
@@ -24,12 +24,12 @@ from dofkit.exact.points.frames import field_frame, kernel, pairing
 from dofkit.exact.points.series import Series, SeriesPoint
 from dofkit.exact.residues import Residue, null_vectors, residue_matrix, residue_polynomial
 from dofkit.exact.ring.canonical import Canon, Poly, determinant, polynomials, remainder
-from dofkit.exact.ring.program import Scalar, gradient, values
+from dofkit.exact.ring.program import Scalar, false_without_value, gradient, values
 from dofkit.exact.triangular import TriangularSolver
 from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import diff
+from dofkit.expressions.calculus import diff, exterior_derivative
 from dofkit.expressions.tree import Expr
-from dofkit.integrability.integrals.search import arranged, exterior_derivative, upright
+from dofkit.integrability.integrals.search import arranged, upright
 from dofkit.integrability.pfaffian_system import Codistribution
 from dofkit.relations.normal.semidefinite import fraction
 

@@ -25,10 +25,9 @@ from dofkit.configuration.generic_dimension import real_point
 from dofkit.configuration.variety import Variety
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.sparse import Pivots
-from dofkit.exact.points.balls import BallPoint
+from dofkit.exact.points.balls import BallPoint, RealPoint
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import FormRows, field_frame, kernel, rank_over
-from dofkit.exact.points.real_search import RealPoint
 from dofkit.exact.points.series import Series, SeriesPoint, zero_poly
 from dofkit.exact.residues import ResiduePolynomial, modulus, residue_matrix, residue_polynomial
 from dofkit.exact.ring.program import Scalar, gradient, raising_no_value, values

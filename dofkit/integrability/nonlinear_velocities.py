@@ -19,7 +19,7 @@ from dataclasses import replace
 from flint import arb
 
 from dofkit.base.deadline import OutOfTimeError
-from dofkit.base.errors import NoValueError, false_without_value
+from dofkit.base.errors import NoValueError
 from dofkit.base.verdicts import VERDICTS, weakest
 from dofkit.configuration.local.manifold import Manifold
 from dofkit.configuration.search import find
@@ -27,11 +27,10 @@ from dofkit.configuration.states import States, moves, rows_at, state_relations,
 from dofkit.configuration.variety import Variety, of_real_point
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.sparse import Pivots
-from dofkit.exact.points.balls import BallPoint
+from dofkit.exact.points.balls import BallPoint, RealPoint
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import kernel, vanishes
-from dofkit.exact.points.real_search import RealPoint
-from dofkit.exact.ring.program import Scalar, raising_no_value, values
+from dofkit.exact.ring.program import Scalar, false_without_value, raising_no_value, values
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero import is_zero
 from dofkit.expressions import tree as ex

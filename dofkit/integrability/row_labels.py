@@ -19,9 +19,9 @@ from dofkit.configuration.finite_blocks import dependent_names
 from dofkit.configuration.variety import SAMPLES, Variety, on_variety, pose_point
 from dofkit.exact.matrices.certified import ball_part, dependencies
 from dofkit.exact.matrices.sparse import echelon, rank_of, sparse
+from dofkit.exact.points.balls import RealPoint
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import field_frame, pairing, rank_over, vanishes
-from dofkit.exact.points.real_search import RealPoint
 from dofkit.exact.residues import null_vectors, residue_matrix
 from dofkit.exact.ring.program import Scalar, values
 from dofkit.exact.zero import error_bits, independent_on_set, odd_constants

@@ -6,12 +6,13 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
-from dofkit.base.errors import NoValueError, TextError, false_without_value
+from dofkit.base.errors import NoValueError, TextError
 from dofkit.base.verdicts import TraitAnswer, Verdict, all_of, weakest
 from dofkit.exact.analyticity import is_analytic
-from dofkit.exact.points.real_search import RealPoint, RealSearch, at_another_time
+from dofkit.exact.points.balls import RealPoint
+from dofkit.exact.points.real_search import RealSearch, at_another_time
 from dofkit.exact.ring.canonical import quotients_of
-from dofkit.exact.ring.program import values
+from dofkit.exact.ring.program import false_without_value, values
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.triangular import TriangularSolver
 from dofkit.exact.zero import BOTH, Engines, independent_on_set, odd_constants, zero_and_verdict
@@ -123,16 +124,15 @@ def vanishes_on(
     slopes = [diff(g, s) for s in sorted(regular_in or (), key=repr)]
     ring = Ring([g, slope, *slopes], positive)
     node, rate, *others = (ring.node(e) for e in (g, slope, *slopes))
-    point = TriangularSolver(ring, [node]).draw(1) if "field" in engines else None
-    if point is not None:
-        try:
-            at = values(ring, point)
-            if at[rate] == 0:
-                regular = not others or any(at[k] != 0 for k in others)
-                whole = regular and is_analytic(g, g.symbols, positive) and _is_irreducible(g, positive)
-                return (True, "probable") if whole else (None, "undecided")
-        except NoValueError:
-            return None, "undecided"
+    try:
+        point = TriangularSolver(ring, [node]).draw(1) if "field" in engines else None
+        at = [] if point is None else values(ring, point)
+        if at and at[rate] == 0:
+            regular = not others or any(at[k] != 0 for k in others)
+            whole = regular and is_analytic(g, g.symbols, positive) and _is_irreducible(g, positive)
+            return (True, "probable") if whole else (None, "undecided")
+    except NoValueError:
+        return None, "undecided"
     if "balls" not in engines:
         certain = point is not None and independent_on_set(ring, [node])
         return (False, "probable") if certain else (None, "undecided")

@@ -330,14 +330,14 @@ def test_a_constraint_written_again_is_redundant(path: Path, place: int) -> None
     if report.dof is None or not bilateral or has_joints_somewhere(path):
         return
     i = bilateral[place]
-    again = {**document["constraints"][i], "name": "again"}
+    again = {**document["constraints"][i], "name": "once_more"}
     other = classified({**document, "constraints": [*document["constraints"], again]})
     assert (other.dof, other.velocity_dof) == (report.dof, report.velocity_dof)
     assert other.redundant_equations == max(0, surplus(report) + report.constraints[i].equations)
-    assert "again" in other.redundant
+    assert "once_more" in other.redundant
     assert len(other.redundant) == len(report.redundant) + 1
     assert other.constraints[-1].independent == 0
-    assert {**all_labels(other), "again": None} == {**all_labels(report), "again": None}
+    assert {**all_labels(other), "once_more": None} == {**all_labels(report), "once_more": None}
 
 
 # Two copies side by side

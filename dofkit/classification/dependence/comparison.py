@@ -17,7 +17,7 @@ from itertools import product as cartesian
 
 from flint import arb
 
-from dofkit.base.errors import NoValueError, false_without_value
+from dofkit.base.errors import NoValueError
 from dofkit.classification.dependence.implication import follows
 from dofkit.configuration.search import find
 from dofkit.configuration.variety import field_jacobian
@@ -26,7 +26,7 @@ from dofkit.exact.matrices.sparse import rank_of_rows
 from dofkit.exact.points.balls import BallPoint, jacobian
 from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.canonical import quotients_of
-from dofkit.exact.ring.program import POW, values
+from dofkit.exact.ring.program import POW, false_without_value, values
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero import is_proved_zero
 from dofkit.expressions import tree as ex

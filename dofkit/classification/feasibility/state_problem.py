@@ -25,8 +25,8 @@ from dofkit.base.errors import NoValueError
 from dofkit.classification.freedom.common_point import hold_strictly
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.sparse import components
-from dofkit.exact.points.balls import jacobian
-from dofkit.exact.points.real_search import RealPoint, RealSearch
+from dofkit.exact.points.balls import RealPoint, jacobian
+from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero import is_proved_zero

@@ -21,7 +21,8 @@ from dofkit.configuration.generic_dimension import BALL_COLUMNS
 from dofkit.configuration.variety import Witness, of_real_point
 from dofkit.exact.analyticity import is_analytic
 from dofkit.exact.matrices.sparse import components
-from dofkit.exact.points.real_search import RealPoint, RealSearch
+from dofkit.exact.points.balls import RealPoint
+from dofkit.exact.points.real_search import RealSearch
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.enclosures import interval_of

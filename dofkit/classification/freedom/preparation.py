@@ -9,10 +9,11 @@ from collections import Counter
 from collections.abc import Hashable, Iterable, Sequence
 
 from dofkit.base.deadline import check
-from dofkit.base.errors import Fault, SceneError, TextError, false_without_value
+from dofkit.base.errors import Fault, SceneError, TextError
 from dofkit.configuration.at_reference import ball_matrix, ball_point
 from dofkit.configuration.variety import point_at
 from dofkit.exact.analyticity import is_analytic
+from dofkit.exact.ring.program import false_without_value
 from dofkit.exact.zero import is_zero, odd_constants
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute

@@ -21,9 +21,8 @@ from dofkit.exact.ring.canonical import Canon, Poly, cleared, determinant, is_id
 from dofkit.exact.ring.program import TooLargeError, raising_no_value
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import diff, replace_nodes, substitute
+from dofkit.expressions.calculus import diff, exterior_derivative, replace_nodes, substitute
 from dofkit.expressions.tree import Expr
-from dofkit.integrability.integrals.search import exterior_derivative
 from dofkit.relations.blocks import Block
 from dofkit.relations.linear_relations import explicit_relations, number_coefficients
 from dofkit.relations.normal.pieces import Finite, Pfaffian

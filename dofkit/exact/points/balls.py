@@ -10,6 +10,7 @@ import random
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, lru_cache
 from typing import Any, NamedTuple
@@ -17,6 +18,7 @@ from typing import Any, NamedTuple
 from flint import arb, ctx, fmpq, fmpq_mat
 
 from dofkit.base.errors import NoValueError
+from dofkit.exact.matrices.certified import PivotedPart
 from dofkit.exact.ring.program import NoPointError, OutsideDomainError, Scalar, Var, gradient, values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions.rational_values import exact_root, value_at
@@ -285,3 +287,26 @@ def exact_rank(
     except NoValueError:
         return None
     return int(fmpq_mat(len(nodes), len(present), [row.get(c, fmpq(0)) for row in slopes for c in present]).rref()[1])
+
+
+@dataclass(frozen=True)
+class RealPoint:
+    """A real point of the variety.
+
+    ``point``: ball values of all symbols. ``part``: of the Jacobian there by the unknowns, a regular part of its rows;
+    ``certified``: the ball contains a true zero of as many independent relations; ``consistent``: the other
+    relations' balls contain 0 too. ``matrix``: the Jacobian by the ranked symbols that occur; ``solved``: how many
+    relations were put to the interval Newton test.
+    """
+
+    point: BallPoint
+    part: PivotedPart
+    certified: bool
+    consistent: bool
+    matrix: list[list[arb]]
+    solved: int = 0
+
+    @property
+    def certain(self) -> bool:
+        """Whether all relations may be 0 in the ball, and as many as are independent are."""
+        return self.certified and self.consistent

@@ -8,16 +8,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 from flint import arb, arb_mat, ctx
 
 from dofkit.base.deadline import check
-from dofkit.base.errors import NoValueError, false_without_value
+from dofkit.base.errors import NoValueError
 from dofkit.exact.matrices.certified import PivotedPart, ball_part, independent_part
 from dofkit.exact.matrices.dense import largest, length, step
-from dofkit.exact.points.balls import BallPoint, FloatPoint, jacobian, precision, random_values
-from dofkit.exact.ring.program import raising_no_value, values
+from dofkit.exact.points.balls import BallPoint, FloatPoint, RealPoint, jacobian, precision, random_values
+from dofkit.exact.ring.program import false_without_value, raising_no_value, values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions.tree import TIME, Expr
 
@@ -32,29 +31,6 @@ MAX_ELIMINATED = 20_000
 SPARE_BITS = 16
 #: So often a box around two points is made wider, and by how much at least.
 INFLATIONS, ROOM = 4, 2**-30
-
-
-@dataclass(frozen=True)
-class RealPoint:
-    """A real point of the variety.
-
-    ``point``: ball values of all symbols. ``part``: of the Jacobian there by the unknowns, a regular part of its rows;
-    ``certified``: the ball contains a true zero of as many independent relations; ``consistent``: the other
-    relations' balls contain 0 too. ``matrix``: the Jacobian by the ranked symbols that occur; ``solved``: how many
-    relations were put to the interval Newton test.
-    """
-
-    point: BallPoint
-    part: PivotedPart
-    certified: bool
-    consistent: bool
-    matrix: list[list[arb]]
-    solved: int = 0
-
-    @property
-    def certain(self) -> bool:
-        """Whether all relations may be 0 in the ball, and as many as are independent are."""
-        return self.certified and self.consistent
 
 
 class RealSearch:

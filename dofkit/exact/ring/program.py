@@ -31,6 +31,7 @@ NUM, VAR, ADD, MUL, POW = range(5)
 
 P = ParamSpec("P")
 T = TypeVar("T")
+Decision = TypeVar("Decision", bool, bool | None)
 
 
 class TooLargeError(NoValueError):
@@ -66,6 +67,19 @@ def raising_no_value(work: Callable[P, T]) -> Callable[P, T]:
             raise NoValueError(str(error)) from error
 
     return wrapper
+
+
+def false_without_value(function: Callable[P, Decision]) -> Callable[P, Decision]:
+    """Return a function that is False, which says nothing, where something that it works out has no value."""
+
+    @wraps(function)
+    def decision(*args: P.args, **kwargs: P.kwargs) -> Decision:
+        try:
+            return function(*args, **kwargs)
+        except NoValueError:
+            return False
+
+    return decision
 
 
 @dataclass(frozen=True)

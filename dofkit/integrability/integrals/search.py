@@ -18,7 +18,7 @@ from dofkit.exact.ring.program import raising_no_value
 from dofkit.exact.ring.quotients import Poly, solve
 from dofkit.exact.zero import certainly_nonzero
 from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import content, diff
+from dofkit.expressions.calculus import content, diff, exterior_derivative
 from dofkit.expressions.text.printing import to_text
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.integrals.potentials import (
@@ -143,13 +143,6 @@ def exponential(e: Expr) -> Expr:
         else:
             factors_of_exp.append(ex.power(log.args[1], ex.mul(*(f for f in factors if f is not log))))
     return ex.mul(*factors_of_exp)
-
-
-def exterior_derivative(form: Form) -> dict[tuple[int, int], Expr]:
-    """Return d(omega), d a_j / d x_i - d a_i / d x_j by places i < j of variables, where it is not written as 0."""
-    pairs = combinations(enumerate(form.items()), 2)
-    curls = {(i, j): diff(b, s) - diff(a, u) for (i, (s, a)), (j, (u, b)) in pairs}
-    return {pair: curl for pair, curl in curls.items() if not curl.is_zero}
 
 
 def simple(work: Algebra, form: Form) -> Iterator[Expr]:

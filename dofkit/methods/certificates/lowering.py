@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any, TypeVar
 
-from dofkit.base.verdicts import weakest
+from dofkit.base.verdicts import About, least, weakest
 from dofkit.checker.grammar import KnownNames, parse_relations
 from dofkit.checker.trees import CheckError, symbol
 from dofkit.expressions.text import Names
@@ -71,7 +71,7 @@ def _entry_path(entry: ConstraintEntry) -> str:
 
 
 def _checked(
-    report: Report, confirmed: Mapping[str, str | None], contradictions: Mapping[str, str], strict: bool = False
+    report: Report, confirmed: Mapping[str, About | None], contradictions: Mapping[str, str], strict: bool = False
 ) -> Report:
     """Return the report with ``checked`` in each verdict, and what is contradicted undecided, with a warning.
 
@@ -83,6 +83,8 @@ def _checked(
             return UNDECIDED
         lowered = strict and verdict.verdict == "proved" and path not in confirmed
         about = confirmed.get(path) or verdict.about
+        if not strict and about and verdict.about and least(about, verdict.about) != verdict.about:
+            return verdict.model_copy(update={"checked": False})
         changes = {"checked": path in confirmed, "about": about, **({"verdict": "probable"} if lowered else {})}
         return verdict.model_copy(update=changes)
 

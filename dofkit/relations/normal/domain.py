@@ -10,10 +10,10 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product as cartesian
 
-from dofkit.base.errors import NoValueError, false_without_value
+from dofkit.base.errors import NoValueError
 from dofkit.exact.points.balls import random_ball_point
 from dofkit.exact.ring.canonical import lowest_terms, quotients_of, square_root
-from dofkit.exact.ring.program import values
+from dofkit.exact.ring.program import false_without_value, values
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero import is_proved_zero
 from dofkit.expressions import tree as ex

@@ -15,10 +15,10 @@ from itertools import combinations, islice
 from typing import Any
 
 from dofkit.base.deadline import OutOfTimeError, check
-from dofkit.base.errors import NoValueError, PoleError, false_without_value
+from dofkit.base.errors import NoValueError, PoleError
 from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.canonical import Canon, quotients_of
-from dofkit.exact.ring.program import values
+from dofkit.exact.ring.program import false_without_value, values
 from dofkit.exact.ring.radicals import known_signs
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero import is_proved_zero

@@ -7,8 +7,8 @@ from typing import Any
 
 from flint import fmpq, fmpq_mat
 
-from dofkit.base.errors import false_without_value
 from dofkit.exact.ring.canonical import Canon, quotients_of
+from dofkit.exact.ring.program import false_without_value
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 
