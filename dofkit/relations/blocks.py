@@ -116,21 +116,26 @@ def joined(coordinates: Iterable[str], blocks: Sequence[Block]) -> Block:
 
 
 def expressions(block: Block) -> list[Expr]:
-    """Everything the block evaluates."""
-    result: list[Expr] = []
-    for row in block.rows:
-        if isinstance(row.piece, Pfaffian):
-            result += [*row.piece.coefficients.values(), row.piece.dt]
-        else:
-            result.append(row.piece.expr)
-    return result
+    """Return every expression that the block evaluates."""
+    return [e for row in block.rows for e in expressions_of(row.piece)]
+
+
+def expressions_of(piece: Clause) -> tuple[Expr, ...]:
+    """Return the coefficients of a Pfaffian form, that of dt last; of everything else its expression."""
+    return (*piece.coefficients.values(), piece.dt) if isinstance(piece, Pfaffian) else (piece.expr,)
 
 
 def uses_time(block: Block) -> bool:
+    """Return whether t or dt occurs in a row."""
+    return any(depends_on_time(row.piece) for row in block.rows)
+
+
+def depends_on_time(piece: Clause) -> bool:
     """Return whether t or dt occurs; equations of joints that are not written out are scleronomic."""
-    rows = tuple(row for row in block.rows if not isinstance(row.piece, JointEquation))
-    dt = any(isinstance(r.piece, Pfaffian) and not r.piece.dt.is_zero for r in rows)
-    return dt or any(ex.TIME in e.symbols for e in expressions(Block(block.coordinates, rows)))
+    if isinstance(piece, JointEquation):
+        return False
+    dt = isinstance(piece, Pfaffian) and not piece.dt.is_zero
+    return dt or any(ex.TIME in e.symbols for e in expressions_of(piece))
 
 
 def is_measured(block: Block, setting: Setting) -> bool:

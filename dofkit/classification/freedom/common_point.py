@@ -30,7 +30,7 @@ from dofkit.expressions.renaming import coordinates_in
 from dofkit.expressions.text import Names, parse_expression, to_text
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Answer
-from dofkit.relations.blocks import Block, Chart, Row, expressions, make_chart, uses_time
+from dofkit.relations.blocks import Block, Chart, Row, expressions_of, make_chart, uses_time
 from dofkit.relations.linear_relations import explicit_relations, number_coefficients
 from dofkit.relations.normal.domain import DomainCondition, is_satisfied_at
 from dofkit.relations.normal.no_solution import hold_nowhere
@@ -188,10 +188,12 @@ def at_one_point(
         return CommonPoint(kept, [restricted_to_domain(b, a, setting) for b, a in zip(written, result, strict=True)])
     point = _point(result, setting)
     outside = [(i, c) for i, c in domain if not hold_strictly([c], {s: point.get(s, arb(0)) for s in c.expr.symbols})]
+    if not outside:
+        return CommonPoint(kept, result)
     names = [*(_names(block) for block in written), *(_names_of(c, i) for i, c in outside)]
     free_values: dict[Expr, str] = {}
     failed: dict[bool | None, list[int]] = {False: [], None: []}
-    for numbers in components(names) if outside else ():
+    for numbers in components(names):
         members = [i for i in numbers if i < len(blocks)]
         added = [outside[i - len(blocks)] for i in numbers if i >= len(blocks)]
         if not added:
@@ -284,11 +286,10 @@ def _may_restrict(block: Block, a: Answer) -> bool:
 
 
 def _shared_symbols(block: Block) -> frozenset[Expr]:
-    """The time, the named parameters and, as symbols, the names of the unknown functions of a block."""
-    rows = tuple(row for row in block.rows if not isinstance(row.piece, JointEquation))
-    written = [*expressions(Block(block.coordinates, rows)), *(c.expr for c in block.conditions)]
-    symbols = frozenset[Expr]().union(*(e.symbols for e in written))
-    named = {s for s in symbols if s.args[0] == "parameter" and not s.args[1].startswith("_")}
+    """Return the time, the named parameters and, as symbols, the names of the unknown functions of a block."""
+    pieces = (row.piece for row in block.rows if not isinstance(row.piece, JointEquation))
+    written = [*(e for piece in pieces for e in expressions_of(piece)), *(c.expr for c in block.conditions)]
+    named = {s for e in written for s in e.symbols if s.args[0] == "parameter" and not s.args[1].startswith("_")}
     calls = {n for e in written if "call" in e.functions for n in ex.nodes(e) if n.op == "call"}
     functions = {ex.parameter(f"{n.args[0]}(...)") for n in calls}
     return frozenset({*named, *functions, *((ex.TIME,) if uses_time(block) else ())})

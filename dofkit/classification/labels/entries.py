@@ -16,11 +16,10 @@ from dofkit.classification.labels.reasons import EntryDependence, Others
 from dofkit.classification.undecided import open_entry
 from dofkit.exact.matrices.sparse import rank_of_rows
 from dofkit.expressions.text import to_text
-from dofkit.expressions.tree import TIME
 from dofkit.integrability.nonlinear_velocities import label_modulo_others
 from dofkit.relations.answer import IDENTITY, Answer, HolonomyLabel, Redundancies
-from dofkit.relations.blocks import Block, Row, coordinates_of
-from dofkit.relations.normal.pieces import Clause, JointEquation, Nonlinear, Normal, Pfaffian, Reduced, piece_shape
+from dofkit.relations.blocks import Block, Row, coordinates_of, depends_on_time
+from dofkit.relations.normal.pieces import Nonlinear, Normal, Pfaffian, Reduced, piece_shape
 from dofkit.relations.setting import Setting
 from dofkit.report import ConstraintEntry, IntegrablePart
 
@@ -71,9 +70,10 @@ def _likeness(r: Reduced, rows: Sequence[LabelledRow], setting: Setting) -> Hash
     pieces = [*(p for n in r.normals for p in n.pieces), *(t.row.piece for t in rows)]
     branched = any(len(n.branches) > 1 for n in r.normals)
     modulo_others = any(t.reduced or (t.label is not None and t.label.modulo) for t in rows)
-    if branched or modulo_others or not all(map(_is_plain, (*pieces, *r.inequalities))):
+    clauses = (*pieces, *r.inequalities)
+    if branched or modulo_others or any(isinstance(p, Nonlinear) or depends_on_time(p) for p in clauses):
         return None
-    shapes: list[Hashable] = [type(p).__name__ for p in (*pieces, *r.inequalities)]
+    shapes: list[Hashable] = [type(p).__name__ for p in clauses]
     if any(isinstance(p, Pfaffian) for p in pieces):
         places: dict[str, int] = {}
         for p in pieces:
@@ -89,13 +89,6 @@ def _likeness(r: Reduced, rows: Sequence[LabelledRow], setting: Setting) -> Hash
         tuple([t.label for t in rows]),
         tuple([(a.verdict, a.argument, a.bits, a.gap, a.about, a.late, a.consistent) for a in answers]),
     )
-
-
-def _is_plain(piece: Clause) -> bool:
-    """Return whether a piece is linear in the velocities, without time and without a term that holds no velocity."""
-    if isinstance(piece, Pfaffian):
-        return piece.dt.is_zero and not any(TIME in c.symbols for c in piece.coefficients.values())
-    return isinstance(piece, JointEquation) or not (isinstance(piece, Nonlinear) or TIME in piece.expr.symbols)
 
 
 def _is_nameless(entry: ConstraintEntry) -> bool:
