@@ -132,7 +132,7 @@ def _required(cls: type[ConstraintBase]) -> set[str]:
 
 def meant_type(word: object, entry: Mapping[str, Any]) -> str | None:
     """Return the constraint type that a word most likely means, by the keys with it; None if there is none."""
-    words = {kind: (kind, *cls.synonyms, *cls.understood) for kind, cls in TYPES.items()}
+    words = {kind: (kind, *cls.words().synonyms, *cls.words().understood) for kind, cls in TYPES.items()}
     every_word = {name for names in words.values() for name in names}
     text = word.lower() if isinstance(word, str) else ""
     near = next((part for part in re.split(r"\W+", text) if part in every_word), None) or nearest(text, every_word)
@@ -219,7 +219,7 @@ def _line(fault: Fault, hint: str, value: Mapping[str, Any]) -> str | None:
         if suggested and suggested[1] not in TYPES:
             return None  # the key that was meant says enough
         kind = suggested[1] if suggested else _type_at(value, where[1])
-        return TYPES[kind].example(d) if kind is not None and d in TYPES[kind].dimensions else None
+        return TYPES[kind].example(d)[0] if kind is not None and d in TYPES[kind].dimensions else None
     unknown = len(where) == 1 and fault.message.startswith(UNKNOWN_KEY) and not suggested
     if unknown or (hint and where[:1] == ("picture",)):
         return None

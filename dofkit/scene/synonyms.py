@@ -110,8 +110,8 @@ def _constraint(entry: Mapping[str, Any], here: Path, dimension: int, places: di
         kind = kind if any(key in entry and key not in fields for key in _TELLING) else meant
     if kind != entry.get("type"):
         entry = {**entry, "type": kind}
-    others = other_keys(kind) if isinstance(kind, str) else {}
-    if not others.keys().isdisjoint(entry):
+    if isinstance(kind, str) and kind in TYPES and not entry.keys() <= TYPES[kind].model_fields.keys():
+        others = other_keys(kind)
         standard = {key: others[key] for key in entry if key in others and others[key] not in entry}
         origin = places.get(here, here)
         places.update({(*here, key): (*origin, written) for written, key in standard.items()})
@@ -126,7 +126,7 @@ def _constraint(entry: Mapping[str, Any], here: Path, dimension: int, places: di
 @cache
 def synonyms() -> Mapping[str, str]:
     """A synonym of a type -> the type; no synonym is itself a type."""
-    return {word: kind for kind, cls in TYPES.items() for word in cls.synonyms}
+    return {word: kind for kind, cls in TYPES.items() for word in cls.words().synonyms}
 
 
 @cache
@@ -135,7 +135,7 @@ def other_keys(kind: str) -> Mapping[str, str]:
     cls = TYPES.get(kind)
     if cls is None:
         return {}
-    return {**({"direction": "axis"} if "axis" in cls.model_fields else {}), **cls.other_keys}
+    return {**({"direction": "axis"} if "axis" in cls.model_fields else {}), **cls.words().keys}
 
 
 def _force(entry: Mapping[str, Any], here: Path, dimension: int, places: dict[Path, Path]) -> Mapping[str, Any]:

@@ -72,9 +72,9 @@ def scene_of(cls: type[ConstraintBase]) -> str:
     constraints:
     - {type: coincident, between: [A, B]}
     """
-    spaces = [d for d in cls.examples if d] or [d for d in cls.dimensions if d > 1]
+    spaces = [d for d in cls.words().examples if d] or [d for d in cls.dimensions if d > 1]
     dimension = 2 if 2 in spaces else max(spaces)
-    lines = (cls.example(dimension), *cls.example_joints.get(dimension, ()))
+    lines = cls.example(dimension)
     words = {word for line in lines for word in re.findall(r"[A-Za-z]+", line)}
     sections = {key: [name for name in names if name in words] for key, names in DECLARED.items()}
     if sections["particles"] or sections["bodies"]:
@@ -116,11 +116,12 @@ def _constraint_fields(cls: type[ConstraintBase]) -> Iterator[tuple[str, str, st
 
 
 def _other_words(cls: type[ConstraintBase]) -> Iterator[str]:
-    if cls.synonyms:
-        yield f"{', '.join(map(code, cls.synonyms))} can be written instead of `{cls.kind()}`."
-    yield from (f"{code(word)} can be written instead of {code(key)}." for word, key in cls.other_keys.items())
-    if cls.understood:
-        yield f"For {', '.join(map(code, cls.understood))} the error message suggests this type."
+    words = cls.words()
+    if words.synonyms:
+        yield f"{', '.join(map(code, words.synonyms))} can be written instead of `{cls.kind()}`."
+    yield from (f"{code(word)} can be written instead of {code(key)}." for word, key in words.keys.items())
+    if words.understood:
+        yield f"For {', '.join(map(code, words.understood))} the error message suggests this type."
 
 
 THEOREMS, GLOSSARY, ROOMS = "about/theorems.md", "reference/glossary.md", "about/rooms.md"

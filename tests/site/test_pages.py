@@ -53,7 +53,7 @@ def types(disc: ShownScene) -> dict[str, str]:
 def test_every_type_has_its_page_with_equations_a_picture_and_a_scene(types: dict[str, str], kind: str) -> None:
     page, cls = types[f"{FOLDER}/{kind}.md"], TYPES[kind]
     assert (cls.__doc__ or "").strip(), "its docstring says its equations"
-    assert cls.examples, "an example is its scene"
+    assert cls.words().examples, "an example is its scene"
     assert prose((cls.__doc__ or "").split("\n")[0])[:40] in page
     assert types[f"{FOLDER}/{kind}.svg"].startswith("<svg")
     assert scene_of(cls) in page

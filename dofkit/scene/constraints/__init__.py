@@ -1,6 +1,7 @@
 """Constraints: one small class for each type, with its equations in its docstring and its facts for all others.
 
-`TYPES` maps every ``type`` to its class. A new type is a class of this folder and a row of `AnyConstraint`.
+`TYPES` maps every ``type`` to its class. A new type is a class of this folder, a row of `AnyConstraint` and
+one of ``words.yaml``.
 """
 
 from __future__ import annotations

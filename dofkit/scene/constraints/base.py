@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cache
-from typing import Annotated, ClassVar, Literal, get_args
+from typing import Annotated, ClassVar, Literal, NamedTuple, get_args
 
 from pydantic import BeforeValidator, Field
 
+from dofkit.base.documents import package_table
 from dofkit.base.errors import NoValueError
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.enclosures import approximate
@@ -27,6 +28,15 @@ LETTERS = ("x", "y", "z")
 _TEXTS = ("text", "surface", "curve", "length", "drive")
 
 
+class TypeWords(NamedTuple):
+    """How a type is written: its row of ``words.yaml``."""
+
+    examples: Mapping[int, Sequence[str]]
+    synonyms: Sequence[str] = ()
+    understood: Sequence[str] = ()
+    keys: Mapping[str, str] = {}
+
+
 class ConstraintBase(WrittenModel):
     """A constraint: its fields, and the scalar relations that it yields."""
 
@@ -34,16 +44,6 @@ class ConstraintBase(WrittenModel):
 
     #: The dimensions in which it is defined.
     dimensions: ClassVar[tuple[int, ...]] = (1, 2, 3)
-    #: A line of a scene by its dimension (0: in any): it loads where the bodies crank and rod, the particles A, B and C
-    #: and the coordinates x and y are declared.
-    examples: ClassVar[Mapping[int, str]] = {}
-    #: Lines of joints that the example names, by dimension.
-    example_joints: ClassVar[Mapping[int, tuple[str, ...]]] = {}
-    #: Other words for the type that are read; words that are understood, and only lead to a hint.
-    synonyms: ClassVar[tuple[str, ...]] = ()
-    understood: ClassVar[tuple[str, ...]] = ()
-    #: Other words for its fields.
-    other_keys: ClassVar[Mapping[str, str]] = {}
     #: What everyone else may know of the type.
     facts: ClassVar[TypeFacts] = TypeFacts()
     #: How the type is drawn.
@@ -59,9 +59,15 @@ class ConstraintBase(WrittenModel):
         return f"a constraint of type '{cls.kind()}'"
 
     @classmethod
-    def example(cls, dimension: int) -> str:
-        """Return one line that would work in a scene of that dimension, or else in another."""
-        return cls.examples.get(dimension) or cls.examples[max(cls.examples)]
+    def words(cls) -> TypeWords:
+        """Return how it is written."""
+        return _words()[cls.kind()]
+
+    @classmethod
+    def example(cls, dimension: int) -> Sequence[str]:
+        """Return a line that would work in a scene of that dimension, or else in another, and the joints it names."""
+        examples = cls.words().examples
+        return examples.get(dimension) or examples[max(examples)]
 
     def relations(self, world: World) -> Iterable[Relation]:
         """Yield its scalar relations; faults go to the world."""
@@ -82,6 +88,14 @@ class ConstraintBase(WrittenModel):
     def in_words(self) -> str:
         """One line for a person to read."""
         return self.kind()
+
+
+@cache
+def _words() -> Mapping[str, TypeWords]:
+    return {
+        kind: TypeWords(**{**row, "examples": {int(dimension): lines for dimension, lines in row["examples"].items()}})
+        for kind, row in package_table(__package__, "words.yaml").items()
+    }
 
 
 @cache
@@ -128,8 +142,6 @@ class Equation(ConstraintBase):
     """
 
     type: Literal["equation"] = Field(default="equation", description="an equation or inequality as text")
-    examples: ClassVar[Mapping[int, str]] = {0: '"x^2 + y^2 = 4"'}
-    understood: ClassVar[tuple[str, ...]] = ("formula", "relation", "inequality", "pfaffian")
     text: Text = Field(description="the equation, such as `x^2 + y^2 = l^2` or `dy = R cos(theta) dphi`")
     facts: ClassVar[TypeFacts] = TypeFacts(written=True, surface=True)
     symbol: ClassVar[Symbol] = Symbol(run="locus")
@@ -164,12 +176,6 @@ class On(ConstraintBase):
     """
 
     type: Literal["on"] = Field(description="points on a surface or a curve")
-    examples: ClassVar[Mapping[int, str]] = {
-        1: "{type: on, members: [A], surface: x - 1}",
-        2: "{type: on, members: [A], surface: y - x^2}",
-        3: "{type: on, members: [A], surface: z - x^2 - y^2}",
-    }
-    understood: ClassVar[tuple[str, ...]] = ("surface", "curve", "wire", "bead")
     members: tuple[Point, ...] = Field(min_length=1, description="particles or points")
     surface: Text | None = Field(None, description="one equation in x, y, z")
     curve: Annotated[

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import ClassVar, Literal, NamedTuple
 
@@ -40,7 +40,6 @@ class Cam(ConstraintBase):
     """
 
     type: Literal["cam"] = Field(description="a point on the profile of a body, in the plane")
-    examples: ClassVar[Mapping[int, str]] = {2: '{type: cam, point: A, body: crank, curve: "x^2 + y^2 = 4"}'}
     point: Point = Field(description="the follower's point, or a particle")
     body: str = Field(description="the cam, or ground")
     curve: Text = Field(description="the profile: an equation in x and y, the body's own coordinates; may contain t")
@@ -154,8 +153,6 @@ class Roll(ConstraintBase):
     """
 
     type: Literal["roll"] = Field(description="a disc or sphere that rolls without slipping, contact included")
-    examples: ClassVar[Mapping[int, str]] = {0: "{type: roll, body: wheel, radius: 1}"}
-    understood: ClassVar[tuple[str, ...]] = ("wheel", "rolling", "disc", "no-slip")
     body: str = Field(description="the body; its origin is its centre")
     radius: Value = Field(description="its radius")
     dimensions: ClassVar[tuple[int, ...]] = (2, 3)
@@ -210,8 +207,6 @@ class Gear(Joint):
     """
 
     type: Literal["gear"] = Field(description="two wheels geared together, in the plane")
-    examples: ClassVar[Mapping[int, str]] = {2: "{type: gear, between: [crank, rod], ratio: -2}"}
-    understood: ClassVar[tuple[str, ...]] = ("gears", "meshing")
     ratio: Value = Field(description="angle of the second by angle of the first; negative for wheels that mesh outside")
     carrier: str | None = Field(None, description="the body that carries both axes, as in a planetary gear")
     dimensions: ClassVar[tuple[int, ...]] = (2,)

@@ -60,21 +60,6 @@ class Coupling(ConstraintBase):
     """
 
     type: Literal["coupling"] = Field(description="a relation between angles or displacements of joints")
-    examples: ClassVar[Mapping[int, str]] = {
-        0: '{type: coupling, joints: [shoulder, elbow], text: "elbow = 2 shoulder"}'
-    }
-    example_joints: ClassVar[Mapping[int, tuple[str, ...]]] = {
-        2: (
-            "{name: shoulder, type: revolute, between: [ground, crank], at: [0, 0]}",
-            "{name: elbow, type: revolute, between: [crank, rod], at: [2, 0]}",
-        ),
-        3: (
-            "{name: shoulder, type: revolute, between: [ground, crank], at: [0, 0, 0], axis: [0, 0, 1]}",
-            "{name: elbow, type: revolute, between: [crank, rod], at: [2, 0, 0], axis: [0, 0, 1]}",
-        ),
-    }
-    understood: ClassVar[tuple[str, ...]] = ("mimic", "differential", "timing_belt", "transmission", "bevel", "coupled")
-    other_keys: ClassVar[Mapping[str, str]] = {"between": "joints"}
     joints: Joints = Field(
         description="names of joints, or a mapping letter -> joint; for one that both turns and slides, `JOINT.angle` "
         "or `JOINT.displacement`"

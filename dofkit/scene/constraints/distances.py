@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from itertools import combinations, pairwise
 from typing import Annotated, Any, ClassVar, Literal
 
@@ -38,10 +38,6 @@ class Link(ConstraintBase):
     """
 
     type: Literal["link"] = Field(description="two points at a given distance")
-    examples: ClassVar[Mapping[int, str]] = {0: "{type: link, between: [A, B], length: 2}"}
-    synonyms: ClassVar[tuple[str, ...]] = ("rod", "distance")
-    understood: ClassVar[tuple[str, ...]] = ("bar", "strut", "stick", "edge")
-    other_keys: ClassVar[Mapping[str, str]] = {"distance": "length"}
     between: Ends = Field(description="the two points")
     length: Value | None = Field(None, description="their distance; may contain t; default: the reference distance")
     facts: ClassVar[TypeFacts] = TypeFacts(distance_rows, joint=True, bars=True, surface=True)
@@ -131,7 +127,6 @@ class Rigid(ConstraintBase):
     """|A - B|^2 - d_AB^2 = 0 for every pair of members: m(m-1)/2 relations."""
 
     type: Literal["rigid"] = Field(description="particles that keep all their distances")
-    examples: ClassVar[Mapping[int, str]] = {0: "{type: rigid, members: [A, B, C]}"}
     members: Annotated[tuple[str, ...], Field(min_length=2)] = Field(description="particles")
     facts: ClassVar[TypeFacts] = TypeFacts(distance_rows, joint=True, bars=True, complete=True)
     symbol: ClassVar[Symbol] = Symbol(run="bars")
@@ -174,13 +169,6 @@ class String(ConstraintBase):
     """
 
     type: Literal["string"] = Field(description="an inextensible string over small pulleys")
-    examples: ClassVar[Mapping[int, str]] = {
-        1: "{type: string, along: [A, [0], B], length: 5}",
-        2: "{type: string, along: [A, [0, 0], B], length: 5}",
-        3: "{type: string, along: [A, [0, 0, 0], B], length: 5}",
-    }
-    understood: ClassVar[tuple[str, ...]] = ("rope", "cable", "cord", "pulley", "belt")
-    other_keys: ClassVar[Mapping[str, str]] = {"between": "along"}
     along: Annotated[tuple[Point, ...], Field(min_length=2)] = Field(description="the points it runs along, in order")
     length: Value | None = Field(None, description="its length; may contain t; default: the reference length")
     facts: ClassVar[TypeFacts] = TypeFacts(string=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
 from typing import ClassVar, Literal
 
@@ -136,12 +136,6 @@ class Revolute(Driven):
     """
 
     type: Literal["revolute"] = Field(description="a hinge")
-    examples: ClassVar[Mapping[int, str]] = {
-        2: "{type: revolute, between: [ground, crank], at: [0, 0]}",
-        3: "{type: revolute, between: [ground, crank], at: [0, 0, 0], axis: [0, 0, 1]}",
-    }
-    synonyms: ClassVar[tuple[str, ...]] = ("hinge", "pin")
-    understood: ClassVar[tuple[str, ...]] = ("pivot", "pinned", "rotary", "rotational", "turning", "bearing")
     holds: ClassVar[Holds] = Holds(("point", "axis"))
     drives: ClassVar[Measure] = ANGLE
     facts: ClassVar[TypeFacts] = TypeFacts(
@@ -166,12 +160,6 @@ class Prismatic(Driven):
     """
 
     type: Literal["prismatic"] = Field(description="a slider")
-    examples: ClassVar[Mapping[int, str]] = {
-        2: "{type: prismatic, between: [ground, crank], axis: [1, 0]}",
-        3: "{type: prismatic, between: [ground, crank], axis: [1, 0, 0]}",
-    }
-    synonyms: ClassVar[tuple[str, ...]] = ("slider",)
-    understood: ClassVar[tuple[str, ...]] = ("translational", "sliding", "linear", "rail", "piston")
     holds: ClassVar[Holds] = Holds(("orientation", "across"))
     drives: ClassVar[Measure] = DISPLACEMENT
     facts: ClassVar[TypeFacts] = TypeFacts(
@@ -194,8 +182,6 @@ class Weld(Joint):
     """The second body moves with the first: 3 relations in the plane, 6 in space."""
 
     type: Literal["weld"] = Field(description="two bodies joined into one")
-    examples: ClassVar[Mapping[int, str]] = {0: "{type: weld, between: [crank, rod]}"}
-    understood: ClassVar[tuple[str, ...]] = ("glue", "glued", "clamp", "fastened", "rigid_joint")
     holds: ClassVar[Holds] = Holds(("orientation", "origin"))
     facts: ClassVar[TypeFacts] = TypeFacts(holds, welded=True, half_turns=True, joint=True)
     symbol: ClassVar[Symbol] = Symbol(
@@ -223,9 +209,6 @@ class Cylindrical(Driven):
     """
 
     type: Literal["cylindrical"] = Field(description="a sleeve on a shaft")
-    examples: ClassVar[Mapping[int, str]] = {
-        3: "{type: cylindrical, between: [ground, crank], at: [0, 0, 0], axis: [0, 0, 1]}"
-    }
     dimensions: ClassVar[tuple[int, ...]] = (3,)
     holds: ClassVar[Holds] = Holds(("axis", "across"))
     drives: ClassVar[Measure] = DISPLACEMENT
@@ -242,10 +225,6 @@ class Screw(Driven):
     """
 
     type: Literal["screw"] = Field(description="a nut on a thread")
-    examples: ClassVar[Mapping[int, str]] = {
-        3: "{type: screw, between: [ground, crank], at: [0, 0, 0], axis: [0, 0, 1], pitch: 2}"
-    }
-    understood: ClassVar[tuple[str, ...]] = ("helical", "thread", "nut")
     pitch: Value = Field(description="the advance along the axis for one turn, right-handed")
     dimensions: ClassVar[tuple[int, ...]] = (3,)
     holds: ClassVar[Holds] = Holds(("axis", "across", "thread"))
@@ -269,10 +248,6 @@ class Universal(LocatedJoint):
     """X1 = X2, and the first axis, carried by the first body, stays perpendicular to the second: 4 relations."""
 
     type: Literal["universal"] = Field(description="a Cardan joint")
-    examples: ClassVar[Mapping[int, str]] = {
-        3: "{type: universal, between: [crank, rod], at: [0, 0, 0], axes: [[1, 0, 0], [0, 1, 0]]}"
-    }
-    understood: ClassVar[tuple[str, ...]] = ("cardan", "hooke", "u-joint", "gimbal")
     axes: tuple[Vector, Vector] | None = Field(
         None, description="two perpendicular axes, the first carried by the first body, the second by the second"
     )
@@ -319,9 +294,6 @@ class Spherical(LocatedJoint):
     """X1 = X2: 3 relations."""
 
     type: Literal["spherical"] = Field(description="a ball in a socket")
-    examples: ClassVar[Mapping[int, str]] = {3: "{type: spherical, between: [crank, rod], at: [0, 0, 0]}"}
-    synonyms: ClassVar[tuple[str, ...]] = ("ball",)
-    understood: ClassVar[tuple[str, ...]] = ("socket", "ball-socket", "ball_and_socket")
     axis: Vector | None = Field(None, description="not needed: the joint allows every rotation")
     dimensions: ClassVar[tuple[int, ...]] = (3,)
     holds: ClassVar[Holds] = Holds(("point",))
@@ -346,9 +318,6 @@ class Planar(Axial):
     """The normal n keeps its direction (2 relations), and (R n).(p2 - p1) - n.(p02 - p01) = 0: 3 relations."""
 
     type: Literal["planar"] = Field(description="a face that slides on a face")
-    examples: ClassVar[Mapping[int, str]] = {
-        3: "{type: planar, between: [ground, crank], at: [0, 0, 0], axis: [0, 0, 1]}"
-    }
     dimensions: ClassVar[tuple[int, ...]] = (3,)
     holds: ClassVar[Holds] = Holds(("axis", "distance"))
     facts: ClassVar[TypeFacts] = TypeFacts(

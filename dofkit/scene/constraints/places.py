@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from typing import ClassVar, Literal
 
 from pydantic import Field
@@ -31,8 +31,6 @@ class Fixed(ConstraintBase):
     """A point: X - a = 0, d relations. A body: every coordinate at its reference value, d(d+1)/2 relations."""
 
     type: Literal["fixed"] = Field(description="a point or a whole body that stays where it is")
-    examples: ClassVar[Mapping[int, str]] = {0: "{type: fixed, point: A}"}
-    understood: ClassVar[tuple[str, ...]] = ("pin", "hinge", "anchor", "clamped", "frozen")
     point: Point | None = Field(None, description="a particle or a point of a body")
     body: str | None = Field(None, description="a body")
     facts: ClassVar[TypeFacts] = TypeFacts(_fixed_rows, joint=True, held=True)
@@ -86,7 +84,6 @@ class Coincident(ConstraintBase):
     """A - B = 0: d relations."""
 
     type: Literal["coincident"] = Field(description="two points that coincide")
-    examples: ClassVar[Mapping[int, str]] = {0: "{type: coincident, between: [A, B]}"}
     between: Ends = Field(description="the two points")
     facts: ClassVar[TypeFacts] = TypeFacts(_coincident_rows, joint=True, merged=True)
     symbol: ClassVar[Symbol] = Symbol(plane=(RING, POINT), space=(RING, POINT))
@@ -119,11 +116,6 @@ class Slot(ConstraintBase):
     """
 
     type: Literal["slot"] = Field(description="a point on a straight line carried by a body")
-    examples: ClassVar[Mapping[int, str]] = {
-        2: "{type: slot, point: A, body: ground, at: [0, 0], axis: [1, 0]}",
-        3: "{type: slot, point: A, body: ground, at: [0, 0, 0], axis: [1, 0, 0]}",
-    }
-    understood: ClassVar[tuple[str, ...]] = ("slider", "groove", "guide", "track")
     point: Point = Field(description="the point")
     body: str = Field(description="the body that carries the line, or ground")
     at: Vector | None = Field(None, description="a point of the line in the reference configuration")
