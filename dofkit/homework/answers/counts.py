@@ -17,6 +17,7 @@ from dofkit.homework.answers.prose import (
     NUMBERS,
     REASONS,
     UNITS,
+    pattern,
     plain,
     takes_back,
     words,
@@ -29,30 +30,16 @@ _COMMA = re.compile(r"(?<=\d),(?=\d)")
 _GROUP = re.compile(r"\s*\(([^()]*)\)")
 #: A factor of a sum: `3(4 - 1) - 2 4`; at the end it may be what the number before it stands for.
 _FACTOR = re.compile(r"\d\([^()]*\d[^()]*\)\s*[-+*/=−·⋅×]")
-_SEGMENT = re.compile(
-    r"[;\n]|,(?!\d)|:(?!=)|(?<=[^\d\s])\.(?=\s)|\s[-–—]\s(?=[^\W\d_]{3})|"
-    r"⇒(?=\s*[^\W\d_]+\s*=)|(?<=\s)(?:so|therefore|hence|thus|also|donc|luego|quindi|portanto|daher|folglich)(?=\s)",
-    re.IGNORECASE,
-)
+_SEGMENT = pattern("counts: segment")
 #: What is replaced by what follows it: `not 3 but 2`.
-_REPLACED = re.compile(
-    r"\b(?:not|nicht|pas|no|non|n[aã]o)\s+(?:\d+|[^\W\d_]+)\s*,?\s*(?:but|sondern|mais|sino|ma|mas)\s+(?=\S)",
-    re.IGNORECASE,
-)
+_REPLACED = pattern("counts: replaced")
 #: A bracket that gives another number under a condition: `(4 with the winch)`.
-_CONDITION = re.compile(
-    r"\s*(?:\d+|[^\W\d_]+)\s+(?:with|without|if|when|mit|ohne|wenn|falls|avec|sans|si|con|sin|senza|com|sem)\b",
-    re.IGNORECASE,
-)
+_CONDITION = pattern("counts: condition")
 #: Brackets of a set, and a number in bold letters of Markdown.
 _BRACKETS, _BOLD = re.compile(r"[{}\[\]]"), re.compile(r"\A\s*\*\*([^*]+)\*\*(?=\s*\Z)")
 #: What bounds a number without telling it; another number beside it in parentheses; a number before a further name.
-_BOUND = re.compile(
-    r"[<>≤≥≠±∈]|!=|\\(?:leq?|geq?|neq?|lt|gt|in)(?![a-z])"
-    r"|\b(?:plus|moins|m[aá]s|menos|pi[uù]|meno|mais)\s+(?:de|di|do|que|d['’])(?![^\W\d_])",
-    re.IGNORECASE,
-)
-_OTHERWISE = re.compile(r"\b(?:or|oder|ou|oppure|rather|actually|eigentlich)\b", re.IGNORECASE)
+_BOUND = pattern("counts: bound")
+_OTHERWISE = pattern("counts: otherwise")
 _BEFORE_NAME = re.compile(r"\s*\d+(?:\s+[^\W\d_]+){1,2}\s*")
 #: In a part of more words `one` may be an article.
 _ARTICLE_WORDS = 2
@@ -63,18 +50,11 @@ _ALONE = re.compile(r"(?<![\w^*/+.-])(?:\d{1,4}|[^\W\d_]+)(?![\w^*/+.])")
 _OTHERS = words("n k f dof x y z t theta phi")
 _NAMED = re.compile(r"\s*([^\W\d_]+)\s*(?:=|[<>≤≥≠∈]|!=|\\(?:leq?|geq?|neq?|lt|gt|in)\b)")
 _SIGNS = re.compile(r"==|=|≈|≅|→|⇒")
-_WORD = re.compile(
-    r"(?:d\.\s?o\.\s?f|[dg]\.\s?d\.\s?l)\.?s?|[^\W\d_]+(?:['’][^\W\d_]+)*(?:-[^\W\d_]+)*(?:_\w+)?",
-    re.IGNORECASE,
-)
+_WORD = pattern("counts: word")
 _OPERATORS = {"minus": "-", "less": "-", "moins": "-", "menos": "-", "meno": "-", "plus": "+", "mas": "+", "piu": "+",
               "times": "*", "mal": "*"}  # fmt: skip
 #: What has or is a number, with words before it: `das Doppelpendel hat`.
-_STATED = re.compile(
-    r"\A[^\d=<>]*\b(?:has|have|had|hat|haben|ha|a|à|possède|possede|possiede|tiene|tem|is|are|ist|sind|est|sont|es|son|è|é|são"
-    r"|gives|leaves|ergibt|bleiben|bleibt|reste|restent|donne)\s+(?=\S)",
-    re.IGNORECASE,
-)
+_STATED = pattern("counts: stated")
 _FIGURE = re.compile(r"[\d½⅓⅔¼¾]")
 _BETWEEN = re.compile(r"\s*\d+\s*[-–]\s*\d+\s*")
 _ENDING = re.compile(r"[\s.!]+$")

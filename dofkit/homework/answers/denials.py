@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Collection
 
-from dofkit.homework.answers.prose import FILLING, REASONS, YES, plain, word_list
+from dofkit.homework.answers.prose import FILLING, REASONS, YES, pattern, plain, rewriting, word_list
 
 #: Answers that there is none which are no sentence of the words below; a dash alone is no answer.
 NONE = word_list("denials: none")
@@ -18,22 +18,11 @@ _DENIALS = word_list("denials: denials")
 _WITH_DENIALS = word_list("denials: with_denials")
 _NONES = word_list("denials: nones")
 #: What is denied, by its beginning; a prefix denies it too.
-_DENIED = re.compile(
-    r"(?P<prefix>non-?|nicht-?|an|un|in)?(?:integr|holonom|olonom|exist|esist|redund|redond|ridond|ueberfluss|uberfluss|superflu|sobra"
-    r"|entbehr|relation|beziehung|equation|gleichung|ecuacion|equazion|equac|dropped|weglass|primitive|stammfunktion"
-    r"|potential)[a-z]*"
-)
+_DENIED = pattern("denials: denied")
 _AROUND = word_list("denials: around")
 _EVERY = word_list("denials: every")
-_NEEDED = re.compile(
-    r"(?:need|necess|requir|independen|unabhangig|notig|benotigt|notwendig|indispens|independant|indipend)"
-)
-_CONTRACTED = (
-    (re.compile(r"\bn['’]y\b"), " "),
-    (re.compile(r"\b(?:l|d|n|c|s|m|t|qu|un|dell|all|nell)['’]"), " "),
-    (re.compile(r"\b(?:can't|cannot)\b"), "can not"),
-    (re.compile(r"n't\b"), " not"),
-)
+_NEEDED = pattern("denials: needed")
+_CONTRACTED = rewriting("denials: contracted")
 
 
 def says_none(text: str, vocabulary: Collection[str] = (), every: bool = False) -> bool:
@@ -83,8 +72,8 @@ def _needs_all(lowered: str, names: Collection[str]) -> bool:
 
 def _tokens(lowered: str) -> list[str]:
     """The words of a text; none where it holds anything else."""
-    for pattern, by in _CONTRACTED:
-        lowered = pattern.sub(by, lowered)
+    for contraction, by in _CONTRACTED:
+        lowered = contraction.sub(by, lowered)
     return [] if re.search(r"[^\w\s'’.,-]|\d|_", lowered) else re.findall(r"[^\W\d_]+(?:-[^\W\d_]+)*", lowered)
 
 

@@ -3,59 +3,39 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from functools import lru_cache
 from typing import NamedTuple
 
 from dofkit.base.errors import TextError
 from dofkit.base.wording import closest
 from dofkit.homework.answers.notation import Script, script_of
-from dofkit.homework.answers.prose import DOUBTS, NO, YES, plain, word_list, words
+from dofkit.homework.answers.prose import DOUBTS, NO, listed, pattern, plain, rewriting, word_list, words
 from dofkit.homework.answers.words import Word, one_text, split_words
 from dofkit.homework.judgement import DoubtError, Given
 
 
 class Terms(NamedTuple):
-    """What a part is called where it holds, and where it does not, each with what people write for it."""
+    """What a part is called where it holds, and where it does not."""
 
     holds: str
     fails: str
-    positive: tuple[str, ...]
-    negative: tuple[str, ...]
 
 
-def _forms(*stems: str) -> tuple[str, ...]:
-    """A stem with the endings that it takes: `scleronom` -> scleronomic, scleronome, scleronoma, ..."""
-    endings = ("", "ic", "ical", "ous", "e", "er", "es", "en", "em", "a", "o", "as", "os", "i", "ica", "ico", "isch")
-    return tuple(stem + ending for stem in stems for ending in endings)
+def _forms(label: str) -> Iterator[str]:
+    """What people write for a label, `scleronom*` with the endings that it takes: scleronomic, scleronome, ..."""
+    for word in listed(f"label_words: {label}"):
+        endings = ("", *listed("label_words: endings")) if word.endswith("*") else ("",)
+        yield from (word.rstrip("*") + ending for ending in endings)
 
 
-TERMS: dict[str, Terms] = {
-    "holonomic": Terms(
-        "holonomic", "non-holonomic", _forms("holonom", "olonom"),
-        _forms("nonholonom", "anholonom", "nichtholonom", "unholonom", "anolonom", "inholonom"),
-    ),
-    "scleronomic": Terms(
-        "scleronomic", "rheonomic",
-        (*_forms("scleronom", "skleronom", "escleronom", "sclernom"), "timeindependent", "zeitunabhangig", "stationary",
-         "stationar"),
-        (*_forms("rheonom", "reonom", "nonscleronom"), "timedependent", "zeitabhangig", "instationar"),
-    ),
-    "bilateral": Terms(
-        "bilateral", "unilateral",
-        ("bilateral", "bilaterale", "bilateraux", "bilatero", "twosided", "doublesided", "zweiseitig",
-         "beidseitig",
-         "equality", "bilateralis", "bilaterales"),
-        ("unilateral", "unilaterale", "unilatero", "onesided", "singlesided", "einseitig", "inequality",
-         "nonbilateral",
-         "unilaterales"),
-    ),
-}  # fmt: skip
+TERMS = {
+    "holonomic": Terms("holonomic", "non-holonomic"),
+    "scleronomic": Terms("scleronomic", "rheonomic"),
+    "bilateral": Terms("bilateral", "unilateral"),
+}
 _WORDS: dict[str, tuple[str, bool]] = {
-    word: (part, holds)
-    for part, terms in TERMS.items()
-    for words, holds in ((terms.positive, True), (terms.negative, False))
-    for word in words
+    word: (part, label == terms.holds) for part, terms in TERMS.items() for label in terms for word in _forms(label)
 }
 #: Labels that may be cut short, and the fewest letters of them: `hol.`, `skl.`
 _STEMS = ("holonom", "scleronom", "skleronom", "rheonom", "bilateral", "unilateral")
@@ -72,71 +52,28 @@ _OTHERS = frozenset({"integrable", "nonintegrable", "noncommutative", "nonlinear
 ALIKE = 0.86
 _HYPHEN = re.compile("[-\u2010-\u2015_]")
 _SLASH = re.compile(r"[/|+()\[\]]|(?<=[a-z])\.(?=[a-z])")
-_SAID = "|".join(sorted({*YES, *NO, "não", "sí", "sì"}))
-_ENDS = r"\b(?=\s*(?:[,;.)\n]|$|(?:and|und|et|y|e)\s|[^\W\d_][\w-]*\s*[:=]))"
 #: `holonomic: yes, scleronomic: no`, and `holonomic not`; `holonomic: yes and no` and such say neither.
-_TOLD = re.compile(rf"([^\W\d_][\w\u2010-\u2015-]*)(\s*[:=]\s*|\s+[-\u2013\u2014]?\s*)({_SAID}){_ENDS}", re.IGNORECASE)
-_TOLD_TWICE = re.compile(
-    rf"\b({_SAID})(?:\s*[,/&|]\s*|\s+(?:and|und|et|y|e|or|oder|ou|o)\s+|\s+)({_SAID}){_ENDS}", re.IGNORECASE
-)
+_TOLD = pattern("label_words: told")
+_TOLD_TWICE = pattern("label_words: told twice")
 #: A label that is corrected; a negation in parentheses, joined to a label or before it.
-_TAKEN_BACK = re.compile(
-    r"[,;]\s*(?:no|not|nope|nein|nicht|non|nao|não|wait|sorry)\s*[,;:!]"
-    r"|\((?:no|not|non|nicht|nao|não|pas|ne|an|in|un|nicht)-?\)\s*-?(?=[^\W\d_])",
-    re.IGNORECASE,
-)
+_TAKEN_BACK = pattern("label_words: taken back")
 #: `rheo-/scleronomic`: the end of a label is said once for two.
-_SHORTENED = re.compile(
-    r"\b((?:non-?|nicht-?|an)?holo|(?:e?scler|skler)o|rh?eo)-(?=\s*(?:[/&]|(?:and|und|et|y|e|or|oder|ou|o)\s))"
-    r"|\b(bi|uni)-(?=\s*(?:[/&]|(?:and|und|et|y|e|or|oder|ou|o)\s))",
-    re.IGNORECASE,
-)
+_SHORTENED = pattern("label_words: shortened")
 #: Words that leave a label open, but not a number.
 _HALF_SAID = words("? half halb semi mezzo demi medio meio")
 #: A negated group may mean each or not all.
-_GROUP_DENIED = re.compile(r"\b(?:not|nicht|non|no|pas|nao|não)\s*\([^()]*\w[\s,&]+\w[^()]*\)", re.IGNORECASE)
-_JOINED = re.compile(r"([^\W\d_][\w\u2010-\u2015-]*)\s*(?:[/&+]|\b(?:and|und|et|y|e|or|oder|ou)\b)\s*\Z", re.IGNORECASE)
+_GROUP_DENIED = pattern("label_words: group denied")
+_JOINED = pattern("label_words: joined")
 #: What a negation that stands apart from the labels may speak of, in the same clause or in brackets.
-_REASONED = re.compile(
-    r"integr|time|zeit|temps|tiempo|tempo|veloc|geschwind|vitess|depend|abhang|explici|explizi|side|seitig|(?<!')\bt\b"
-)
+_REASONED = pattern("label_words: reasoned")
 _BEFORE, _NEAR = 3, 6
 #: A `no` before a whole sentence.
 _REPLY = re.compile(r"\A\s*(?:no|nein|non|nao|não)\s*[,.;:!]", re.IGNORECASE)
 #: A question without its mark: `is it holonomic`.
-_ASKED = re.compile(
-    r"\s*(?:(?:is|are|was)\s+(?:it|this|that|the|they)|ist\s+(?:es|sie|das|die)|est-(?:ce|elle|il)|es\s+esta|é\s+esta)\b",
-    re.IGNORECASE,
-)
+_ASKED = pattern("label_words: asked")
 _ITALIAN_NOR = re.compile(r"\bné\b", re.IGNORECASE)
-_TIMELESS, _TIMED = " timeindependent ", " timedependent "
 #: What is said in several words.
-_PHRASES = tuple(
-    (re.compile(pattern, re.IGNORECASE), by)
-    for pattern, by in (
-        (r"\b(?:does|do|is|are)\s*(?:not|n't)\s+(?:explicitly\s+)?depend(?:ent)?\s+(?:explicitly\s+)?(?:on|of)\s+"
-         r"(?:the\s+)?time\b", _TIMELESS),
-        (r"\b(?:doesn't|does\s+not|no)\s+(?:contain|involve|explicit)\s+(?:the\s+)?(?:time|t)\b(?:\s+dependence)?",
-         _TIMELESS),
-        (r"\bdepend(?:s|ent|ing)?\s+(?:explicitly\s+)?(?:on|of)\s+(?:the\s+)?time\b", _TIMED),
-        (r"\btime[\s-]+independent\b|\bindependent\s+of\s+(?:the\s+)?time\b|\bunabh[aä]ngig\s+von\s+der\s+zeit\b",
-         _TIMELESS),
-        (r"\btime[\s-]+dependent\b", _TIMED),
-        (r"\bexplicit(?:ly)?\s+time[\s-]+(?:dependence|dependent)\b", _TIMED),
-        (r"\b(one|two|single|double)[\s-]+sided\b", r" \1sided "),
-        (r"\bh[aä]ngt\s+nicht\s+(?:explizit\s+)?von\s+der\s+zeit\s+ab\b", _TIMELESS),
-        (r"\bh[aä]ngt\s+(?:explizit\s+)?von\s+der\s+zeit\s+ab\b", _TIMED),
-        (r"\bne\s+d[ée]pend\s+pas\s+(?:explicitement\s+)?du\s+temps\b|\bind[ée]pendante?\s+du\s+temps\b", _TIMELESS),
-        (r"\bd[ée]pend(?:ante?)?\s+(?:explicitement\s+)?du\s+temps\b", _TIMED),
-        (r"\bno\s+depende\s+(?:expl[ií]citamente\s+)?del\s+tiempo\b|\bindependiente\s+del\s+tiempo\b", _TIMELESS),
-        (r"\bdepende\s+(?:expl[ií]citamente\s+)?del\s+tiempo\b|\bdependiente\s+del\s+tiempo\b", _TIMED),
-    )
-)  # fmt: skip
-_ABOUT = {
-    "holonomic": re.compile(r"integr"),
-    "scleronomic": re.compile(r"\btime|zeit|temps|tiempo|tempo\b"),
-    "bilateral": re.compile(r"\bside|seitig|\bcote|\blado|\blato"),
-}
+_PHRASES = rewriting("label_words: phrases")
 #: Of every part that is mentioned whether it is said to hold; both where an answer contradicts itself.
 Labels = Mapping[str, frozenset[bool]]
 _HINT = "the labels are holonomic or non-holonomic, scleronomic or rheonomic, bilateral or unilateral"
@@ -204,8 +141,8 @@ def _split(answer: Given) -> list[Word]:
         .replaced(_TOLD, _answered)
         .replaced(_ITALIAN_NOR, "neither")
     )
-    for pattern, by in _PHRASES:
-        script = script.replaced(pattern, by)
+    for phrase, by in _PHRASES:
+        script = script.replaced(phrase, by)
     script = script.replaced(_SLASH, " ")
     separated = [Word(w.text, script.columns[w.column - 1]) for w in split_words(script.text)]
     return [Word(part, w.column) for w in separated for part in _parted(w.text)]
@@ -248,7 +185,7 @@ def _label(text: str) -> tuple[str, bool] | None:
 
 def mentions(part: str, answer: Given) -> bool:
     """Return whether a part is described in other words, such as `integrable` or `time`."""
-    return isinstance(answer, str) and _ABOUT[part].search(plain(answer)) is not None
+    return isinstance(answer, str) and pattern(f"label_words: about {part}").search(plain(answer)) is not None
 
 
 def word_of(part: str, holds: bool) -> str:

@@ -6,14 +6,12 @@ r"""What people paste, in plain signs: LaTeX with its frames, full-width digits,
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
 from dataclasses import dataclass
 
 from dofkit.base.errors import TextError
 from dofkit.expressions.text.characters import BROKEN_COMMAND, COMMANDS, CONTROLS
 from dofkit.expressions.text.names import ELEMENTARY
-
-By = str | Callable[[re.Match[str]], str]
+from dofkit.homework.answers.prose import Rewriting, rewriting
 
 
 @dataclass(frozen=True)
@@ -43,7 +41,7 @@ class Script:
         columns = (*self.columns[:start], *[self.columns[start]] * len(new), *self.columns[end:])
         return Script(self.text[:start] + new + self.text[end:], columns)
 
-    def replaced(self, pattern: re.Pattern[str], by: By) -> Script:
+    def replaced(self, pattern: re.Pattern[str], by: Rewriting) -> Script:
         """With every match replaced; what stands for it keeps the column where the match began."""
         if pattern.search(self.text) is None:
             return self
@@ -68,20 +66,6 @@ class Script:
 
 #: Stands between equations of which one implies the other.
 ARROW = "⇒"
-_NAME = r"(?:\\[A-Za-z]+|[A-Za-zα-ωΑ-Ω])(?:_\{?\w+\}?)?"
-_DOTTED = rf"\\dd?ot\s*\{{?\s*{_NAME}\s*\}}?"
-#: What d/dt stands before without parentheses: a name, with its dots or in letters.
-_TERM = (
-    rf"{_DOTTED}|(?!\\(?:left|big|Big|frac|tfrac|dfrac|sqrt|sin|cos|tan|exp|ln|log)){_NAME}(?![A-Za-z\d_])"
-    r"|[A-Za-z]{2,}(?:_\w+)?(?!\s*\()"
-)
-#: Where it ends: before a further factor it may stand before both.
-_NO_FACTOR = r"(?=\s*(?:[-+=<>)}\],;\n]|\\right|\Z))"
-_OF_TIME = r"\s*\{\s*\\left\s*\(\s*t\s*\\right\s*\)\s*\}"
-_TWO = r"\s*(?:\^\s*\{?\s*2\s*\}?|\*\*\s*2|²)\s*"
-_FRACTION_2 = rf"\\frac\s*\{{\s*d{_TWO}\}}\s*\{{\s*d\s*t{_TWO}\}}"
-_FRACTION_1 = r"\\frac\s*\{\s*d\s*\}\s*\{\s*d\s*t\s*\}"
-_SLASH_2, _SLASH_1 = rf"(?<![\w\\])d{_TWO}/\s*dt{_TWO}", r"(?<![\w\\])d\s*/\s*dt(?![\w^*²])"
 _WIDE = re.compile("[\uff01-\uff5e]")
 
 
@@ -104,69 +88,16 @@ def _dotted(name: str, mark: str) -> str:
     return f"{stem}{mark}_{index}" if index else f"{stem}_{mark}"
 
 
-_RULES: tuple[tuple[re.Pattern[str], By], ...] = tuple(
-    (re.compile(pattern), by)
-    for pattern, by in (
-        (r"\\(?:begin|end)\s*\{[A-Za-z]+\*?\}(?:\{[lcr|]*\})?", " "),
-        (r"\\\\(?:\[[^\]]*\])?|\\newline\b|<br\s*/?>", "\n"),
-        (r"\\n(?=[A-Za-z])(?!u(?![a-z])|eq?(?![a-z])|abla|ot|onumber|exists|i(?![a-z]))", "\n"),
-        (r"\\left\s*\\?\{|\\\{", "("),
-        (r"\\right\s*\\?\}|\\\}", ")"),
-        (r"\\left\s*\.|\\right\s*\.", ""),
-        (r"\$\$?|\\\(|\\\)|\\\[|\\\]", " "),
-        (r"&\s*(?=\\?[=<>])|(?<==)\s*&", " "),
-        (r"(?<!\\)&", ";"),
-        (r"\\&", " and "),
-        (r"```(?:math|latex)?|`", " "),
-        (r"\\ell(?![A-Za-z])|ℓ", " l "),
-        (r"\\equiv(?![A-Za-z])|\\coloneqq|\\triangleq|≡|:=|≔|≜|≝|＝", "="),
-        (r"\\(?:long)?(?:iff|implies|Rightarrow|Leftrightarrow|Longrightarrow|Longleftrightarrow|rightarrow|to)(?![A-Za-z])"
-         r"|[⇒⇔⟹⟺→⟶↔]|<=>|==?>(?!=)|->", ARROW),
-        (r"\\(?:wedge|land)(?![A-Za-z])|∧", ";"),
-        (r"\\(?:displaystyle|textstyle|nonumber|notag|hfill|limits|strut|mathstrut)(?![A-Za-z])", " "),
-        (r"\\(?:label|tag)\s*\{[^}]*\}", " "),
-        (r"\\[dtc]?frac\s*(\{[^{}]*\}|\d|(?<=\s)[A-Za-z])\s*(\d|[A-Za-z]|(?=\{))",
-         lambda m: rf"\frac{_braced(m[1])}{_braced(m[2])}"),
-        (r"\\[dtc]frac(?![A-Za-z])", r"\\frac"),
-        (r"\\(?:mathrm|text|rm|operatorname)\s*\{\s*d\s*\}\s*|\\dd(?![A-Za-z])\s*|(?<![A-Za-z])ⅆ", "d"),
-        (rf"{_FRACTION_2}\s*({_NAME}){_OF_TIME}", r"Ddt(Ddt(\1))"),
-        (rf"{_FRACTION_1}\s*({_NAME}){_OF_TIME}", r"Ddt(\1)"),
-        (rf"({_NAME}){_OF_TIME}", r"\1"),
-        (rf"(?:{_FRACTION_2}|{_SLASH_2})\s*({_TERM}){_NO_FACTOR}", r"Ddt(Ddt(\1))"),
-        (rf"(?:{_FRACTION_1}|{_SLASH_1})\s*({_TERM}){_NO_FACTOR}", r"Ddt(\1)"),
-        (rf"\\frac\s*\{{\s*d\s*({_DOTTED})\s*\}}\s*\{{\s*d\s*t\s*\}}", r"Ddt(\1)"),
-        (rf"\\frac\s*\{{\s*d\s*\^\s*\{{?\s*2\s*\}}?\s*({_NAME})\s*\}}\s*\{{\s*d\s*t\s*\^\s*\{{?\s*2\s*\}}?\s*\}}",
-         lambda m: f" ddot({m[1]}) "),
-        (rf"\\frac\s*\{{\s*d\s*({_NAME})\s*\}}\s*\{{\s*d\s*t\s*\}}", lambda m: f" dot({m[1]}) "),
-        (rf"\\(dd?ot)\s*\{{\s*\{{?\s*({_NAME})\s*\}}?\s*\}}((?:_\{{?\w+\}}?)?)", lambda m: f" {m[1]}({m[2]}{m[3]}) "),
-        (rf"\\(dd?ot)\s*({_NAME})", lambda m: f" {m[1]}({m[2]}) "),
-        (r"Derivative\(\s*(\w+)(?:\(t\))?\s*,\s*t\s*\)", lambda m: f" {_dotted(m[1], 'dot')} "),
-        (r"Derivative\(\s*(\w+)(?:\(t\))?\s*,\s*(?:\(t\s*,\s*2\)|t\s*,\s*[t2])\s*\)",
-         lambda m: f" {_dotted(m[1], 'ddot')} "),
-        (rf"\b(dd?ot)\(\s*({_NAME})\s*\)", lambda m: f" {_dotted(m[2], m[1])} "),
-        (r"\bd\s*/\s*(?:dt|\(dt\))\s*(?=[(\[{])", "Ddt"),
-        (r"\\frac\s*\{\s*d\s*\}\s*\{\s*d\s*t\s*\}\s*(?:\\left)?\s*(?=[(\[{])", "Ddt"),
-        (r"\{,\}", "."),
-        (r"(?<=[\w)\]])\.(?=[*/^])", ""),
-        (r"\\(?:text|mathrm|textrm|mbox|textit|textbf|mathbf|boldsymbol|bm)\s*\{\s*([^{}]*)\}", r" \1 "),
-        (r"\\pm(?![A-Za-z])", "±"),
-        (r"\\mp(?![A-Za-z])", "∓"),
-        (r"\\(?:quad|qquad)(?![A-Za-z])|\\[,;:! ]", " "),
-        (r"(?:\\Delta(?![A-Za-z])|[Δ∆])\s*\\?(?=[A-Za-zα-ω])", " Δ"),
-        (r"\\stackrel\s*\{\s*!\s*\}\s*\{\s*=\s*\}|\\overset\s*\{\s*!\s*\}\s*\{\s*=\s*\}|=\s*!(?!=)", "="),
-        (r"\\circ(?![A-Za-z])", "°"),
-        (r"\\mathbb\s*\{?R\}?|ℝ", "R"),
-        (r"\\in(?![A-Za-z])", "∈"),
-        (r"([^\s,;=<>]+)\s*(?:∈|\bin\b)\s*\[([^\[\],;]+)[,;]([^\[\],;]+)\]", r"\2 <= \1 <= \3"),
-        (r"[“”„\"«»]", " "),
-        (r"\bsen\b(?=\s*[(\\A-Za-zα-ω])", "sin"),
-        (r"\b(?:tg)\b(?=\s*[(\\A-Za-zα-ω])", "tan"),
-        (r"\b(?:Sin|SIN|Cos|COS|Tan|TAN|Sqrt|SQRT|Exp|EXP)\b", lambda m: m[0].lower()),
-        (r"\b(?:np|numpy|math|sp|sympy)\.(?=[a-z])", ""),
-    )
-)  # fmt: skip
-
-
+_RULES = rewriting(
+    "notation: rules",
+    {
+        "fraction": lambda m: rf"\frac{_braced(m[1])}{_braced(m[2])}",
+        "velocity": lambda m: f" {_dotted(m[1], 'dot')} ",
+        "acceleration": lambda m: f" {_dotted(m[1], 'ddot')} ",
+        "derivative": lambda m: f" {_dotted(m[2], m[1])} ",
+        "small": lambda m: m[0].lower(),
+    },
+)
 _JOINED = (
     (re.compile(r"(?<![\w\\])d\s*\\(?:var)?(?=[A-Za-z])"), " d"),
     (re.compile(rf"(?<![\w\\])d\s+(?!(?:{'|'.join(sorted(ELEMENTARY))})\b)(?=[A-Za-zα-ωΑ-Ω])"), "d"),

@@ -11,7 +11,7 @@ from dofkit.expressions.text import Names, parse_relations, spelled
 from dofkit.expressions.text.characters import GREEK
 from dofkit.expressions.text.tokens import read_word
 from dofkit.homework.answers.notation import ARROW, Script, script_of, with_differentials
-from dofkit.homework.answers.prose import CONCLUSION, plain, takes_back, word_list
+from dofkit.homework.answers.prose import CONCLUSION, pattern, plain, takes_back, word_list
 from dofkit.homework.answers.words import one_text
 from dofkit.homework.judgement import DoubtError, Given
 
@@ -20,47 +20,20 @@ MOST_PIECES = 40
 #: The number of an equation behind it.
 _NUMBER_AFTER = re.compile(r"(?<=\S)\s+\((?:\d{1,2}|[IVX]{1,4}|\*)\)\s*\Z")
 _RELATION = re.compile(r"[=<>≤≥]")
-_ENUMERATED = re.compile(
-    r"(?:(?<=\s)|\A)"
-    r"(?:\((?:\d{1,2}|i{1,3}|iv|v|[a-d])\)|(?:\d{1,2}|i{1,3}|iv|[a-d])\)|\d{1,2}\.(?=\s))"
-    r"\s*(?=[^\s)=+*/^,;])"
-)
-_AND = re.compile(
-    r"\s(?:and|und|et|sowie|also|with|mit|avec|con|where|wobei|wo|où|ou encore|donde|dove|onde|as well as|&)\s",
-    re.IGNORECASE,
-)
+_ENUMERATED = pattern("pieces: enumerated")
+_AND = pattern("pieces: and")
 _CONJUNCTION = re.compile(r"\s(?:y|e)\s")
 _DECIMAL = re.compile(r"(?<=\d),(?=\d)")
 _WORDS = re.compile(r"[^\W\d_]+(?:['’][^\W\d_]+)*")
 _GROUP = re.compile(r"[(\[]([^()\[\]=<>+*/^\d]+)[)\]]\s*\Z|[(\[]([^()\[\]=<>+*/^\d]+)[)\]](?=\s*[;,\n])")
-_INTRODUCED = re.compile(
-    r"\A\s*(?:[^\W\d_]+(?:['’]\s*|\s+)){0,6}"
-    r"(?:is|are|reads?|lautet|lauten|ist|sind|est|sont|es|son|è|e'|é|sono|são|gives?|ergibt|gilt|have|follows|folgt|vaut"
-    r"|s['’]\s?écrit|se\s+escribe|si\s+scrive|escreve-se|donne|da|resulta|risulta|becomes|wird|integrates?|[oO]n\s+a|man\s+erh[äa]lt|wir\s+erhalten|we\s+(?:get|have|find|obtain)|on\s+(?:obtient|trouve)"
-    r"|tenemos|abbiamo|temos)"
-    r"(?:\s+(?:that|to|zu|als|comme|como|come))?\s*:?\s+(?=\S)", re.IGNORECASE,
-)  # fmt: skip
+_INTRODUCED = pattern("pieces: introduced")
 #: That an equation is true at all times, behind it.
-_ALWAYS = re.compile(
-    r"(?<=\S)\s+(?:for\s+(?:all|every)|at\s+all|f[üu]r\s+alle?|zu\s+allen|pour\s+tout|para\s+todo|per\s+ogni|∀|\\forall)"
-    r"\s*(?:t|times?|zeiten|temps|tiempo|tempo)\s*\.?\s*\Z",
-    re.IGNORECASE,
-)
+_ALWAYS = pattern("pieces: always")
 #: What a family of curves is called, before its equation.
-_CURVES = re.compile(
-    r"\A\s*(?:(?:the|die|der|das|les|la|le|las|los|le|gli|i|as|os|family|familie|schar|famille|familia|of|von|de|di|alle)\s+)*"
-    r"(?:straight\s+)?(?:lines?|geraden?|droites?|rectas?|rett[ae]|retas?|circles?|kreise?|cercles?|c[ií]rculos?|cerchi|spheres?"
-    r"|kugeln?|sph[èe]res?|parabol[ae]s?|parabeln?|hyperbol[ae]s?|hyperbeln?|hip[ée]rbolas?|spirals?|spiralen?|ellipsen?|curves?"
-    r"|kurven?|courbes?|curvas?|curve)(?:schar)?\s+(?=[^\s:])",
-    re.IGNORECASE,
-)
+_CURVES = pattern("pieces: curves")
 _TITLED = re.compile(r"\A\s*[^=<>:+*/^]{1,60}:(?!=)\s*(?=\S)")
 _REMARKED = word_list("pieces: remarked")
-_ABOUT_CONSTANT = re.compile(
-    r"\s*(?:with|mit|where|wobei|avec|con|où|donde|dove)?\s*[^\W\d_][\w]{0,8}\s*"
-    r"(?:(?:∈|\bin\b|is|ist|est|es|è|:)\s*(?:R|ℝ|IR|reals?|an?\b|eine?\b|une?\b|una?\b)?[^=<>]{0,40}"
-    r"|=\s*(?:const|konst|cte|cst|cost)[^\W\d_]*\.?)\s*", re.IGNORECASE,
-)  # fmt: skip
+_ABOUT_CONSTANT = pattern("pieces: about a constant")
 #: A letter that is the Spanish or the Italian word for "and", between what may be two equations.
 _BESIDE = re.compile(r"[^\s=+\-*/^(,]\s+[ye]\s+[^\s=+\-*/^),]")
 #: A sign of equality for numbers that are rounded.
@@ -71,16 +44,9 @@ _CONSTANT_SIDE = re.compile(r"(?<==)([^=<>]+)=\s*(?:const|konst|cte|cst)[^\W\d_]
 #: Energies that lead to a Lagrangian: `T = ..., V = ..., L = T - V` is one expression.
 _ENERGY = r"(?:E_?\{?(?:kin|pot|k|p)\w{0,6}\}?|[TVUK](?:_\{?\w{1,4}\}?)?)"
 _STEP = re.compile(rf"\A\s*(?P<name>{_ENERGY})\s*=(?!=)(?P<value>[^=<>]+)\Z")
-_RESULT = re.compile(
-    r"\A\s*(?:(?:so|also|hence|thus|then|therefore|donc|daher|luego|quindi|portanto|damit|folglich)\s*:?\s+)?(?:L|ℒ|\\mathcal\s*\{?L\}?|\\mathscr\s*\{?L\}?)(?:\s*\([^()=]*\))?\s*=(?!=)(?P<value>.+)\Z",
-    re.DOTALL,
-)
+_RESULT = pattern("pieces: result")
 _NAME = re.compile(rf"(?<![\w\\]){_ENERGY}(?!\w)")
-_SYMBOL = r"\\?[A-Za-zα-ωΑ-Ω][A-Za-z0-9α-ωΑ-Ω_{}]{0,7}"
-_FUNCTION = re.compile(
-    rf"\A\s*(?:(?!(?:min|max|mod|gcd)\b)\\?[A-Za-zα-ωΑ-Ω]\w{{0,3}}\s*\(\s*{_SYMBOL}(?:\s*,\s*{_SYMBOL})+\s*\)"
-    rf"|(?:[fghFGH]|phi|Phi|φ|Φ|\\phi|\\Phi|\\varphi)(?:_?\{{?\w{{0,2}}\}}?)?(?:\s*\(\s*{_SYMBOL}\s*\))?)\s*=(?!=)\s*"
-)
+_FUNCTION = pattern("pieces: function")
 _CALLED = re.compile(r"\A\s*\\?([A-Za-zα-ωΑ-Ω]\w*)\s*\(\s*\\?(?:var)?([A-Za-zα-ωΑ-Ω]\w*)\s*\)\s*=(?!=)")
 _POWER_OF_E = re.compile(r"(?<![\w\\])([A-Za-zα-ωΑ-Ω])e(?=\s*(?:\^|\*\*))")
 _CONSTANTS = re.compile(r"\b(const|konst|cst|cte)(?:[^\W\d_]*)\.?(?!\w)", re.IGNORECASE)

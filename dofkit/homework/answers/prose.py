@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from functools import cache, lru_cache
-from importlib.resources import files
+from collections.abc import Callable, Mapping
+from functools import lru_cache
 
-from dofkit.base.documents import read_document
+from dofkit.base.documents import package_table
 
+#: What replaces a match: a template, or a function.
+Rewriting = str | Callable[[re.Match[str]], str]
 _MARKS = re.compile("[\u0300-\u036f]")
+_FRAGMENT = re.compile(r"<([A-Z_\d]+)>")
 
 
 def words(text: str) -> frozenset[str]:
@@ -17,17 +20,33 @@ def words(text: str) -> frozenset[str]:
     return frozenset(text.split())
 
 
-@cache
-def _word_lists() -> dict[str, str]:
-    data = files("dofkit.homework.answers").joinpath("words.yaml").read_bytes()
-    lists: dict[str, str] = read_document(data, "words").value
-    return lists
+def listed(name: str) -> list[str]:
+    """Return a list of `words.yaml` in its order."""
+    text: str = package_table(__package__, "words.yaml")[name]
+    return text.split("|" if "|" in text else None)
 
 
 def word_list(name: str) -> frozenset[str]:
     """Return a list of `words.yaml`."""
-    text = _word_lists()[name]
-    return frozenset(text.split("|")) if "|" in text else words(text)
+    return frozenset(listed(name))
+
+
+def pattern(name: str) -> re.Pattern[str]:
+    """Return a pattern of `patterns.yaml`."""
+    return _compiled(package_table(__package__, "patterns.yaml")[name])
+
+
+def rewriting(name: str, computed: Mapping[str, Rewriting] = {}) -> tuple[tuple[re.Pattern[str], Rewriting], ...]:
+    """Return patterns of `patterns.yaml`, each with what replaces a match; ``computed``: the functions that do."""
+    rows = package_table(__package__, "patterns.yaml")[name]
+    return tuple((_compiled(row["pattern"]), row["by"] if "by" in row else computed[row["computed"]]) for row in rows)
+
+
+def _compiled(text: str) -> re.Pattern[str]:
+    fragments = package_table(__package__, "patterns.yaml")["fragments"]
+    while (place := _FRAGMENT.search(text)) is not None:
+        text = text.replace(place[0], fragments[place[1]])
+    return re.compile("".join(text.splitlines()))
 
 
 @lru_cache(maxsize=4096)
@@ -41,18 +60,8 @@ def plain(text: str) -> str:
     return " ".join(bare.rstrip(".!").split())
 
 
-#: Whole numbers in words; masculine, feminine and counted forms.
-NUMBERS: dict[str, int] = {
-    plain(word): n
-    for n, forms in enumerate((
-        "zero null zéro cero nil", "one ein eins eine einen einer eines un une uno una um uma single",
-        "two zwei deux dos due dois duas", "three drei trois tres tre três", "four vier quatre cuatro quattro quatro",
-        "five fünf fuenf cinq cinco cinque", "six sechs seis sei", "seven sieben sept siete sette sete",
-        "eight acht huit ocho otto oito", "nine neun neuf nueve nove", "ten zehn dix diez dieci dez",
-        "eleven elf onze once undici", "twelve zwölf zwoelf douze doce dodici doze",
-    ))
-    for word in forms.split()
-}  # fmt: skip
+#: Whole numbers in words.
+NUMBERS: dict[str, int] = {plain(word): n for n, forms in enumerate(listed("numbers")) for word in forms.split()}
 #: Nouns that say what is counted: a number of constraints is no number of degrees of freedom, and the other way round.
 CONSTRAINT_NOUNS = word_list("constraint_nouns")
 FREEDOM_NOUNS = word_list("freedom_nouns")
@@ -61,11 +70,7 @@ UNITS = word_list("units") | CONSTRAINT_NOUNS | FREEDOM_NOUNS
 #: What leads to a number.
 LEADING = word_list("leading")
 #: After these comes a reason, which is read over.
-REASONS = re.compile(
-    r"\b(?:because|since|as there|due to|weil|da|denn|wegen|car|parce que|puisque|porque|ya que|pues|perche|perché|"
-    r"poiche|poiché|pois|já que)\b",
-    re.IGNORECASE,
-)
+REASONS = pattern("prose: reasons")
 #: Words that turn a statement round or leave it open.
 NEGATIONS = words("not no nicht kein keine pas nao não non never isn't")
 #: Words that take back what is said, or leave it open.
@@ -73,21 +78,14 @@ DOUBTS = word_list("doubts")
 #: Words of a remark that take back what it follows, where there are few; and what does in any.
 _TAKING_BACK = word_list("taking_back")
 _DOUBTFUL_WORDS = 3
-_UNSURE = re.compile(
-    r"\b(?:not|nicht|pas|no|non|nao)\s+(?:quite\s+|ganz\s+)?(?:sure?|certain|sicher|segur[oa]|sicur[oa]|cert[oa])\b"
-)
+_UNSURE = pattern("prose: unsure")
 #: What draws a conclusion.
-CONCLUSION = re.compile(
-    r"(?:[.,;]|\s)\s*(?:so|therefore|hence|thus|donc|luego|quindi|portanto|daher|folglich)\b\s*:?\s*(?=\S)",
-    re.IGNORECASE,
-)
+CONCLUSION = pattern("prose: conclusion")
 #: What is answered to a word such as `holonomic:`.
 YES = words("yes true ja wahr oui vrai si sim vero verdadero verdadera verdadeiro")
 NO = words("no false not nein falsch nicht non faux falso falsa nao")
 #: Alone they are no answer at all.
-NOTHING_SAID = frozenset(
-    ("", "-", "--", "---", "–", "—", "−", "/", "?", "??", "???", "...", "…", "n/a", "na", "x?", ".")
-)
+NOTHING_SAID = word_list("nothing_said")
 #: Words between words of an answer that say nothing.
 FILLING = word_list("filling")
 

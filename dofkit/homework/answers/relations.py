@@ -17,14 +17,13 @@ from dofkit.expressions.tree import E, Expr, coordinate, parameter
 from dofkit.homework.answers.declared import DeclaredNames, usual_name
 from dofkit.homework.answers.notation import Script
 from dofkit.homework.answers.pieces import Pieces, pieces_of, plainer
+from dofkit.homework.answers.prose import pattern
 from dofkit.homework.judgement import DoubtError
 from dofkit.scene.added_equations import Read, as_text
 
 #: Names of its own in an answer, and ways to read it.
 MOST_OWN, MOST_READINGS = 8, 8
-_OWN = re.compile(
-    r"(?!d\b|dt\b)[A-Za-zα-ωΑ-Ω](?:[A-Za-z]?\d{0,2}|_\w{1,5})|const\w*|konst\w*|cte|cst|cost|kst|lam\w{0,3}|mult\w{0,8}"
-)
+_OWN = pattern("relations: own")
 _CARTESIAN = frozenset("xyzXYZ")
 _LONG = frozenset({*GREEK.values(), "varphi", "vartheta"})
 _RATE = re.compile(r"(.+?)_?d?dot([_0-9]\w*)?")

@@ -14,7 +14,7 @@ from dofkit.base.wording import nearest
 from dofkit.expressions.text import spelled
 from dofkit.homework.answers.denials import affirms, beside_none, says_none
 from dofkit.homework.answers.notation import Script, script_of
-from dofkit.homework.answers.prose import DOUBTS, FILLING, NEGATIONS, NUMBERS, REASONS, plain
+from dofkit.homework.answers.prose import DOUBTS, FILLING, NEGATIONS, NUMBERS, REASONS, pattern, plain
 from dofkit.homework.judgement import DoubtError, Given
 from dofkit.scene.fields import as_written, exact
 
@@ -31,10 +31,7 @@ _TITLE = re.compile(r"\bq(?:_?\{?\w?\}?)?\s*=")
 _COMMAND = re.compile(r"\\(?:var(?=phi|theta|epsilon|rho|sigma))?(?=[A-Za-z])")
 _OR = re.compile(r",?\s+(?:or|oder|ou|oppure)\s+", re.IGNORECASE)
 #: `one of bar and again`, `any one of them`.
-_ANY = re.compile(
-    r"(?:any\s+)?(?:one|eine[rs]?|une?|uno|una|any)(?:\s+(?:of\s+(?:them|these|the\s+\w+)|davon|beliebige|quelconque))?\.?\Z"
-    r"|(?:any\s+|either\s+)?(?:one|eine[rs]?|une?|uno|una)\s+(?:of|von|de|di)\s+(?P<which>.+)"
-)
+_ANY = pattern("words: any")
 _EITHER = re.compile(r"\A\s*(?:either|entweder|soit)\s+", re.IGNORECASE)
 _LOWERED = {0x2080 + n: str(n) for n in range(10)}
 _BRACES = re.compile(r"_\{(\w+)\}")

@@ -19,6 +19,7 @@ from dofkit.expressions.tree import ZERO, Expr
 from dofkit.homework.answers.declared import DeclaredNames
 from dofkit.homework.answers.notation import Script
 from dofkit.homework.answers.pieces import with_energies
+from dofkit.homework.answers.prose import pattern
 from dofkit.homework.answers.relations import AnswerNames, AnswerReading, readings_of, with_explained_names
 from dofkit.homework.judgement import Given, Reading
 from dofkit.homework.key.key import Key
@@ -28,11 +29,7 @@ from dofkit.homework.key.own_names import renamed, with_constants
 #: Names of an answer's own for multipliers.
 _MULTIPLIER = re.compile(r"(lambda|lam|mu|Lambda)_?\w{0,3}|(multiplier|mult)_?\d{0,2}")
 #: What a value is called: `L =`, `p_theta =`, `L = T - V =`.
-_LEADING = re.compile(
-    r"\s*(?:(?:L|T|V|U|E|H|ℒ|\\mathcal\s*\{?L\}?|\\mathscr\s*\{?L\}?|Lagrangian|Lagrangefunktion|p|P|Q|F)(?:_?\{?\\?\w{0,12}\}?)?"
-    r"(?:\s*\([^()=]*\))?(?:\s*[-+]\s*[TVUE](?:_\w+)?)*"
-    r"|(?:d|∂)\s*L\s*/\s*(?:d|∂)\s*[^\s=]{1,20}|\\frac\s*\{\\?[a-z]*\s*L\s*\}\s*\{[^=]{1,40}\})\s*=(?!=)\s*"
-)
+_LEADING = pattern("motion: leading")
 
 
 #: That a value is constant, said after it; nothing in words.
