@@ -54,9 +54,6 @@ class TextError(DofkitError):
         self.column = column
         self.hint = hint
 
-    def __reduce__(self) -> tuple[type[TextError], tuple[str, int | None, str | None]]:
-        return (TextError, (self.message, self.column, self.hint))
-
 
 @dataclass(frozen=True)
 class Fault:
@@ -90,7 +87,19 @@ class Fault:
         return "".join(f"[{key}]" if isinstance(key, int) else f".{key}" for key in keys).removeprefix(".")
 
 
-class SceneError(DofkitError):
+class FaultsError(DofkitError):
+    """An input that cannot be used, with all its faults at once."""
+
+    def __init__(self, faults: tuple[Fault, ...], source: str | None = None) -> None:
+        super().__init__(faults, source)
+        self.faults = faults
+        self.source = source
+
+    def __str__(self) -> str:
+        return "\n".join(map(str, self.faults))
+
+
+class SceneError(FaultsError):
     r"""An input that is not a scene.
 
     Attributes
@@ -110,14 +119,6 @@ class SceneError(DofkitError):
     >>> fault.message, fault.line, fault.column, fault.where
     ('`y` is not declared', 2, 15, ('constraints', 0, 'text'))
     """
-
-    def __init__(self, faults: tuple[Fault, ...], source: str | None = None) -> None:
-        self.faults = faults
-        self.source = source
-        super().__init__("\n".join(str(fault) for fault in faults))
-
-    def __reduce__(self) -> tuple[type[SceneError], tuple[tuple[Fault, ...], str | None]]:
-        return (SceneError, (self.faults, self.source))
 
 
 class NoValueError(DofkitError, ArithmeticError):

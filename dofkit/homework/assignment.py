@@ -13,7 +13,7 @@ from typing import Annotated, Any, Literal, NamedTuple
 from pydantic import Field, ValidationError
 
 from dofkit.base.documents import Document, read_document
-from dofkit.base.errors import ArgumentError, DofkitError, Fault, SceneError
+from dofkit.base.errors import ArgumentError, DofkitError, Fault, FaultsError, SceneError
 from dofkit.base.wording import description_of
 from dofkit.homework.key.key import Convention, Key
 from dofkit.homework.key.own_coordinates import faults_of_own
@@ -45,16 +45,8 @@ Visibility = Literal["visible", "after_due_date", "after_published", "hidden"]
 UnreadablePolicy = Literal["review", "zero"]
 
 
-class AssignmentError(DofkitError):
+class AssignmentError(FaultsError):
     """What is no assignment: all its faults at once."""
-
-    def __init__(self, faults: tuple[Fault, ...], source: str | None = None) -> None:
-        self.faults = faults
-        self.source = source
-        super().__init__("\n".join(str(fault) for fault in faults))
-
-    def __reduce__(self) -> tuple[type[AssignmentError], tuple[tuple[Fault, ...], str | None]]:
-        return (AssignmentError, (self.faults, self.source))
 
 
 class Assignment(WrittenModel):

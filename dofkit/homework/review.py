@@ -15,7 +15,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import NamedTuple
 
-from dofkit.base.errors import DofkitError, Fault
+from dofkit.base.errors import Fault, FaultsError
 from dofkit.base.wording import nearest
 from dofkit.homework.answers.spreadsheet import SpreadsheetRow, decoded, spreadsheet
 from dofkit.homework.answers.submission import clean
@@ -176,16 +176,11 @@ _POINTS = re.compile(r"[+-]?(?:\d{1,9}(?:[.,]\d{1,9})?|\d{1,9}/[1-9]\d{0,8})")
 Asked = Mapping[tuple[str, str], Fraction]
 
 
-class ReviewError(DofkitError):
+class ReviewError(FaultsError):
     """A table of a review that cannot be used: all its faults, each with its line and column."""
 
-    def __init__(self, faults: tuple[Fault, ...], file: str) -> None:
-        self.faults = faults
-        self.file = file
-        super().__init__("\n".join(f"{file}: {fault}" for fault in faults))
-
-    def __reduce__(self) -> tuple[type[ReviewError], tuple[tuple[Fault, ...], str]]:
-        return (ReviewError, (self.faults, self.file))
+    def __str__(self) -> str:
+        return "\n".join(f"{self.source}: {fault}" for fault in self.faults)
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ from collections.abc import Hashable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import islice
-from typing import Any, Literal, NamedTuple
+from typing import Literal, NamedTuple
 
 from dofkit.base.errors import TextError
 from dofkit.base.wording import closest
@@ -93,9 +93,6 @@ class UnknownNameError(TextError):
         """The word as it was written."""
         return self.message.split("`")[1]
 
-    def __reduce__(self) -> tuple[type[UnknownNameError], tuple[str, int | None, str | None]]:
-        return (UnknownNameError, (self.message, self.column, self.hint))
-
 
 class AmbiguousError(TextError):
     """A text of which a part can be read in several ways.
@@ -104,14 +101,16 @@ class AmbiguousError(TextError):
     """
 
     def __init__(
-        self, message: str, column: int, hint: str, readings: tuple[str, ...] = (), span: tuple[int, int] = (1, 1)
+        self,
+        message: str,
+        column: int | None = None,
+        hint: str | None = None,
+        readings: tuple[str, ...] = (),
+        span: tuple[int, int] = (1, 1),
     ) -> None:
         super().__init__(message, column, hint)
         self.readings = readings
         self.span = span
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return (AmbiguousError, (self.message, self.column, self.hint, self.readings, self.span))
 
 
 _PLAIN = re.compile(r"[A-Za-z0-9_]*")
