@@ -290,8 +290,8 @@ class BorderedMinors:
     def vanish(self, f: Expr) -> bool | None:
         """Return whether df depends on the forms: all minors of the forms together with df are 0.
 
-        None where the minors are too long to be written out, and where one is not 0 beside geometric equations, on
-        which it may vanish all the same.
+        None where the minors are too long to be written out, and where one is not 0 but there are geometric
+        equations, on which it may vanish.
         """
         ring, symbols = self.chart.ring, self.chart.symbols
         if not is_short(self.forms):

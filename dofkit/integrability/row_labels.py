@@ -325,7 +325,7 @@ def ball_labels(block: Block, forms: Codistribution, real: RealPoint, result: An
     return span
 
 
-# The reference configuration beside the generic points at which rows are labelled
+# The reference configuration and the generic points at which rows are labelled
 
 
 def reference_points(forms: Codistribution, reference: Mapping[Expr, Expr]) -> list[FieldPoint] | None:

@@ -83,7 +83,7 @@ def _factors_left(e: Expr, sided: bool, positive: frozenset[Expr]) -> list[Expr]
     """Return the factors of the numerator, over the rationals, without those that can be taken out.
 
     Those have no zero, or of an equation cannot rest at 0: analytic functions of time alone, which vanish at single
-    instants only [IsolatedZeros], and declared functions, which are generic, beside another factor.
+    instants only [IsolatedZeros], and declared functions, which are generic, together with another factor.
     """
     try:
         canon, [(top, _)] = quotients_of([e], positive)

@@ -132,7 +132,7 @@ class _Basis:
         return all(answer.follows(i, others) for i in self.supports if self.owners[i] == owner)
 
     def _first_rows(self, kept: set[int]) -> list[int]:
-        """The first independent rows of some constraints: also such as are no pivots beside those of others."""
+        """The first independent rows of some constraints: also those that are no pivots with those of others."""
         if self._rows.supports is not None:
             return [i for i in self.pivots if self.owners[i] in kept]
         numbers = [i for i in _by_kind(self._rows) if self.owners[i] in kept]

@@ -60,7 +60,7 @@ class Sameness(Enum):
 
 
 class Leaves(Enum):
-    """What geometric equations are beside forms: a family of leaves through every point, one leaf, or neither."""
+    """What geometric equations are together with forms: leaves through every point, one leaf, or neither."""
 
     ALL = "ALL"
     ONE = "ONE"

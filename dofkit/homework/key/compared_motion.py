@@ -34,7 +34,7 @@ def euler(e: Expr, name: str) -> Expr:
 def same_lagrangian(answer: Expr, right: Expr, motion: RightMotion) -> bool | None:
     """Is the difference a total derivative by time? Euler's equation of it is then 0 identically, and only then.
 
-    Beside geometric equations it is enough that it gives no other force than the relations do, where they hold.
+    With geometric equations it is enough that it gives no other force than the relations do, where they hold.
     """
     gap = answer - right
     if any(s.args[0] == "acceleration" for s in gap.symbols):
@@ -103,7 +103,7 @@ class Followed(NamedTuple):
 
 @dataclass(frozen=True)
 class AnsweredMotion:
-    """Equations of an answer (each is 0) beside those that are right; ``multipliers``: the answer's names for them."""
+    """Equations of an answer (each is 0) and those that are right; ``multipliers``: the answer's names for them."""
 
     motion: RightMotion
     equations: tuple[Expr, ...]
