@@ -179,8 +179,13 @@ Asked = Mapping[tuple[str, str], Fraction]
 class ReviewError(FaultsError):
     """A table of a review that cannot be used: all its faults, each with its line and column."""
 
+    @property
+    def file(self) -> str | None:
+        """The table, which messages name."""
+        return self.source
+
     def __str__(self) -> str:
-        return "\n".join(f"{self.source}: {fault}" for fault in self.faults)
+        return "\n".join(f"{self.file}: {fault}" for fault in self.faults)
 
 
 @dataclass(frozen=True)

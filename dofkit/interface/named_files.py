@@ -9,6 +9,7 @@ import glob
 import json
 import os
 from collections.abc import Iterable, Iterator
+from importlib import resources
 from pathlib import Path
 
 from dofkit.base import __version__
@@ -66,15 +67,6 @@ def _is_model(path: str) -> bool:
 SECTIONS = ("particles", "bodies", "constraints", "forces", "left_out", "configuration", "picture")
 #: The schema beside a scene; its name is hidden, so that it is not read as a scene of the folder.
 SCHEMA = ".dofkit-schema.json"
-FIRST_SCENE = """\
-title: A pendulum on a cart
-dimension: 2
-parameters: {l: positive}
-particles: [cart, bob]
-constraints:
-- {name: rail, type: equation, text: "y_cart = 0"}
-- {name: rod, type: link, between: [cart, bob], length: l}
-"""
 
 
 def write_converted(file: str, out: Path | None, limits: bool) -> str:
@@ -104,7 +96,7 @@ def write_new(out: Path | None) -> str:
     """
     if out is not None and out.exists():
         raise DofkitError(f"'{out}' exists: name a new file")
-    return _written(FIRST_SCENE, out)
+    return _written(resources.files(__package__).joinpath("first_scene.yaml").read_text(encoding="utf-8"), out)
 
 
 def _written(text: str, out: Path | None) -> str:

@@ -133,15 +133,6 @@ _HEAD = re.compile(r"^\| key .*\n\|[-| ]+\|\n", re.MULTILINE)
 _ROW = re.compile(r"^\| `(\w+)` \|([^|]+)\|([^|]+)\|(.+)\|([^|]+)\|$", re.MULTILINE)
 
 
-#: A small bench, which is loaded when it is opened.
-_SMALL_BENCH = """
-<div class="bench">
-<button type="button" onclick="const bench = this.nextElementSibling; bench.src = bench.dataset.page;
-bench.hidden = false; bench.focus(); this.remove()"><span>Try it here, in your browser: change the disc</span>
-<img src="bench.png" alt="The bench: the scene of the disc, its picture and its report"></button>
-<iframe data-page="bench/index.html?embed#example=disc-rolling-on-plane" title="The bench" hidden></iframe>
-</div>
-"""
 _PICTURE_OF_BENCH = re.compile(r"!\[[^\]]*\]\(dofkit/site/pages/bench\.png\)\n\n")
 
 
@@ -153,7 +144,7 @@ def readme_page(readme: str, has_bench: bool = False) -> SitePage:
     """
     if has_bench:
         title, lead, others = readme.split("\n\n", 2)
-        readme = "\n\n".join((title, lead, _SMALL_BENCH.strip(), _PICTURE_OF_BENCH.sub("", others)))
+        readme = "\n\n".join((title, lead, rendered("bench.html").strip(), _PICTURE_OF_BENCH.sub("", others)))
     return SitePage(
         "index.md", readme.replace("](dofkit/site/pages/", "](").replace("](dofkit/THEOREMS.md)", f"]({THEOREMS})")
     )

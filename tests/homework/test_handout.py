@@ -103,8 +103,8 @@ def test_a_lecturer_is_reported_what_a_sheet_does_not_say() -> None:
 
 def test_every_kind_of_question_can_be_explained() -> None:
     for cls in KINDS.values():
-        assert cls.wanted.endswith(("?", "."))
-        assert cls.how.endswith(".")
+        assert cls.words().wanted.endswith(("?", "."))
+        assert cls.words().how.endswith(".")
 
 
 @pytest.mark.parametrize(

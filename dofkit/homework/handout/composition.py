@@ -150,7 +150,8 @@ class SheetComposer:
             )
         for cls in kinds.values():
             lead = self._text("Example (for a different system):")
-            yield self._text(cls.how) + (f" {lead} `{cls.example}`" if cls.example else "")
+            _, how, example = cls.words()
+            yield self._text(how) + (f" {lead} `{example}`" if example else "")
         yield self._text("Greek letters may be typed directly or as words such as theta and omega. LaTeX is accepted.")
         yield self._text(
             "Decimals are written with a point or a comma; exact numbers such as 1/3 or sqrt(2) are preferred."

@@ -1,4 +1,4 @@
-"""All kinds of questions. A new kind is a class here and a place in `AnyQuestion`."""
+"""All kinds of questions. A new kind is a class here, a place in `AnyQuestion` and a row of ``words.yaml``."""
 
 from __future__ import annotations
 

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from functools import cache
-from typing import Annotated, ClassVar, get_args
+from typing import Annotated, NamedTuple, get_args
 
 from pydantic import BeforeValidator, Field
 
+from dofkit.base.documents import package_table
 from dofkit.base.errors import Fault
 from dofkit.homework.answers.declared import DeclaredNames
 from dofkit.homework.judgement import Given, Judgement, Reading, Sentence, shown_text_of
@@ -46,14 +47,16 @@ Points = Annotated[Number, BeforeValidator(_points)]
 Identifier = Annotated[str, BeforeValidator(identifier), Field(min_length=1, max_length=200)]
 
 
+class QuestionWords(NamedTuple):
+    """What is asked, how an answer is written, and an example of one: a row of ``words.yaml``."""
+
+    wanted: str
+    how: str
+    example: str = ""
+
+
 class QuestionBase(WrittenModel):
     """One question: how an answer is read and judged, and what is right."""
-
-    #: What is asked, with places for the question's own fields; how an answer is written; a formula of another system,
-    #: to show how one looks.
-    wanted: ClassVar[str] = ""
-    how: ClassVar[str] = ""
-    example: ClassVar[str] = ""
 
     id: Identifier = Field(description="its name, unique within the problem")
     text: str | None = Field(None, description="the question in your own words; by default as its kind is asked")
@@ -63,6 +66,11 @@ class QuestionBase(WrittenModel):
     def kind(cls) -> str:
         """Return what it asks for, as written."""
         return _kind(cls)
+
+    @classmethod
+    def words(cls) -> QuestionWords:
+        """Return how it is asked."""
+        return QuestionWords(**package_table(__package__, "words.yaml")[cls.kind()])
 
     @property
     def about(self) -> tuple[str, ...]:
@@ -75,7 +83,8 @@ class QuestionBase(WrittenModel):
         return self._asked(about) if self.text is None else say("{text}", text=self.text)
 
     def _asked(self, about: str) -> Said:
-        return say(self.wanted, about=about) if "{about}" in self.wanted else say(self.wanted)
+        wanted = self.words().wanted
+        return say(wanted, about=about) if "{about}" in wanted else say(wanted)
 
     @classmethod
     def called(cls) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Literal
 
 from pydantic import BeforeValidator, Field
 
@@ -29,12 +29,6 @@ def _names(value: object) -> object:
 class EquationQuestion(QuestionBase):
     """The same constraint(s), in the presence of the scene's others."""
 
-    wanted: ClassVar[str] = "Which equation or equations express the constraint {about}?"
-    how: ClassVar[str] = (
-        "An equation: write * or a space for a product, ^ for a power, sqrt(...), sin(...), xdot for a "
-        "velocity, dx for a differential. Write one equation per line, or separate equations with semicolons."
-    )
-    example: ClassVar[str] = "udot cos(chi) = wdot sin(chi)"
     ask: Literal["equation"] = Field(description="the equation of one constraint, or the equations of several")
     constraint: Annotated[
         tuple[str, ...], Listed, Field(min_length=1), BeforeValidator(_names, json_schema_input_type=str | list[str])
@@ -55,12 +49,6 @@ class EquationQuestion(QuestionBase):
 class IntegralQuestion(QuestionBase):
     """The geometric equation; its constant is named by the student, or left out; ``none`` where there is none."""
 
-    wanted: ClassVar[str] = "Is {about} integrable? If so, give its integral."
-    how: ClassVar[str] = (
-        "An integral: write a relation between the coordinates with a constant, such as C; if there is none, "
-        "write: none."
-    )
-    example: ClassVar[str] = "u w^2 = C"
     ask: Literal["integral"] = Field(description="the integral of a differential constraint")
     constraint: str = Field(description="the name of the constraint")
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 from itertools import product
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
@@ -32,11 +32,6 @@ Part = Literal["holonomic", "scleronomic", "bilateral"]
 class LabelQuestion(QuestionBase):
     """Words in any order; each part that is asked for counts the same."""
 
-    wanted: ClassVar[str] = "Classify the constraint {about}: {parts}?"
-    how: ClassVar[str] = (
-        "Classification: write holonomic or non-holonomic, scleronomic or rheonomic, bilateral or unilateral,"
-        " in any order."
-    )
     ask: Literal["label"] = Field(description="the classification of a constraint")
     constraint: str = Field(description="the name of the constraint")
     parts: Annotated[tuple[Part, ...], Listed, Field(min_length=1)] = Field(
@@ -44,9 +39,8 @@ class LabelQuestion(QuestionBase):
     )
 
     def _asked(self, about: str) -> Said:
-        return say(
-            self.wanted, about=about, parts=", ".join(f"{TERMS[p].holds} / {TERMS[p].fails}" for p in self.parts)
-        )
+        pairs = ", ".join(f"{TERMS[p].holds} / {TERMS[p].fails}" for p in self.parts)
+        return say(self.words().wanted, about=about, parts=pairs)
 
     def readings(self, answer: Given, names: DeclaredNames) -> list[Reading]:
         del names

@@ -74,11 +74,6 @@ class _Value(_MotionQuestion):
 class Lagrangian(_Value):
     """L = T - V, up to a total derivative by time: Euler's equation of the difference is 0 identically."""
 
-    wanted: ClassVar[str] = "What is the Lagrangian?"
-    how: ClassVar[str] = (
-        "A Lagrangian: write xdot for a velocity, ^ for a power, and * or a space for a product; L = is optional."
-    )
-    example: ClassVar[str] = "L = 1/2 M (udot^2 + wdot^2) - M g w"
     ask: Literal["lagrangian"] = Field(description="the Lagrangian")
 
     def _comparison(self, expression: Expr, motion: RightMotion, text: str) -> Judgement:
@@ -132,9 +127,6 @@ class _OfCoordinate(_Value):
 class Momentum(_OfCoordinate):
     """p = dL/d(qdot)."""
 
-    wanted: ClassVar[str] = "What is the generalized momentum conjugate to {about}?"
-    how: ClassVar[str] = "A generalized momentum: write it like a Lagrangian; p = is optional."
-    example: ClassVar[str] = "p = M udot + a chidot"
     code: ClassVar[str] = "WRONG_MOMENTUM"
     ask: Literal["momentum"] = Field(description="a generalized momentum")
 
@@ -145,9 +137,6 @@ class Momentum(_OfCoordinate):
 class GeneralizedForce(_OfCoordinate):
     """dL/dq and the non-conservative forces."""
 
-    wanted: ClassVar[str] = "What is the generalized force for {about}?"
-    how: ClassVar[str] = "A generalized force: write it like a Lagrangian; Q = is optional."
-    example: ClassVar[str] = "Q = -kappa u^3"
     code: ClassVar[str] = "WRONG_FORCE"
     ask: Literal["force"] = Field(description="a generalized force")
 
@@ -158,9 +147,6 @@ class GeneralizedForce(_OfCoordinate):
 class MotionQuestion(_MotionQuestion):
     """The equations of motion, up to factors and linear combinations."""
 
-    wanted: ClassVar[str] = "What are the equations of motion?"
-    how: ClassVar[str] = "Equations of motion: write xddot for an acceleration, one equation per line."
-    example: ClassVar[str] = "M uddot + kappa u^3 = 0"
     ask: Literal["motion"] = Field(description="an equation of motion, or all of them")
     coordinate: str | None = Field(None, description="the coordinate whose equation is asked for")
 

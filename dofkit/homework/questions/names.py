@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import ClassVar, Literal
+from typing import Literal
 
 from pydantic import Field
 
@@ -19,9 +19,6 @@ from dofkit.homework.sentences import say
 class Coordinates(QuestionBase):
     """Names of an independent and complete set of generalized coordinates."""
 
-    wanted: ClassVar[str] = "Give a complete set of independent generalized coordinates."
-    how: ClassVar[str] = "Coordinates: write their names, separated by commas; define any coordinate of your own."
-    example: ClassVar[str] = "chi, where u = a cos(chi), w = a sin(chi)"
     ask: Literal["coordinates"] = Field(description="an independent and complete set of generalized coordinates")
 
     def readings(self, answer: Given, names: DeclaredNames) -> list[Reading]:
@@ -52,11 +49,6 @@ class Coordinates(QuestionBase):
 class Redundant(QuestionBase):
     """A maximal redundant set of constraints: without all of them nothing changes."""
 
-    wanted: ClassVar[str] = (
-        "Which constraints are redundant? Give a largest set that may be removed without changing the motion."
-    )
-    how: ClassVar[str] = "Constraints: write their names, separated by commas; if there are none, write: none."
-    example: ClassVar[str] = "bar_17, bar_23"
     ask: Literal["redundant"] = Field(description="a largest set of redundant constraints")
 
     def readings(self, answer: Given, names: DeclaredNames) -> list[Reading]:

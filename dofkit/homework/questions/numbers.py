@@ -94,8 +94,6 @@ class NumberQuestion(QuestionBase):
 class Dof(NumberQuestion):
     """f: the dimension of the configuration space, or of the velocities where the assignment's convention says so."""
 
-    wanted: ClassVar[str] = "How many degrees of freedom does the system have?"
-    how: ClassVar[str] = "The number of degrees of freedom: write an integer."
     ask: Literal["dof"] = Field(description="the number of degrees of freedom")
 
     def advice(self, key: Key) -> str:
@@ -115,8 +113,6 @@ class Dof(NumberQuestion):
 class VelocityDof(NumberQuestion):
     """The number of independent velocities."""
 
-    wanted: ClassVar[str] = "How many independent generalized velocities are there?"
-    how: ClassVar[str] = "The number of independent generalized velocities: write an integer."
     ask: Literal["velocity_dof"] = Field(description="the number of independent generalized velocities")
 
     def advice(self, key: Key) -> str:
@@ -145,8 +141,6 @@ class CountQuestion(NumberQuestion):
 
     letters: ClassVar[frozenset[str]] = frozenset({"k", "r", "m", "nc", "constraints", "bindungen"})
     foreign: ClassVar[frozenset[str]] = FREEDOM_NOUNS
-    wanted: ClassVar[str] = "How many independent holonomic constraint equations are there?"
-    how: ClassVar[str] = "The number of constraint equations: write an integer."
     ask: Literal["k"] = Field(description="the number of independent holonomic equations")
 
     def advice(self, key: Key) -> str:
