@@ -1,39 +1,31 @@
-"""The relations of an answer, in every way in which it can be read, with the names that it brings with it."""
+"""The relations of an answer, in every way in which it can be read."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from typing import NamedTuple
 
 from dofkit.base.errors import TextError
 from dofkit.expressions.calculus import substitute
-from dofkit.expressions.text import AmbiguousError, Comparison, Names, UnknownNameError, parse_relations, spelled
-from dofkit.expressions.text.characters import GREEK
-from dofkit.expressions.text.names import in_words, unmarked
-from dofkit.expressions.text.tokens import read_word
-from dofkit.expressions.tree import E, Expr, coordinate, parameter
+from dofkit.expressions.text import AmbiguousError, Comparison, Names, UnknownNameError, parse_relations
+from dofkit.expressions.text.names import in_words
+from dofkit.expressions.tree import Expr, coordinate, parameter
 from dofkit.homework.answers.declared import DeclaredNames, usual_name
 from dofkit.homework.answers.notation import Script
 from dofkit.homework.answers.pieces import Pieces, pieces_of, plainer
-from dofkit.homework.answers.prose import pattern
+from dofkit.homework.answers.vocabulary import AnswerNames
 from dofkit.homework.judgement import DoubtError
 from dofkit.scene.added_equations import Read, as_text
 
-#: Names of its own in an answer, and ways to read it.
-MOST_OWN, MOST_READINGS = 8, 8
-_OWN = pattern("relations: own")
-_CARTESIAN = frozenset("xyzXYZ")
-_LONG = frozenset({*GREEK.values(), "varphi", "vartheta"})
-_RATE = re.compile(r"(.+?)_?d?dot([_0-9]\w*)?")
+#: Ways to read an answer.
+MOST_READINGS = 8
 _RELATION = re.compile(r"[=<>≤≥]")
 #: Of a quotient of two numbers before a factor everybody reads the first way: `1/2(m v^2)` is half of it.
 _HALF = re.compile(r"\(\d+/\d+\)\*\(")
 #: Names of constants of integration.
 _OF_INTEGRATION = re.compile(r"[CcKk](?:_?\d)?|[A-Za-z]+_?0|const\w*|konst\w*|c[st]t?e?")
-#: Words that are one name, never a product.
-_WHOLE = re.compile(r"const|konst|cst|cte|lam|mu|mult", re.IGNORECASE)
 _DEFINITION = re.compile(r"\s*(?P<name>\\?[A-Za-zα-ω]+(?:_\w+)?)\s*(?:\^\s*\{?2\}?|²)?\s*:?=(?!=)(?P<value>[^=]+)\Z")
 _WORDS = re.compile(r"\\?[A-Za-zα-ωΑ-Ω]+(?:_\w+)?")
 _FUNCTION_FIRST = re.compile(r"\s*\w+\((?P<inside>[^()]+)\)\*")
@@ -97,122 +89,6 @@ class AnswerReading(NamedTuple):
         """As equations for a scene."""
         moving = any(s.args[0] not in ("coordinate", "parameter", "time") for s in self.symbols)
         return Read(tuple(as_text(c) for c in self.relations), constants, self.text, moving)
-
-
-@dataclass(frozen=True)
-class AnswerNames:
-    """The declared names, the answer's own, and spellings of declared ones.
-
-    ``choice``: which reading was taken of each kind of doubt, the same
-    in the whole answer; ``signs_apart``: `±` makes two readings, not one product. ``usual``: words that are read as the
-    usual names of quantities, such as `v_x`; ``frequencies``: omega may also be a frequency.
-    """
-
-    names: Names
-    undeclared: tuple[str, ...] = ()
-    moving: frozenset[str] = frozenset()
-    meant: Mapping[str, str] = field(default_factory=dict)
-    places: Mapping[str, int] = field(default_factory=dict)
-    choice: Mapping[str, int] = field(default_factory=dict)
-    accelerations: bool = False
-    signs_apart: bool = False
-    euler: bool = False
-    usual: Mapping[str, Expr] = field(default_factory=dict)
-    rank: int = 0
-    frequencies: bool = False
-
-    def as_names(self) -> Names:
-        """The words of this vocabulary as the names of a text; `e` is Euler's number unless it is declared."""
-        base = self.names
-        more: dict[str, Expr] = {**({"e": E} if self.euler else {}), **self.usual}
-        for word, name in self.meant.items():
-            more[word] = coordinate(name) if name in base.coordinates else base.parameters[name]
-        more.update({name: parameter(name) for name in self.undeclared if name not in self.moving})
-        return Names(
-            base.coordinates | self.moving,
-            {**base.parameters, **more},
-            base.functions,
-            base.arguments,
-            base.allow_time,
-            base.allow_velocities,
-            self.accelerations,
-        )
-
-    def declares(self, word: str) -> bool:
-        """Return whether a word has a meaning already."""
-        return (
-            (self.euler and word == "e")
-            or word in self.undeclared
-            or word in self.usual
-            or self.names.lookup.meaning(word) is not None
-        )
-
-    def with_word(self, word: str) -> AnswerNames | None:
-        """The same with what an unknown word stands for; None where it can stand for nothing."""
-        word = in_words(word)
-        if word == "e" and not self.euler:
-            return replace(self, euler=True)
-        rate = _RATE.fullmatch(word)
-        stem = rate[1] + (rate[2] or "") if rate else word[1:] if word[0] == "d" and len(word) > 1 else ""
-        if stem and stem in self.undeclared and stem not in self.moving:
-            return replace(self, moving=self.moving | {stem})
-        twin = self._twin(word) or (stem and self._twin(stem))
-        if twin and word not in self.meant:
-            return replace(self, meant={**self.meant, (word if self._twin(word) else stem): twin})
-        quantity = None if word in self.usual else usual_name(word, self._names_with_accelerations)
-        if quantity is not None:
-            return replace(self, usual={**self.usual, word: quantity})
-        if len(self.undeclared) == MOST_OWN:
-            return None
-        letter = self._letter(word)
-        if letter is not None:
-            return letter
-        if stem and rate is not None and self._may_be_own(stem):
-            return replace(self, undeclared=(*self.undeclared, stem), moving=self.moving | {stem})
-        if stem and self._may_be_own(stem) and spelled(stem) in _LONG:
-            return replace(self, undeclared=(*self.undeclared, stem), moving=self.moving | {stem})
-        return replace(self, undeclared=(*self.undeclared, word)) if self._may_be_own(word) else None
-
-    @property
-    def _names_with_accelerations(self) -> Names:
-        return replace(self.names, allow_accelerations=self.accelerations)
-
-    def _twin(self, word: str) -> str | None:
-        """The one declared name that differs by capitals and `_` only, or the one coordinate that begins so: `x_P`."""
-        declared = (*self.names.coordinates, *self.names.parameters)
-        twins = {name for name in declared if unmarked(name) == unmarked(word)}
-        twins = twins or {name for name in self.names.coordinates if name.partition("_")[0] == word}
-        return twins.pop() if len(twins) == 1 else None
-
-    def _may_be_own(self, word: str) -> bool:
-        """Return whether it is a short name; z, and ``x_A`` if x is declared, are meant for coordinates."""
-        if word in _CARTESIAN:
-            return False
-        stem, _, index = word.partition("_")
-        if word != (bare := word.rstrip("123456789")) and spelled(bare) in self.names.coordinates:
-            return False
-        declared = stem in self.names.coordinates or stem in self.names.parameters
-        fits = bool(_OWN.fullmatch(word)) or spelled(stem).rstrip("0123456789") in _LONG
-        return fits and not (declared and index and not index.isdigit())
-
-    def _letter(self, word: str) -> AnswerNames | None:
-        """With the one letter of a word that is no name, where all the others are: `Cx` is C x, `Ce^x` C e^x."""
-        if len(word) < 2 or spelled(word) in _LONG or "_" in word or _WHOLE.match(word):
-            return None
-        candidates = []
-        for base in (self, replace(self, euler="e" in word or self.euler)):
-            for letter in dict.fromkeys(["", *(c for c in word if c.isalpha() and not base.declares(c))]):
-                grown = base.with_word(letter) if letter else base
-                if grown is None:
-                    continue
-                try:
-                    read_word(word, grown.as_names().lookup, 1, False)
-                except TextError:
-                    continue
-                candidates.append(grown)
-            if candidates:
-                break
-        return candidates[0] if len(candidates) == 1 else None
 
 
 def with_explained_names(readings: Iterable[AnswerReading], names: DeclaredNames) -> list[AnswerReading]:

@@ -11,7 +11,8 @@ from dofkit.classification.dependence.implication import follows
 from dofkit.classification.freedom.preparation import prepared
 from dofkit.expressions.text import Comparison, parse_expression, to_text, valid_name
 from dofkit.homework.answers.declared import DeclaredNames
-from dofkit.homework.answers.relations import AnswerNames, readings_of
+from dofkit.homework.answers.relations import readings_of
+from dofkit.homework.answers.vocabulary import AnswerNames
 from dofkit.homework.answers.words import is_none, lists_only, names_of
 from dofkit.homework.judgement import DoubtError, Given
 from dofkit.homework.key.key import Key

@@ -20,7 +20,8 @@ from dofkit.homework.answers.declared import DeclaredNames
 from dofkit.homework.answers.notation import Script
 from dofkit.homework.answers.pieces import with_energies
 from dofkit.homework.answers.prose import pattern
-from dofkit.homework.answers.relations import AnswerNames, AnswerReading, readings_of, with_explained_names
+from dofkit.homework.answers.relations import AnswerReading, readings_of, with_explained_names
+from dofkit.homework.answers.vocabulary import AnswerNames
 from dofkit.homework.judgement import Given, Reading
 from dofkit.homework.key.key import Key
 from dofkit.homework.key.own_coordinates import extended, offered

@@ -11,7 +11,8 @@ from pydantic import BeforeValidator, Field
 from dofkit.base.errors import Fault
 from dofkit.homework.answers.declared import DeclaredNames
 from dofkit.homework.answers.notation import Script
-from dofkit.homework.answers.relations import AnswerNames, is_constant_name, readings_of, with_explained_names
+from dofkit.homework.answers.relations import is_constant_name, readings_of, with_explained_names
+from dofkit.homework.answers.vocabulary import AnswerNames
 from dofkit.homework.answers.words import is_none
 from dofkit.homework.judgement import Given, Judgement, Reading, Sentence, needs_review, right, wrong
 from dofkit.homework.key.compared_equations import EquationComparison, equations_of
