@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Literal
 
 from dofkit.base.errors import TextError
+from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import MINUS_ONE, ONE, Expr, children, fn, nodes, num, power
 
 #: Constant exponents, powers of ten included, and the product of nested ones.
@@ -146,3 +147,7 @@ class Comparison:
     right: Expr
     column: int
     domain: tuple[Requirement, ...] = ()
+
+    def substituted(self, table: Mapping[Expr, Expr]) -> Comparison:
+        """Return the relation with expressions in place of symbols."""
+        return Comparison(substitute(self.left, table), self.relation, substitute(self.right, table), self.column)

@@ -8,7 +8,6 @@ from dataclasses import replace
 from typing import NamedTuple
 
 from dofkit.base.errors import TextError
-from dofkit.expressions.calculus import substitute
 from dofkit.expressions.text import AmbiguousError, Comparison, Names, UnknownNameError, parse_relations
 from dofkit.expressions.text.names import in_words
 from dofkit.expressions.tree import Expr, coordinate, parameter
@@ -78,10 +77,7 @@ class AnswerReading(NamedTuple):
         used = {n: {s.args[0] for s in self.symbols if s.args[-1] == n} for n in names}
         moving = frozenset(n for n, kinds in used.items() if kinds - {"coordinate"})
         still = {coordinate(n): parameter(n) for n, kinds in used.items() if kinds and n not in moving}
-        relations = tuple(
-            Comparison(substitute(c.left, still), c.relation, substitute(c.right, still), c.column)
-            for c in self.relations
-        )
+        relations = tuple(c.substituted(still) for c in self.relations)
         undeclared = (*self.undeclared, *(n for n, kinds in used.items() if kinds))
         return self._replace(relations=relations, undeclared=undeclared, moving=self.moving | moving)
 

@@ -61,12 +61,7 @@ def with_constants(relations: Sequence[Comparison], names: Sequence[str], scene:
         for c in kept:
             value = _defined(c, symbol, names, scene)
             if value is not None:
-                table = {symbol: value}
-                kept = [
-                    Comparison(substitute(o.left, table), o.relation, substitute(o.right, table), o.column)
-                    for o in kept
-                    if o is not c
-                ]
+                kept = [o.substituted({symbol: value}) for o in kept if o is not c]
                 break
     return kept
 
@@ -215,8 +210,5 @@ def renamed(
     for chosen in permutations(free, len(reading.undeclared)):
         names = dict(zip(reading.undeclared, chosen, strict=True))
         table = {ex.parameter(undeclared): ex.parameter(name) for undeclared, name in names.items()}
-        relations = tuple(
-            Comparison(substitute(c.left, table), c.relation, substitute(c.right, table), c.column)
-            for c in reading.relations
-        )
+        relations = tuple(c.substituted(table) for c in reading.relations)
         yield reading._replace(relations=relations, undeclared=()), names

@@ -7,13 +7,12 @@ as one more coordinate and these relations as constraints, from which x and y ar
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
 from dofkit.base.errors import TextError
 from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import substitute
 from dofkit.expressions.text import Comparison, spelled, to_text
 from dofkit.expressions.tree import ZERO, Expr
 from dofkit.homework.answers.declared import DeclaredNames
@@ -118,7 +117,7 @@ def posed_motion(reading: AnswerReading, key: Key, value: bool) -> PosedMotion:
         key = extended(key, other, defining)
     if defined == set(other) and claims:
         table = {ex.parameter(n): ex.coordinate(n) for n in other}
-        return PosedMotion(key, tuple(_substituted(c, table) for c in claims), multipliers)
+        return PosedMotion(key, tuple(c.substituted(table) for c in claims), multipliers)
     guesses = tuple(
         PosedMotion(key, guess.relations, multipliers)
         for guess, _ in renamed(reading._replace(undeclared=other), key.scene, key.declared.constants)
@@ -171,7 +170,3 @@ def _defines(c: Comparison, undeclared: Sequence[str]) -> bool:
         and all(s.args[0] in ("coordinate", "parameter", "time") for s in symbols)
         and any(s.args[0] == "coordinate" and s.args[1] not in undeclared for s in symbols)
     )
-
-
-def _substituted(c: Comparison, table: Mapping[Expr, Expr]) -> Comparison:
-    return Comparison(substitute(c.left, table), c.relation, substitute(c.right, table), c.column)
