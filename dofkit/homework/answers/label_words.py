@@ -45,7 +45,7 @@ _GUESSED = [w for w in _WORDS if w[:3] in ("hol", "scl", "skl", "rhe", "bil", "u
 _LONGEST = 24
 _NEGATIONS = word_list("label_words: negations")
 #: Words over which a negation reaches.
-_FILLING = word_list("label_words: filling")  # fmt: skip
+_FILLING = word_list("label_words: filling")
 #: Words of other meanings that look like labels.
 _OTHERS = frozenset({"integrable", "nonintegrable", "noncommutative", "nonlinear", "nonzero", "integrabel"})
 #: How alike a misspelt word and the label that is meant are.
