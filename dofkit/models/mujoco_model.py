@@ -172,7 +172,6 @@ def _bodies(compiled: Compiled) -> Iterator[dict[str, Any]]:
             "static": int(model.body_weldid[i]) == 0,
             "joints": [int(j) for j in range(model.body_jntadr[i], model.body_jntadr[i] + model.body_jntnum[i])],
             "centre": _list(data.xipos[i]),
-            "origin": _list(data.xpos[i]),
             "mass": float(model.body_mass[i]),
             "inertia": [_list(row) for row in turn @ np.diag(model.body_inertia[i]) @ turn.T],
         }
