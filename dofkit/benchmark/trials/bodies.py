@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from typing import Any
 
-from dofkit.benchmark.trials.construction import KnownScene, every, known_scene, numbered, tables
+from dofkit.benchmark.trials.construction import KnownScene, known_scene, numbered, tables
 from dofkit.benchmark.trials.frameworks import hinged_loop, loop, tree
 
 Place = Sequence[Any]
@@ -122,8 +122,8 @@ def rolling() -> Iterator[KnownScene]:
         rolls = [{"type": "roll", "body": body, "radius": f"{k + 1}"} for k, body in enumerate(bodies)]
         held = [{"type": "equation", "text": f"y_b{k} = {k}"} for k in range(n)]
         for name, d, constraints, dof, labels in (
-            ("balls on a plane", 3, rolls, 5 * n, every(numbered(n), False)),
-            ("discs on a line", 2, rolls, n, every(numbered(n), True)),
+            ("balls on a plane", 3, rolls, 5 * n, dict.fromkeys(numbered(n), False)),
+            ("discs on a line", 2, rolls, n, dict.fromkeys(numbered(n), True)),
             ("balls along lines", 3, [*rolls, *held], 4 * n, None),
         ):
             scene = {"dimension": d, "bodies": bodies, "constraints": constraints}

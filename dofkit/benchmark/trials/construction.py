@@ -148,11 +148,6 @@ def numbered(number: int, first: int = 1) -> list[str]:
     return [f"c{i}" for i in range(first, first + number)]
 
 
-def every(names: Sequence[str], value: bool) -> dict[str, bool]:
-    """Return the same label of every constraint."""
-    return dict.fromkeys(names, value)
-
-
 def labels(values: Sequence[bool] | None) -> dict[str, bool] | None:
     """Return whether each of the constraints c1, c2, ... is holonomic."""
     return None if values is None else dict(zip(numbered(len(values)), values, strict=True))

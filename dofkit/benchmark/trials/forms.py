@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from dofkit.benchmark.trials.construction import KnownScene, Row, every, known_scene, numbered, scene_of, tabled, tables
+from dofkit.benchmark.trials.construction import KnownScene, Row, known_scene, numbered, scene_of, tabled, tables
 
 
 def together() -> Iterator[KnownScene]:
@@ -41,7 +41,7 @@ def hidden_by_time() -> Iterator[KnownScene]:
         ]
         for name, before, after, dof, because in rows:
             constraints = [*before, *rates, *after]
-            labels = None if dof < 0 else every(numbered(len(constraints)), dof == 0)
+            labels = None if dof < 0 else dict.fromkeys(numbered(len(constraints)), dof == 0)
             about = f"{n} coordinates, {name}", scene_of(names, *constraints), because, n
             yield known_scene(*about, dof=dof, integrability=labels)
 
@@ -89,11 +89,11 @@ def chained_forms() -> Iterator[KnownScene]:
         closing = "as many forms as coordinates but one leave one direction: all integrate together"
         # name, the forms, dof, which integrate (None: not asked), because
         members: list[tuple[str, list[str], int, dict[str, bool] | None, str]] = [
-            (f"{n - 1} forms, open", forms, n + 1, every(numbered(n - 1), False),
+            (f"{n - 1} forms, open", forms, n + 1, dict.fromkeys(numbered(n - 1), False),
              "Goursat's normal form: each derived system loses one form, down to none"),
-            (f"{n} forms, closed", [*forms, f"dq{n} - q0 dq0 = 0"], 1, every(numbered(n), True), closing),
+            (f"{n} forms, closed", [*forms, f"dq{n} - q0 dq0 = 0"], 1, dict.fromkeys(numbered(n), True), closing),
             (f"{n} forms, closed by a Riccati equation", [*forms, f"dq{n} - (q0 + q{n}^2) dq0 = 0"], 1,
-             every(numbered(n), True), closing),
+             dict.fromkeys(numbered(n), True), closing),
             (f"{n - 1} forms, one of them closed", broken, n + 1 - half,
              {f"c{k}": k <= half for k in range(1, n)} if half < n - 1 or n > 2 else None,
              "what comes before a form in q0 alone integrates with it; what comes after is a chain of its own"),
@@ -109,12 +109,12 @@ def trailers() -> Iterator[KnownScene]:
     for n in (0, 1, 2, 4, 8, 16, 24):
         scene = car(n)
         about = f"a car with {n} trailers", scene, controllable, n + 2
-        labels = every(numbered(n + 2), False)
+        labels = dict.fromkeys(numbered(n + 2), False)
         yield known_scene(*about, dof=n + 4, integrability=labels)
         if n <= 3:
             held = {**scene, "constraints": ["phi = 0", *scene["constraints"]]}
             about = f"a car with {n} trailers that does not steer", held, straight, n + 2
-            labels = every(numbered(n + 3), True)
+            labels = dict.fromkeys(numbered(n + 3), True)
             yield known_scene(*about, dof=1, integrability=labels)
 
 
