@@ -28,7 +28,7 @@ PIXELS, COLUMNS = 440.0, 88
 
 
 class ShownScene(NamedTuple):
-    """A scene with its text (``written``), its picture in two sizes, its report in one line (``answer``) and in full."""
+    """A scene with its text (``written``), its picture in two sizes, its report in a line (``answer``) and in full."""
 
     name: str
     folder: str
