@@ -203,9 +203,7 @@ def format_of_path(path: Path, formats: Collection[str], asked: str | None = Non
     """
     ending = path.suffix.lower()
     if not formats:
-        raise ArgumentError(
-            f"'{path}' has the ending of a file, but a folder is written: give a name without an ending"
-        )
+        raise ArgumentError(f"'{path}' has a file extension, but a folder is written: give a name without an ending")
     if not ending and asked is not None:
         return asked
     if not ending:

@@ -78,6 +78,4 @@ def explained(method: str, question: str, outcome: str, reason: str = "") -> str
     row = next((row for name, row in methods().items() if name == method), None)
     cannot = f"{method} does not answer this" if row is None else row.cannot
     uses = row.uses.items() if row is not None and outcome == "timed out" else ()
-    return " ".join(
-        [sentence(reason or cannot), *(f"Its cost: {use.costs}." for asked, use in uses if asked == question)]
-    )
+    return " ".join([sentence(reason or cannot), *(f"Its cost: {use.costs}." for q, use in uses if q == question)])

@@ -29,9 +29,8 @@ def _substituted(node: Expr, mapping: Mapping[Expr, Expr], memo: dict[Expr, Expr
         return mapping[node]
     substituted = memo.get(node)
     if substituted is None:
-        substituted = memo[node] = rebuild(
-            node, tuple([_substituted(child, mapping, memo) for child in children(node)])
-        )
+        operands = tuple([_substituted(child, mapping, memo) for child in children(node)])
+        substituted = memo[node] = rebuild(node, operands)
     return substituted
 
 

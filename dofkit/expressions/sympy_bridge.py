@@ -77,9 +77,8 @@ class Bridge:
         if kind == "time":
             return self.time
         if kind == "parameter":
-            symbol = (
-                self._sympy.Symbol(name, positive=True) if e in self._positive else self._sympy.Symbol(name, real=True)
-            )
+            assumption = "positive" if e in self._positive else "real"
+            symbol = self._sympy.Symbol(name, **{assumption: True})
             self._parameters[symbol] = e
             return symbol
         orders = {"coordinate": 0, "velocity": 1, "differential": 1, "acceleration": 2}

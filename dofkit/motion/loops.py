@@ -96,9 +96,8 @@ class LoopSampler:
         configurations = self.sampler.values_along(poses)
         names = (self.columns[pair[0]], self.columns[pair[1]])
         displacement = self._named(self.relations.between(self.start, poses[-1]))
-        return Loop(
-            names, size, tuple(configurations), displacement, self._named(area * self.bracket(pair, centre[-1]))
-        )
+        prediction = self._named(area * self.bracket(pair, centre[-1]))
+        return Loop(names, size, tuple(configurations), displacement, prediction)
 
     def _along(self, pair: tuple[int, int], corners: Array) -> list[Pose]:
         """Return the poses along a polygon of two coordinates. Raises one of `FAULTS` if it cannot be followed."""

@@ -81,18 +81,14 @@ def _name_at(value: Any, where: Path) -> str:
 def _undeclared_at_once(faults: list[Fault], value: Mapping[str, Any]) -> list[Fault]:
     """Return ``faults``; undeclared bodies of a scene without bodies become one fault, and particles too."""
     for section, what in (("bodies", "body"), ("particles", "particle")):
-        missing = {
-            fault: match[1] for fault in faults if (match := re.match(f"there is no {what} '(.+)'$", fault.message))
-        }
+        missing = {f: match[1] for f in faults if (match := re.match(f"there is no {what} '(.+)'$", f.message))}
         if not missing or value.get(section) or any((fault.hint or "").startswith("did") for fault in missing):
             continue
         first, names = next(iter(missing)), list(dict.fromkeys(missing.values()))
         listed = ", ".join(names[:MOST_DECLARED]) + (", ..." if len(names) > MOST_DECLARED else "")
         message = first.message if len(names) == 1 else f"the {section} {listed} are not declared"
         joint_fault = replace(first, message=message, hint=f"declare `{section}: [{listed}]`")
-        faults = [
-            joint_fault if fault is first else fault for fault in faults if fault is first or fault not in missing
-        ]
+        faults = [joint_fault if f is first else f for f in faults if f is first or f not in missing]
     return faults
 
 

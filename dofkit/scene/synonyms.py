@@ -83,9 +83,7 @@ def _one_section(value: dict[str, Any], places: dict[Path, Path]) -> dict[str, A
         merged: Any = value[odd[0]]
     else:
         written = [(key, i) for key in sections for i in range(len(value[key]))]
-        moved: dict[Path, Path] = {
-            ("constraints", n): path for n, path in enumerate(written) if ("constraints", n) != path
-        }
+        moved: dict[Path, Path] = {("constraints", n): p for n, p in enumerate(written) if p != ("constraints", n)}
         names = [(path, places.pop(path)) for path in list(places) if path[0] in _SECTIONS]
         moved_to: dict[Path, Path] = {path: ("constraints", n) for n, path in enumerate(written)}
         places.update(moved)

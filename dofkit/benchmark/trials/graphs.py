@@ -41,9 +41,8 @@ def cliques() -> Iterator[KnownScene]:
         needed = [(i, j) for i, j in links if i < d]
         for name, chosen in (("all pairs", links), ("only the links that are needed", needed)):
             over = [(i, j) for i, j in chosen if i >= d]
-            yield _linked_scene(
-                f"{n} joints in dimension {d}, {name}", (n, d, chosen), because, n, d * (d + 1) // 2, over
-            )
+            rigid = d * (d + 1) // 2
+            yield _linked_scene(f"{n} joints in dimension {d}, {name}", (n, d, chosen), because, n, rigid, over)
 
 
 #: (dimension, m, n, dof, number of redundant links or None if not derived) for m joints linked with n others.

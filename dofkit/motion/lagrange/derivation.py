@@ -66,9 +66,7 @@ class Derived:
         unknown = [*(ex.sym("acceleration", n) for n in model.names), *multipliers]
         rows = [[diff(e, s) for s in unknown] for e in self.equations.values()]
         rows += [[*(slopes[n] for n in model.names), *(ZERO for _ in multipliers)] for slopes in model.slopes]
-        ranks = [
-            rank_of_rows(matrix, p) for (matrix, p), _ in zip(_at_points(model, rows), range(POINTS), strict=False)
-        ]
+        ranks = [rank_of_rows(m, p) for (m, p), _ in zip(_at_points(model, rows), range(POINTS), strict=False)]
         return bool(rows) and len(ranks) == POINTS and max(ranks) < len(rows)
 
     def sympys_method(self) -> Any:

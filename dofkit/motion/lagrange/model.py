@@ -111,9 +111,7 @@ def lagrange_model(study: Examined, energy: Energy, names: Names, eliminates: bo
             model = _built(study, energy, elimination, coordinates)
             if model is not None:
                 return model
-    raise NoEquationsError(
-        "it is undecided which of the constraints are independent, so no equations of motion are given"
-    )
+    raise NoEquationsError("it is undecided which constraints are independent, so no equations of motion are given")
 
 
 def _agreeing(

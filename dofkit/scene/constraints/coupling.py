@@ -103,9 +103,8 @@ class Coupling(ConstraintBase):
                 "a coupling is either one equation or bounds", "text", hint="write a second coupling for the other one"
             )
             return
-        if "=" not in senses and not self._within_half_turns(
-            world, [relation.expr for relation in relations], measured
-        ):
+        bounds = [relation.expr for relation in relations]
+        if "=" not in senses and not self._within_half_turns(world, bounds, measured):
             return
         for relation in relations:
             if relation.sense == "=" and not self._fits(world, relation.expr, measured):
