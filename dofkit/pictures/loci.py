@@ -37,9 +37,8 @@ def level_lines(value: Callable[[Array, Array], Array], box: Sequence[float], co
     contours: Any = contour_generator(x, y, z, name="mpl2014")
     segments = contours.lines(0.0)[0]
     usual = float(np.median(np.abs(z.compressed())))
-    return [
-        _thinned(s, DRAWN if count == GRID else FEW_DRAWN) for s in segments if len(s) > 1 and _is_zero(value, s, usual)
-    ]
+    most = DRAWN if count == GRID else FEW_DRAWN
+    return [_thinned(s, most) for s in segments if len(s) > 1 and _is_zero(value, s, usual)]
 
 
 def _is_zero(value: Callable[[Array, Array], Array], line: Array, usual: float) -> bool:

@@ -108,9 +108,8 @@ class ClipMaker:
         """Return a motion with such steps that it reaches the edge of the picture in half of `SHORT` steps."""
         speed = float(np.linalg.norm(sampler.relations.step_of(motion.rates)))
         step = float(np.clip(2 * FAR / REACH * self._reach(motion) * speed / SHORT, STEP / 10, 2 * STEP))
-        return sampler.free_motion(
-            motion.rates, held, self._steps(SHORT if sampler.relations.forms else 2 * SHORT), step
-        )
+        steps = self._steps(SHORT if sampler.relations.forms else 2 * SHORT)
+        return sampler.free_motion(motion.rates, held, steps, step)
 
     def _at_singularity(self, sampler: MotionSampler) -> Iterator[Clip]:
         """Yield the finite motions that leave a singular configuration, and the other infinitesimal motions."""
