@@ -1,4 +1,4 @@
-"""A bound on the time of one scene: long loops call `check`, which raises when the time is used up.
+"""A limit on the time of one scene: long loops call `check`, which raises when the time is used up.
 
 `gc_rarely` saves time: expressions are trees, and searching millions of them for garbage takes half of it.
 """
@@ -15,15 +15,15 @@ from typing import TypeVar
 
 from dofkit.base.errors import DofkitError
 
-#: Seconds for one scene where the caller gives no budget.
+#: Seconds for one scene if the caller gives no budget.
 DEFAULT_SECONDS = 60.0
-#: Past that, work has so many seconds (or that part of the time, if it is more) to see it and to end by itself.
+#: After its time, work has this many seconds (or this part of the time, if it is more) to end by itself.
 GRACE_SECONDS, GRACE_PART = 1.0, 0.25
-#: rows * columns * min(rows, columns) of a dense matrix that is still eliminated, and how much of that a second does.
+#: The largest work rows * columns * min(rows, columns) of a dense elimination, and the work done in a second.
 MAX_WORK, WORK_A_SECOND = 30_000_000_000, 3e9
-#: New objects before garbage is searched for, and rounds before older objects are.
+#: Python's thresholds for garbage collection: new objects, and collections until older objects are searched too.
 GC_THRESHOLD = (200_000, 20, 20)
-#: Between two looks at the clock so many functions are called or return: more often it takes longer than they do.
+#: `checked_calls` reads the clock once in this many calls and returns, so that reading takes little time.
 CALLS = 64
 OUT_OF_TIME = "the time allowed for the scene was used up"
 
@@ -36,12 +36,12 @@ _clock: ContextVar[Callable[[], float] | None] = ContextVar("clock", default=Non
 
 
 class OutOfTimeError(DofkitError):
-    """The time allowed for the scene was used up; what was asked is undecided."""
+    """The time allowed for the scene was used up; the question is undecided."""
 
 
 @contextmanager
 def gc_rarely() -> Iterator[None]:
-    """Search for garbage rarely within the block."""
+    """Collect garbage rarely within the block."""
     before = gc.get_threshold()
     gc.set_threshold(*map(max, before, GC_THRESHOLD))
     try:
@@ -62,9 +62,9 @@ def _now() -> float:
 
 @contextmanager
 def by_processor(seconds: float) -> Iterator[None]:
-    """Let `check` raise after so many seconds of this thread's processor time, whatever else the machine does.
+    """Within the block `check` raises after ``seconds`` of this thread's processor time.
 
-    Limits within the block are counted so too, so that the same work ends at the same place.
+    Inner limits count processor time too, so that the same work ends at the same point on a busy machine.
     """
     clock, token = _clock.set(thread_time), _until.set(thread_time() + seconds)
     try:
@@ -76,7 +76,7 @@ def by_processor(seconds: float) -> Iterator[None]:
 
 @contextmanager
 def limited(seconds: float) -> Iterator[None]:
-    """Let `check` raise after so many seconds, or at an outer limit if that comes first."""
+    """Within the block `check` raises after ``seconds``, or at an outer limit if that comes first."""
     token = _until.set(min(_until.get(), _now() + seconds))
     try:
         yield
@@ -85,19 +85,19 @@ def limited(seconds: float) -> Iterator[None]:
 
 
 def remaining_seconds() -> float:
-    """Return the seconds that are left."""
+    """Return the seconds until `check` raises, at least 0; infinity without a limit."""
     return max(0.0, _until.get() - _now())
 
 
 @contextmanager
 def part(share: float) -> Iterator[None]:
-    """Let `check` raise after this share of the time that is left, so that the remainder serves what comes after."""
+    """Within the block `check` raises after this share of the remaining time; the remainder is for later work."""
     with limited(share * remaining_seconds()):
         yield
 
 
 def unless_late(work: Callable[[], T], otherwise: T) -> T:
-    """Return the result of ``work``, or ``otherwise`` where the time is used up before."""
+    """Return the result of ``work``, or ``otherwise`` if the time is used up first."""
     try:
         return work()
     except OutOfTimeError:
@@ -105,7 +105,7 @@ def unless_late(work: Callable[[], T], otherwise: T) -> T:
 
 
 def check() -> None:
-    """Raise OutOfTimeError where the time is used up."""
+    """Raise OutOfTimeError if the time is used up."""
     if _now() > _until.get():
         raise OutOfTimeError(OUT_OF_TIME)
 
@@ -113,12 +113,12 @@ def check() -> None:
 @contextmanager
 def checked_calls() -> Iterator[None]:
     """Run `check` at every `CALLS`-th call or return in the block: for a library whose loops never run it."""
-    before, asked = sys.getprofile(), 0
+    before, events = sys.getprofile(), 0
 
     def count(*_event: object) -> None:
-        nonlocal asked
-        asked += 1
-        if asked % CALLS == 0:
+        nonlocal events
+        events += 1
+        if events % CALLS == 0:
             check()
 
     sys.setprofile(count)
@@ -129,7 +129,7 @@ def checked_calls() -> Iterator[None]:
 
 
 def affordable(rows: int, columns: int) -> None:
-    """Raise OutOfTimeError for a matrix too large for elimination in the time of a scene, or in what is left of it."""
+    """Raise OutOfTimeError if the elimination of a dense matrix takes too long, or longer than the remaining time."""
     if rows * columns * min(rows, columns) > min(MAX_WORK, WORK_A_SECOND * remaining_seconds()):
         raise OutOfTimeError(f"a matrix of {rows} rows and {columns} columns is too large here")
 

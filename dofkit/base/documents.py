@@ -1,6 +1,6 @@
 """YAML and JSON documents: plain exact values with the line and column of everything in them, and values as YAML.
 
-A decimal never becomes a float. The location of a value is worked out when it is first asked for.
+A decimal never becomes a float. Locations are computed when one is first needed.
 """
 
 from __future__ import annotations
@@ -20,20 +20,20 @@ from dofkit.base.yaml_events import DEEPEST, Path, Places, compose
 
 __all__ = ["DEEPEST", "MOST_BYTES", "Document", "Path", "on_one_line", "package_table", "read_document", "yaml_text"]
 
-#: A longer input is refused.
+#: The most characters of an input; a longer one is refused.
 MOST_BYTES = 64_000_000
 _FORBIDDEN = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
 _BREAK = re.compile(r"\r\n|\r|\n")
-#: What stands for one character of a double-quoted text.
+#: One character of a double-quoted text, perhaps escaped.
 _CHARACTER = re.compile(r"\\u[0-9a-fA-F]{4}|\\x[0-9a-fA-F]{2}|\\U[0-9a-fA-F]{8}|\\.|[^\\\n]")
-#: A text that YAML 1.2 reads as itself without quotes, in brackets too.
+#: A text that YAML 1.2 reads as itself without quotes, also inside brackets, unless it is one of `_RESERVED`.
 _PLAIN = re.compile(r"[A-Za-z_][\w./-]*(?: [\w./-]+)*", re.ASCII)
-_WORDS = frozenset({"null", "true", "false", "nan", "inf"})
+_RESERVED = frozenset({"null", "true", "false", "nan", "inf"})
 
 
 @dataclass(frozen=True)
 class Document:
-    """What was read: its ``value``, its ``text`` and the ``faults`` of its form, in spite of which it has a value."""
+    """A document that was read: its ``value``, its ``text`` and the ``faults`` of its syntax."""
 
     name: str
     text: str
@@ -43,7 +43,7 @@ class Document:
 
     @cached_property
     def places(self) -> Places:
-        """The location of everything in the document."""
+        """The locations of all values in the document: {path: (offset of the value, offset of its key or -1)}."""
         return self.locate()
 
     @cached_property
@@ -51,14 +51,14 @@ class Document:
         return [0, *(match.end() for match in _BREAK.finditer(self.text))]
 
     def line(self, number: int) -> str:
-        """Return the text of a line, counted from 1."""
+        """Return the text of line ``number``, counted from 1; empty for a line that does not exist."""
         starts = [*self._line_starts, len(self.text)]
         return self.text[starts[number - 1] : starts[number]].rstrip("\r\n") if 1 <= number < len(starts) else ""
 
     def place(self, path: Path, *, key: bool = False, column: int | None = None) -> tuple[int, int]:
-        """Return line and column of the value at ``path``, of its key, or of a column within its text.
+        """Return (line, column) of the value at ``path``, of its ``key``, or of a ``column`` within its text.
 
-        The location of what is absent is that of the value in which it is missing.
+        An absent value has the location of the innermost value on its path that is present.
         """
         present = next((path[:n] for n in range(len(path), -1, -1) if path[:n] in self.places), ())
         start, key_at = self.places.get(present, (0, -1))
@@ -69,13 +69,13 @@ class Document:
         return self.position(start)
 
     def position(self, offset: int) -> tuple[int, int]:
-        """Return line and column of an offset into the text."""
+        """Return (line, column), counted from 1, of an offset into the text."""
         line = bisect_right(self._line_starts, offset)
         return line, offset - self._line_starts[line - 1] + 1
 
 
 def read_document(data: bytes | str, name: str) -> Document:
-    """Return one document. It never raises for its content: a value of None and ``faults`` say what is wrong."""
+    """Return the document in ``data``. Unreadable content does not raise: the value is None, with ``faults``."""
     text, fault = _decoded(data)
     if fault is None and len(text) > MOST_BYTES:
         fault = 0, Fault(f"the file is longer than {MOST_BYTES // 10**6} MB", hint="split the scene")
@@ -92,13 +92,14 @@ def read_document(data: bytes | str, name: str) -> Document:
 
 @cache
 def package_table(package: str, file: str) -> Any:
-    """Return the value of a YAML file of a package, which nobody changes."""
+    """Return the value of a YAML file in a package; it is kept, and must not be changed."""
     return read_document(files(package).joinpath(file).read_bytes(), file).value
 
 
 def _document(
     name: str, text: str, value: Any, faults: list[tuple[int, Fault]], locate: Callable[[], Places]
 ) -> Document:
+    """Return the document with its faults, given as (offset, fault), sorted and with line and column."""
     document = Document(name, text, value, (), locate)
     placed = []
     for offset, fault in sorted(faults, key=lambda pair: pair[0]):
@@ -108,6 +109,7 @@ def _document(
 
 
 def _decoded(data: bytes | str) -> tuple[str, tuple[int, Fault] | None]:
+    """Return (text, None), or for bytes that are not UTF-8 (beginning of the text, (offset, fault))."""
     if isinstance(data, str):
         return data.removeprefix("\ufeff"), None
     try:
@@ -120,9 +122,9 @@ def _decoded(data: bytes | str) -> tuple[str, tuple[int, Fault] | None]:
 
 
 def _offset_of_column(source: str, column: int) -> int:
-    """Return where a column of a value stands in its source, quotes and escapes counted: 1 is 1 in ``"x"``.
+    """Return the offset of a value's ``column`` in the ``source`` of the value: 1 for column 1 of ``"x"``.
 
-    0 for a block scalar and where the value has several lines.
+    It is 0 for a block scalar and for a value of several lines.
     """
     if source[:1] in ("|", ">"):
         return 0
@@ -169,12 +171,12 @@ def _yaml_lines(value: Mapping[str, Any], sections: tuple[str, ...]) -> Iterator
 
 
 def on_one_line(value: Any) -> str:
-    """Return a value as YAML on one line."""
+    """Return a value as YAML on one line; a text is quoted only if YAML would read it as something else."""
     if isinstance(value, Mapping):
         return "{" + ", ".join(f"{on_one_line(key)}: {on_one_line(part)}" for key, part in value.items()) + "}"
     if isinstance(value, (list, tuple)):
         return "[" + ", ".join(map(on_one_line, value)) + "]"
     if isinstance(value, str):
-        is_plain = _PLAIN.fullmatch(value) and value.lower() not in _WORDS
+        is_plain = _PLAIN.fullmatch(value) and value.lower() not in _RESERVED
         return value if is_plain else json.dumps(value, ensure_ascii=False)
     return str(value) if isinstance(value, Decimal) else json.dumps(value)

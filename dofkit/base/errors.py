@@ -1,4 +1,4 @@
-"""What can go wrong: faults of what a person gave, each with its place and a hint, and what has no value."""
+"""Errors: faults of an input, each with its location and a hint, and expressions without a value."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from dofkit.base.display import panel_of
 
 
 class DofkitError(Exception):
-    """The base of every error that dofkit raises on purpose.
+    """The base class of all errors that dofkit raises on purpose.
 
     Examples
     --------
@@ -27,9 +27,9 @@ class DofkitError(Exception):
 
 
 class ArgumentError(DofkitError, TypeError, ValueError):
-    """A function was given what it does not take: the message says what that was, and what is taken.
+    """An argument that a function does not accept: the message says what it was, and what is accepted.
 
-    It is a TypeError and a ValueError too, for those who expect one.
+    It is also a TypeError and a ValueError.
     """
 
 
@@ -60,8 +60,8 @@ class Fault:
     """One fault of an input: what is wrong, its location, and what to do next.
 
     ``where`` is the path of keys and list positions from the top of the scene, ``line`` and
-    ``column`` count from 1 (None where the input has no lines, such as a Python mapping). ``see`` is a word that
-    `dofkit explain` knows more about.
+    ``column`` count from 1 (None for input without lines, such as a Python mapping). ``see`` is a word that
+    `dofkit explain` explains.
 
     >>> print(Fault("`dz` is not declared", ("constraints", 0, "text")))
     constraints[0]: `dz` is not declared
@@ -80,7 +80,7 @@ class Fault:
 
     @property
     def location(self) -> str:
-        """Line and column, or else the path in the mapping; the text of a constraint stands for the constraint."""
+        """Line and column as text, else the path; that of a constraint's ``text`` ends with the constraint."""
         if self.line is not None:
             return f"line {self.line}, column {self.column}"
         keys = self.where[:-1] if self.where[-1:] == ("text",) else self.where
@@ -122,7 +122,7 @@ class SceneError(FaultsError):
 
 
 class NoValueError(DofkitError, ArithmeticError):
-    """An expression or exact arithmetic has no value here; `dofkit.exact.ring.program` has the other reasons."""
+    """An expression or exact arithmetic has no value at a point; `dofkit.exact.ring.program` defines more reasons."""
 
     reason: ClassVar[str] = "an expression has no value here"
 

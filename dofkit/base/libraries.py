@@ -1,4 +1,4 @@
-"""Libraries that are imported when something of them is first used (SPEC 1)."""
+"""numpy and networkx, each imported when an attribute is first used (SPEC 1)."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ HAS_NUMPY = find_spec("numpy") is not None
 
 
 class _LaterModule(ModuleType):
-    """A module that is imported when something of it is first used, also one that is installed meanwhile."""
+    """A module that is imported when an attribute is first used; it may be installed in the meantime."""
 
     def __getattr__(self, name: str) -> Any:
         library = import_module(self.__name__)

@@ -1,4 +1,4 @@
-"""Limits of this process: clock, processor time and memory. On a platform without `resource` nothing is bounded."""
+"""Limits of this process: clock, processor time and memory. On a platform without `resource` there are none."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ from types import FrameType
 if sys.platform != "win32":
     import resource
 
-#: Seconds beyond the limit of a job, so that the parent is the one that ends it.
+#: Seconds beyond the limit of a job until the system ends the process, so that usually the parent ends it first.
 SPARE = 2.0
-#: A process that holds more than this share of its memory is replaced after the job.
+#: A process that uses more than this share of its allowed memory is replaced after the job.
 GROWN = 0.25
 
 
 def allow(seconds: float) -> None:
-    """Let this process run for so many more seconds of clock and processor time; then the system ends it.
+    """Limit this process to ``seconds`` more of clock and of processor time; then the system ends it.
 
-    This is for a worker whose parent is gone while it is inside a library: it notices nothing else.
+    This ends a worker whose parent is gone while the worker is inside a library call.
     """
     if sys.platform != "win32":
         finite = seconds <= threading.TIMEOUT_MAX
@@ -33,22 +33,22 @@ def allow(seconds: float) -> None:
 
 
 def allow_processor(seconds: float) -> None:
-    """Let this process use so many more seconds of processor time; then the system ends it."""
+    """Limit this process to ``seconds`` more of processor time; then the system ends it."""
     if sys.platform != "win32":
         finite = math.isfinite(seconds)
         set_limit(resource.RLIMIT_CPU, math.ceil(time.process_time() + seconds) if finite else resource.RLIM_INFINITY)
 
 
 class LateError(BaseException):
-    """The processor time allowed was used up. Nothing but who allowed it should catch this."""
+    """The processor time of an `interrupting` block is used up; only the caller of `interrupting` should catch this."""
 
 
 @contextmanager
 def interrupting(seconds: float) -> Iterator[None]:
-    """Raise LateError in this block once it has used so many seconds of processor time, where there are such timers.
+    """Raise LateError within the block after ``seconds`` of processor time, on platforms with such timers.
 
-    Where a library's C code handles no signal, the system ends the process `SPARE` seconds later. Only in the main
-    thread.
+    If a library's C code does not handle the signal, the system ends the process `SPARE` seconds later. For the main
+    thread only.
     """
     if sys.platform == "win32":
         yield
@@ -69,7 +69,7 @@ def _raise_late(number: int, frame: FrameType | None) -> None:
 
 
 def set_limit(what: int, soft: int) -> None:
-    """Set a soft limit, as far as the hard one lets it; some systems refuse some of them."""
+    """Set the soft limit of the resource ``what``, at most its hard limit; a refusal by the system is ignored."""
     if sys.platform != "win32":
         with suppress(ValueError, OSError):
             _, hard = resource.getrlimit(what)
@@ -79,9 +79,9 @@ def set_limit(what: int, soft: int) -> None:
 
 
 def has_grown(memory: int) -> bool:
-    """Return whether this process holds much of the memory that it may have; False where the system does not say.
+    """Return whether this process uses more than `GROWN` of ``memory`` bytes; False if the system does not say.
 
-    The peak that `resource` knows does not serve: it begins with that of the parent.
+    The peak of `resource` cannot be used, because it includes the parent's.
     """
     try:
         with open("/proc/self/statm", encoding="ascii") as pages:

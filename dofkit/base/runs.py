@@ -19,20 +19,20 @@ from typing import Any, Protocol, TypeVar
 from dofkit.base.errors import DofkitError
 from dofkit.base.workers import MEMORY, Job, JobOutcome, Worker, can_fork
 
-#: Calls under way for each worker, and the most bytes that wait for one.
+#: The most calls under way, and the most bytes of waiting items, for each worker.
 AHEAD, MOST_BYTES = 32, 4_000_000
-#: How often a call is given to another machine where the first is lost, and seconds to reach the scheduler.
+#: How often a call is repeated on another machine if one is lost, and seconds to reach the scheduler.
 RETRIES, CONNECTING = 10, 10.0
-#: Seconds after which results are committed; a killed run loses those of as many seconds.
+#: Seconds after which results are committed; a killed run loses at most the results of this time.
 COMMITTING = 0.25
 
 
 class StoppedError(DofkitError):
-    """Work was stopped, or nobody could be found to do it."""
+    """The run was stopped, or the cluster cannot do the work."""
 
 
 class Pool(AbstractContextManager["Pool"]):
-    """Up to ``workers`` workers (one for each core where that is not said), each started when it is first needed."""
+    """Up to ``workers`` workers (default: one for each core), each started when it is first needed."""
 
     def __init__(self, workers: int | None = None, memory: int = MEMORY, modules: Sequence[str] = ()) -> None:
         self.workers = tuple(Worker(memory, modules) for _ in range(workers or cores()))
@@ -45,18 +45,18 @@ class Pool(AbstractContextManager["Pool"]):
         self._closed = False
 
     def fork(self) -> None:
-        """Start all workers as copies of this process, where that is safe: in milliseconds, with all it has imported.
+        """Start all workers as copies of this process if that is safe: in milliseconds, with its imported modules.
 
-        Before any of them is used: a call waits in a thread, beside which nothing is forked.
+        This must come before the first call, because calls run in threads, and a process with threads is not forked.
         """
         if can_fork():
             for worker in self.workers:
                 worker.fork()
 
     def run(self, job: Job) -> JobOutcome:
-        """Return the outcome of one job, done as soon as a worker is free: the one that was used last.
+        """Return the outcome of one job, done by the worker that became free last; wait if there is none.
 
-        Raises StoppedError where the pool was closed.
+        Raises StoppedError if the pool was closed.
         """
         worker = self._free.get()
         try:
@@ -68,14 +68,14 @@ class Pool(AbstractContextManager["Pool"]):
         return outcome
 
     def submit(self, function: Callable[..., Any], *arguments: Any) -> Future[Any]:
-        """Begin with a call, such as of `run`, in a thread of this process."""
+        """Start a call, such as of `run`, in a thread of this process, and return its future."""
         call = self._threads.submit(function, *arguments)
         self._calls.add(call)
         call.add_done_callback(self._calls.discard)
         return call
 
     def close(self) -> None:
-        """End all workers, whatever they do, and wait for the calls under way."""
+        """Kill all workers, and wait for the calls under way."""
         self._closed = True
         self._threads.shutdown(wait=False, cancel_futures=True)
         while True:
@@ -91,7 +91,7 @@ class Pool(AbstractContextManager["Pool"]):
 
 
 class Cluster(AbstractContextManager["Cluster"]):
-    """The workers of a Dask scheduler. Raises StoppedError where `distributed` is missing or nobody answers."""
+    """The workers of a Dask scheduler. Raises StoppedError if `distributed` is missing or no scheduler answers."""
 
     def __init__(self, address: str) -> None:
         try:
@@ -107,7 +107,7 @@ class Cluster(AbstractContextManager["Cluster"]):
         self._executor = self._client.get_executor(pure=False, retries=RETRIES)
 
     def submit(self, function: Callable[..., Any], *arguments: Any) -> Future[Any]:
-        """Begin with a call, on any of the machines; its future raises StoppedError where none of them makes it."""
+        """Start a call on one of the machines; its future raises StoppedError if no machine completes it."""
         future: Future[Any] = Future()
         self._executor.submit(function, *arguments).add_done_callback(partial(_settle, future))
         return future
@@ -117,7 +117,7 @@ class Cluster(AbstractContextManager["Cluster"]):
 
 
 def _settle(future: Future[Any], ended: Future[Any]) -> None:
-    """Pass on the result of a call in the cluster, or that it was given up."""
+    """Give ``future`` the result of the call that ``ended`` in the cluster, or a StoppedError."""
     error = CancelledError() if ended.cancelled() else ended.exception()
     if error is None:
         future.set_result(ended.result())
@@ -131,11 +131,11 @@ class Keyed(Protocol):
 
     @property
     def size(self) -> int:
-        """Its approximate size in bytes."""
+        """The item's approximate size in bytes."""
 
     @property
     def key(self) -> str:
-        """A text that changes with its content."""
+        """A text that differs for items of different content."""
 
 
 Item = TypeVar("Item", bound=Keyed)
@@ -145,9 +145,9 @@ Result = TypeVar("Result")
 def in_order(
     crew: Pool | Cluster, work: Callable[[Item], Result], items: Iterable[Item], journal: Journal | None = None
 ) -> Iterator[tuple[Item, Result]]:
-    """Yield every item with the result of ``work``, in order; no more items are taken than the crew can use soon.
+    """Yield (item, result of ``work``) for all items in order; items are taken only as the crew needs them.
 
-    A result that the journal holds is taken from it, as json reads it, and any other is written to it.
+    A result in the journal is used, as json reads it; any other result is computed and written to the journal.
     """
     stream = iter(items)
     calls: deque[tuple[Item, Future[Result]]] = deque()
@@ -180,14 +180,14 @@ def cores() -> int:
 
 @cache
 def _shared(process: int, module: str) -> Pool:
-    del process
+    del process  # a key of the cache: a fork of this process needs a pool of its own
     pool = Pool(modules=(module,))
     atexit.register(pool.close)
     return pool
 
 
 def shared(module: str) -> Pool:
-    """Return the pool of this process whose workers have imported a module; a fork of the process has its own."""
+    """Return the pool of this process whose workers have imported ``module``; a fork of the process gets another."""
     return _shared(os.getpid(), module)
 
 
@@ -196,15 +196,15 @@ class BusyError(DofkitError):
 
 
 def files_of(path: Path) -> list[Path]:
-    """Return the files of a journal at a path: the second one exists while something is written."""
+    """Return the files of a journal at ``path``: SQLite's second one exists only during writing."""
     return [path, path.with_name(path.name + "-journal")]
 
 
 class Journal:
-    """Results by their keys, in one SQLite file at ``path``.
+    """Results by key, in one SQLite file at ``path``.
 
-    ``mark``: the question that the results answer; results with another mark are forgotten, and so is a damaged file.
-    A result is what json can write. Raises BusyError where another run has the file open, and OSError.
+    ``mark`` identifies the question that the results answer; a file with another mark, or a damaged one, is emptied. A
+    result is a value that json can write. Raises BusyError if another run has the file open, and OSError.
     """
 
     def __init__(self, path: Path, mark: str) -> None:
@@ -222,6 +222,7 @@ class Journal:
             self._results = self._opened(mark)
 
     def _opened(self, mark: str) -> sqlite3.Connection:
+        """Return the open file, emptied if its mark differs, with all its results marked as not new."""
         opened = sqlite3.connect(self.path, timeout=0, isolation_level=None)
         try:
             # The operating system keeps what a killed process wrote; nothing has to survive a loss of power.
@@ -239,12 +240,12 @@ class Journal:
         return opened
 
     def result(self, key: str) -> Any:
-        """Return the result with a key; None where there is none."""
+        """Return the result with this key; None if there is none."""
         row = self._results.execute("SELECT result FROM results WHERE key = ?", (key,)).fetchone()
         return None if row is None else json.loads(row[0])
 
     def write(self, key: str, result: Any) -> None:
-        """Keep a result."""
+        """Write a result, replacing an earlier one with the same key."""
         self._results.execute("INSERT OR REPLACE INTO results VALUES (?, ?, 1)", (key, json.dumps(result)))
         if time.monotonic() > self._committed + COMMITTING:
             self._results.execute("COMMIT")
@@ -252,7 +253,7 @@ class Journal:
             self._committed = time.monotonic()
 
     def keep_written(self) -> None:
-        """Forget the results of earlier runs that this one did not write again."""
+        """Delete the results of earlier runs that this run did not write again."""
         self._results.execute("DELETE FROM results WHERE NOT new")
 
     def close(self) -> None:

@@ -1,4 +1,4 @@
-"""How certain an answer is, about which points it is, and by which argument."""
+"""How certain an answer is, for which points, and by which argument."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Literal, get_args
 
 Verdict = Literal["proved", "probable", "numeric", "undecided"]
 
-#: Which points a claim speaks of: the part near the reference, that near the witness, all.
+#: The points for which a claim is made: those near the reference, those near a witness point, all.
 About = Literal["reference", "component", "everywhere"]
 
 #: The arguments by which answers are given. Each is a row of the table in `classification/arguments.yaml`.
@@ -71,17 +71,17 @@ ArgumentKey = Literal[
 ]
 ARGUMENTS: frozenset[str] = frozenset(get_args(ArgumentKey))
 
-#: Whether something is so (None: undecided), and how certain that is.
+#: An answer to a yes-no question (None: undecided), and its verdict.
 TraitAnswer = tuple[bool | None, Verdict]
 
 #: From the strongest to the weakest.
 VERDICTS: tuple[Verdict, ...] = ("proved", "probable", "numeric", "undecided")
-#: From what says least.
+#: From the smallest set of points to the largest.
 ABOUTS: tuple[About, ...] = ("reference", "component", "everywhere")
 
 
 def weakest(*verdicts: Verdict) -> Verdict:
-    """Return the weakest of some verdicts; of none, ``proved``.
+    """Return the weakest of ``verdicts``, ``proved`` if there are none.
 
     >>> weakest("proved", "numeric", "probable")
     'numeric'
@@ -90,7 +90,7 @@ def weakest(*verdicts: Verdict) -> Verdict:
 
 
 def all_of(answers: Sequence[TraitAnswer]) -> TraitAnswer:
-    """Return whether all are true, and how certain that is."""
+    """Return whether all answers are True, with its verdict: one False decides, else one None leaves it undecided."""
     denied = [sure for holds, sure in answers if holds is False]
     if denied:
         return False, min(denied, key=VERDICTS.index)
@@ -100,7 +100,7 @@ def all_of(answers: Sequence[TraitAnswer]) -> TraitAnswer:
 
 
 def least(*abouts: About) -> About:
-    """Return the configurations that a claim is about which needs several others.
+    """Return the smallest of ``abouts``: the points for which a claim that needs several others is made.
 
     >>> least("everywhere", "reference")
     'reference'
@@ -110,10 +110,10 @@ def least(*abouts: About) -> About:
 
 @dataclass(frozen=True)
 class Claim:
-    """How certain one answer is, by which argument, and about which points.
+    """How certain one answer is (``verdict``), by which argument, and for which points (``about``).
 
-    ``bits``: what is ``probable`` is wrong with a chance below 2^-bits; ``gap``: what is ``numeric`` was separated by
-    this ratio. Raises ValueError for a proof without an argument, or a chance without a bound: nobody could check them.
+    ``bits``: a ``probable`` answer is wrong with probability below 2^-bits; ``gap``: the ratio that separates nonzero
+    from zero values in a ``numeric`` answer. Raises ValueError if the argument, or this number, is missing.
 
     >>> Claim("proved")
     Traceback (most recent call last):
@@ -136,7 +136,7 @@ class Claim:
 
     @property
     def bound(self) -> str | None:
-        """The chance of an error, or the gap, as text."""
+        """The bound on the error probability, or the gap, as text; None for other verdicts."""
         if self.verdict == "probable":
             return f"2^-{self.bits}"
         return f"{self.gap:.1e}" if self.verdict == "numeric" and self.gap is not None else None
@@ -146,7 +146,7 @@ OPEN = Claim("undecided")
 
 
 def together(*claims: Claim) -> Claim:
-    """Return the claim that all of some hold, by the argument of the weakest: errors add up.
+    """Return the claim that all ``claims`` are true, with the argument of the weakest; error probabilities add up.
 
     >>> together(Claim("proved", "graph"), Claim("probable", "cases", bits=40), Claim("probable", "graph", bits=40))
     Claim(verdict='probable', argument='cases', bits=39, gap=None, about='everywhere')

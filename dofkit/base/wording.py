@@ -1,6 +1,6 @@
-"""Words for messages, and checks of what is given from outside.
+"""Words for messages, and checks of arguments of public functions.
 
-Numbers with their nouns, the nearest known word to one that is misspelt, a name of a list, seconds, an ending.
+Numbers with their nouns, the known word nearest to a misspelt one, budgets in seconds, formats by file extension.
 """
 
 from __future__ import annotations
@@ -15,20 +15,20 @@ from pathlib import Path
 
 from dofkit.base.errors import ArgumentError
 
-#: A ratio beyond which the rank of a numeric matrix is taken as certain in words.
+#: The ratio beyond which `gap_in_words` calls a numeric rank unambiguous.
 UNAMBIGUOUS = 1e12
-#: Words are compared with at most so many known ones.
+#: A word is compared with at most this many known words.
 _MOST_COMPARED = 2000
-#: A shorter beginning of a known word does not stand for it.
+#: The least number of letters with which a word can be abbreviated.
 SHORTEST_BEGINNING = 3
-#: So many of them are listed.
+#: The most words that a message lists.
 _MOST_LISTED = 12
-#: The least share of words that a name of several words has in common with the one that was meant.
+#: The least share of common words for which `nearest_title` suggests a title.
 _LEAST_SHARED = 0.4
 
 
 def many(number: int, what: str) -> str:
-    """Return a number of things in words.
+    """Return a number, in digits, with its noun ``what`` in the singular or plural.
 
     >>> many(1, "equation"), many(2, "body"), many(0, "link")
     ('1 equation', '2 bodies', '0 links')
@@ -40,7 +40,7 @@ def many(number: int, what: str) -> str:
 
 
 def verb(number: int, singular: str = "is", plural: str = "are") -> str:
-    """Return the verb for a number of things.
+    """Return the form of a verb that goes with ``number``.
 
     >>> verb(1), verb(3, "has", "have")
     ('is', 'have')
@@ -49,7 +49,7 @@ def verb(number: int, singular: str = "is", plural: str = "are") -> str:
 
 
 def series(words: Sequence[str]) -> str:
-    """Return words as a series.
+    """Return words separated by commas, the last by "and".
 
     >>> series(["1", "2", "3"]), series(["2", "3"]), series(["3"])
     ('1, 2 and 3', '2 and 3', '3')
@@ -58,7 +58,7 @@ def series(words: Sequence[str]) -> str:
 
 
 def sentence(text: str) -> str:
-    """Return a text with a capital letter, and with a full stop unless it has an end.
+    """Return a text with a capital letter, and with a full stop unless it ends with punctuation.
 
     >>> sentence("it moves"), sentence("Does it move?")
     ('It moves.', 'Does it move?')
@@ -67,7 +67,7 @@ def sentence(text: str) -> str:
 
 
 def first_of(names: Iterable[str], most: int) -> str:
-    """Return the first of some names, and how many more there are.
+    """Return the first ``most`` of the names as text, and how many more there are.
 
     >>> first_of(["a", "b", "c"], 2)
     'a, b and 1 more'
@@ -77,7 +77,7 @@ def first_of(names: Iterable[str], most: int) -> str:
 
 
 def gap_in_words(gap: float, what: str) -> str:
-    """Return a sentence about the ratio that separates the numbers that are kept from those that are taken as zero.
+    """Return a sentence about ``gap``, the ratio of the smallest ``what`` kept to the largest taken as zero.
 
     >>> gap_in_words(2.34e4, "pivot")
     'the smallest pivot that is kept is about 23000 times the largest that is taken as zero'
@@ -91,7 +91,7 @@ def gap_in_words(gap: float, what: str) -> str:
 
 
 def closest(word: str, vocabulary: Sequence[str], least: float = 0.6) -> str | None:
-    """Return the known word most like ``word`` (Ratcliff and Obershelp), at least ``least`` alike, or None.
+    """Return the known word most similar to ``word`` (Ratcliff and Obershelp), with similarity >= ``least``, or None.
 
     >>> closest("thta", ["theta", "phi"])
     'theta'
@@ -100,7 +100,7 @@ def closest(word: str, vocabulary: Sequence[str], least: float = 0.6) -> str | N
 
 
 def nearest(word: object, vocabulary: Iterable[str]) -> str | None:
-    """Return the known name most like ``word``, of about its length, in any case, or that it abbreviates; or None.
+    """Return the known name of similar length most similar to ``word``, or the only one that it abbreviates, or None.
 
     >>> nearest("lenght", ["between", "length"])
     'length'
@@ -113,13 +113,13 @@ def nearest(word: object, vocabulary: Iterable[str]) -> str | None:
 
 
 def guess(word: str, vocabulary: Iterable[str]) -> str:
-    """Return `` (did you mean ...?)`` with the nearest known word, or an empty text where none is near."""
+    """Return `` (did you mean ...?)`` with the nearest known word, or an empty text if none is near."""
     near = nearest(word, vocabulary)
     return "" if near is None else f" (did you mean '{near}'?)"
 
 
 def no_such(word: str, vocabulary: Iterable[str], what: str) -> str:
-    """Return a sentence about a ``word`` that is unknown, with the nearest known word and the first dozen.
+    """Return a message that there is no ``what`` called ``word``, with the nearest known word and the first dozen.
 
     >>> no_such("exakt", ["count", "exact"], "method")
     "there is no method 'exakt' (did you mean 'exact'?): the methods are count, exact"
@@ -130,7 +130,7 @@ def no_such(word: str, vocabulary: Iterable[str], what: str) -> str:
 
 
 def nearest_title(name: str, titles: Sequence[str]) -> str | None:
-    """Return the title, of one or more words, that is spelled most like ``name`` or shares most words with it, or None.
+    """Return the title that is spelled most like ``name``, else the one with most words in common, or None.
 
     >>> nearest_title("rolling-disc", ["disc-rolling", "pendulum"])
     'disc-rolling'
@@ -149,7 +149,7 @@ def _words(name: str) -> set[str]:
 
 
 def description_of(value: object) -> str:
-    """Return a value on one short line, with its type.
+    """Return a short description of a value, with its type.
 
     >>> description_of(["x"]), description_of(None)
     ("['x'] (a list)", 'None')
@@ -161,7 +161,7 @@ def description_of(value: object) -> str:
 
 
 def require_one_of(value: object, vocabulary: Iterable[str], what: str) -> None:
-    """Raise ArgumentError for a value that is none of the known names; it suggests the nearest and lists all.
+    """Raise ArgumentError if ``value`` is not one of ``vocabulary``, with the nearest name and a list.
 
     >>> require_one_of("exact", ["count", "exact"], "method")
     """
@@ -173,7 +173,7 @@ def require_one_of(value: object, vocabulary: Iterable[str], what: str) -> None:
 
 
 def seconds_of(budget: object) -> float:
-    """Return a budget in seconds, not below 0. Raises ArgumentError where it is no number.
+    """Return a budget in seconds, at least 0. Raises ArgumentError if it is not a number.
 
     >>> seconds_of(-2), seconds_of(1.5)
     (0.0, 1.5)
@@ -184,7 +184,7 @@ def seconds_of(budget: object) -> float:
 
 
 def is_folder_path(path: Path) -> bool:
-    """Return whether a path names a folder: one that exists, or a name without an ending.
+    """Return whether a path means a folder: it is one, or it has no file extension (or a number as one).
 
     >>> is_folder_path(Path("results")), is_folder_path(Path("results.csv"))
     (True, False)
@@ -193,19 +193,17 @@ def is_folder_path(path: Path) -> bool:
 
 
 def format_of_path(path: Path, formats: Collection[str], asked: str | None = None) -> str:
-    """Return the format of the file that is written to a path: its ending decides.
+    """Return the format of the file to be written to ``path``, by its extension.
 
-    ``formats``: the formats, which are the endings without the dot; none where only a folder can be written. ``asked``:
-    the format that was asked for besides. Raises ArgumentError where the ending is unknown or contradicts that format.
+    ``formats``: the possible formats, which are extensions without the dot (empty: only a folder can be written);
+    ``asked``: the format of the option --format. Raises ArgumentError if the extension is unknown or differs from it.
 
     >>> format_of_path(Path("sheet.pdf"), ["html", "pdf"])
     'pdf'
     """
     ending = path.suffix.lower()
     if not formats:
-        raise ArgumentError(
-            f"'{path}' has the ending of a file, but a folder is written: give a name without an ending"
-        )
+        raise ArgumentError(f"'{path}' has a file extension, but a folder is written: give a name without an ending")
     if not ending and asked is not None:
         return asked
     if not ending:

@@ -1,4 +1,4 @@
-"""The process of a worker: it does one job after another, within limits, until its parent is gone."""
+"""The main loop of a worker process: it does one job after another, within limits, until its parent is gone."""
 
 from __future__ import annotations
 
@@ -24,10 +24,10 @@ _THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS", "VECLI
 
 
 def serve(down: int, up: int, memory: int, modules: Sequence[str]) -> None:
-    """Import ``modules``, then do the jobs that come ``down`` until the parent closes that pipe.
+    """Import ``modules``, then do the jobs from the pipe ``down`` until the parent closes it; answer on ``up``.
 
-    The address space is bounded in bytes, there is no core file, and linear algebra has one thread: workers with a
-    thread for each core would only wait for each other, and every thread takes address space.
+    The address space is limited to ``memory`` bytes, there is no core file, and linear algebra has one thread, because
+    the threads of several workers would wait for each other, and every thread takes address space.
     """
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     if hasattr(signal, "SIGALRM"):
@@ -46,7 +46,7 @@ def serve(down: int, up: int, memory: int, modules: Sequence[str]) -> None:
 
 
 def _listen(jobs_end: int, jobs: SimpleQueue[bytes]) -> None:
-    """Pass on the jobs from a pipe; where it closes, the parent is gone and this process exits, even within a job."""
+    """Put the jobs from a pipe into a queue; when the pipe closes, the parent is gone and this process exits."""
     with open(jobs_end, "rb") as source:
         try:
             while True:
@@ -56,7 +56,7 @@ def _listen(jobs_end: int, jobs: SimpleQueue[bytes]) -> None:
 
 
 def _do(request: bytes, up: int, memory: int) -> None:
-    """Do one job: send a ``value`` for everything that it returns or yields, then how it ended."""
+    """Do one job, and send a ``value`` message for each value that it returns or yields, then how it ended."""
     try:
         name, payload, (first, seconds) = pickle.loads(request)
         allow(first)
@@ -75,7 +75,7 @@ def _do(request: bytes, up: int, memory: int) -> None:
 
 
 def function_named(name: str) -> Any:
-    """Return the function that is called ``module:function``."""
+    """Return the function named ``module:function``, or ``module:Class.method``."""
     module, _, path = name.partition(":")
     value: Any = import_module(module)
     for attribute in path.split("."):

@@ -1,10 +1,9 @@
-"""Work in processes that can be killed and replaced: a job never hangs, crashes or starves its caller.
+"""Worker processes that can be killed and replaced: a job never hangs, crashes or starves its caller.
 
-A worker is a fresh Python that runs nothing of the caller's ``__main__``, so that scripts need no guard, or a fork
-where one small file has to be answered at once. It bounds its own memory and processor time (`process_limits`); its
-parent keeps the wall clock. A job comes pickled from the parent, which the worker trusts as it trusts the code that
-started it. What goes back is a line of JSON: the parent takes nothing else from a process that has worked on other
-people's input.
+A worker is a new Python process that does not run the caller's ``__main__``, so that scripts need no guard; for one
+small file it is a fork, which starts faster. It limits its own memory and processor time (`process_limits`); its parent
+watches the wall clock. Jobs come pickled from the parent, which the worker trusts. Values go back as lines of JSON,
+because the parent must not unpickle data from a process that has worked on other people's input.
 
 Two libraries were tried. In `loky` one crash fails every job that is running, and no job can be killed. `pebble` kills
 and bounds jobs well, but the death of an idle worker ends its pool, a job that is cut short leaves no partial value,
@@ -39,31 +38,31 @@ from dofkit.base.worker_process import serve
 MEMORY = 4 << 30
 #: Seconds that a worker may take to start.
 STARTING = 60.0
-#: Seconds from the end of a process's pipe to its own.
+#: Seconds that a process may take to end after its pipe has ended.
 _ENDING = 2.0
 #: The folder that holds the package.
 _ROOT = str(Path(__file__).resolve().parents[2])
-#: What the system sends a process whose clock, or processor time, has run out.
+#: The signals for a process whose clock or processor time has run out.
 _LIMITS = {number for name in ("SIGALRM", "SIGPROF", "SIGXCPU") if (number := getattr(signal, name, None)) is not None}
 
-#: What json can write: the only thing that comes back from a worker.
+#: A value that json can write, which is all that a worker returns.
 Json = Any
 #: A `subprocess.Popen` with both pipes, or a `_Fork`.
 _Process: TypeAlias = Any
 
-#: ``done``; ``failed``: it raised; ``overrun``: killed at its limit; ``memory``: it wanted more than it may take;
-#: ``died``: its process ended; ``absent``: none could be started.
+#: How a job ended. ``done``; ``failed``: it raised; ``overrun``: killed at its time limit; ``memory``: it needed more
+#: memory than allowed; ``died``: its process ended; ``absent``: no process could be started.
 Ended = Literal["done", "failed", "overrun", "memory", "died", "absent"]
 
 
 @dataclass(frozen=True)
 class Job:
-    """A function to call with one argument in a worker, and how long that may take.
+    """A function to call with one argument in a worker, with time limits.
 
-    ``function``: one that the worker can import, or its name ``module:function``. It returns what json can write; or
-    it is a generator of such values, of which the last one stands where the job is cut short. ``payload`` is anything
-    that can be pickled. ``seconds``: how long it may work without yielding anything, in wall-clock time, before it is
-    killed; ``first``: the same until its first value, where that differs.
+    ``function``: one that the worker can import, or its name ``module:function``. It returns a value that json can
+    write, or is a generator of such values, of which the last one counts if the job is killed. ``payload``: the
+    argument, which is pickled. ``seconds``: the wall-clock time from one value to the next after which the job is
+    killed; ``first``: the time until the first value, if it differs.
     """
 
     function: str | Callable[[Any], Any]
@@ -83,15 +82,15 @@ class Job:
 
     @property
     def limits(self) -> tuple[float, float]:
-        """Seconds until the first value, and from each to the next."""
+        """(seconds until the first value, seconds from each value to the next)."""
         return self.seconds if self.first is None else self.first, self.seconds
 
 
 @dataclass(frozen=True)
 class JobOutcome:
-    """The last value of a job (None: there was none), how it ended, and why where that is not ``done``.
+    """The last value of a job (None: there was none), how it ended, and the reason unless it is ``done``.
 
-    Of a ``failed`` job ``error`` is the name of the exception's type, and ``trace`` its traceback.
+    For a ``failed`` job ``error`` is the name of the exception's type, and ``trace`` its traceback.
     """
 
     value: Json
@@ -107,10 +106,9 @@ class JobOutcome:
 
 
 class Worker:
-    """A process that does one job after another; it starts with the first one and ends with this object.
+    """A process that does one job after another; it starts with the first job and ends with this object.
 
-    ``memory``: the bytes of address space that it may take; ``modules``: what it imports before the first job, which
-    counts as its start.
+    ``memory``: its limit of address space in bytes; ``modules``: imported before the first job, as part of its start.
     """
 
     def __init__(self, memory: int = MEMORY, modules: Sequence[str] = ()) -> None:
@@ -119,7 +117,7 @@ class Worker:
         self._forget()
 
     def _forget(self) -> None:
-        """Begin without a process: one that the process started of which this is a fork is left to that one."""
+        """Begin without a process; after a fork, the parent's worker process remains the parent's."""
         self._owner = os.getpid()
         self._lock = threading.Lock()
         self._process: _Process | None = None
@@ -128,11 +126,11 @@ class Worker:
         self._ready = False
 
     def fork(self) -> None:
-        """Start now, as a copy of this process; what replaces it later is a fresh Python all the same."""
+        """Start now, as a copy of this process; a later replacement is a new Python process."""
         self._process = _Fork(self.memory, self.modules)
 
     def run(self, job: Job) -> JobOutcome:
-        """Return the outcome of one job; threads wait for each other. It never raises for what the job does."""
+        """Return the outcome of one job, which never raises; threads that call this wait for each other."""
         if self._owner != os.getpid():
             self._forget()
         request = pickle.dumps((job.name, job.payload, job.limits))
@@ -157,6 +155,7 @@ class Worker:
                 self._lock.release()
 
     def _drop(self) -> None:
+        """Kill the process, if there is one, and close its pipes."""
         process, self._process, self._ready = self._process, None, False
         if process is not None:
             process.kill()
@@ -206,7 +205,7 @@ class Worker:
         return JobOutcome(value, "overrun" if late else "died", f"the worker process {reason}"), False
 
     def _message(self, seconds: float) -> tuple[str, Json] | None:
-        """Return the next message, None where the process has ended. Raises TimeoutError after so many seconds."""
+        """Return the next message, None if the process has ended. Raises TimeoutError after ``seconds``."""
         try:
             line = self._lines.get(timeout=min(seconds, threading.TIMEOUT_MAX))
         except Empty:
@@ -224,7 +223,7 @@ class Worker:
         return JobOutcome(value, "failed", f"{error}: {message}" if message else error, error, content["trace"]), True
 
     def _started(self) -> _Process:
-        """Return a new process. A fresh Python shares two pipes with this process."""
+        """Return a new Python process, connected to this one by two pipes."""
         paths = [os.path.abspath(place) for place in sys.path if place]  # never the working folder
         return subprocess.Popen(
             [sys.executable, "-P", "-m", "dofkit.base.worker_process", str(self.memory), *self.modules],
@@ -242,7 +241,7 @@ def can_fork() -> bool:
 
 
 class _Fork:
-    """A copy of this process, in milliseconds, with all that it has imported; used like `subprocess.Popen`."""
+    """A fork of this process, with its imported modules; used like `subprocess.Popen`."""
 
     def __init__(self, memory: int, modules: Sequence[str]) -> None:
         down, requests = os.pipe()
@@ -279,7 +278,7 @@ class _Fork:
 
 
 def _collect(source: BinaryIO, lines: SimpleQueue[bytes]) -> None:
-    """Pass on the lines of a process and, at its end, an empty one: waiting for a queue can be given up."""
+    """Put the lines of a process into a queue, and at its end an empty line; a queue allows waiting with a timeout."""
     with suppress(OSError, ValueError):
         for line in source:
             lines.put(line)
@@ -287,7 +286,7 @@ def _collect(source: BinaryIO, lines: SimpleQueue[bytes]) -> None:
 
 
 def _reason_of_end(process: _Process) -> str:
-    """Return how a process ended that closed its pipe, as the end of a sentence."""
+    """Return how a process that closed its pipe ended, as the end of a sentence about it."""
     until = time.monotonic() + _ENDING
     while (status := process.poll()) is None and time.monotonic() < until:
         time.sleep(0.005)

@@ -1,4 +1,4 @@
-"""Plain exact values, and the location of each, from the events of PyYAML's parser; scalars are those of YAML 1.2."""
+"""Plain exact values with their locations, from the events of PyYAML's parser; scalars are those of YAML 1.2."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ from yaml.reader import ReaderError
 from dofkit.base.errors import Fault, TextError
 
 Path: TypeAlias = tuple[str | int, ...]
-#: Where a value begins, and its key (-1: it has none): offsets into the text.
+#: {path: (offset of the value, offset of its key or -1)}, offsets into the text.
 Places: TypeAlias = dict[Path, tuple[int, int]]
 Scalar: TypeAlias = bool | int | Decimal | str | None
 
 #: Deeper nesting is refused.
 DEEPEST = 50
-#: PyYAML's own parser, a hundred times slower than libyaml, reads no longer text.
+#: The longest text for PyYAML's own parser, which is a hundred times slower than libyaml.
 MOST_SLOW = 1_000_000
 #: Aliases may add this many values in all.
 MOST_ALIASED = 200_000
@@ -50,7 +50,7 @@ _NUMERIC_START = frozenset("0123456789+-.IN")
 
 
 class UnreadableError(Exception):
-    """Reading stops here."""
+    """Raised after a fault that ends the reading of a document."""
 
 
 def plain(text: str) -> Scalar:
@@ -84,7 +84,7 @@ def plain(text: str) -> Scalar:
 
 
 def _whole_characters(text: str) -> str | None:
-    """Return a text with the pairs of surrogates joined by which JSON escapes rare characters; None for half a one."""
+    """Return a text with surrogate pairs (JSON's escapes) joined to characters; None for a lone surrogate."""
     if not any("\ud800" <= char <= "\udfff" for char in text):
         return text
     try:
@@ -95,7 +95,7 @@ def _whole_characters(text: str) -> str | None:
 
 @dataclass
 class _Collection:
-    """A collection that is being filled; nothing of what is ``skipped`` (a key's second value) is located."""
+    """A list or mapping that is being read; a repeated key's value (``skipping``, inside ``muted``) is not located."""
 
     value: Any
     path: Path
@@ -202,7 +202,7 @@ class ComposedText:
         self._add(value, 1)
 
     def _path(self, event: Any) -> Path | None:
-        """Return the path of the value that begins with an event, and note its place; None where the event is a key."""
+        """Return the path of the value that begins with ``event``, and note its location; None for a key."""
         if not self._stack:
             self.places[()] = (event.start_mark.index, -1)
             return ()
@@ -246,10 +246,10 @@ class ComposedText:
 
 
 def compose(text: str) -> ComposedText:
-    """Return the composed text, read by libyaml where PyYAML has it.
+    """Return the composed text, read by libyaml if PyYAML has it.
 
-    PyYAML's own parser explains an error better and joins the halves of a character that JSON escapes as two, so a text
-    with either is read by it unless it is longer than `MOST_SLOW`.
+    PyYAML's own parser has better error messages and joins surrogate pairs, so a text with an error or a surrogate is
+    read by this parser unless it is longer than `MOST_SLOW`.
     """
     short = len(text) <= MOST_SLOW
     if not (short and SURROGATE.search(text)):
@@ -260,7 +260,7 @@ def compose(text: str) -> ComposedText:
 
 
 class _SyntaxError(NamedTuple):
-    """A row of `syntax_faults.yaml`."""
+    """A row of `syntax_faults.yaml`: a pattern of PyYAML's message, and dofkit's message and hint."""
 
     pattern: str
     message: str
@@ -278,7 +278,7 @@ _NAMES = {"<stream end>": "the end of the file", "?": "the next key", ":": "':'"
 
 
 def syntax_fault(error: yaml.YAMLError) -> tuple[int, Fault]:
-    """Return the offset and the fault of a syntax error."""
+    """Return (offset, fault) of a syntax error."""
     if isinstance(error, ReaderError):
         return error.position, Fault("a character that YAML does not allow", hint="delete it")
     if not isinstance(error, yaml.MarkedYAMLError):

@@ -1,4 +1,4 @@
-"""``dofkit chart``: from the trials to the data, the figures and a table; or from such data to the figures."""
+"""``dofkit chart``: run the trials, and write data, figures and a table; or make the figures from existing data."""
 
 from __future__ import annotations
 
@@ -27,13 +27,13 @@ from dofkit.benchmark.statistics import Score, against, front, grouped, scores
 from dofkit.benchmark.tasks import ChartOptions
 from dofkit.benchmark.trials import FAMILIES
 
-#: What draws the figures, and so needs matplotlib.
+#: The function that draws the figures; its module needs matplotlib.
 FIGURES = "dofkit.benchmark.figures:write"
 NO_MATPLOTLIB = "nothing is drawn without matplotlib: pip install 'dofkit[chart]'"
 
 
 def chart(options: ChartOptions) -> bool:
-    """Run, write, draw and print; return whether the run ended. Raises ChartError, StoppedError and OSError."""
+    """Run the trials, write data and figures, print scores; return whether the run was completed. Raises ChartError."""
     writable(options.out)
     if options.source is not None:
         finish(record.read(options.source), options.out)
@@ -60,7 +60,7 @@ def chart(options: ChartOptions) -> bool:
 
 
 def _provenance(options: ChartOptions, trials: int) -> Ran:
-    """Return how a run is made, before it begins."""
+    """Return the description of a run at its beginning, with 0 minutes and not complete."""
     return Ran(
         version=__version__,
         command=options.command(),
@@ -77,20 +77,20 @@ def _provenance(options: ChartOptions, trials: int) -> Ran:
 
 
 def finish(data: Data, out: Path) -> None:
-    """Write the data, draw them where matplotlib is installed, and print what they show."""
+    """Sort and write the data, draw the figures of a complete run if matplotlib is installed, and print the scores."""
     order = {key: i for i, key in enumerate(dict.fromkeys((line.family, line.question) for line in data.lines))}
     data.lines.sort(key=lambda line: (order[line.family, line.question], line.size, line.trial))
     data.sweeps.sort(key=lambda line: (line.setting, line.family, line.trial, line.value))
     record.write(data, out)
-    able = find_spec("matplotlib") is not None
-    drawn = list(function_named(FIGURES)(data, out)) if able and data.ran.complete else []
+    has_matplotlib = find_spec("matplotlib") is not None
+    drawn = list(function_named(FIGURES)(data, out)) if has_matplotlib and data.ran.complete else []
     show(data, out, drawn)
-    if not able:
+    if not has_matplotlib:
         Console(stderr=True).print(NO_MATPLOTLIB, highlight=False, markup=False)
 
 
 def writable(out: Path) -> None:
-    """Make the folder. Raises ChartError where nothing can be written there."""
+    """Make the folder ``out``. Raises ChartError if nothing can be written there."""
     try:
         out.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=out):
@@ -100,7 +100,7 @@ def writable(out: Path) -> None:
 
 
 def _bar() -> AbstractContextManager[Progress]:
-    """Return a progress bar on standard error, where that is a terminal."""
+    """Return a progress bar on standard error, invisible if that is not a terminal."""
     console = Console(stderr=True)
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
     visible = console.is_terminal and not console.is_jupyter
@@ -108,7 +108,7 @@ def _bar() -> AbstractContextManager[Progress]:
 
 
 def machine() -> str:
-    """Return the processor as the system names it."""
+    """Return the name of the processor."""
     try:
         with open("/proc/cpuinfo", encoding="utf-8", errors="replace") as lines:
             names = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
@@ -121,7 +121,7 @@ def machine() -> str:
 
 
 def show(data: Data, out: Path, drawn: Sequence[Path]) -> None:
-    """Print a table for each question, where the files are, and how ``auto`` did."""
+    """Print the table of scores, sentences about ``auto``, and the names of the files."""
     console = Console(highlight=False, markup=False)
     if data.lines:
         console.print(table(data))
@@ -136,7 +136,7 @@ def show(data: Data, out: Path, drawn: Sequence[Path]) -> None:
 
 
 def table(data: Data) -> Table:
-    """Return the scores question by question, the fastest method first."""
+    """Return the table of scores, question by question, the fastest method first."""
     rows = Table("question", "method", *OUTCOMES, "median", "Pareto", box=None, pad_edge=False)
     for column in rows.columns[2:8]:
         column.justify = "right"
@@ -157,7 +157,7 @@ def _cells(score: Score) -> tuple[str, ...]:
 
 
 def auto_sentences(data: Data) -> Iterator[str]:
-    """Yield how ``auto`` did, and the families on which it is slower than the fastest method that is never wrong."""
+    """Yield sentences about ``auto``, and up to five families on which a method that is never wrong is much faster."""
     yield from sentences(data)
     slow = [(row.sound_ratio or 0, row) for row in against(data.lines)]
     for ratio, row in sorted(slow, key=lambda pair: -pair[0])[:5]:

@@ -1,4 +1,4 @@
-"""What the figures share: colours that the colour-blind distinguish, titles, legends and captions."""
+"""The common style of the figures: colours that the colour-blind distinguish, titles, legends and captions."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from matplotlib.patches import Patch
 
 from dofkit.benchmark.record import AUTO, Outcome, TrialLine
 
-#: The colour of words about wrong answers, and of what is not important.
+#: The colours of words about wrong answers, and of less important words.
 WRONG, GREY = "#B23A00", "#6E6E6E"
-#: The palette of Okabe and Ito; with a hatch and words wherever it matters.
+#: The palette of Okabe and Ito; important outcomes also have a hatch or words.
 OUTCOME_COLOURS: Mapping[Outcome, str] = {
     "right": "#0072B2",
     "wrong": "#D55E00",
@@ -25,18 +25,18 @@ OUTCOME_COLOURS: Mapping[Outcome, str] = {
 }
 OUTCOME_HATCHES: Mapping[str, str] = {"wrong": "////", "timed out": "...."}
 _COLOURS = ("#E69F00", "#56B4E9", "#009E73", "#CC79A7", "#D55E00", "#0072B2", "#7A7A00", "#8C564B")
-#: Inches that a character of a caption takes, and a line of it.
+#: The width of a character of a caption, and the height of a line, in inches.
 _CHARACTER, _LINE = 0.0515, 0.145
 
 
 def colours(lines: Iterable[TrialLine]) -> dict[str, str]:
-    """Return the colour of each method: black for ``auto``."""
+    """Return {method: colour}, black for ``auto``."""
     methods = [method for method in dict.fromkeys(line.method for line in lines) if method != AUTO]
     return {AUTO: "#000000"} | {method: _COLOURS[i % len(_COLOURS)] for i, method in enumerate(methods)}
 
 
 def sheet(width: float, height: float, title: str, text: str, keys: Sequence[Artist] = ()) -> Figure:
-    """Return a figure of so many inches with its title and legend on top and its caption at the bottom."""
+    """Return a figure with title and legend (``keys``) on top and the caption ``text`` below; sizes in inches."""
     lines = textwrap.wrap(text, max(40, int((width - 0.3) / _CHARACTER)))
     below, above = 0.14 + _LINE * len(lines), 0.66 if keys else 0.42
     total = height + below + above

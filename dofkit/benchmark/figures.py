@@ -1,4 +1,4 @@
-"""The figures of a run, one function each: ``draw(data)``, None where there is nothing to show. Needs matplotlib."""
+"""The figures of a run, by one function each, which returns None if there is nothing to show. Needs matplotlib."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from dofkit.benchmark.trials import GLOSSES, HEADINGS
 
 
 def write(data: Data, out: Path) -> Iterator[Path]:
-    """Draw all figures into a folder, each as SVG and PNG. Raises OSError."""
+    """Write all figures into the folder ``out``, as SVG and PNG, and yield the PNG paths. Raises OSError."""
     with as_file(files(__package__).joinpath("chart.mplstyle")) as style:
         for name, draw in FIGURES.items():
             with mpl.rc_context(fname=style):
@@ -47,14 +47,14 @@ QUESTIONS: Mapping[str, str] = {
     "redundancy": "Which constraints are redundant?",
     "equivalence": "Is the submitted equation the same constraint?",
 }
-#: Seconds that no clock here distinguishes from 0.
+#: The shortest time in seconds that is shown; shorter ones cannot be measured.
 SHORTEST = 1e-6
-#: Where "none" stands on the logarithmic axis of per cent, and its other marks.
+#: The place of "none" on the logarithmic axis of per cent, and its other ticks.
 NONE, TICKS = 0.1, (0.3, 1.0, 3.0, 10.0, 30.0, 100.0)
 
 
 def fronts(data: Data) -> Figure | None:
-    """Draw a panel for each question, with a table of its methods."""
+    """Return the figure of accuracy against time: a panel for each question, with a table of its methods."""
     by_question = grouped(data.lines, lambda line: line.question)
     able = [line for line in data.lines if line.outcome != "cannot"]
     asked = [question for question in QUESTIONS if any(line.question == question for line in able)]
@@ -79,7 +79,7 @@ def fronts(data: Data) -> Figure | None:
 
 
 def _front_axes(axes: Axes, members: Sequence[Score]) -> None:
-    """Set the axes that all panels share."""
+    """Set limits, ticks and labels, which are the same for all panels; ``members`` are the scores of all panels."""
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.set_xlim(min(_seconds(s.low) for s in members) / 2, max(_seconds(s.high) for s in members) * 1.6)
@@ -93,11 +93,11 @@ def _front_axes(axes: Axes, members: Sequence[Score]) -> None:
 
 
 def _front_panel(axes: Axes, members: Sequence[Score], by_method: Mapping[str, str]) -> None:
-    """Draw the marks, and the front of the methods that are never wrong: a stair, since nothing lies between two."""
-    stair = front([score for score in members if not score.share("wrong")])
-    if stair:
-        x = [*(_seconds(score.median) for score in stair), axes.get_xlim()[1]]
-        y = [_not_right(score) for score in (*stair, stair[-1])]
+    """Draw a mark for each method, and as a step curve the Pareto front of the methods that are never wrong."""
+    best = front([score for score in members if not score.share("wrong")])
+    if best:
+        x = [*(_seconds(score.median) for score in best), axes.get_xlim()[1]]
+        y = [_not_right(score) for score in (*best, best[-1])]
         axes.step(x, y, where="post", color="#BBBBBB", linewidth=1.6, zorder=1)
     for score in members:
         colour, height = by_method[score.method], _not_right(score)
@@ -112,7 +112,7 @@ def _front_panel(axes: Axes, members: Sequence[Score], by_method: Mapping[str, s
 
 
 def _front_table(axes: Axes, members: Sequence[Score], by_method: Mapping[str, str]) -> None:
-    """Draw the legend of the panel, the best first, with each method's wrong answers in red and the undecided ones."""
+    """Draw the legend of a panel, the best method first, with shares of wrong answers (in red) and of no answer."""
     axes.set_xlim(0, 1)
     axes.set_ylim(-max(9, len(members)), 0)
     about: dict[str, Any] = {"fontsize": 8, "va": "center"}
@@ -134,7 +134,7 @@ def _seconds(seconds: float | None) -> float:
 
 
 def _not_right(score: Score) -> float:
-    """Return the per cent of the trials that are not right; the mark for none where there are none."""
+    """Return the percentage of trials without the right answer, at least `NONE` because the axis is logarithmic."""
     return max(NONE, 100 * (1 - score.share("right")))
 
 
@@ -147,28 +147,28 @@ def _front_keys() -> list[Line2D]:
     ]
 
 
-# Method against family: who is right where, and how the others fail; under five headings, the hardest last
+# Method against family: outcomes of each method on each family, under five headings, the hardest family last
 
-#: Inches of a row, of a column, and of the names; characters of what a family is.
-ROW, COLUMN, NAMES, GLOSS = 0.2, 0.86, 5.0, 50
-#: The part of a cell that its bar fills, across and down; the number stands beside it.
+#: The height of a row, the width of a column and the width of the labels, in inches; characters of a description.
+ROW, COLUMN, LABEL_WIDTH, DESCRIPTION_WIDTH = 0.2, 0.86, 5.0, 50
+#: The shares of a cell's width and height that its bar fills; the number is to the right of the bar.
 WIDE, BAR = 0.6, 0.62
-#: The row of all families.
+#: The label of the row for all families together.
 ALL = "all of them"
 
 
 def matrix(data: Data) -> Figure | None:
-    """Draw a row for each family, all its questions together; a column for each method; the totals on top."""
+    """Return the table of outcomes: a row for each family, with all its questions, and a column for each method."""
     if not data.lines:
         return None
     by_family = {ALL: data.lines} | grouped(data.lines, lambda line: line.family)
     rows, methods = row_labels(data.lines), list(scores(data.lines))
     title = "Where each method is right, wrong, undecided or too slow"
-    size = NAMES + COLUMN * len(methods), ROW * (len(rows) + 2.2)
+    size = LABEL_WIDTH + COLUMN * len(methods), ROW * (len(rows) + 2.2)
     figure = sheet(*size, title, caption("matrix", data), outcome_keys())
     axes = figure.subplots()
     axes.set_axis_off()
-    axes.set_xlim(-NAMES / COLUMN, len(methods))
+    axes.set_xlim(-LABEL_WIDTH / COLUMN, len(methods))
     axes.set_ylim(len(rows), -1.6)
     for x, method in enumerate(methods):
         weight = "bold" if method == AUTO else "normal"
@@ -183,9 +183,9 @@ def matrix(data: Data) -> Figure | None:
 
 
 def row_labels(lines: Sequence[TrialLine]) -> list[str]:
-    """Return the labels of the rows: all families together, then each heading with its families.
+    """Return the labels of the rows: `ALL`, then each heading followed by its families.
 
-    Families stand by rising share of trials, over all methods, that were not answered rightly.
+    Families are sorted by the share of trials, over all methods, without the right answer.
     """
     families = grouped(lines, lambda line: line.family)
     shares = {family: sum(line.outcome != "right" for line in row) / len(row) for family, row in families.items()}
@@ -198,21 +198,21 @@ def row_labels(lines: Sequence[TrialLine]) -> list[str]:
 
 
 def _row_label(axes: Axes, y: int, row: str, trials: int) -> None:
-    """Write a heading, or the name of a family with the number of its trials and what it is."""
-    edge = -NAMES / COLUMN
+    """Draw the label of row ``y``: a heading with a line if ``trials`` is 0, else name, trials and description."""
+    edge = -LABEL_WIDTH / COLUMN  # a unit of the x axis is the width of a column
     if not trials:
         axes.text(edge + 0.1, y + 0.05, row, fontsize=9.5, fontweight="bold", va="center")
         axes.plot([edge + 0.1, axes.get_xlim()[1]], [y + 0.48] * 2, color="#CCCCCC", linewidth=0.7)
         return
     gloss = re.split(r"[:;\[]", GLOSSES.get(row, ""))[0].strip()
-    gloss = textwrap.shorten(gloss, GLOSS, placeholder=" ...")
+    gloss = textwrap.shorten(gloss, DESCRIPTION_WIDTH, placeholder=" ...")
     axes.text(edge + 0.2, y, row, fontsize=8.5, fontweight="bold" if row == ALL else "normal", va="center")
     axes.text(edge + 2.5, y, f"{trials}", fontsize=8, color="#444444", ha="right", va="center")
     axes.text(edge + 2.6, y, gloss, fontsize=7, color="#777777", va="center")
 
 
 def _cells(axes: Axes, cells: Sequence[tuple[int, int, Score]]) -> None:
-    """Draw bars of shares; next to each the share that is wrong, or else that of trials without an answer."""
+    """Draw a bar of outcomes for each cell (column, row, score), with the share of wrong answers or of none."""
     heights = [y for _, y, _ in cells]
     lefts = [float(x) for x, _, _ in cells]
     for outcome in OUTCOMES:
@@ -232,7 +232,7 @@ def _cells(axes: Axes, cells: Sequence[tuple[int, int, Score]]) -> None:
 
 # Cost against size
 
-#: The families that are drawn, and what is counted as their size.
+#: {family that is drawn: the unit of its size}.
 COUNTED: Mapping[str, str] = {
     "Henneberg": "joints",
     "links on a line": "links",
@@ -242,7 +242,7 @@ COUNTED: Mapping[str, str] = {
 
 
 def cost(data: Data) -> Figure | None:
-    """Draw the time of the question for the freedom against the size of some families, log-log."""
+    """Return the figure of time against size for the question ``dof`` on some families, with logarithmic axes."""
     by_family = grouped([line for line in data.lines if line.question == "dof"], lambda line: line.family)
     chosen = [family for family in COUNTED if family in by_family]
     if not chosen:
@@ -267,7 +267,7 @@ def cost(data: Data) -> Figure | None:
 
 
 def _cost_curves(axes: Axes, lines: Sequence[TrialLine], by_method: Mapping[str, str], limit: float) -> None:
-    """Draw a curve for every method, up to the first size that was not done within the limit: a cross on its line."""
+    """Draw a curve for every method, with a cross on the line of the time limit at the first size that timed out."""
     axes.axhline(limit, color="#999999", linewidth=0.8, linestyle=(0, (2, 2)), zorder=1)
     axes.set_xscale("log")
     axes.set_yscale("log")
@@ -280,9 +280,9 @@ def _cost_curves(axes: Axes, lines: Sequence[TrialLine], by_method: Mapping[str,
         axes.plot(late[:1], [limit] * len(late[:1]), marker="x", markersize=7, **style)
 
 
-# Stability: outcomes against a setting, a row for each distance from a special case
+# Stability: outcomes for the values of a setting, a row for each distance from a special case
 
-#: The title, the label of the axis, and those of the rows, by setting.
+#: {setting: (title, label of the axis, label of a row)}.
 SWEPT: Mapping[str, tuple[str, str, str]] = {
     "tolerance": ("numeric", "tolerance (share of the largest singular value)", "rounded to\n{} digits"),
     "bits": ("balls", "precision (bits)", "a gap of\n$10^{{-{}}}$"),
@@ -290,7 +290,7 @@ SWEPT: Mapping[str, tuple[str, str, str]] = {
 
 
 def stability(data: Data) -> Figure | None:
-    """Draw a panel for each setting that was swept."""
+    """Return the figure of the sweeps: a panel for each setting that was varied."""
     drawn = [sweep for sweep in SWEEPS if any(line.setting == sweep.setting for line in data.sweeps)]
     if not drawn:
         return None
@@ -303,7 +303,7 @@ def stability(data: Data) -> Figure | None:
 
 
 def _sweep_panel(axes: Axes, sweep: Sweep, lines: Sequence[TrialLine]) -> None:
-    """Draw for each distance and value a bar of the shares of outcomes, and a mark where value and distance agree."""
+    """Draw the outcomes for each distance (row) and value (column), and a mark where value and distance agree."""
     values = sorted({line.value or 0.0 for line in lines})
     rows = sweep.by_digits(lines, lambda line: line.trial)
     title, axis, label = SWEPT[sweep.setting]

@@ -1,4 +1,4 @@
-"""The record of a run: a line for every trial and method, and the files that hold them."""
+"""The record of a run: a line for every trial and method, and the files with these lines."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from typing import Any, Literal
 
 from dofkit.base.errors import DofkitError
 
-#: ``cannot``: the method never answers such a question or scene; ``undecided``: it tried, or failed on the way.
+#: ``cannot``: the method never answers such a question or scene; ``undecided``: it gave no answer, or failed.
 Outcome = Literal["right", "wrong", "undecided", "timed out", "cannot"]
 OUTCOMES: tuple[Outcome, ...] = ("right", "wrong", "undecided", "timed out", "cannot")
 #: The method that is compared with all others.
@@ -20,10 +20,10 @@ AUTO = "auto"
 
 @dataclass(frozen=True)
 class TrialLine:
-    """A trial answered by a method: a line of ``trials.csv``, or of ``sweeps.csv``.
+    """The answer of a method to a trial: a line of ``trials.csv`` or of ``sweeps.csv``.
 
-    ``answer`` is None where there was none; ``seconds`` of processor time, of what was cut short the limit; ``why``
-    says in a sentence why it is not right. In sweeps, ``setting`` of the method had this ``value``.
+    ``answer`` is None if there was none; ``seconds``: processor time (the limit, if timed out); ``why``: a sentence why
+    the outcome is not ``right``; in sweeps, ``setting`` has this ``value``.
     """
 
     family: str
@@ -42,11 +42,11 @@ class TrialLine:
 
 @dataclass(frozen=True)
 class Ran:
-    """What was run, where and when. Run again, the command gives the same answers; seconds depend on the machine.
+    """The description of a run. The ``command`` reproduces its answers; times depend on the machine.
 
-    ``version``: dofkit's; ``date``: in UTC, when it began; ``machine``: the processor, as the system names it;
-    ``limit``: seconds of processor time for a trial and method; ``minutes`` by the clock; ``complete``: false where it
-    was interrupted.
+    ``version``: dofkit's; ``date``: of its beginning in UTC; ``machine``: the name of the processor; ``limit``: seconds
+    of processor time for a trial and method; ``trials``: their number for one method; ``minutes``: wall-clock time;
+    ``complete``: false if it was interrupted.
     """
 
     version: str
@@ -64,7 +64,7 @@ class Ran:
 
 @dataclass(frozen=True)
 class Data:
-    """All lines of a run, and how it was made."""
+    """The description of a run (``ran``), and the lines of its trials and its sweeps."""
 
     ran: Ran
     lines: list[TrialLine] = field(default_factory=list)
@@ -74,7 +74,7 @@ class Data:
 # Files
 
 TRIALS, SWEEPS, RAN = "trials.csv", "sweeps.csv", "run.json"
-#: Columns that hold JSON, and those that hold numbers; the others are plain text.
+#: Columns that contain JSON, and columns that contain numbers; the others are plain text.
 _JSON = ("truth", "answer")
 _NUMBERS: dict[str, Callable[[str], Any]] = {
     "size": int,
@@ -85,7 +85,7 @@ _COLUMNS = [column.name for column in fields(TrialLine)]
 
 
 class ChartError(DofkitError):
-    """What was asked for cannot be charted, read or written."""
+    """Trials that cannot be selected, or data that cannot be read or written."""
 
 
 def write(data: Data, out: Path) -> None:
@@ -99,7 +99,7 @@ def write(data: Data, out: Path) -> None:
 
 
 def read(folder: Path) -> Data:
-    """Return the data of a run. Raises ChartError where they are missing or incomplete."""
+    """Return the data of the run in ``folder``. Raises ChartError if they are missing or not of this version."""
     try:
         ran = Ran(**json.loads((folder / RAN).read_text(encoding="utf-8")))
         lines, sweeps = (list(_read_lines(folder / name)) for name in (TRIALS, SWEEPS))

@@ -1,6 +1,6 @@
-"""Every trial by every method, each in a worker that can be killed: one that hangs or crashes costs its own line only.
+"""Runs trials by methods, each in a worker that can be killed: a crash or timeout costs the line of that trial only.
 
-The first half is what a worker does with a trial; the second gives out the trials and judges what was answered.
+The first half runs in a worker; the second distributes the trials and compares the answers with the truth.
 """
 
 from __future__ import annotations
@@ -28,11 +28,11 @@ from dofkit.methods.table import Reply
 
 # In a worker
 
-#: What is shorter, in seconds, is done again, so many times, and the least is taken.
+#: A reply in less than `SHORT` seconds is timed `AGAIN` more times, and the least time is taken.
 SHORT, AGAIN = 0.05, 2
-#: What a worker imports before its first job, and who knows the methods, as ``module:function``.
+#: The modules that a worker imports first, and the function (``module:function``) that answers by a method.
 MODULES, ANSWERING = ("dofkit.benchmark.runner", "dofkit.methods.ask", "sympy"), "dofkit.methods.ask:answered"
-#: A method's first call in a process also loads what it needs: it answers this first, and no clock runs.
+#: The scene for an untimed first call of a method in a process, which loads the libraries that the method needs.
 _WARM_SCENE: Mapping[str, Any] = {
     "name": "warm",
     "coordinates": ["x", "y", "u"],
@@ -42,16 +42,16 @@ _WARM_SCENE: Mapping[str, Any] = {
     ],
 }
 _WARM_ANSWER = {"constraint": "circle", "text": "2*x^2 + 2*y^2 = 2"}
-#: What computes with another value of a setting within, as ``module:function``.
+#: {setting: context manager that sets its value, as ``module:function``}.
 SETTINGS = {"tolerance": "dofkit.methods.numeric:tolerance_of", "bits": "dofkit.exact.points.balls:balls_of"}
 _warm: set[tuple[str, str, str]] = set()
 
 
 def timed_reply(asked: tuple[TrialTask, float, str]) -> Json:
-    """Return the reply to a task within a limit of processor time, by what knows the methods (``module:function``).
+    """Return the timed reply to ``asked``: (task, limit of processor time in seconds, answering ``module:function``).
 
-    It is a mapping ``value, reason, cannot, seconds``; None where it took longer. What is late is interrupted, so that
-    the process stays warm; only what cannot be is killed with it.
+    The reply is a mapping with ``value``, ``verdict``, ``reason``, ``cannot`` and ``seconds``; None if it took longer:
+    then it is interrupted, and the process goes on. What cannot be interrupted is killed with the process.
     """
     task, limit, answering = asked
     function = partial(function_named(answering), task.trial.scene, task.trial.question, task.method, task.trial.answer)
@@ -72,7 +72,7 @@ def timed_reply(asked: tuple[TrialTask, float, str]) -> Json:
 
 
 def _timed(function: Callable[[], Reply]) -> tuple[Reply, float]:
-    """Return the reply and its processor time. SymPy's cache is emptied first: each trial counts for itself."""
+    """Return (reply, processor time in seconds), with SymPy's cache empty. A failure is a reply with a reason."""
     if "sympy" in sys.modules:
         sys.modules["sympy"].core.cache.clear_cache()
     with warnings.catch_warnings():
@@ -92,7 +92,7 @@ def _timed(function: Callable[[], Reply]) -> tuple[Reply, float]:
 
 
 def outcome_of(truth: Any, answer: Any) -> Outcome:
-    """Return how an answer compares with the truth. None is undecided, also for a single constraint of a mapping.
+    """Return the outcome of an answer. None is undecided, also the value of a single constraint in a mapping.
 
     >>> outcome_of(2, 2), outcome_of(2, None), outcome_of(["c"], ["b"])
     ('right', 'undecided', 'wrong')
@@ -110,36 +110,36 @@ def outcome_of(truth: Any, answer: Any) -> Outcome:
 
 
 def _same(truth: Any, answer: Any) -> bool:
-    """Return whether two values are the same: True is not 1, and the order of what is redundant does not matter."""
+    """Return whether two values are equal, where True is not 1 and the order of a list does not matter."""
     if isinstance(truth, list | tuple) and isinstance(answer, list | tuple):
         return sorted(map(str, truth)) == sorted(map(str, answer))
     return isinstance(truth, bool) == isinstance(answer, bool) and bool(truth == answer)
 
 
-# Giving out trials
+# Distributing trials
 
 #: Trials under way for each worker.
 AHEAD = 2
-#: By the clock a trial may take so many times its processor time, and this much more: the machine has others to serve.
+#: The wall-clock limit of a trial is `PATIENCE` times its limit of processor time, plus `SPARE` seconds.
 PATIENCE, SPARE = 4.0, 20.0
 SKIPPED = "timed out at a smaller size"
 
 
 @dataclass(frozen=True)
 class Bench:
-    """Who answers, within how many seconds, and what knows the methods, as ``module:function``."""
+    """The workers, the limit of processor time in seconds, and the answering function as ``module:function``."""
 
     pool: Pool
     limit: float
     answering: str
 
     def submit(self, task: TrialTask) -> Future[Ended]:
-        """Begin with a trial."""
+        """Start a trial, and return its future."""
         asked = (task, self.limit, self.answering)
         return self.pool.submit(self.pool.run, Job(timed_reply, asked, PATIENCE * self.limit + SPARE))
 
     def line(self, task: TrialTask, ended: Ended) -> TrialLine:
-        """Return the line of a trial that ended."""
+        """Return the line of a trial that ended. Raises StoppedError if no worker could be started."""
         if ended.ended == "absent":
             raise StoppedError(ended.reason)
         if ended.finished and ended.value is not None:
@@ -160,10 +160,10 @@ def _line(task: TrialTask, answer: object, outcome: Outcome, seconds: float, rea
 
 
 def run(tasks: Iterable[TrialTask], bench: Bench) -> Iterator[TrialLine]:
-    """Yield a line for every task, as they end. Raises StoppedError where no worker can be had.
+    """Yield a line for every task, in the order in which they end. Raises StoppedError if no worker can be started.
 
-    Trials of which only the size differs make a ladder. Of a ladder only trials of one size are under way at a time,
-    the smallest first; where one times out, the larger ones are not run.
+    Tasks that differ in the size of the trial only form a ladder. A ladder is run size by size, the smallest first; if
+    a size times out, the larger ones are not run.
     """
     ladders = grouped(sorted(tasks, key=lambda task: task.trial.size), lambda task: task.ladder)
     running: dict[Future[Ended], TrialTask] = {}
@@ -192,9 +192,9 @@ def run(tasks: Iterable[TrialTask], bench: Bench) -> Iterator[TrialLine]:
 
 @contextmanager
 def bench_of(workers: int | None, limit: float) -> Iterator[Bench]:
-    """Workers on this machine, one for each core where their number is not given.
+    """Yield a bench of workers on this machine (default: one for each core).
 
-    They are copies of this process where it may be forked. Raises StoppedError.
+    The workers are forks of this process if it can be forked. Raises StoppedError.
     """
     with Pool(workers, MEMORY, MODULES) as pool:
         pool.fork()

@@ -1,4 +1,4 @@
-"""What the data of a run show, in sentences that may stand beside the figures, and why a method fails on a trial."""
+"""Sentences about the data of a run, for captions and the terminal, and about why a method fails on a trial."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from dofkit.benchmark.record import AUTO, Data
 from dofkit.benchmark.statistics import against, scores
 from dofkit.methods.table import methods
 
-#: `auto` should take no more than so many times the fastest method that is right.
+#: `auto` should take at most this many times the time of the fastest method that is right.
 TWICE = 2
 
 
 def caption(figure: str, data: Data) -> str:
-    """Return what a figure shows, what was run on what, and by which command."""
+    """Return the caption of a figure: what it shows, the run and its machine, and the command."""
     ran, words = data.ran, package_table(__package__, "captions.yaml")[figure]
     return (
         f"{words} {ran.trials} trials whose answers are known by construction, at most {ran.limit:g} s of "
@@ -23,11 +23,12 @@ def caption(figure: str, data: Data) -> str:
 
 
 def sentences(data: Data) -> list[str]:
-    """Return how often ``auto`` is right and how long it takes, as far as the run has data of them."""
+    """Return sentences on how often ``auto`` is right and how long it takes, as far as there are data."""
     return [text for text in (_trials(data), _time(data)) if text]
 
 
 def _trials(data: Data) -> str:
+    """Return the sentence on the answers of ``auto``, empty if it was not run."""
     by_method = scores(data.lines)
     if AUTO not in by_method:
         return ""
@@ -42,6 +43,7 @@ def _trials(data: Data) -> str:
 
 
 def _time(data: Data) -> str:
+    """Return the sentence on the times of ``auto``, empty if there is no other method that is right."""
     rows = against(data.lines)
     sound = [row.sound_ratio for row in rows if row.sound_ratio is not None]
     if not sound:
@@ -55,7 +57,7 @@ def _time(data: Data) -> str:
 
 
 def percent(share: float, below: str = "<", above: str = ">") -> str:
-    """Return a share in per cent, never rounded to 0 or 100 where it is not.
+    """Return a share in per cent, rounded, but to 0 or 100 only if it is exactly that.
 
     >>> percent(0.5), percent(0.0004), percent(0.9996), percent(1.0)
     ('50 %', '<0.1 %', '>99.9 %', '100 %')
@@ -69,13 +71,11 @@ def percent(share: float, below: str = "<", above: str = ">") -> str:
 
 
 def explained(method: str, question: str, outcome: str, reason: str = "") -> str:
-    """Return why a method fails on a trial, in sentences: its own reason, or what it never answers; and its cost.
+    """Return sentences on why a method fails: its own ``reason``, or what it never answers.
 
-    ``outcome``: ``wrong``, ``undecided``, ``cannot`` or ``timed out``, where the cost is stated.
+    ``outcome`` is ``wrong``, ``undecided``, ``cannot`` or ``timed out``; for the last the method's cost is added.
     """
     row = next((row for name, row in methods().items() if name == method), None)
     cannot = f"{method} does not answer this" if row is None else row.cannot
     uses = row.uses.items() if row is not None and outcome == "timed out" else ()
-    return " ".join(
-        [sentence(reason or cannot), *(f"Its cost: {use.costs}." for asked, use in uses if asked == question)]
-    )
+    return " ".join([sentence(reason or cannot), *(f"Its cost: {use.costs}." for q, use in uses if q == question)])

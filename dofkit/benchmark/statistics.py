@@ -16,7 +16,7 @@ K = TypeVar("K")
 
 
 def grouped(members: Iterable[T], key: Callable[[T], K]) -> dict[K, list[T]]:
-    """Return the members by key, in the order of first occurrence."""
+    """Return {key: members with this key}, in the order of first occurrence."""
     groups: dict[K, list[T]] = {}
     for member in members:
         groups.setdefault(key(member), []).append(member)
@@ -24,9 +24,9 @@ def grouped(members: Iterable[T], key: Callable[[T], K]) -> dict[K, list[T]]:
 
 
 class Score(NamedTuple):
-    """How a method did on some trials: its outcomes, and percentiles of its seconds on all but ``cannot``.
+    """The result of a method on some trials: number of each outcome, and percentiles of seconds without ``cannot``.
 
-    ``low``, ``median`` and ``high`` are the tenth, the fiftieth and the ninetieth; None where it can answer no trial.
+    ``low``, ``median``, ``high`` are the 10th, 50th and 90th percentile; None if the outcome is always ``cannot``.
     """
 
     method: str
@@ -37,17 +37,17 @@ class Score(NamedTuple):
     high: float | None
 
     def share(self, outcome: Outcome) -> float:
-        """Return the share of an outcome among all trials."""
+        """Return the share of the trials with an outcome, from 0 to 1."""
         return self.counts.get(outcome, 0) / self.trials
 
     @property
     def share_unanswered(self) -> float:
-        """Neither right nor wrong answers, among all trials."""
+        """The share of the trials without an answer, from 0 to 1."""
         return (self.trials - self.counts.get("right", 0) - self.counts.get("wrong", 0)) / self.trials
 
 
 def scores(lines: Iterable[TrialLine]) -> dict[str, Score]:
-    """Return the score of each method on these trials."""
+    """Return {method: its score on these trials}."""
     return {method: _score(method, rows) for method, rows in grouped(lines, lambda line: line.method).items()}
 
 
@@ -58,9 +58,9 @@ def _score(method: str, lines: Sequence[TrialLine]) -> Score:
 
 
 def front(members: Iterable[Score]) -> list[Score]:
-    """Return the scores that none beats in median seconds, share of right and share of wrong answers; fastest first.
+    """Return the Pareto front for median seconds, share of right and share of wrong answers, the fastest method first.
 
-    A method that is never right is no choice at all.
+    Methods that are never right are left out.
     """
     able = [score for score in members if score.median is not None and score.share("right")]
     best = [score for score in able if not any(beats(other, score) for other in able)]
@@ -68,16 +68,16 @@ def front(members: Iterable[Score]) -> list[Score]:
 
 
 def beats(score: Score, other: Score) -> bool:
-    """Return whether a score is at least as good in everything, and better in something (Pareto dominance)."""
+    """Return whether ``score`` is at least as good as ``other`` in every respect and better in one (dominance)."""
     a, b = ((-(s.median or 0.0), s.share("right"), -s.share("wrong")) for s in (score, other))
     return a != b and all(x >= y for x, y in zip(a, b, strict=True))
 
 
 class Against(NamedTuple):
-    """``auto`` against the fastest method that is right on all trials of a family.
+    """``auto`` compared with the fastest other method that is right on all trials of a question and family.
 
-    ``ratio`` is the median over trials of the ratio of their seconds; ``sound``: the fastest of them that is never
-    wrong on the question, with the same ratio for that one.
+    ``ratio``: the median over trials of the time of ``auto`` divided by that of ``fastest``. ``sound``: the fastest of
+    the methods that are never wrong on the question (None: there is none), with ``sound_ratio``.
     """
 
     question: str
@@ -89,9 +89,9 @@ class Against(NamedTuple):
 
 
 def against(lines: Sequence[TrialLine]) -> list[Against]:
-    """Return `auto` against the fastest method that is right on all trials of a family, trial by trial.
+    """Return the comparison of `auto` with the fastest methods for each question and family where one is right.
 
-    A method that is wrong on another family is right on this one by luck: to know that it is, is the work.
+    A method that is wrong on another family is right on this one by luck; hence `sound` excludes such methods.
     """
     rows = []
     erring = {(line.question, line.method) for line in lines if line.outcome == "wrong"}

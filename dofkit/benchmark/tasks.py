@@ -1,4 +1,4 @@
-"""The options of the command, and what they ask for: trials by name, each by each method, and sweeps of settings."""
+"""The options of the command, and the tasks that they select: trials by each method, and sweeps of settings."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ from dofkit.benchmark.trials.construction import Trial, few
 from dofkit.methods.table import METHODS, Question
 from dofkit.scene.fields import suggestion
 
-#: Trials of each family and question, at most.
+#: The most trials of a family and question.
 MOST = 32
 T = TypeVar("T")
 Families = Mapping[str, Callable[[], Iterator[Trial]]]
 
 
 class Sweep(NamedTuple):
-    """A setting of a method and its values, on trials of families that come near to a special case.
+    """A setting of a method and its values, for trials of families near a special case.
 
-    ``near`` finds in the name of such a trial how near, as the number of decimal digits.
+    ``near``: a pattern that finds the distance from the special case, in decimal digits, in the name of a trial.
     """
 
     method: str
@@ -33,7 +33,7 @@ class Sweep(NamedTuple):
     near: str
 
     def by_digits(self, members: Iterable[T], name: Callable[[T], str]) -> dict[int, list[T]]:
-        """Return trials, or lines of them, by how near they are, as their name says; without those that are not."""
+        """Return {digits: members whose name matches `near`}; ``name`` gives the name of the trial of a member."""
         matches = [(re.search(self.near, name(member)), member) for member in members]
         near = grouped([(int(match[1]), member) for match, member in matches if match], lambda pair: pair[0])
         return {digits: [member for _, member in near[digits]] for digits in sorted(near)}
@@ -44,7 +44,7 @@ SWEEPS = (
     Sweep("numeric", "tolerance", TOLERANCES, ("rounded, with tolerance",), r"(\d+) digits"),
     Sweep("balls", "bits", BITS, ("linear rows", "touching surfaces", "tiny steps"), r"by 1e-([1-9]\d*)"),
 )
-#: Of the values, in a quick run every so many are taken.
+#: A quick run takes only every third value of a setting.
 STRIDE_QUICK = 3
 
 
@@ -54,7 +54,7 @@ LIMIT, LIMIT_QUICK = 2.0, 0.5
 
 @dataclass(frozen=True)
 class TrialTask:
-    """A trial for a method; in a sweep with the value of a setting."""
+    """A trial to be answered by a method; in a sweep with a value of a setting."""
 
     trial: Trial
     method: str
@@ -63,7 +63,7 @@ class TrialTask:
 
     @property
     def ladder(self) -> tuple[str, ...]:
-        """What is the same in trials of which only the size differs: in a name that has it, n stands for it."""
+        """A key that is equal for tasks that differ only in size, which n replaces in the trial's name."""
         t = self.trial
         member, count = re.subn(rf"\b{t.size} by {t.size}\b|\b{t.size}\b", "n", t.name, count=1)
         return (t.family, t.question, member if count else "", self.method, repr(self.value))
@@ -71,9 +71,9 @@ class TrialTask:
 
 @dataclass(frozen=True)
 class ChartOptions:
-    """The options of the command; questions, families and methods by name, where no name stands for all of them.
+    """The options of the command; ``questions``, ``families`` and ``methods`` are names, none for all of them.
 
-    ``source``: a folder with the data of a run, to be drawn again; ``limit``: seconds of processor time for a trial.
+    ``source``: a folder with the data of a run, to draw its figures; ``limit``: seconds of processor time for a trial.
     """
 
     out: Path
@@ -91,9 +91,9 @@ class ChartOptions:
         return self.limit or (LIMIT_QUICK if self.quick else LIMIT)
 
     def tasks(self, families: Families) -> list[TrialTask]:
-        """Return the trials that are asked for, family by family, each by each method.
+        """Return the selected trials, family by family, each with each selected method.
 
-        Raises ChartError where there are none, and with the nearest name for one that is none.
+        Raises ChartError if there are none, or for an unknown name, with the nearest known name.
         """
         methods = _names(self.methods, METHODS, "method", "methods")
         trials = [trial for asked in self._asked(families).values() for trial in self._some(asked)]
@@ -102,7 +102,7 @@ class ChartOptions:
         return [TrialTask(trial, method) for trial in trials for method in methods]
 
     def sweeps(self, families: Families) -> list[TrialTask]:
-        """Return the trials near to special cases among those that are asked for, at each value of a setting."""
+        """Return the selected trials near special cases, with each value of a setting."""
         methods = _names(self.methods, METHODS, "method", "methods")
         asked = self._asked(families)
         swept: list[TrialTask] = []
@@ -115,16 +115,17 @@ class ChartOptions:
         return swept
 
     def _asked(self, families: Families) -> dict[str, list[Trial]]:
-        """Return the trials of the families and questions that are asked for. Raises ChartError."""
+        """Return {family: trials of the selected questions} for the selected families. Raises ChartError."""
         questions = _names(self.questions, get_args(Question), "question", "questions")
         names = _names(self.families, list(families), "family", "families")
         return {name: [trial for trial in families[name]() if trial.question in questions] for name in names}
 
     def _some(self, trials: Sequence[Trial]) -> Iterator[Trial]:
+        """Yield at most `MOST` of the trials for each question, or a few in a quick run."""
         return few(trials) if self.quick else _thinned(trials)
 
     def command(self) -> str:
-        """Return the command that makes the same data again, wherever it is written."""
+        """Return the command that reproduces the data, without the output folder."""
         names = {"question": self.questions, "families": self.families, "methods": self.methods}
         words = [f"--{option} {','.join(values)}" for option, values in names.items() if values]
         words += ["--quick"] if self.quick else []
@@ -133,7 +134,7 @@ class ChartOptions:
 
 
 def _thinned(trials: Sequence[Trial]) -> Iterator[Trial]:
-    """Yield at most `MOST` trials of each question, from the smallest to the largest at even distances."""
+    """Yield at most `MOST` trials of each question, evenly spaced from the smallest to the largest."""
     for row in grouped(trials, lambda trial: trial.question).values():
         by_size, most = sorted(row, key=lambda trial: trial.size), min(MOST, len(row))
         yield from (by_size[round(i * (len(row) - 1) / max(1, most - 1))] for i in range(most))

@@ -33,7 +33,7 @@ def _setting(evidence: CheckedEvidence, claim: Told) -> tuple[str, ...]:
 
 
 def integrable(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
-    """The constraint's forms follow from geometric equations, and integrals or rows that integrate (Frobenius)."""
+    """Check that the constraint's forms depend on geometric equations and integrals, or Frobenius-integrable rows."""
     allowed = _setting(evidence, claim)
     start = {name for name in allowed if evidence.relation(name).kind == "finite"}
     if claim["rule"] == "frobenius":

@@ -39,24 +39,22 @@ ENTRIES = {
 
 
 class CheckedEnergies:
-    """The Lagrangian of a scene, its ``dissipation``, and ``pushes``: forces and where they act, part by part.
-
-    ``rates``: the derivatives of coordinates, velocities and time.
-    """
+    """The ``lagrangian`` of a scene, its ``dissipation`` D, and ``pushes``, the applied forces."""
 
     def __init__(self, problem: CheckedProblem) -> None:
+        """Read the energies (``rates``: time derivatives) and pairs (force component, place or coordinate)."""
         self.scene, self.world, self.d = problem.scene, problem.world, problem.world.dimension
         self.rates = {"t": ONE, **{q: symbol(f"{q}dot") for q in problem.coordinates}}
         self.rates |= {f"{q}dot": symbol(f"{q}ddot") for q in problem.coordinates}
         energies: Entry = self.scene.get("energies", {})
         known_fields(energies, "kinetic potential dissipation forces")
         pushed: Entry = energies.get("forces", {})
-        refuse(not pushed.keys() <= {*problem.coordinates}, "a force pushes along what is no coordinate")
+        refuse(not pushed.keys() <= {*problem.coordinates}, "a force names something that is not a coordinate")
         for entry in self.scene.get("forces", []):
             known_fields(entry, f"type name notes {ENTRIES[entry['type']]}")
         texts = {key: self.text(value) for key, value in energies.items() if key != "forces"}
-        stored = texts.get("potential") or add(*self.of("spring"), *self.of("gravity"))
-        self.lagrangian = (texts.get("kinetic") or add(*self.kinetic())) - stored
+        potential = texts.get("potential") or add(*self.of("spring"), *self.of("gravity"))
+        self.lagrangian = (texts.get("kinetic") or add(*self.kinetic())) - potential
         self.dissipation = texts.get("dissipation") or add(*self.of("damper"))
         self.pushes = [(self.text(text), symbol(q)) for q, text in pushed.items()]
         self.pushes = self.pushes or [pair for pairs in self.of("force") for pair in pairs]

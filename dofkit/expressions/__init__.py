@@ -1,24 +1,23 @@
 """Exact expressions: what is the equation that a person wrote, and what are its derivatives?
 
 An expression is an immutable tree of exact numbers, symbols (coordinates, velocities, parameters, time), sums,
-products, powers and functions. Numbers are rational from the first character on; nothing here is ever a float.
+products, powers and functions. Numbers are read as rationals; nothing here is ever a float.
 
 Types
-    `tree` has `Expr` and its constructors; `vectors` has vectors and matrices of them.
+    `tree` defines the expression `Expr` and its constructors; `vectors` defines vectors and matrices of expressions.
 
 Mechanisms, in the order in which an equation meets them
-    1. `text` reads the grammar (ASCII, Unicode, LaTeX, primes, Leibniz) into a tree, and prints a tree in it. Every
-       error has a column and a hint. The grammar is bounded in length, depth and in the size of what a text may stand
-       for.
+    1. `text` reads a formula (ASCII, Unicode, LaTeX, primes, Leibniz) into a tree, and prints a tree as a formula.
+       Errors have a column and a hint. Formulas are bounded in length, depth and expanded size.
     2. `real_values` lists the conditions under which powers and functions, as they were written, have a real value, and
        keeps the numbers and powers of a text within bounds.
-    3. `calculus` substitutes, takes sums apart into linear terms, differentiates, and relates differentials and
+    3. `calculus` substitutes, writes sums as combinations of terms, differentiates, and relates differentials and
        velocities (dq = qdot dt).
-    4. `rational_values` knows the rational values of roots and of trigonometric functions; `enclosures` gives every
+    4. `rational_values` computes the rational values of roots and of trigonometric functions; `enclosures` gives every
        other constant as a certified interval.
     5. `renaming` finds expressions that are equal up to the names in them, so that work is done once for many copies,
-       and has sequences of them that are written out only when one is needed (the equations of a joint).
+       and defines lazy sequences of such expressions (the equations of a joint).
     6. `sympy_bridge` converts to and from SymPy, node by node and never through text.
 
-A zero is never decided here: `dofkit.exact` does that. The rooms above receive trees, and no text.
+Whether an expression is zero is decided in `dofkit.exact`, never here. Other packages receive trees, never text.
 """

@@ -1,8 +1,7 @@
 """Substitution, sums as combinations of their terms, derivatives, and differentials.
 
-For velocities dq = qdot dt: a relation homogeneous of degree k in (dq, dt) is divided by dt^k; one that adds
-differentials to finite terms says nothing. Second derivatives have to stand linearly: then the relation may integrate
-once.
+Velocities replace differentials by dq = qdot dt: a relation homogeneous of degree k in (dq, dt) is divided by dt^k; a
+sum of differentials and terms without differentials is refused.
 """
 
 from __future__ import annotations
@@ -19,7 +18,7 @@ from dofkit.expressions.tree import MINUS_ONE, ONE, ZERO, Expr, add, call, child
 
 
 def substitute(e: Expr, mapping: Mapping[Expr, Expr]) -> Expr:
-    """Return ``e`` with symbols replaced by expressions, all at once."""
+    """Return ``e`` with its symbols replaced by the expressions of ``mapping``, all simultaneously."""
     return _substituted(e, mapping, {})
 
 
@@ -30,9 +29,8 @@ def _substituted(node: Expr, mapping: Mapping[Expr, Expr], memo: dict[Expr, Expr
         return mapping[node]
     substituted = memo.get(node)
     if substituted is None:
-        substituted = memo[node] = rebuild(
-            node, tuple([_substituted(child, mapping, memo) for child in children(node)])
-        )
+        operands = tuple([_substituted(child, mapping, memo) for child in children(node)])
+        substituted = memo[node] = rebuild(node, operands)
     return substituted
 
 
@@ -48,12 +46,12 @@ def _replaced(node: Expr, memo: dict[Expr, Expr]) -> Expr:
     return replaced
 
 
-#: Products of sums are multiplied out in arguments up to this many terms.
+#: A product of sums that would have more terms than this is not multiplied out.
 EXPAND_TERMS = 64
 
 
 def expand(e: Expr) -> Expr:
-    """Return ``e`` with products of sums and small powers of sums multiplied out."""
+    """Return ``e`` with products and small powers of sums multiplied out, if they have `EXPAND_TERMS` terms at most."""
     if e.op == "add":
         return add(*(expand(term) for term in e.args))
     if e.op == "mul":
@@ -72,7 +70,7 @@ def expand(e: Expr) -> Expr:
 
 
 def linear_terms(e: Expr) -> dict[Expr, Fraction]:
-    """Return ``e`` as a combination of its terms with rational coefficients, not 0; the number's term is `ONE`."""
+    """Return ``e`` as {term: nonzero rational coefficient}; the key of the constant term is `ONE`."""
     if e.op == "sym":
         return {e: Fraction(1)}
     total = expand(e)
@@ -90,17 +88,17 @@ def linear_terms(e: Expr) -> dict[Expr, Fraction]:
 
 
 def sorted_product(e: Expr) -> Expr:
-    """Return the same product, its factors in an order of their own."""
+    """Return the product ``e`` with its factors in a canonical order; any other expression unchanged."""
     return Expr("mul", tuple(sorted(e.args, key=repr))) if e.op == "mul" else e
 
 
 def sorted_sum(e: Expr) -> tuple[tuple[str, Fraction], ...]:
-    """Return a key that does not depend on the order of terms."""
+    """Return the (term as text, coefficient) of ``e``, sorted: a key that does not depend on the order of terms."""
     return tuple(sorted((repr(base), factor) for base, factor in linear_terms(e).items()))
 
 
 def content(e: Expr) -> tuple[Fraction, Expr]:
-    """Return a sum as positive rational content times the rest."""
+    """Return (c, p) with the sum ``e`` = c p, c > 0 rational, and coprime integers as coefficients of p."""
     factors = [ex.number_and_rest(t)[0] for t in e.args]
     top = gcd(*(abs(f.numerator) for f in factors))
     bottom = 1
@@ -111,7 +109,7 @@ def content(e: Expr) -> tuple[Fraction, Expr]:
 
 
 def longest_number(expressions: Iterable[Expr]) -> int:
-    """Return the bits of the longest numerator or denominator of a number that occurs; 0 where none does."""
+    """Return the bits of the longest numerator or denominator in ``expressions``, 0 without numbers."""
     seen: set[Expr] = set()
     stack, longest = list(expressions), 0
     while stack:
@@ -145,7 +143,7 @@ _DERIVATIVES: dict[str, Callable[[Expr], Expr]] = {
 
 
 def diff(e: Expr, symbol: Expr) -> Expr:
-    """Return the partial derivative by one symbol, all other symbols held."""
+    """Return the partial derivative of ``e`` by ``symbol``, with all other symbols held constant."""
     return _diff(e, symbol, {})
 
 
@@ -161,6 +159,7 @@ def _diff(node: Expr, symbol: Expr, memo: dict[Expr, Expr]) -> Expr:
 
 
 def _diff_node(node: Expr, go: Callable[[Expr], Expr]) -> Expr:
+    """Return the derivative of ``node`` by the rule for its ``op``; ``go`` differentiates the arguments."""
     if node.op == "add":
         return add(*(go(term) for term in node.args))
     if node.op == "mul":
@@ -185,12 +184,12 @@ def _diff_node(node: Expr, go: Callable[[Expr], Expr]) -> Expr:
     return mul(_DERIVATIVES[node.args[0]](argument), go(argument))
 
 
-#: Functions that keep the degree of what stands inside, or do not ask for it: only ratios of their arguments count.
+#: Functions that accept differentials: abs has the degree of its argument, atan2 depends only on the ratio of its two.
 HOMOGENEOUS = ("abs", "atan2")
 
 
 def differential_degree(e: Expr) -> int | None:
-    """Return the degree in (dq, dt), None for the number 0. Raises TextError where terms differ."""
+    """Return the degree of ``e`` in (dq, dt), None for the number 0. Raises TextError if ``e`` is not homogeneous."""
     if e.is_zero:
         return None
     if not any(map(is_differential, e.symbols)):
@@ -219,7 +218,7 @@ def differential_degree(e: Expr) -> int | None:
 
 
 def in_velocities(e: Expr) -> tuple[Expr, bool]:
-    """Return ``e`` in velocities instead of differentials, and whether it had a dt to divide by."""
+    """Return ``e`` divided by dt^degree, in velocities instead of differentials, and whether the degree was not 0."""
     degree = differential_degree(e)
     if not degree and not any(map(is_differential, e.symbols)):
         return e, False
@@ -229,23 +228,23 @@ def in_velocities(e: Expr) -> tuple[Expr, bool]:
 
 
 def cleared(e: Expr) -> Expr:
-    """Return ``e`` times the denominators in velocities of its terms, so that dy/dx = f becomes dy - f dx = 0."""
+    """Return ``e`` times the velocity denominators of its terms, so that dy/dx = f becomes dy - f dx = 0."""
     if e.op == "mul":
         return ex.mul(*map(cleared, e.args))
-    if _is_below(e):
+    if _is_velocity_denominator(e):
         return ex.ONE
     if e.op != "add":
         return e
     powers: dict[Expr, Fraction] = {}
     for term in e.args:
-        for factor in filter(_is_below, term.args if term.op == "mul" else (term,)):
+        for factor in filter(_is_velocity_denominator, term.args if term.op == "mul" else (term,)):
             base, exponent = factor.args[0], factor.args[1].args[0]
             powers[base] = min(exponent, powers.get(base, exponent))
-    whole = ex.mul(*(ex.power(base, ex.num(-exponent)) for base, exponent in powers.items()))
-    return ex.add(*(ex.mul(whole, term) for term in e.args)) if powers else e
+    denominator = ex.mul(*(ex.power(base, ex.num(-exponent)) for base, exponent in powers.items()))
+    return ex.add(*(ex.mul(denominator, term) for term in e.args)) if powers else e
 
 
-def _is_below(factor: Expr) -> bool:
+def _is_velocity_denominator(factor: Expr) -> bool:
     """Return whether a factor is a negative power of an expression in velocities."""
     negative = factor.op == "pow" and factor.args[1].op == "num" and factor.args[1].args[0] < 0
     return negative and any(s.args[0] == "velocity" for s in factor.symbols)
@@ -260,9 +259,6 @@ def refuse_accelerations(e: Expr) -> None:
         )
 
 
-# -- derivatives that a text may ask for -----------------------------------------------------------
-
-
 _RATES: dict[str, Callable[[str], Expr]] = {
     "coordinate": ex.velocity, "velocity": partial(ex.sym, "acceleration"), "time": lambda _: ex.ONE,
 }  # fmt: skip
@@ -270,28 +266,29 @@ _DIFFERENTIALS: dict[str, Callable[[str], Expr]] = {"coordinate": ex.differentia
 
 
 def by_time(e: Expr) -> Expr | None:
-    """Return the total derivative by time, or None where that has no meaning here."""
+    """Return the total derivative of ``e`` by time, or None if an acceleration or a differential occurs in it."""
     return _by_the_chain_rule(e, _RATES)
 
 
 def total_differential(e: Expr) -> Expr | None:
-    """Return the sum of the partial derivatives times the differentials, or None where motions occur."""
+    """Return the differential of ``e``, or None if a velocity, an acceleration or a differential occurs in it."""
     return _by_the_chain_rule(e, _DIFFERENTIALS)
 
 
-def _by_the_chain_rule(e: Expr, slopes: Mapping[str, Callable[[str], Expr]]) -> Expr | None:
+def _by_the_chain_rule(e: Expr, rates: Mapping[str, Callable[[str], Expr]]) -> Expr | None:
+    """Return the sum over the symbols s of ``e`` of d e/d s times the rate of s, or None if some s has no rate."""
     terms = []
     for symbol in sorted(e.symbols, key=lambda s: s.args):
         kind, name = symbol.args
-        if kind in slopes:
-            terms.append(ex.mul(diff(e, symbol), slopes[kind](name)))
+        if kind in rates:
+            terms.append(ex.mul(diff(e, symbol), rates[kind](name)))
         elif kind != "parameter":
             return None
     return ex.add(*terms)
 
 
 def over_dt(e: Expr) -> Expr | None:
-    """Return ``e`` divided by dt where it is linear in differentials: `dx/dt` is the velocity of x; else None."""
+    """Return ``e`` divided by dt if it is dt, dq (which gives qdot) or linear in differentials, else None."""
     if e.op == "sym":
         if e == ex.DT:
             return ex.ONE
@@ -313,7 +310,7 @@ def is_differential(e: Expr) -> bool:
 
 
 def exterior_derivative(form: Mapping[Expr, Expr]) -> dict[tuple[int, int], Expr]:
-    """Return d(omega), d a_j / d x_i - d a_i / d x_j by places i < j of variables, where it is not written as 0."""
+    """Return d(omega) of the 1-form {x_i: a_i} as {(i, j): d a_j/d x_i - d a_i/d x_j}, i < j, without zeros."""
     pairs = combinations(enumerate(form.items()), 2)
     curls = {(i, j): diff(b, s) - diff(a, u) for (i, (s, a)), (j, (u, b)) in pairs}
     return {pair: curl for pair, curl in curls.items() if not curl.is_zero}

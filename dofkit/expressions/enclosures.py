@@ -1,4 +1,4 @@
-"""Values of constant expressions: exact where they are rational, else as certified intervals."""
+"""Values of expressions as certified intervals (balls: a midpoint and a radius)."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ BITS = 256
 
 
 def is_constant(e: Expr) -> bool:
-    """Return whether no symbol and no unknown function occurs."""
+    """Return whether ``e`` contains no symbol and no unknown function."""
     return not e.symbols and not has_call(e)
 
 
 def has_call(e: Expr) -> bool:
-    """Return whether an unknown function occurs."""
+    """Return whether ``e`` contains an unknown function."""
     return "call" in e.functions
 
 
 def interval_of(e: Expr, values: Mapping[Expr, Fraction | arb] | None = None, bits: int = BITS) -> arb | None:
-    """Return a ball that holds the real value of ``e``, symbols replaced by ``values``; None where there is none."""
+    """Return a ball around the value of ``e`` at ``values`` of its symbols; None if ``e`` has no real value there."""
 
     def go(node: Expr) -> arb:
         if node not in balls:
@@ -50,7 +50,7 @@ def _ball(value: Fraction) -> arb:
 
 
 def _combined(node: Expr, balls: Sequence[arb]) -> arb:
-    """Return the value of a node from those of its parts. Raises KeyError where it has none."""
+    """Return the value of a node from the values of its children. Raises KeyError for symbols and unknown functions."""
     if node.op == "num":
         return _ball(node.args[0])
     if node.op == "const":
@@ -68,7 +68,7 @@ def _combined(node: Expr, balls: Sequence[arb]) -> arb:
 
 
 def differs_from_zero(e: Expr) -> bool:
-    """Return whether ``e`` is certainly not 0, at random positive values of its parameters; False else."""
+    """Return whether ``e`` is proved not to be identically 0, by its value at a random point with positive symbols."""
     if e.op == "num":
         return bool(e.args[0])
     if has_call(e):
@@ -80,7 +80,7 @@ def differs_from_zero(e: Expr) -> bool:
 
 
 def approximate(e: Expr) -> float | None:
-    """Return a constant expression as a float."""
+    """Return a constant expression as a float; None if ``e`` is not constant, too large or has no real value."""
     if e.op == "num":
         try:
             return float(e.args[0])

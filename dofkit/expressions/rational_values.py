@@ -10,12 +10,12 @@ from dofkit.base.errors import PoleError
 
 #: A power of numbers is folded only while the result stays below this many bits.
 FOLD_BITS = 4096
-#: Higher roots are not looked for.
+#: Roots of higher degree are not computed.
 MAX_DEGREE = 64
 
 
 def exact_power(base: Fraction, exponent: Fraction) -> Fraction | None:
-    """A number to a power, where that is a number of bounded size. Raises PoleError for 0 to a negative power."""
+    """Return base^exponent, or None if it is irrational or too long. Raises PoleError for 0 to a negative power."""
     if base == 0:
         if exponent < 0:
             raise PoleError
@@ -32,7 +32,7 @@ def exact_power(base: Fraction, exponent: Fraction) -> Fraction | None:
 
 
 def exact_root(value: Fraction, degree: int) -> Fraction | None:
-    """Return the root of a positive number; None where it is not rational, or the degree is above `MAX_DEGREE`."""
+    """Return the positive root of ``value`` > 0, or None if it is irrational or ``degree`` exceeds `MAX_DEGREE`."""
     if degree > MAX_DEGREE:
         return None
     top, bottom = _integer_root(value.numerator, degree), _integer_root(value.denominator, degree)
@@ -55,12 +55,12 @@ _AT_TWELFTHS: dict[str, dict[int, Fraction]] = {
     "cos": {0: _ONE, 4: _HALF, 6: _ZERO, 8: -_HALF},
     "tan": {0: _ZERO, 3: _ONE, 9: -_ONE},
 }
-#: The functions that are rational at some multiples of pi.
+#: The functions with rational values at some multiples of pi.
 TURNING = frozenset(_AT_TWELFTHS)
 
 
 def value_at(name: str, argument: Fraction) -> Fraction | None:
-    """Return the value of a function of one argument, where that is known to be rational; else None.
+    """Return the value of the function ``name`` at ``argument`` if it is known to be rational, else None.
 
     >>> value_at("cos", Fraction(0)), value_at("abs", Fraction(-2, 3)), value_at("sin", Fraction(1))
     (Fraction(1, 1), Fraction(2, 3), None)
@@ -73,14 +73,14 @@ def value_at(name: str, argument: Fraction) -> Fraction | None:
 
 
 def value_at_turn(name: str, multiple: Fraction) -> Fraction | None:
-    """Return the value of a function of `TURNING` at ``multiple`` times pi, where it is rational; else None.
+    """Return the value of the function ``name`` of `TURNING` at ``multiple`` times pi if it is rational, else None.
 
     >>> value_at_turn("sin", Fraction(1, 6)), value_at_turn("cos", Fraction(-2, 3))
     (Fraction(1, 2), Fraction(-1, 2))
     """
-    place = multiple * 12
-    if place.denominator != 1:
+    twelfths = multiple * 12
+    if twelfths.denominator != 1:
         return None
-    half_turns, within = divmod(int(place), 12)
-    value = _AT_TWELFTHS[name].get(within)
+    half_turns, remainder = divmod(int(twelfths), 12)
+    value = _AT_TWELFTHS[name].get(remainder)
     return -value if value is not None and half_turns % 2 and name != "tan" else value

@@ -1,4 +1,4 @@
-"""Where powers, quotients and elementary functions have a real value; those of numbers, within bounds."""
+"""Conditions for powers, quotients and elementary functions to have a real value, and bounds on the numbers in them."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from dofkit.base.errors import TextError
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import MINUS_ONE, ONE, Expr, children, fn, nodes, num, power
 
-#: Constant exponents, powers of ten included, and the product of nested ones.
+#: The largest constant exponent, powers of ten included, and the largest product of nested exponents.
 MAX_EXPONENT = 64
 #: Bits of one number after folding.
 MAX_BITS = 2048
 
 
 def raised(base: Expr, exponent: Expr) -> Expr:
-    """Return ``base^exponent``. Raises TextError."""
+    """Return ``base^exponent``. Raises TextError if the power has no real value or is too large."""
     if exponent.op == "num":
         _check_power(base, exponent.args[0])
     elif base.op == "num" and base.args[0] <= 0:
@@ -38,6 +38,7 @@ def _bits(e: Expr) -> int:
 
 
 def _check_power(base: Expr, value: Fraction) -> None:
+    """Raise TextError if ``base`` to the constant ``value`` has no real value or exceeds `MAX_EXPONENT`."""
     if abs(value.numerator) > MAX_EXPONENT or value.denominator > MAX_EXPONENT:
         message = f"this exponent is too large; at most {MAX_EXPONENT} is read"
         raise TextError(message, hint="choose a smaller exponent")
@@ -54,7 +55,7 @@ def _check_power(base: Expr, value: Fraction) -> None:
 
 
 def _degree(e: Expr, memo: dict[Expr, Fraction]) -> Fraction:
-    """Return the largest product of nested constant exponents in ``e``."""
+    """Return the largest product of nested constant exponents in ``e``; ``memo`` keeps it by node."""
     if e not in memo:
         memo[e] = max((_degree(child, memo) for child in children(e)), default=Fraction(1))
         if e.op == "pow" and e.args[1].op == "num":
@@ -63,14 +64,14 @@ def _degree(e: Expr, memo: dict[Expr, Fraction]) -> Fraction:
 
 
 def inverse(divisor: Expr) -> Expr:
-    """Return ``1/divisor``. Raises TextError for zero."""
+    """Return ``1/divisor``. Raises TextError if ``divisor`` is the number 0."""
     if divisor.is_zero:
         raise TextError("this divides by zero", hint="check the denominator")
     return power(divisor, MINUS_ONE)
 
 
 def applied(name: str, *arguments: Expr) -> Expr:
-    """Return an elementary function of arguments. Raises TextError where it has no real value."""
+    """Return the elementary function ``name`` of ``arguments``. Raises TextError if it has no real value there."""
     first = arguments[0]
     if name == "sqrt":
         return raised(first, num(Fraction(1, 2)))
@@ -89,7 +90,7 @@ def applied(name: str, *arguments: Expr) -> Expr:
 
 
 def bounded(e: Expr) -> Expr:
-    """Return ``e``. Raises TextError where a number or a power in it has grown too large."""
+    """Return ``e`` unchanged. Raises TextError if a number or a power in ``e`` is too large."""
     for node in nodes(e):
         if _bits(node) > MAX_BITS:
             raise TextError("the numbers in this text multiply to one too large", hint="choose other units")
@@ -99,13 +100,13 @@ def bounded(e: Expr) -> Expr:
     return e
 
 
-#: An expression, and what it has to be against 0.
+#: An expression, and how its value has to compare with 0.
 DomainSense = Literal[">=", ">", "!="]
 Requirement = tuple[Expr, DomainSense]
 
 
 def of_power(base: Expr, exponent: Expr) -> Iterator[Requirement]:
-    """Yield what ``base^exponent`` requires; a number as base was checked when it was read."""
+    """Yield the requirements under which ``base^exponent`` is real; none for a number, which `raised` has checked."""
     if base.op == "num":
         return
     if exponent.op != "num":
@@ -117,7 +118,7 @@ def of_power(base: Expr, exponent: Expr) -> Iterator[Requirement]:
 
 
 def of_function(name: str, u: Expr, *others: Expr) -> Iterator[Requirement]:
-    """Yield what an elementary function requires of its arguments."""
+    """Yield the requirements under which the elementary function ``name`` of ``u`` and ``others`` is real."""
     if name == "sqrt":
         yield u, ">="
     elif name == "log":
@@ -137,9 +138,9 @@ RelationSign = Literal["=", "<=", ">=", "<", ">"]
 
 @dataclass(frozen=True)
 class Comparison:
-    """One relation; ``column`` is where its sign stands (where the text begins, if it has none).
+    """One relation, with the ``column`` of its sign (of the beginning of the text, if there is no sign).
 
-    ``domain``: the conditions under which the text, as it was written, has a value.
+    ``domain``: the conditions under which the text has a real value as written, before any simplification.
     """
 
     left: Expr

@@ -1,7 +1,7 @@
-"""Expressions that are the same up to names: what is left without these, and the same in other names.
+"""Expressions that are equal up to the names in them: their common shape, and one rewritten with the names of another.
 
-Names are those of coordinates (their velocities, accelerations and differentials have them too) and of geometry that
-was left out, whose parameters begin with ``_``. All other names are kept: parameters and functions are shared.
+Only names of coordinates (which velocities, accelerations and differentials share) and of parameters that begin with
+``_`` (geometry that the scene does not state) are replaced. Names of other parameters and of functions are kept.
 """
 
 from __future__ import annotations
@@ -12,14 +12,14 @@ from typing import Any, NamedTuple, TypeVar, overload
 
 from dofkit.expressions.tree import Expr, children, sym
 
-#: The kinds of symbols that are called by a coordinate.
+#: The kinds of symbols that carry the name of a coordinate.
 MOVING = frozenset({"coordinate", "velocity", "acceleration", "differential"})
-#: Of them those of a coordinate's own value and rate.
+#: The kinds by which `coordinates_in` counts a coordinate: its value and its velocity.
 VALUED = frozenset({"coordinate", "velocity"})
 
 
 class Occurring(NamedTuple):
-    """The ``kinds`` of symbols in an expression, and which of its names are those of ``coordinates``, by number."""
+    """The ``kinds`` of symbols in an expression, and the numbers of those names that belong to ``coordinates``."""
 
     kinds: frozenset[str]
     coordinates: tuple[int, ...]
@@ -28,9 +28,8 @@ class Occurring(NamedTuple):
 class ExpressionShape(NamedTuple):
     """An expression without its names.
 
-    ``skeleton``: the expression with its names replaced by numbers, in the order in which they first occur; ``names``:
-    these, in that order; ``kept``: the names of symbols that are no such names, sorted; ``occurring``: stated by the
-    skeleton.
+    ``skeleton``: the expression with its names replaced by numbers in order of first occurrence; ``names``: the
+    replaced names in that order; ``kept``: all other names of symbols, sorted.
 
     >>> from dofkit.expressions.tree import coordinate, velocity
     >>> shape_of(coordinate("y") * velocity("x")).names
@@ -46,9 +45,9 @@ class ExpressionShape(NamedTuple):
 
     @property
     def name_order(self) -> tuple[int | str, ...]:
-        """The numbers of the names in alphabetical order of the names, kept names standing for themselves.
+        """The numbers of the replaced names, sorted by name, with the kept names among them.
 
-        Of expressions with one skeleton and one order, whatever looks at names only to sort them makes the same.
+        An algorithm that uses names only for sorting does the same for expressions of equal skeleton and `name_order`.
         """
         places: dict[str, int | str] = {name: name for name in self.kept}
         places.update((name, k) for k, name in enumerate(self.names))
@@ -56,13 +55,13 @@ class ExpressionShape(NamedTuple):
 
 
 def is_name(symbol: Expr) -> bool:
-    """Return whether a symbol has a name that may be another: of a coordinate, or of geometry left out."""
+    """Return whether a shape replaces the name of ``symbol``: a coordinate's, or a parameter's beginning with ``_``."""
     kind, name = symbol.args
     return kind in MOVING or (kind == "parameter" and name[0] == "_")
 
 
 def shape_of(e: Expr) -> ExpressionShape:
-    """Return an expression without its names; worked out once."""
+    """Return the `ExpressionShape` of ``e``, which is computed once and kept in ``e.shape``."""
     shape: ExpressionShape | None = e.shape
     if shape is None:
         places: dict[str, str] = {}
@@ -79,12 +78,12 @@ def shape_of(e: Expr) -> ExpressionShape:
 
 
 def kinds_in(e: Expr) -> frozenset[str]:
-    """Return the kinds of the symbols that occur."""
+    """Return the kinds of the symbols that occur in ``e``."""
     return frozenset([s.args[0] for s in e.symbols]) if e.shape is None else e.shape.occurring.kinds
 
 
 def coordinates_in(e: Expr) -> frozenset[str]:
-    """Return the coordinates of which the value or the velocity occurs.
+    """Return the names of the coordinates that occur in ``e``, as themselves or as velocities.
 
     >>> from dofkit.expressions.tree import coordinate, velocity
     >>> sorted(coordinates_in(coordinate("y") * velocity("x")))
@@ -98,7 +97,7 @@ def coordinates_in(e: Expr) -> frozenset[str]:
 
 
 def _symbols_in_order(e: Expr) -> list[Expr]:
-    """Return the symbols, each where it first occurs."""
+    """Return the symbols of ``e`` in order of first occurrence."""
     symbols: dict[Expr, None] = {}
     stack, seen = [e], set[int]()
     while stack:
@@ -112,7 +111,7 @@ def _symbols_in_order(e: Expr) -> list[Expr]:
 
 
 def renamed(e: Expr, names: Mapping[str, str]) -> Expr:
-    """Return an expression in other names, which have to be as many: nothing is folded again.
+    """Return ``e`` with its names replaced by the one-to-one map ``names``; nothing is simplified anew.
 
     >>> from dofkit.expressions.tree import coordinate
     >>> renamed(coordinate("x") + 1, {"x": "y"}) == coordinate("y") + 1
@@ -122,7 +121,7 @@ def renamed(e: Expr, names: Mapping[str, str]) -> Expr:
 
 
 class Renaming:
-    """Expressions rewritten in other names, one for one."""
+    """Rewrites expressions by a one-to-one map of names, each node once."""
 
     def __init__(self, names: Mapping[str, str]) -> None:
         self.names = names
@@ -130,7 +129,7 @@ class Renaming:
         self._renamed: dict[int, tuple[Expr, Expr]] = {}
 
     def of(self, e: Expr) -> Expr:
-        """Return an expression in the other names; its shape is known where it was."""
+        """Return ``e`` in the new names, with its shape and functions if those of ``e`` are known."""
         op, args = e.op, e.args
         if op == "sym":
             return self._symbol(e)
@@ -166,10 +165,10 @@ T = TypeVar("T")
 
 
 class Unwritten(Sequence[T]):
-    """``number`` of things that hold expressions, of which no two parts mention coordinates that are all different.
+    """A lazy sequence of ``number`` objects with expressions, made by ``write`` when an element is first needed.
 
-    ``mentioned``: the coordinates that they mention; ``longest``: no number in them has more bits; ``write`` makes
-    them. It is equal to the sequence that it stands for, and a tuple in another process.
+    The objects are connected by common coordinates; ``mentioned`` are all of these; no number has more than ``longest``
+    bits. The sequence equals the tuple of its elements, and is pickled as that tuple.
     """
 
     def __init__(self, number: int, mentioned: frozenset[str], longest: int, write: Callable[[], Iterable[T]]) -> None:
@@ -177,7 +176,7 @@ class Unwritten(Sequence[T]):
 
     @cached_property
     def written(self) -> tuple[T, ...]:
-        """All of them."""
+        """The elements."""
         return tuple(self._write())
 
     def __len__(self) -> int:

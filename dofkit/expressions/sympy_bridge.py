@@ -1,6 +1,6 @@
-"""Between expressions and SymPy, node by node: no text is read on the way, in either direction.
+"""Conversion between expressions and SymPy, node by node: never through text, in either direction.
 
-A coordinate q is the dynamic symbol q(t), its velocity and acceleration are the derivatives of that by t.
+A coordinate q is the dynamic symbol q(t); its velocity and acceleration are the derivatives of q(t) by t.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ class UntranslatableError(DofkitError):
 
 
 class Bridge:
-    """Translates expressions in given coordinates; ``positive`` parameters are positive in SymPy too."""
+    """Converts expressions in ``coordinates`` to SymPy and back; ``positive`` parameters are positive in SymPy too."""
 
     def __init__(self, coordinates: Iterable[str], positive: frozenset[Expr] = frozenset()) -> None:
         import sympy
@@ -40,14 +40,14 @@ class Bridge:
         self._back: dict[Any, Expr] = {}
         self._parameters: dict[Any, Expr] = {}
 
-    # to SymPy
+    # To SymPy
 
     def velocity(self, name: str, order: int = 1) -> Any:
-        """Return the ``order``-th derivative of a coordinate by time."""
+        """Return the ``order``-th derivative by time of the coordinate ``name``, in SymPy."""
         return self.positions[name].diff(self.time, order)
 
     def sympy(self, e: Expr) -> Any:
-        """Return ``e`` in SymPy. Raises KeyError for coordinates that were not given."""
+        """Return ``e`` in SymPy. Raises KeyError if a coordinate of ``e`` was not given."""
         for node in ex.nodes(e):
             if node not in self._memo:
                 self._memo[node] = self._to_sympy(node)
@@ -77,9 +77,8 @@ class Bridge:
         if kind == "time":
             return self.time
         if kind == "parameter":
-            symbol = (
-                self._sympy.Symbol(name, positive=True) if e in self._positive else self._sympy.Symbol(name, real=True)
-            )
+            assumption = "positive" if e in self._positive else "real"
+            symbol = self._sympy.Symbol(name, **{assumption: True})
             self._parameters[symbol] = e
             return symbol
         orders = {"coordinate": 0, "velocity": 1, "differential": 1, "acceleration": 2}
@@ -94,10 +93,10 @@ class Bridge:
         steps = [(place, order) for place, order in zip(places, orders, strict=True) if order]
         return sp.Subs(sp.Derivative(function(*places), *steps), places, arguments)
 
-    # and back
+    # From SymPy
 
     def expr(self, e: Any) -> Expr:
-        """Return a SymPy expression as one of ours. Raises UntranslatableError where that is not possible."""
+        """Return the SymPy expression ``e`` as an `Expr`. Raises UntranslatableError if it has no counterpart."""
         translated = self._back.get(e)
         if translated is None:
             translated = self._back[e] = self._from_sympy(e)
@@ -127,7 +126,7 @@ class Bridge:
         return self._parameters.get(e) or ex.parameter(str(e.name))
 
     def derivative(self, e: Any) -> Expr:
-        """Return a velocity, an acceleration, or the derivative of an unknown function at its own arguments."""
+        """Return a SymPy ``Derivative``: a velocity, an acceleration, or the derivative of an unknown function."""
         base, steps = e.expr, {variable: int(order) for variable, order in e.variable_count}
         if steps == {base: 1}:
             return ex.ONE
@@ -142,14 +141,14 @@ class Bridge:
         return ex.call(str(base.func.__name__), map(self.expr, base.args), self._orders(base, steps))
 
     def _orders(self, base: Any, steps: Mapping[Any, int]) -> tuple[int, ...]:
-        """How often a call is differentiated by each argument; a variable in two arguments is no such derivative."""
+        """Return how often ``base`` is differentiated by each argument. Raises if two arguments share a variable."""
         for variable in steps:
             if sum(a == variable or a.has(variable) for a in base.args) != 1 or variable not in base.args:
-                raise UntranslatableError("a derivative by what several arguments hold")
+                raise UntranslatableError("a derivative by a variable of several arguments")
         return tuple(steps.get(a, 0) for a in base.args)
 
     def substituted(self, e: Any) -> Expr:
-        """Return a derivative of an unknown function at other arguments than it was taken by."""
+        """Return a SymPy ``Subs``: a derivative of an unknown function, evaluated at other arguments."""
         inner = e.expr
         if not isinstance(inner, self._sympy.Derivative):
             raise UntranslatableError("a substitution that was not carried out")
@@ -176,7 +175,7 @@ _READ: dict[str, Callable[[Bridge, Any], Expr]] = {
 
 
 def integrators() -> tuple[Callable[..., Any], ...]:
-    """Return SymPy's ways to integrate: called before a limit of time begins, so that the import does not count."""
+    """Return SymPy's integration functions; a first call, before a time limit begins, keeps the import out of it."""
     from sympy.integrals.manualintegrate import manualintegrate
     from sympy.integrals.risch import risch_integrate
 
@@ -184,22 +183,22 @@ def integrators() -> tuple[Callable[..., Any], ...]:
 
 
 def antiderivative_by_sympy(e: Expr, x: Expr, positive: frozenset[Expr]) -> Expr | None:
-    """Return the antiderivative of ``e`` by the symbol ``x`` that SymPy finds, or None.
+    """Return an antiderivative of ``e`` by the symbol ``x``, or None if SymPy finds none.
 
-    Risch's algorithm covers rational functions, exponentials and logarithms, and says quickly where an integrand is
-    none of them; then the rules that a person would use. Raises UntranslatableError where a result cannot be written.
+    Risch's algorithm (rational functions, exponentials and logarithms) is tried first, then textbook rules. Raises
+    UntranslatableError if the result has no counterpart in the grammar.
     """
     from sympy import Integral, Piecewise
     from sympy.polys.polyerrors import BasePolynomialError
 
-    plain = {s: ex.parameter(f"p{i}") for i, s in enumerate(sorted(e.symbols, key=repr))}
-    bridge = Bridge((), frozenset(plain[s] for s in e.symbols & positive))
-    integrand, variable = bridge.sympy(substitute(e, plain)), bridge.sympy(plain[x])
+    renamed = {s: ex.parameter(f"p{i}") for i, s in enumerate(sorted(e.symbols, key=repr))}
+    bridge = Bridge((), frozenset(renamed[s] for s in e.symbols & positive))
+    integrand, variable = bridge.sympy(substitute(e, renamed)), bridge.sympy(renamed[x])
     for integrate in integrators():
         try:
             integral = integrate(integrand, variable)
         except (ArithmeticError, AttributeError, BasePolynomialError, LookupError, RuntimeError, TypeError, ValueError):
             continue  # NotImplementedError is a RuntimeError
         if not integral.has(Integral, Piecewise):
-            return substitute(bridge.expr(integral), {p: s for s, p in plain.items()})
+            return substitute(bridge.expr(integral), {p: s for s, p in renamed.items()})
     return None

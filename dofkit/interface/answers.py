@@ -1,4 +1,4 @@
-"""What a worker does for one file of the command line: from its bytes to the lines that are printed."""
+"""What a worker does for one file of the command line: from its bytes to the texts that are printed."""
 
 from __future__ import annotations
 
@@ -32,12 +32,12 @@ from dofkit.scene.expectation import unmet
 from dofkit.scene.reading import SceneFile
 from dofkit.scene.scene import Scene, without
 
-#: The public functions that draw, by the kind of the picture.
+#: {kind of picture: public function that makes it}.
 _PICTURES = {"mechanism": "draw", "graph": "graph", "directions": "phase", "motion": "animate", "loop": "animate"}
 
 
 def cut_lines(cut: Cut) -> Json:
-    """Return what is printed if `report_lines` was cut short: of a scene that was read, that nothing was decided."""
+    """Return what is printed if the answer was cut short: an undecided report if the scene was read, else a fault."""
     if cut.is_read:
         *_, printed = answer_lines(cut.request, partial(_undecided, cut.reason))
         return printed
@@ -46,7 +46,7 @@ def cut_lines(cut: Cut) -> Json:
 
 
 def answer_lines(request: Request, answer: Callable[[Scene, Request], Iterator[Json]]) -> Iterator[Json]:
-    """Read a file and yield its answer, or else its faults, each with its location."""
+    """Read a file and yield what ``answer`` yields of its scene, or what is printed about its faults."""
     name, document = request.name, None
     try:
         path = Path(request.file) if request.file != "-" and os.path.isfile(request.file) else None
@@ -66,7 +66,7 @@ def answer_lines(request: Request, answer: Callable[[Scene, Request], Iterator[J
 
 
 def streams(out: str = "", err: str = "", errors: int = 0, outcome: Json = None) -> Json:
-    """Return the fields of `Printed`: what goes to the two streams, and what a summary counts."""
+    """Return the fields of `Printed`: texts for the two streams, the number of errors, and what a summary counts."""
     return {"out": out, "err": err, "errors": errors, "outcome": outcome}
 
 
@@ -85,17 +85,15 @@ def _report(whole: Scene, request: Request) -> Iterator[Json]:
         before = classified(whole, request.budget, request.method)
         sections = (changed(before, report, request.without),)
     missed = unmet(scene, report.model_dump(mode="json")) if scene.expect else []
-    text = _report_text(
-        report if as_json else as_the_scene(report, scene), scene, request, (*sections, *unexpected(missed))
-    )
+    printed = report if as_json else as_the_scene(report, scene)
+    text = _report_text(printed, scene, request, (*sections, *unexpected(missed)))
     seconds = time.perf_counter() - start
-    yield streams(
-        text, outcome={**outcome_of(report), "expects": bool(scene.expect), "unmet": missed, "seconds": seconds}
-    )
+    outcome = outcome_of(report) | {"expects": bool(scene.expect), "unmet": missed, "seconds": seconds}
+    yield streams(text, outcome=outcome)
 
 
 def _undecided(reason: str, scene: Scene, request: Request) -> Iterator[Json]:
-    """Yield the report on a scene about which nothing could be decided, for that reason."""
+    """Yield the text of a report in which everything is undecided, for the given reason."""
     part = without(scene, request.without) if request.without else scene
     system = lowered(part, request.budget)
     report = undecided(system if isinstance(system, Report) else sketch(system, reason), reason)
@@ -103,6 +101,7 @@ def _undecided(reason: str, scene: Scene, request: Request) -> Iterator[Json]:
 
 
 def _report_text(report: Report, scene: Scene, request: Request, sections: Sequence[SheetSection] = ()) -> str:
+    """Return a report as JSON, as the values of chosen fields, as one line, or in full."""
     output = request.output
     if output.as_json:
         fields = report.model_dump(mode="json")
@@ -117,7 +116,7 @@ def _report_text(report: Report, scene: Scene, request: Request, sections: Seque
 
 
 def _with_certificate(scene: Scene, report: Report, request: Request) -> Report:
-    """Return the report with its certificate, which is written if a path was given."""
+    """Return the report with its certificate, which is also written if the request names a path."""
     from dofkit.methods.certificates.lowering import (
         with_certificate,  # few runs ask for certificates, whose search is large
     )
@@ -170,7 +169,7 @@ def _line(value: Any, request: Request) -> str:
 
 
 def _fault_streams(request: Request, name: str, faults: tuple[Fault, ...], document: Document | None) -> Json:
-    """Return what is printed about a file that could not be read, or not be answered."""
+    """Return the texts that are printed about the faults of a file."""
     if request.output.as_json:
         return streams(out=_line({"scene": name, "error": _error_object(faults)}, request), errors=len(faults))
     file = STDIN if request.file == "-" else request.file
@@ -179,7 +178,7 @@ def _fault_streams(request: Request, name: str, faults: tuple[Fault, ...], docum
 
 
 def _error_object(faults: Iterable[Fault]) -> dict[str, Any]:
-    """Return the first fault, with all further ones under ``faults``."""
+    """Return the fields of the first fault, with all further faults under ``faults``."""
     first, *others = [
         {"message": fault.message, "line": fault.line, "column": fault.column, "hint": fault.hint} for fault in faults
     ] or [{"message": "unknown error", "line": None, "column": None, "hint": None}]
@@ -187,7 +186,7 @@ def _error_object(faults: Iterable[Fault]) -> dict[str, Any]:
 
 
 def _faults_of_error(error: Exception) -> tuple[Fault, ...]:
-    """Return what went wrong, as faults; an error of dofkit itself in one line."""
+    """Return the faults of an error; an unexpected error becomes one fault, which asks for a report."""
     if isinstance(error, SceneError):
         return error.faults
     if isinstance(error, TextError):
@@ -199,8 +198,8 @@ def _faults_of_error(error: Exception) -> tuple[Fault, ...]:
     return (Fault(message, hint="this is a fault of dofkit, please report it with this scene"),)
 
 
-#: What a worker calls for the report on a file, before which an empty mapping tells that it is read; for its equations
-#: of motion; for its picture, whose path is printed.
+#: What a worker calls for the report on a file (first yields {}, once the file is read), for its equations of motion,
+#: and for its picture, whose path is printed.
 report_lines = partial(answer_lines, answer=_report)
 motion_lines = partial(answer_lines, answer=_equations)
 picture_lines = partial(answer_lines, answer=_picture)
@@ -209,7 +208,7 @@ picture_lines = partial(answer_lines, answer=_picture)
 
 
 def verification_lines(request: Request) -> Json:
-    """Return what is printed about a certificate, and the exit status as the outcome."""
+    """Return what is printed about a certificate, with {"status": exit status} as the outcome."""
     try:
         alone = request.file == request.certificate
         checked = dofkit.verify(None if alone else request.file, Path(str(request.certificate)))

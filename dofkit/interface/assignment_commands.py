@@ -84,7 +84,7 @@ def handout(
 
 
 def handout_file(assignment: Path, form: str | None, out: Path | None) -> tuple[str, Path]:
-    """Return the format of one handout and its path; the ending of a path decides where no format is asked for."""
+    """Return (format, path) of a handout; without a format the path's extension decides. Raises BadParameter."""
     from dofkit.homework.handout.class_sheets import ENDINGS
 
     ending = ENDINGS.get(form or "html", form or "html")
@@ -97,7 +97,7 @@ def handout_file(assignment: Path, form: str | None, out: Path | None) -> tuple[
 
 
 def with_runtime(form: str, folder: Path, runtime: Path | None) -> None:
-    """Put what reads answers beside pages with fields, or say why it is missing: the pages work without it."""
+    """Copy the script that reads answers beside pages with fields; if it is missing, print why."""
     from dofkit.homework.handout.page_sheets import BUILT, RuntimeMissingError, put_runtime
 
     if form == "page":
@@ -181,7 +181,7 @@ def vary(
 
 
 def drawing() -> Callable[[Any, Any, str], str | None]:
-    """Return the function that draws a scene for a handout."""
+    """Return the function (scene, report, title) -> SVG or None that draws a scene for a handout."""
     from dofkit.pictures.still import unanswered
 
     def draw(scene: Any, report: Any, title: str) -> str | None:

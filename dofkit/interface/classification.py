@@ -1,4 +1,4 @@
-"""The command `classify`: each file's report as it comes or kept in a folder, its progress, a summary of several."""
+"""The command `classify`: prints reports or writes them to a folder, with progress and a summary of several files."""
 
 from __future__ import annotations
 
@@ -23,28 +23,28 @@ from dofkit.interface.jobs import Printed, Request, Run, name_of_file, replies
 from dofkit.interface.output import FAILED, FAILURES, UNREADABLE, Output, progress
 from dofkit.interface.show.faults import safe
 
-#: The file of the reports in their folder.
+#: The file in the folder of ``--out`` to which reports are written.
 REPORTS = "reports.jsonl"
-#: How many scenes a summary names, and how many of the slowest.
+#: The most scenes that a summary names, and the most of the slowest ones.
 _MOST_NAMED, _SLOWEST = 8, 3
-#: What a finding is called after a number of scenes, where its name alone would be misread.
+#: {finding: its name after a number of scenes}, where the word alone would be misread.
 _FINDINGS = {"redundant": "with redundant constraints"}
 
 
 def echo(printed: Printed) -> None:
-    """Print what there is about a file, with its colours."""
+    """Print the output and the errors of one file on the two streams; colours are kept."""
     typer.echo(printed.out, nl=False, color=True)
     typer.echo(printed.err, nl=False, err=True, color=True)
 
 
 def echo_count(errors: Sequence[int]) -> None:
-    """Print how many errors there are in how many files, if there are several."""
+    """Print the number of errors and of files with errors on standard error, if there are several errors."""
     if sum(errors) > 1:
         typer.echo(f"{many(sum(errors), 'error')} in {many(sum(map(bool, errors)), 'file')}", err=True)
 
 
 def classify_files(files: Sequence[str], request: Request, run: Run) -> int:
-    """Print what there is about each file, and a summary of several; return the exit status."""
+    """Print the output for each file, and a summary of several files; return the exit status."""
     summary, errors = Summary(), []
     output = request.output
     plain = not (output.as_json or output.only)
@@ -67,7 +67,7 @@ def classify_files(files: Sequence[str], request: Request, run: Run) -> int:
 
 
 def _timed(files: Sequence[str], request: Request, run: Run) -> Iterator[tuple[float, Printed]]:
-    """Yield what is printed about each file, with the seconds that it took."""
+    """Yield (seconds, output) of each file, and show the progress meanwhile."""
     with closing(_stream(files, request, run)) as stream:
         for number, file in enumerate(files, 1):
             start = time.perf_counter()
@@ -78,7 +78,7 @@ def _timed(files: Sequence[str], request: Request, run: Run) -> Iterator[tuple[f
 
 
 def _stream(files: Sequence[str], request: Request, run: Run) -> Generator[Printed]:
-    """Yield what is printed about each file; of reports that are kept in a folder only what is not in them."""
+    """Yield the output for each file; if reports are written to a folder, it is empty."""
     if run.out is None:
         return replies("report_lines", files, request, run)
     as_json = Output(True, only=request.output.only)
@@ -86,9 +86,9 @@ def _stream(files: Sequence[str], request: Request, run: Run) -> Generator[Print
 
 
 def kept_reports(files: Sequence[str], request: Request, run: Run, folder: Path) -> Generator[Printed]:
-    """Write the reports to a folder, one line each, and yield the rest of what is printed.
+    """Write the reports to a folder, one line each, and yield the counts of each file without texts.
 
-    The journal beside the lines stays: a later run asks only about files that are new or have changed. Raises
+    The journal beside the reports is kept: a later run answers only files that are new or have changed. Raises
     StoppedError, OSError and BusyError.
     """
     path = folder / REPORTS
@@ -106,18 +106,18 @@ def kept_reports(files: Sequence[str], request: Request, run: Run, folder: Path)
 
 
 def _mark(request: Request) -> str:
-    """Return what distinguishes a run from others: the version, and what is asked of every scene."""
+    """Return a hash of the version and of the options, by which a journal belongs to a run."""
     options = (request.budget, request.method, request.output.only, request.without, request.limits, request.strict)
     return hashlib.blake2b(repr((__version__, *options, request.certificate)).encode(), digest_size=16).hexdigest()
 
 
 def longest_name(files: Sequence[str]) -> int:
-    """Return the length of the longest name that scenes have by their files."""
+    """Return the length of the longest name that scenes get from their files."""
     return max((len(name_of_file(file)) for file in files), default=0)
 
 
 class Summary:
-    """The files so far, counted by verdict and finding, with the slowest; only the names that are printed are kept."""
+    """Counts of the files so far by verdict and finding, with the slowest; only the names that are printed are kept."""
 
     def __init__(self) -> None:
         self._files, self._unread, self._seconds = 0, 0, 0.0
@@ -127,7 +127,7 @@ class Summary:
         self._slowest: list[tuple[float, int, str]] = []
 
     def add(self, outcome: Mapping[str, Any] | None, seconds: float) -> None:
-        """Count one file: its outcome (None: it could not be read), and its seconds, loading included."""
+        """Count one file: its outcome (None: the file could not be read), and its seconds, loading included."""
         self._files += 1
         self._seconds += seconds
         if outcome is None:
@@ -144,7 +144,7 @@ class Summary:
             self._named += [outcome["scene"]] if self._wrong <= _MOST_NAMED else []
 
     def fails(self, on: tuple[str, ...]) -> bool:
-        """Return whether a scene has one of these findings."""
+        """Return whether a scene has one of the findings ``on``."""
         return any(self._are[name] for name in on)
 
     def lines(self) -> Iterator[str]:

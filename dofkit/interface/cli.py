@@ -1,4 +1,4 @@
-"""The commands. Each answers its files one by one in a worker, and no file stops the others."""
+"""The commands. Each processes its files one by one in a worker, and a failing file does not stop the next."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ if TYPE_CHECKING:
     from dofkit.interface.jobs import Printed
     from dofkit.methods.table import MethodName
 
-#: The heading of the commands after the five that most people need.
+#: The heading in the help above all commands but the five that most people need.
 MORE = "More commands"
-#: Reports of more scenes than this are printed as one line each, unless full reports are asked for.
+#: Reports of more scenes than this are printed as one line each, unless full reports are requested.
 MOST_IN_FULL = 3
 
 app = typer.Typer(
@@ -275,7 +275,7 @@ def chart(
 
 
 def _pictures(files: list[str], kind: str, out: Path | None, form: str | None, kinds: tuple[str, ...]) -> None:
-    """Write the picture of each file: to ``out`` if it is a file, else into that folder (None: the current one)."""
+    """Write the picture of each file: to ``out`` if it is a file, else into this folder (None: the current one)."""
     from dofkit.interface.jobs import Request, distinct_names, replies
 
     paths = [str(out)]

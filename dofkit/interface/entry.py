@@ -1,4 +1,4 @@
-"""Where the command line begins, before anything of weight is imported, and where the process ends."""
+"""The entry point of the command line, which configures the process before other modules are imported, and its end."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from typing import Any
 
 from dofkit.interface.output import INTERRUPTED
 
-#: The collector of unused objects starts after this many allocations: imports make many objects, which all stay.
+#: The garbage collector starts after this many allocations: imports allocate many objects, none of which is garbage.
 OBJECTS = 100_000
 
 
@@ -20,7 +20,7 @@ def main() -> None:
     gc.set_threshold(OBJECTS)
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
     if os.environ.get("FORCE_COLOR") == "0":
-        # Rich takes any value of FORCE_COLOR for a wish for colours.
+        # Rich reads any value of FORCE_COLOR as a request for colours.
         os.environ["NO_COLOR"] = os.environ.pop("FORCE_COLOR")
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
@@ -37,9 +37,9 @@ def main() -> None:
         status = 1
     except SystemExit as ended:
         status = ended.code
-    watched = threading.active_count() > 1 or sys.gettrace() is not None or sys.getprofile() is not None
-    if isinstance(status, int) and not watched:
-        # Python would take every object apart, which takes a tenth of the time of a small scene.
+    needs_teardown = threading.active_count() > 1 or sys.gettrace() is not None or sys.getprofile() is not None
+    if isinstance(status, int) and not needs_teardown:
+        # Python would destroy every object, which takes a tenth of the time of a small scene.
         atexit._run_exitfuncs()
         sys.stdout.flush()
         sys.stderr.flush()

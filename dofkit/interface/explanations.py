@@ -1,4 +1,4 @@
-"""The meaning of words: codes of feedback, fields, verdicts, arguments, theorems, sections, types and labels."""
+"""The entries of `dofkit explain`: feedback codes, fields, verdicts, arguments, theorems, sections, types and terms."""
 
 from __future__ import annotations
 
@@ -36,13 +36,13 @@ class Explanation(NamedTuple):
     meaning: str
 
     def text(self) -> str:
-        """Return lines for a terminal."""
+        """Return the explanation as lines for a terminal."""
         wrapped = textwrap.wrap(self.meaning, _WIDTH - 2, break_long_words=False, break_on_hyphens=False)
         return "\n".join([f"{self.word}: {self.kind}", *(f"  {line}" for line in wrapped)])
 
 
 def explanations_of(word: str) -> list[Explanation]:
-    """Return all meanings of a word, in whatever case. Raises SceneError with the nearest words if there is none.
+    """Return all meanings of a word, in any case. Raises SceneError with the nearest words if there is none.
 
     >>> explanations_of("NH_HALF")[0].kind, [e.kind for e in explanations_of("holonomic")]
     ('feedback code', ['field of a report', 'field of a constraint'])
@@ -60,7 +60,7 @@ def explanations_of(word: str) -> list[Explanation]:
 
 
 def listed() -> str:
-    """Return all words, by their kind."""
+    """Return all words as lines for a terminal, under the name of each kind."""
     kinds: dict[str, dict[str, None]] = {}
     for explanation in all_explanations():
         kinds.setdefault(explanation.kind, {})[explanation.word] = None
@@ -77,7 +77,7 @@ def _plain(word: str) -> str:
 
 @cache
 def all_explanations() -> tuple[Explanation, ...]:
-    """Return every word that is explained."""
+    """Return the explanations of all words."""
     return (
         *(Explanation(code, "feedback code", meaning) for code, meaning in meanings().items()),
         *_fields("field of a report", Report),
@@ -107,10 +107,8 @@ def _type(name: str, cls: type[ConstraintBase]) -> Explanation:
     about = " ".join((cls.__doc__ or "").split())
     fields = [f"{key} ({field.description})" for key, field in cls.model_fields.items() if key not in ("type", "name")]
     spaces = series([str(d) for d in cls.dimensions])
-    text = (
-        f"{about} Defined in {spaces} dimensions. Fields: {'; '.join(fields)}. `dofkit catalog '{name}'` finds scenes."
-    )
-    return Explanation(name, "constraint type", text)
+    about = f"{about} Defined in {spaces} dimensions. Fields: {'; '.join(fields)}."
+    return Explanation(name, "constraint type", f"{about} `dofkit catalog '{name}'` finds scenes.")
 
 
 def _shape(name: str, row: ShapeKeys) -> Explanation:

@@ -1,7 +1,7 @@
-"""Files that are answered by workers that are watched: no file stops those that follow.
+"""Requests, and their answers by workers with limits of time and memory: a failing file does not stop the next.
 
-Nothing heavy is imported here: the workers do that. Where this process may be forked they are copies of it, so that a
-single scene costs hardly more than without a worker.
+Modules that are slow to import are left to the workers. If this process can be forked, workers are copies of it, so
+that a single scene takes hardly longer than without a worker.
 """
 
 from __future__ import annotations
@@ -31,9 +31,9 @@ from dofkit.methods.table import MethodName
 STDIN = "stdin"
 #: The module that a worker imports.
 ANSWERS = "dofkit.interface.answers"
-#: Seconds for printing the report of a scene whose worker was killed.
+#: The time limit in seconds for the undecided report on a scene whose worker was killed.
 TELLING_SECONDS = 10.0
-#: An attribute of a model that names another file.
+#: An attribute of an XML model that names another file.
 _INCLUDES = re.compile(rb"\bfile\s*=")
 #: The time limit of a certificate or a picture is this many times that of a report.
 SHARE = 3
@@ -41,13 +41,13 @@ SHARE = 3
 
 @dataclass(frozen=True)
 class Request:
-    """A file as it was named, and what is asked about it.
+    """A file as the user named it, and the question about it.
 
-    ``data``: its bytes, if they have been read already. ``without``: constraints that are dropped; ``limits``: joint
-    limits of models become inequalities; ``linearize``: small motions too. ``certificate``: the path or folder that its
-    certificate is written to; ``strict``: what has no evidence is not proved, or not verified. ``pictures``: of each
-    file the kind of a picture (mechanism, graph, directions, motion or loop) and its path; ``picture``: that of this
-    file.
+    ``data``: its bytes, if they have been read already. ``without``: names of constraints to drop; ``limits``: whether
+    joint limits of models become inequalities; ``linearize``: whether to add small motions. ``certificate``: the path
+    or folder to which certificates are written; ``strict``: whether a claim without evidence is not proved, or fails.
+    ``pictures``: for each file (kind: mechanism, graph, directions, motion or loop; path of the picture);
+    ``picture``: the pair of this file.
     """
 
     file: str
@@ -65,25 +65,25 @@ class Request:
 
     @property
     def name(self) -> str:
-        """The scene's name if the file does not give one."""
+        """The scene's name for a file that does not give one."""
         return name_of_file(self.file)
 
     @property
     def size(self) -> int:
-        """About how many bytes it holds."""
+        """The approximate size of the request in bytes."""
         return len(self.data or b"") + 200
 
     @property
     def key(self) -> str:
-        """What distinguishes the file from others and from earlier contents; what includes other files is new."""
+        """A hash of name and contents for the journal; random for a model that includes other files."""
         includes = self.data is not None and _INCLUDES.search(self.data)
-        named = f"{self.file}\0{os.urandom(16).hex() if includes else ''}\0".encode("utf-8", "surrogateescape")
+        label = f"{self.file}\0{os.urandom(16).hex() if includes else ''}\0".encode("utf-8", "surrogateescape")
         content = b"-" if self.data is None else b"+" + self.data
-        return hashlib.blake2b(named + content, digest_size=16).hexdigest()
+        return hashlib.blake2b(label + content, digest_size=16).hexdigest()
 
 
 class Run(NamedTuple):
-    """The findings that a run fails on, who answers many scenes at once, and the folder for their reports.
+    """How files are processed: the findings that fail the run, the workers, and the folder for reports (``out``).
 
     ``workers``: processes on this machine (None: one, or with a folder one for each core); ``scheduler``: the address
     of a Dask cluster.
@@ -95,12 +95,12 @@ class Run(NamedTuple):
     out: Path | None = None
 
 
-#: One worker answers one file after another.
+#: The default: one worker for one file after another.
 ONE_BY_ONE = Run()
 
 
 class Cut(NamedTuple):
-    """A request whose answer was cut short: whether the file had been read, and why there is no more."""
+    """A request whose answer was cut short: whether the file had been read, and the reason."""
 
     request: Request
     is_read: bool
@@ -108,9 +108,9 @@ class Cut(NamedTuple):
 
 
 class Printed(NamedTuple):
-    """What is printed about a file on standard output and standard error, and how many errors it has.
+    """The texts about a file for standard output and standard error, and its number of errors.
 
-    ``outcome``: what a summary counts of a report; of a certificate the exit status.
+    ``outcome``: for a report what a summary counts (`outcome_of`), for a certificate {"status": exit status}.
     """
 
     out: str
@@ -122,9 +122,9 @@ class Printed(NamedTuple):
 def replies(
     function: str, files: Sequence[str], request: Request, run: Run = ONE_BY_ONE, journal: Journal | None = None
 ) -> Generator[Printed]:
-    """Yield what is printed about each file, in order; ``function``: the one of the answers that a worker calls.
+    """Yield what is printed about each file, in order; ``function``: name of the function of `answers` to call.
 
-    With a journal, what an earlier run answered is not asked again. Raises StoppedError.
+    With a journal, answers of an earlier run are reused. Raises StoppedError.
     """
     with ExitStack() as stack:
         if run.scheduler is not None:
@@ -142,7 +142,7 @@ def replies(
 
 
 def requests(files: Sequence[str], request: Request, everything: bool = False) -> Iterator[Request]:
-    """Yield the request for each file, with the bytes of standard input and of pipes; or of ``everything``."""
+    """Yield the request for each file; with the bytes of standard input and pipes, of ``everything`` if true."""
     pictures = request.pictures or (None,) * len(files)
     for file, path, picture in zip(files, certificate_paths(files, request.certificate), pictures, strict=True):
         data = data_of(file, everything)
@@ -150,7 +150,7 @@ def requests(files: Sequence[str], request: Request, everything: bool = False) -
 
 
 def certificate_paths(files: Sequence[str], certificate: str | None) -> list[str | None]:
-    """Return the path of the certificate of each file; those of several files are in a folder."""
+    """Return the certificate's path for each file (None: no certificate); for several files in a folder."""
     if certificate is None:
         return [None] * len(files)
     if len(files) == 1 and not os.path.isdir(certificate):
@@ -159,13 +159,13 @@ def certificate_paths(files: Sequence[str], certificate: str | None) -> list[str
 
 
 def name_of_file(file: str) -> str:
-    """Return the name that a scene has by its file."""
+    """Return the name that a scene gets from its file: the stem, or `STDIN`."""
     stem = os.path.splitext(os.path.basename(os.path.normpath(file)))[0]
     return STDIN if file == "-" else stem.encode("utf-8", "replace").decode("utf-8")
 
 
 def distinct_names(files: Sequence[str]) -> list[str]:
-    """Return the name of each file, numbered if an earlier file has it."""
+    """Return the name of each file; a repeated name gets a number (a, a-2)."""
     names, counts = [], Counter[str]()
     for name in map(name_of_file, files):
         counts[name] += 1
@@ -174,7 +174,7 @@ def distinct_names(files: Sequence[str]) -> list[str]:
 
 
 def reply(pool: Pool, function: str, request: Request) -> Printed:
-    """Return what is printed about one file, whatever happens to the worker."""
+    """Return what is printed about one file; if the worker was killed, that the answer is undecided or an error."""
     share = SHARE if request.certificate or request.strict or request.picture else 1
     reading = limit(max(request.budget, DEFAULT_SECONDS)) if function == "report_lines" else None
     outcome = pool.run(Job(f"{ANSWERS}:{function}", request, share * limit(request.budget), reading))
@@ -189,7 +189,7 @@ def reply(pool: Pool, function: str, request: Request) -> Printed:
 
 
 def _reply_there(function: str, request: Request) -> Printed:
-    """Return the same on a machine of a cluster, by killable workers of its own."""
+    """Return what is printed about one file, by a machine of a cluster with its own pool of workers."""
     return reply(shared(ANSWERS), function, request)
 
 
@@ -203,7 +203,7 @@ def _without_worker(name: str, reason: str, as_json: bool) -> Printed:
 
 
 def data_of(file: str, regular: bool = False) -> bytes | None:
-    """Return the bytes of standard input or of a pipe, which no clock limits; of a ``regular`` file if asked to."""
+    """Return the bytes of standard input or a pipe (without a time limit), and of a regular file if ``regular``."""
     if file == "-":
         return b"" if sys.stdin is None else sys.stdin.buffer.read(MOST_BYTES + 1)
     try:

@@ -1,4 +1,4 @@
-"""The files that arguments name, and those that `new` and `convert` write.
+"""The files that arguments name, and the files that `new` and `convert` write.
 
 A folder or a pattern stands for the scenes and models in it, in order.
 """
@@ -21,14 +21,14 @@ from dofkit.scene.catalog import catalog_names, find
 from dofkit.scene.reading import SceneFile
 from dofkit.scene.schema import scene_schema
 
-#: How the files of scenes and models end; of those that end as the last do a folder holds many others.
+#: The extensions of scenes and models; an .xml file is a model only if its text begins like one.
 ENDINGS, OF_MANY_KINDS = (".json", ".mjcf", ".slvs", ".urdf", ".yaml", ".yml"), (".xml",)
 
 
 def named_files(arguments: Iterable[str]) -> list[str]:
-    """Every file that is named, in the order given; those of a folder or a pattern by their names.
+    """Return all named files in the given order, those of a folder or pattern sorted by name.
 
-    What names nothing stands as it is: whoever reads it says what is wrong.
+    An argument without such files is returned unchanged: the error comes when it is read.
     """
     return [file for argument in arguments for file in _named(argument)]
 
@@ -43,7 +43,7 @@ def _named(argument: str) -> list[str]:
 
 
 def _below(folder: str) -> Iterator[str]:
-    """The scenes and models in a folder and those in it; nothing that is hidden, and no link is followed."""
+    """Yield the scenes and models in a folder and its subfolders, without hidden ones and linked folders."""
     for place, folders, files in os.walk(folder):
         folders[:] = sorted(name for name in folders if not name.startswith("."))
         for name in sorted(files):
@@ -53,7 +53,7 @@ def _below(folder: str) -> Iterator[str]:
 
 
 def _is_model(path: str) -> bool:
-    """Return whether a file is XML of a kind that is read."""
+    """Return whether a file is an XML model of a known kind (MJCF, URDF)."""
     if not path.lower().endswith(OF_MANY_KINDS):
         return False
     try:
@@ -63,14 +63,14 @@ def _is_model(path: str) -> bool:
         return False
 
 
-#: The sections of a scene that are written with an entry on each line.
+#: The sections of a scene that are written with one entry per line.
 SECTIONS = ("particles", "bodies", "constraints", "forces", "left_out", "configuration", "picture")
 #: The schema beside a scene; its name is hidden, so that it is not read as a scene of the folder.
 SCHEMA = ".dofkit-schema.json"
 
 
 def write_converted(file: str, out: Path | None, limits: bool) -> str:
-    """Write the scene of a model to a path, or return its text where there is none; return what to print.
+    """Return the scene of a model as text; with ``out`` write it there and return the path to print.
 
     Raises DofkitError for a file that is not a model or has faults.
     """
@@ -90,9 +90,9 @@ def write_converted(file: str, out: Path | None, limits: bool) -> str:
 
 
 def write_new(out: Path | None) -> str:
-    """Write a first scene to a path, or return its text where there is none; return what to print.
+    """Return a first scene as text; with ``out`` write it there and return the path to print.
 
-    Raises DofkitError where the file exists.
+    Raises DofkitError if the file exists.
     """
     if out is not None and out.exists():
         raise DofkitError(f"'{out}' exists: name a new file")
@@ -100,7 +100,7 @@ def write_new(out: Path | None) -> str:
 
 
 def _written(text: str, out: Path | None) -> str:
-    """Write a scene, and in its folder the schema by which editors complete and check it."""
+    """Return the text; with ``out`` write it there, with the schema for editors beside it, and return the path."""
     if out is None:
         return text
     try:

@@ -12,11 +12,11 @@ from dofkit.base.errors import ArgumentError
 from dofkit.base.wording import format_of_path, is_folder_path, no_such
 from dofkit.interface.output import FAILURES
 
-#: The heading of the options that few people need.
+#: The heading in the help above options that few people need.
 ADVANCED = "Advanced"
 STILL_KINDS, MOVING_KINDS = ("svg", "png", "pdf", "html"), ("html", "gif", "mp4", "svg", "png", "pdf")
 DRAWN_AS = ("mechanism", "graph", "directions")
-#: The names of the methods, as `dofkit.methods.table` has them, whose import takes long.
+#: The names of the methods in `dofkit.methods.table`, which takes long to import.
 METHODS = ("auto", "count", "graph", "field", "balls", "exact", "numeric", "symbolic")
 
 
@@ -24,7 +24,7 @@ METHODS = ("auto", "count", "graph", "field", "balls", "exact", "numeric", "symb
 
 
 def _explained(incomplete: str) -> list[str]:
-    """Return the words that `explain` knows."""
+    """Return the words of `dofkit explain` that begin with the incomplete word."""
     from dofkit.interface.explanations import all_explanations  # only a shell that completes needs it
 
     words = (explanation.word for explanation in all_explanations())
@@ -32,7 +32,7 @@ def _explained(incomplete: str) -> list[str]:
 
 
 def _catalogued(incomplete: str) -> list[str]:
-    """Return the names of the catalog; if none fits, the shell completes files."""
+    """Return the catalog names that begin with the incomplete word; if there is none, the shell completes files."""
     from dofkit.scene.catalog import catalog_names  # only a shell that completes needs it
 
     return [name for name in catalog_names() if incomplete and name.startswith(incomplete)]
@@ -42,24 +42,24 @@ def _catalogued(incomplete: str) -> list[str]:
 
 
 def _files(arguments: list[str]) -> list[str]:
-    """Return every file that the arguments name; folders and patterns stand for the files in them."""
+    """Return all files that the arguments name, with the files of folders and patterns."""
     from dofkit.interface.named_files import named_files  # which imports the readers of models
 
     return named_files(arguments)
 
 
 def folder(path: Path | None) -> Path | None:
-    """Return the path of a folder, which has no ending."""
+    """Return the path of a folder. Raises BadParameter if it has a file extension."""
     return path if path is None or is_folder_path(path) else _with_ending(path, ())
 
 
 def file_of(*endings: str) -> Callable[[Path | None], Path | None]:
-    """Return what checks that a path has one of the endings of the files that can be written."""
+    """Return the check that a path has one of these file extensions."""
     return lambda path: path if path is None else _with_ending(path, endings)
 
 
 def _certificate(path: str | None) -> str | None:
-    """Return the path of a certificate or of a folder of them; a file must end in .json."""
+    """Return the path of a certificate or of a folder; a file must have the extension .json."""
     if path is not None and not is_folder_path(Path(path)):
         _with_ending(Path(path), ("json",))
     return path
@@ -74,7 +74,7 @@ def _with_ending(path: Path, endings: Collection[str]) -> Path:
 
 
 def _one_of(words: Collection[str]) -> Callable[[str | None], str | None]:
-    """Return what checks that an option is one of the known words."""
+    """Return the check that an option is one of the words."""
 
     def checked(word: str | None) -> str | None:
         if word is not None and word not in words:
@@ -85,12 +85,12 @@ def _one_of(words: Collection[str]) -> Callable[[str | None], str | None]:
 
 
 def listed(texts: list[str] | None) -> tuple[str, ...]:
-    """Return the names in lists with commas."""
+    """Return the names in texts that separate names by commas or spaces."""
     return tuple(name for text in texts or () for name in text.replace(",", " ").split())
 
 
 def fields(only: list[str] | None) -> tuple[str, ...]:
-    """Return names of fields of a report."""
+    """Return the names of fields of a report; empty without ``--only``."""
     if not only:
         return ()
     from dofkit.report import Report  # which imports pydantic
@@ -99,7 +99,7 @@ def fields(only: list[str] | None) -> tuple[str, ...]:
 
 
 def names_among(names: tuple[str, ...], allowed: Iterable[str], what: str, option: str) -> tuple[str, ...]:
-    """Return the names of an option, of which each has to be known."""
+    """Return the names, each of which must be one of ``allowed``; ``what`` and ``option`` are for the message."""
     for name in names:
         if name not in allowed:
             raise BadParameter(no_such(name, allowed, what), param_hint=option)
@@ -113,7 +113,7 @@ def _format(kinds: Collection[str]) -> Any:
 
 
 def flag(name: str, help_text: str) -> Any:
-    """Return the option of a flag, whose line of help names no type."""
+    """Return the option of a flag; its help line shows no type."""
     return Option(name, metavar="", help=help_text)
 
 

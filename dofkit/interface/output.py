@@ -1,4 +1,4 @@
-"""Standard streams: what they can show, how reports are printed there, progress, and how a command fails."""
+"""Standard streams: their width and colours, how reports are printed, progress lines, and failures of commands."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from rich.text import Text
 from dofkit.base.errors import DofkitError, Fault
 from dofkit.interface.show.sheet import Colours
 
-#: Exit statuses: a finding of ``--fail-on``; something could not be read; after Ctrl-C.
+#: Exit statuses: a finding of ``--fail-on``; a file could not be read; after Ctrl-C.
 FAILED, UNREADABLE, INTERRUPTED = 1, 2, 130
 #: The findings that ``--fail-on`` may name.
 FAILURES = ("inconsistent", "infeasible", "redundant", "undecided")
@@ -25,7 +25,7 @@ class Output(NamedTuple):
     """How a report is printed.
 
     ``as_json``: as JSON, with ASCII characters only if ``ascii_only``. ``brief``: on one line; ``how``: with the
-    arguments behind the answers; ``only``: these fields. ``name_width``: the length of the longest name of the files.
+    arguments for the answers; ``only``: these fields (empty: all). ``name_width``: length of the longest name.
     ``width`` and ``colours`` are those of standard output (None: no colours), ``coloured_errors`` is about standard
     error.
     """
@@ -50,14 +50,14 @@ class Output(NamedTuple):
 
 
 def colours_of(stream: TextIO) -> Colours | None:
-    """Return the colours of a stream, or None for none; ``NO_COLOR`` and ``FORCE_COLOR`` are respected."""
+    """Return the colours of a stream, or None if it has none; ``NO_COLOR`` and ``FORCE_COLOR`` are respected."""
     console = Console(file=stream)
     return None if console.no_color else cast("Colours | None", console.color_system)
 
 
 @contextmanager
 def progress(line: str, stream: TextIO) -> Iterator[None]:
-    """Show a line such as ``[3/147] four-bar-linkage`` on a terminal; it disappears afterwards."""
+    """Show a line such as ``[3/147] four-bar-linkage`` while the block runs, if the stream is a terminal."""
     console = Console(file=stream)
     if not stream.isatty() or console.is_dumb_terminal:
         yield
@@ -72,7 +72,7 @@ def progress(line: str, stream: TextIO) -> Iterator[None]:
 
 @contextmanager
 def failures_of(file: str | None) -> Iterator[None]:
-    """Print an error about a file and end the command; an error that names a file of its own is about that file."""
+    """Print an error of the block and end with status 2; ``file``: what it is about, if the error names no file."""
     try:
         yield
     except BrokenPipeError:
@@ -88,5 +88,5 @@ def failures_of(file: str | None) -> Iterator[None]:
 
 
 def print_json(value: Any) -> None:
-    """Print one line of JSON."""
+    """Print a value as one line of JSON."""
     typer.echo(json.dumps(value, ensure_ascii=Output.here().ascii_only))

@@ -1,4 +1,4 @@
-"""A system's equations as they are written: nothing is reduced, squared away or put into canonical form."""
+"""A system's equations as they are written, without reduction to a canonical form, and answers from ranks at points."""
 
 from __future__ import annotations
 
@@ -24,9 +24,10 @@ from dofkit.system import System
 
 @dataclass(frozen=True)
 class Written:
-    """The scalar equations of some constraints, each with the number of the constraint that it is of.
+    """The scalar equations of a system as written, each with the number of its constraint.
 
-    ``others``: constraints that hold an inequality, an equation nonlinear in the velocities or a second derivative.
+    ``finite``: geometric equations; ``forms``: equations linear in velocities; ``others``: the constraints with other
+    relations: inequalities, equations nonlinear in the velocities or with second derivatives.
     """
 
     system: System
@@ -36,28 +37,28 @@ class Written:
 
     @property
     def coordinates(self) -> list[Expr]:
-        """q, in order."""
+        """The symbols of the coordinates, in order."""
         return [ex.coordinate(c.name) for c in self.system.coordinates]
 
     @property
     def timed(self) -> bool:
-        """Does t or dt occur?"""
+        """Whether t or dt occurs."""
         return any(not f.dt.is_zero for _, f in self.forms) or any(ex.TIME in e.symbols for e in self.expressions)
 
     @property
     def expressions(self) -> list[Expr]:
-        """Everything that is evaluated."""
+        """The geometric equations and the coefficients of the forms."""
         return [g for _, g in self.finite] + [a for _, f in self.forms for _, a in f.items()]
 
     @property
     def positive(self) -> frozenset[Expr]:
-        """Parameters that are positive, squared lengths that were left out among them."""
+        """The positive parameters, including generic squared lengths."""
         positive_symbols = {ex.parameter(p) for p, sign in self.system.parameters.items() if sign == "positive"}
         return frozenset(positive_symbols | {ex.parameter(p) for p in self.system.generic if p.startswith("_L")})
 
 
 def as_written(scene: Scene | System) -> Written:
-    """The equations of a scene."""
+    """Return the equations of a scene or system."""
     system = scene if isinstance(scene, System) else lower(scene)
     finite: list[tuple[int, Expr]] = []
     forms: list[tuple[int, Pfaffian]] = []
@@ -78,7 +79,7 @@ def as_written(scene: Scene | System) -> Written:
 
 
 def _read(e: Expr) -> Expr | Pfaffian | str:
-    """A geometric equation, a form, or why it is neither."""
+    """Return ``e`` as a geometric equation or as a form, or the text ``nonlinear`` if it is neither."""
     try:
         moving, divided = in_velocities(e)
     except TextError:
@@ -90,10 +91,7 @@ def _read(e: Expr) -> Expr | Pfaffian | str:
 
 
 def labelled(written: Written, holonomic: Mapping[int, bool]) -> dict[str, bool]:
-    """By name: what is finite is holonomic, inequalities and what is nonlinear in velocities are taken not to be.
-
-    ``holonomic``: of the constraints that hold forms.
-    """
+    """Return {name: label}: True for geometric equations, False for ``others``, from ``holonomic`` for forms."""
     names = [c.name for c in written.system.constraints]
     return {name: holonomic.get(i, True) and i not in written.others for i, name in enumerate(names)}
 
@@ -102,7 +100,7 @@ Matrix = list[list[Scalar]]
 
 
 class Decider(Protocol):
-    """What a method decides by."""
+    """The arithmetic of a method: its numbers, and how ranks, kernels and zeros are decided."""
 
     @property
     def zero(self) -> Scalar: ...
@@ -114,7 +112,7 @@ class Decider(Protocol):
 
 
 class WrittenRows:
-    """The equations of a scene as a program that can be run at points."""
+    """The equations of a scene as a program (ring) that is evaluated at points."""
 
     def __init__(self, written: Written) -> None:
         self.written = written
@@ -127,7 +125,7 @@ class WrittenRows:
         self.indices = [self.ring.var_index(s) for s in self.columns]
 
     def at(self, point: Point, zero: Scalar) -> SampledRows:
-        """Everything at one point."""
+        """Return the gradients, coefficients, exterior derivatives and residuals at one point."""
         node_values = values(self.ring, point)
         slopes = {node: self._slope(node_values, point, node, zero) for node in self._nodes()}
         finite = [slopes[node] for _, node in self.finite]
@@ -143,7 +141,7 @@ class WrittenRows:
         return [zero if c is None else slopes.get(c, zero) for c in self.indices]
 
     def _curl(self, slopes: dict[int, list[Scalar]], zero: Scalar) -> Matrix:
-        """d omega: the derivatives of a_j by q_i less those of a_i by q_j."""
+        """Return the matrix of d omega: d a_j/d q_i - d a_i/d q_j, from the gradients of the coefficients a."""
         whole = range(len(self.columns))
         empty = [zero for _ in whole]
         by = [slopes.get(c, empty) for c in whole]
@@ -152,7 +150,7 @@ class WrittenRows:
 
 @dataclass(frozen=True)
 class SampledRows:
-    """Rows of the geometric equations and of the forms, the exterior derivatives of these, and what the former give."""
+    """At one point: rows of geometric equations and of forms, the forms' exterior derivatives, the residuals."""
 
     finite: Matrix
     forms: Matrix
@@ -166,7 +164,7 @@ class SampledRows:
 
 @dataclass(frozen=True)
 class SampledPoints:
-    """The points that were found, and which forms pass Frobenius' test at all of them."""
+    """The rows at all points, and which forms pass Frobenius' test at all of them."""
 
     rows: WrittenRows
     samples: list[SampledRows]
@@ -174,7 +172,7 @@ class SampledPoints:
 
 
 def sampled_points(written: Written, numbers: Decider) -> SampledPoints | None:
-    """At the reference where there is one, else at the points that the numbers find; None where they find none."""
+    """Return the rows at the reference, or without one at points that ``numbers`` finds; None if it finds none."""
     rows = WrittenRows(written)
     drawn = written.system.reference is not None
     samples = [rows.at(p, numbers.zero) for p in numbers.points(written, rows, drawn)]
@@ -189,25 +187,25 @@ def sampled_points(written: Written, numbers: Decider) -> SampledPoints | None:
 
 
 def _flat(curl: Matrix, basis: Matrix, numbers: Decider) -> bool:
-    """N^T C N = 0?"""
+    """Return whether N^T C N = 0 for the matrix C of d omega (``curl``) and the kernel vectors N (``basis``)."""
     scale = [v for row in curl for v in row]
-    for a, u in enumerate(basis):
-        turned = [sum((u[i] * curl[i][j] for i in range(len(u))), numbers.zero) for j in range(len(u))]
-        for v in basis[:a]:
-            if not numbers.vanishes(sum((x * y for x, y in zip(turned, v, strict=True)), numbers.zero), scale):
+    for count, u in enumerate(basis):
+        product = [sum((u[i] * curl[i][j] for i in range(len(u))), numbers.zero) for j in range(len(u))]
+        for v in basis[:count]:
+            if not numbers.vanishes(sum((x * y for x, y in zip(product, v, strict=True)), numbers.zero), scale):
                 return False
     return True
 
 
 def freedom(sampled: SampledPoints, numbers: Decider) -> int:
-    """Coordinates less the rank of the geometric equations and of the forms that pass: the least over the points."""
+    """Return coordinates less the rank of geometric equations and forms that pass: the least over the points."""
     n = sampled.rows.n
     kept = [[*s.finite, *(f for f, p in zip(s.forms, sampled.passing, strict=True) if p)] for s in sampled.samples]
     return min(n - numbers.rank([row[:n] for row in rows]) for rows in kept)
 
 
 def labels(samples: SampledPoints, numbers: Decider) -> dict[str, bool]:
-    """Whether each constraint is taken for holonomic."""
+    """Return {name: whether the constraint is taken to be holonomic}."""
     del numbers
     holonomic: dict[int, bool] = {}
     for (i, _), passes in zip(samples.rows.forms, samples.passing, strict=True):
@@ -216,7 +214,7 @@ def labels(samples: SampledPoints, numbers: Decider) -> dict[str, bool]:
 
 
 def droppable(sampled: SampledPoints, numbers: Decider) -> list[str]:
-    """Return the constraints without which the rank stays as it is."""
+    """Return the names of a set of constraints whose removal does not change the ranks at the first point."""
     sample, rows = sampled.samples[0], sampled.rows
 
     def ranks(finite: Sequence[int], forms: Sequence[int]) -> tuple[int, int]:
@@ -227,10 +225,10 @@ def droppable(sampled: SampledPoints, numbers: Decider) -> list[str]:
 
 
 def without_loss(written: Written, ranks: Callable[[Sequence[int], Sequence[int]], tuple[int, int]]) -> list[str]:
-    """Return the constraints without which ``ranks`` stay, forms and the last written first; finite ones fix finite.
+    """Return the names of constraints that are removed, forms and later ones first, while ``ranks`` do not change.
 
-    ``ranks`` are those of some of the geometric equations and forms, by number. Inequalities and what is nonlinear in
-    velocities are left in.
+    ``ranks`` returns, for the numbers of geometric equations and forms, the rank of the equations alone and of both.
+    Constraints in ``others`` are not removed.
     """
     finite, forms = [i for i, _ in written.finite], [i for i, _ in written.forms]
 
@@ -247,16 +245,16 @@ def without_loss(written: Written, ranks: Callable[[Sequence[int], Sequence[int]
 
 
 def drawn_value(value: Expr, point: Any) -> Scalar:
-    """The value of a constant expression, parameters as the point has them."""
+    """Return the value of a constant expression, with the point's values of its parameters."""
     ring = Ring([value])
     node = ring.node(value)
     return values(ring, point)[node]
 
 
 def independent_at_reference(sampled: SampledPoints, numbers: Decider) -> bool:
-    """Return whether all equations are read, finite, and independent over q at the reference configuration.
+    """Return whether all constraints are geometric equations, independent at the reference configuration.
 
-    Then the freedom there is the number of coordinates less that of equations [ImplicitFunctions].
+    Then the freedom there is the number of coordinates less the number of equations [ImplicitFunctions].
     """
     written = sampled.rows.written
     if written.system.reference is None or written.others or written.forms:
@@ -272,13 +270,13 @@ Answering = Callable[[Scene | System], Reply]
 def questions_at_points(
     look_at: Look, certainty: Callable[[SampledPoints, Decider], Verdict]
 ) -> tuple[Answering, Answering, Answering]:
-    """Return a method's functions for the freedom, the labels and what is redundant, from the points it looks at.
+    """Return a method's functions for dof, integrability and redundancy, from the points that ``look_at`` returns.
 
-    ``certainty``: of the freedom where all equations are independent at the reference configuration.
+    ``certainty``: the verdict of the freedom if all equations are independent at the reference configuration.
     """
 
     def dof(scene: Scene | System) -> Reply:
-        """Coordinates less the rank of the Jacobian, forms that pass Frobenius' test included."""
+        """Return coordinates less the rank of the Jacobian with the forms that pass Frobenius' test."""
         samples = look_at(scene)
         if isinstance(samples, Reply):
             return samples
@@ -286,7 +284,7 @@ def questions_at_points(
         return Reply(freedom(*samples), verdict=sure)
 
     def at_points(answer: Callable[[SampledPoints, Decider], Any], scene: Scene | System) -> Reply:
-        """Return an answer from the points; where the constraints contradict each other there is none."""
+        """Return an answer from the points; no value if the constraints contradict each other."""
         samples = look_at(scene)
         if isinstance(samples, Reply):
             return replace(samples, value=None)

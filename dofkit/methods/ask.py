@@ -1,6 +1,6 @@
-"""One question about a scene, answered by no more work than it needs: no special cases, circuits, integrals or growth.
+"""One question about a scene, answered with no more work than needed: no special cases, circuits or integrals.
 
-What is answered is what `classify` says too.
+The answers agree with those of `classify`.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ from dofkit.scene.reading import SceneLike, load, scene_or_system
 from dofkit.scene.scene import Scene
 from dofkit.system import System
 
-#: What the equations of an answer are called in the scene that holds them.
+#: The name of the constraints for an answer's equations in the extended scene.
 ANSWER = "the answer"
 
 
@@ -96,7 +96,7 @@ def ask(
 
 
 def _require_answer(scene: Scene | System, answer: object) -> None:
-    """Raise ArgumentError for what no text can be compared in, and for what is no answer."""
+    """Raise ArgumentError for a System, which has no names for a text, and for a malformed answer."""
     if isinstance(scene, System):
         raise ArgumentError("equivalence is asked of a Scene, with whose names the text is read, not of a System")
     keys = ("constraint", "text")
@@ -113,7 +113,7 @@ def answered_by(
     budget: float | None = None,
     engines: Engines = BOTH,
 ) -> Reply:
-    """`ask` by some engines only."""
+    """Return `ask`'s reply by the given engines; undecided if the budget (seconds) is used up."""
     try:
         with limited(DEFAULT_SECONDS if budget is None else budget), ctx.workprec(precision()):
             if question == "equivalence":
@@ -128,6 +128,7 @@ def answered_by(
 
 
 def _of_system(system: System, question: Question, engines: Engines) -> Reply:
+    """Return the reply about a system: by its graph or by its single constraints if these suffice, else by a study."""
     if engines == BOTH and question in ("dof", "redundancy"):
         reply = _by_graph(system, question)
         if reply is not None:
@@ -138,13 +139,13 @@ def _of_system(system: System, question: Question, engines: Engines) -> Reply:
 
 
 def _is_finite(r: Reduced) -> bool:
-    """Does a constraint consist of relations between coordinates and time? Then it is holonomic (d of dg is 0)."""
+    """Return whether a constraint has only relations between coordinates and time, and so is holonomic (d(dg) = 0)."""
     pieces = [p for n in r.normals for b in n.branches for p in b]
     return bool(pieces) and not r.inequalities and all(isinstance(p, Finite | DomainCondition) for p in pieces)
 
 
 def _by_graph(system: System, question: Question) -> Reply | None:
-    """Links whose lengths were all left out are in general position: the graph answers. None where it cannot."""
+    """Return the reply by the graph for links of generic lengths, which are in general position; None for others."""
     pairs = unprescribed_links(system)
     if pairs is None:
         return None
@@ -167,6 +168,7 @@ def _dof(studied: Study) -> Reply:
 
 
 def _why(outcome: Outcome) -> str:
+    """Return the first reason why a block is undecided."""
     reasons = (reason for a in outcome.answers if a.consistent is None or a.dof is None for reason in a.reasons)
     return next(reasons, "it was not decided")
 
@@ -191,17 +193,18 @@ def _redundancy(studied: Study) -> Reply:
     groups = redundancies(studied.reduced, studied.setting, outcome)
     if studied.redundant_equations == 0:
         groups = all_needed(groups, studied.reduced, outcome)
-    open_rows = sorted({i for r in groups for i in r.undecided})
-    if open_rows:
+    undecided_rows = sorted({i for r in groups for i in r.undecided})
+    if undecided_rows:
         return Reply(
-            None, "undecided", f"whether {studied.names[open_rows[0]]} is implied by the others was not decided"
+            None, "undecided", f"whether {studied.names[undecided_rows[0]]} is implied by the others was not decided"
         )
-    gone = sorted({i for r in groups for i in r.redundant})
+    redundant = sorted({i for r in groups for i in r.redundant})
     claims = (*(a.claim for a in outcome.answers), *(r.claim for r in groups if r.redundant or r.groups))
-    return Reply([studied.names[i] for i in gone], weakest(*(claim.verdict for claim in claims)))
+    return Reply([studied.names[i] for i in redundant], weakest(*(claim.verdict for claim in claims)))
 
 
 def _equivalence(scene: Scene, answer: Mapping[str, str], engines: Engines) -> Reply:
+    """Return whether the answer's text and its constraint have the same solutions, given the other constraints."""
     read = read_equations(answer["text"], vocabulary_of(scene).names, constants=False)
     system = lower(with_equations(scene, read, ANSWER)).in_coordinates
     answered_by, original = (
@@ -221,7 +224,7 @@ _QUESTIONS: Mapping[Question, Callable[[Study], Reply]] = {
 }
 
 
-#: What a method may end with where a scene is not what it is for.
+#: The exceptions by which a method fails on a scene that it cannot treat.
 FAILURES = (ArithmeticError, OutOfTimeError, NotImplementedError, ValueError)
 
 
@@ -231,10 +234,10 @@ def answered(
     method: MethodName,
     answer: Mapping[str, str] | None = None,
 ) -> Reply:
-    """Return the answer that a reader would believe who trusted this method alone, right or wrong.
+    """Return the answer of one method on its own, right or wrong.
 
-    ``answer``: for ``equivalence``, ``{"constraint": NAME, "text": TEXT}``. Where the method cannot or does not
-    answer, ``value`` is None and ``reason`` says why. Raises SceneError where the scene cannot be read.
+    ``answer``: for ``equivalence``, ``{"constraint": NAME, "text": TEXT}``. If the method cannot or does not
+    answer, ``value`` is None and ``reason`` says why. Raises SceneError if the scene cannot be read.
     """
     row = methods()[method]
     if question not in row.uses:
@@ -252,6 +255,6 @@ def answered(
 
 
 def _by_engines(engines: Engines, scene: Scene, question: Question, answer: Mapping[str, str] | None) -> Reply:
-    """Return the answer of dofkit's engines."""
+    """Return the reply of dofkit's engines, redundant constraints sorted by name."""
     reply = answered_by(scene, question, answer, engines=engines)
     return replace(reply, value=sorted(reply.value)) if question == "redundancy" and reply.value else reply

@@ -1,6 +1,6 @@
-"""Entry points: `classify` reports everything about a scene, `derived_flag` the ranks of its derived flag.
+"""Entry points: `classify` reports everything about a scene, `derived_flag` returns the ranks of its derived flag.
 
-With a budget a scene is classified in a worker process, which can be killed: first it returns a report in which
+With a budget a scene is classified in a worker process, which can be killed: it first returns a report in which
 everything is undecided, then the finished one.
 """
 
@@ -30,7 +30,7 @@ from dofkit.system import BODY_ROLES, Constraint, System
 
 #: The function that a worker runs.
 WORKER_STAGES = "dofkit.methods.classify:worker_stages"
-#: Several scenes at once.
+#: Several scenes for one call of `classify`.
 Scenes = list[SceneLike | System] | tuple[SceneLike | System, ...]
 
 _UNWATCHED = "No worker process could be started here: the time was watched, but nothing would have been killed."
@@ -96,7 +96,7 @@ def classify(
 
 
 def _all_read(scenes: Scenes) -> list[Scene | System]:
-    """Read every scene. Raises one SceneError with the faults of all, each located by the position of its scene."""
+    """Return all scenes, read. Raises one SceneError with the faults of all scenes, located by position in the list."""
     read: list[Scene | System] = []
     faults: list[Fault] = []
     for position, scene in enumerate(scenes):
@@ -113,6 +113,7 @@ def _all_read(scenes: Scenes) -> list[Scene | System]:
 
 
 def _certified(loaded: Scene | System, budget: float | None, method: MethodName, certificate: bool) -> Report:
+    """Return the report, with a certificate if wanted. Raises ArgumentError for a certificate of a System."""
     if not certificate:
         return _within_budget(loaded, budget, method).with_scene(loaded)
     if isinstance(loaded, System):
@@ -123,6 +124,7 @@ def _certified(loaded: Scene | System, budget: float | None, method: MethodName,
 
 
 def _within_budget(loaded: Scene | System, budget: float | None, method: MethodName) -> Report:
+    """Return the report, made in a worker process if there is a budget and processes can be started."""
     if budget is None:
         return classified(loaded, DEFAULT_SECONDS, method)
     seconds = seconds_of(budget)
@@ -135,9 +137,9 @@ def _within_budget(loaded: Scene | System, budget: float | None, method: MethodN
 
 
 def _report_from_worker(scene: Scene | System, budget: float, method: MethodName) -> Report | None:
-    """Return the report on a scene from a process that can be killed, or None where none can be started here.
+    """Return the report on a scene from a worker process that can be killed, or None if none can be started.
 
-    Raises SceneError with the faults of the scene, RuntimeError where the classification itself fails.
+    Raises SceneError with the faults of the scene, RuntimeError if the classification itself fails.
     """
     from dofkit.base.runs import shared
     from dofkit.base.workers import Job
@@ -160,7 +162,7 @@ def _report_from_worker(scene: Scene | System, budget: float, method: MethodName
 
 
 def worker_stages(payload: tuple[Scene | System, float, MethodName]) -> Iterator[dict[str, Any]]:
-    """Yield a report in which everything is undecided, then the finished one, in the worker; or the scene's faults."""
+    """In the worker: yield a report in which everything is undecided, then the finished one; or the scene's faults."""
     scene, budget, method = payload
     until = time.monotonic() + budget
     try:
@@ -176,14 +178,14 @@ def worker_stages(payload: tuple[Scene | System, float, MethodName]) -> Iterator
 
 @gc_rarely()
 def classified(scene: Scene | System, seconds: float, method: MethodName = "auto") -> Report:
-    """Return the report, finished within so many seconds. Raises SceneError where the scene cannot be read."""
+    """Return the report, undecided where ``seconds`` do not suffice. Raises SceneError if the scene cannot be read."""
     until = time.monotonic() + seconds
     system = lowered(scene, seconds)
     return system if isinstance(system, Report) else _report_of(system, until - time.monotonic(), method)
 
 
 def lowered(scene: Scene | System, seconds: float) -> System | Report:
-    """Return the scene's equations, or a report that says that there was no time even for reading them."""
+    """Return the system of a scene, or an undecided report if ``seconds`` do not suffice to read the scene."""
     if isinstance(scene, System):
         return scene
     try:
@@ -194,6 +196,7 @@ def lowered(scene: Scene | System, seconds: float) -> System | Report:
 
 
 def _report_of(system: System, seconds: float, method: MethodName) -> Report:
+    """Return the report of a method on a system; everything is undecided if ``seconds`` do not suffice."""
     engines = ENGINES.get(method)
     try:
         if engines is None:
@@ -206,7 +209,7 @@ def _report_of(system: System, seconds: float, method: MethodName) -> Report:
 
 
 def blank(scene: Scene, why: str) -> Report:
-    """Return a report on a scene whose equations could not be read in time: they are not counted."""
+    """Return the undecided report, with the reason ``why``, on a scene whose equations were not read in time."""
     d, particles, bodies = scene.dimension, len(scene.particles), len(scene.bodies)
     coordinates = d * particles + len(BODY_ROLES[d]) * bodies + len(scene.coordinates)
     count = Count(
@@ -232,7 +235,7 @@ def blank(scene: Scene, why: str) -> Report:
 
 
 def strict_report(scene: Scene) -> Report:
-    """Return the report in which what is proved was checked; in a browser, which has no checker, the plain one."""
+    """Return the report whose proved answers were checked; in a browser, which has no checker, they are not."""
     if sys.platform == "emscripten":
         return classify(scene)
     from dofkit.methods.certificates.lowering import with_certificate

@@ -1,4 +1,4 @@
-"""The textbook: f = N d - k, a form integrates where its mixed partials are equal, answers are compared as texts."""
+"""The textbook's methods: f = N d - k; a form is integrable if mixed partials agree; answers are compared as texts."""
 
 from __future__ import annotations
 
@@ -18,18 +18,18 @@ _BELOW = (
 
 
 def naive(written: Written) -> int:
-    """f = N d - k: coordinates less every geometric equation that was written."""
+    """Return f = N d - k: the number of coordinates less that of geometric equations."""
     return len(written.coordinates) - len(written.finite)
 
 
 def dof(scene: Scene | System) -> Reply:
-    """f = N d - k, each rigid body with d(d+1)/2 coordinates."""
+    """Return f = N d - k, where each rigid body has d(d+1)/2 coordinates; no value if f < 0."""
     number = naive(as_written(scene))
     return Reply(None, reason=_BELOW.format(number)) if number < 0 else Reply(number)
 
 
 def integrability(scene: Scene | System) -> Reply:
-    """Closed forms are called holonomic, all others are not: equality of mixed partials, which is exactness."""
+    """Return {name: label}: a form is called holonomic if it is closed (mixed partials agree), else not."""
     written = as_written(scene)
     closed: dict[int, bool] = {}
     verdicts = []
@@ -41,10 +41,10 @@ def integrability(scene: Scene | System) -> Reply:
 
 
 def redundancy(scene: Scene | System) -> Reply:
-    """Return no redundant constraint where the count leaves at least the freedom that is certain; else None.
+    """Return no redundant constraint if the count is at least the certain freedom; else no value.
 
-    Certain is the motion of the system as a rigid body, d(d+1)/2, where nothing holds it to the ground. A count that
-    leaves less proves that something is redundant, and cannot name it.
+    The certain freedom is the rigid motion of a system without ground. A smaller count proves that some constraint is
+    redundant, but does not say which.
     """
     written = as_written(scene)
     number, least = naive(written), least_freedom(written)
@@ -55,7 +55,7 @@ def redundancy(scene: Scene | System) -> Reply:
 
 
 def least_freedom(written: Written) -> int:
-    """d(d+1)/2 for links between d particles or more that nothing joins to the ground [Maxwell1864], else 0."""
+    """Return d(d+1)/2 for links between at least d particles, none joined to the ground [Maxwell1864], else 0."""
     system, d = written.system, written.system.dimension
     linked = all(c.facts.bars and GROUND not in c.members for c in system.connections)
     if not linked or len(system.connections) < len(system.constraints) or len(system.particles) < d or system.bodies:
@@ -64,13 +64,13 @@ def least_freedom(written: Written) -> int:
 
 
 def equivalence(scene: Scene, answer: Mapping[str, str]) -> Reply:
-    """Are the texts the same, blanks and the sides' order aside?"""
+    """Return whether the texts are equal except for blanks, signs of multiplication and the order of the sides."""
     asked = next(c.text for c in as_written(scene).system.constraints if c.name == answer["constraint"])
     return Reply(plain(asked) == plain(answer["text"]))
 
 
 def plain(text: str) -> tuple[str, ...]:
-    """A text without blanks and signs of multiplication, its sides in alphabetical order."""
+    """Return the sides of an equation without blanks and signs of multiplication, in alphabetical order."""
     bare = "".join(text.split()).replace("**", "^").replace("·", "").replace("*", "")
     sides = bare.split("=") if "=" in bare else [bare, "0"]
     return tuple(sorted(sides))

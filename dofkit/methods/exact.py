@@ -32,7 +32,7 @@ from dofkit.relations.linear_relations import explicit_relations
 from dofkit.scene.scene import Scene
 from dofkit.system import System
 
-#: Draws of a rational point.
+#: Attempts to find a random rational point.
 DRAWS = 8
 IRRATIONAL = "a number that occurs is irrational, and only rational ones are computed with"
 KINK = "something within abs() is 0 there, where there is no gradient"
@@ -40,15 +40,15 @@ NOWHERE = "no rational configuration is given, and none was found by solving the
 
 
 class IrrationalError(ArithmeticError):
-    """A value is no rational number."""
+    """A value is not a rational number, or a gradient does not exist."""
 
 
 class ContradictionError(ArithmeticError):
-    """Linear equations have no solution."""
+    """The linear equations have no solution."""
 
 
 class RationalPoint:
-    """Rational values of the symbols; functions of what is free are random too, on their circle if need be."""
+    """Rational values of symbols; if ``free``, missing values are random, (cos, sin) on the unit circle."""
 
     def __init__(self, rng: random.Random, free: bool) -> None:
         self.rng, self.free = rng, free
@@ -61,13 +61,14 @@ class RationalPoint:
         return fmpq(self.rng.randrange(1, 97), self.rng.choice((3, 5, 7, 8)))
 
     def generator(self, var: Var, args: Sequence[Scalar]) -> Scalar:
-        """Return the value of a generator of the ring at this point, chosen when it is first asked for."""
+        """Return the value of a generator of the ring at this point, which is chosen at the first call."""
         key = var.key if var.kind == "symbol" else (var.kind, var.key)
         if key not in self.values:
             self._set(key, var, args)
         return self.values[key]
 
     def _set(self, key: object, var: Var, args: Sequence[Scalar]) -> None:
+        """Choose the value of a generator with these arguments. Raises IrrationalError if it has no rational value."""
         if var.kind in ("cos", "sin"):
             cos, sin = self._turn(args[0])
             self.values["cos", var.key], self.values["sin", var.key] = cos, sin
@@ -88,7 +89,7 @@ class RationalPoint:
             raise IrrationalError(IRRATIONAL)
 
     def _turn(self, angle: Scalar) -> tuple[fmpq, fmpq]:
-        """cos and sin: of the angle 0, or of a free one, a random rational point of the circle."""
+        """Return (cos, sin): (1, 0) for the angle 0, a random rational point of the circle for a free angle."""
         if angle == 0:
             return fmpq(1), fmpq(0)
         if not self.free:
@@ -99,7 +100,7 @@ class RationalPoint:
 
 
 class Rationals:
-    """The numbers of this method."""
+    """The arithmetic of this method: rational numbers."""
 
     zero = fmpq(0)
 
@@ -107,7 +108,7 @@ class Rationals:
         return fmpq_mat(matrix).rank() if matrix and matrix[0] else 0
 
     def kernel(self, matrix: Matrix, columns: int) -> Matrix:
-        """A basis of what all rows vanish on."""
+        """Return a basis of the kernel of a matrix."""
         return null_vectors(fmpq_mat(matrix) if matrix else fmpq_mat(0, columns))
 
     def vanishes(self, value: Scalar, scale: Sequence[Scalar]) -> bool:
@@ -116,7 +117,7 @@ class Rationals:
 
     def points(self, written: Written, rows: WrittenRows, drawn: bool) -> list[RationalPoint]:
         if drawn:
-            return [self._drawn(written)]
+            return [self._reference_point(written)]
         movable = {*written.coordinates, *(ex.parameter(p) for p in written.system.generic)}
         relations = [expand(g) for _, g in written.finite]
         if explicit_relations(relations).contradictory:
@@ -131,7 +132,7 @@ class Rationals:
             return [point]
         return []
 
-    def _drawn(self, written: Written) -> RationalPoint:
+    def _reference_point(self, written: Written) -> RationalPoint:
         point = RationalPoint(random.Random("dofkit rational 0"), free=False)
         for symbol, value in (written.system.reference or {}).items():
             point.values[symbol] = drawn_value(value, point)
@@ -140,7 +141,7 @@ class Rationals:
 
 
 def linear_symbols(movable: Collection[Expr], g: Expr) -> dict[Expr, Expr]:
-    """Return the symbols that one term of a relation holds, as a factor, with their coefficients, which may vanish."""
+    """Return {symbol: coefficient} of the ``movable`` symbols that occur linearly in one term only of ``g``."""
     terms = g.args if g.op == "add" else (g,)
     result = {}
     for s in sorted(g.symbols.intersection(movable), key=repr):
@@ -152,12 +153,13 @@ def linear_symbols(movable: Collection[Expr], g: Expr) -> dict[Expr, Expr]:
 
 @raising_no_value
 def give_values(point: RationalPoint, solved: Mapping[Expr, Expr], rows: WrittenRows) -> None:
-    """Give a point the values of the symbols that are solved for, and draw all others that the equations hold."""
+    """Give ``point`` the values of the ``solved`` symbols, and random values of all other symbols in the equations."""
     point.values |= {s: drawn_value(value, point) for s, value in solved.items()}
     rows.at(point, fmpq(0))
 
 
 def _points_of(scene: Scene | System) -> tuple[SampledPoints, Decider] | Reply:
+    """Return the rows at a rational point with the arithmetic, or the reply if there is no such point."""
     numbers = Rationals()
     written = as_written(scene)
     if written.system.tolerance is not None:

@@ -1,4 +1,4 @@
-"""Who is joined to whom: ranks in general position, by the graph for links, else at random places modulo a prime."""
+"""Ranks in general position from connections only: of links by their graph, else at random places modulo a prime."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ WRITTEN = "'{}' is no link and no joint: a graph says nothing of what was writte
 
 
 def _joined(scene: Scene | System) -> System | Reply:
-    """Return the system, or why the graph does not tell of it: what is neither a link nor a joint."""
+    """Return the system, or the reply that names a constraint which is neither a link nor a joint."""
     system = scene if isinstance(scene, System) else lower(scene)
     joined = {c.constraint for c in system.connections if c.facts.placed}
     other = next((c.name for i, c in enumerate(system.constraints) if i not in joined), None)
@@ -27,7 +27,7 @@ def _joined(scene: Scene | System) -> System | Reply:
 
 
 def dof(scene: Scene | System) -> Reply:
-    """Coordinates less the rank in general position."""
+    """Return the number of coordinates less the rank in general position."""
     system = _joined(scene)
     if isinstance(system, Reply):
         return system
@@ -36,7 +36,7 @@ def dof(scene: Scene | System) -> Reply:
 
 
 def integrability(scene: Scene | System) -> Reply:
-    """Links and joints are finite."""
+    """Return the label True for all constraints, because links and joints are geometric equations."""
     system = _joined(scene)
     if isinstance(system, Reply):
         return system
@@ -44,7 +44,7 @@ def integrability(scene: Scene | System) -> Reply:
 
 
 def redundancy(scene: Scene | System) -> Reply:
-    """By the rank in general position with and without each."""
+    """Return the names of a maximal redundant set in general position."""
     system = _joined(scene)
     if isinstance(system, Reply):
         return system
@@ -53,7 +53,7 @@ def redundancy(scene: Scene | System) -> Reply:
 
 
 def _verdict(system: System) -> Verdict:
-    """Return how certain the count is: it is the scene's own where all lengths were left out."""
+    """Return the verdict; it is decided only for links with generic lengths, which are in general position."""
     pairs = unprescribed_links(system)
     return "undecided" if pairs is None else linkage([pair for _, pair in pairs], system.dimension).verdict
 

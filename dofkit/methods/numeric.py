@@ -1,4 +1,4 @@
-"""Floating point: singular values above a tolerance, at the reference or where Newton's method ends."""
+"""Floating point: ranks by singular values above a tolerance, at the reference or at points of Newton's method."""
 
 from __future__ import annotations
 
@@ -31,19 +31,19 @@ from dofkit.methods.table import CONTRADICTORY, Reply
 from dofkit.scene.scene import Scene
 from dofkit.system import System
 
-#: Starts of Newton's method, and points that are looked at.
+#: Starts of Newton's method, and the most points that are used.
 STARTS, POINTS = 10, 5
-#: Singular values and differences below this share of the largest count as 0.
+#: Singular values and other numbers below this share of the largest count as 0.
 TOLERANCE = 1e-9
 _tolerance: ContextVar[float] = ContextVar("numeric_tolerance", default=TOLERANCE)
-#: A singular value is clearly not 0 above the first share of the largest, and no more than rounding below the second.
+#: Shares of the largest singular value: above `SIGNAL` a value is clearly not 0, below `ROUNDING` it is rounding error.
 SIGNAL, ROUNDING = 1e-6, 1e-13
 NOWHERE = "Newton's method found no configuration from {} starts"
 
 
 @contextmanager
 def tolerance_of(share: float) -> Iterator[None]:
-    """Take what is below this share of the largest for 0 within, instead of `TOLERANCE`."""
+    """Use ``share`` instead of `TOLERANCE` within the block."""
     token = _tolerance.set(share)
     try:
         yield
@@ -52,7 +52,7 @@ def tolerance_of(share: float) -> Iterator[None]:
 
 
 class Floats:
-    """The numbers of this method: what is below the tolerance, a share of the largest, is 0."""
+    """The arithmetic of this method: floats, with 0 for values below the tolerance, a share of the largest."""
 
     zero = 0.0
 
@@ -65,7 +65,7 @@ class Floats:
         return int(np.sum(singular > _tolerance.get() * float(singular.max(initial=0.0))))
 
     def kernel(self, matrix: Matrix, columns: int) -> Matrix:
-        """An orthonormal basis of what the rows vanish on."""
+        """Return an orthonormal basis of the kernel of a matrix."""
         if not matrix:
             return [list(row) for row in np.eye(columns)]
         _, singular, right = np.linalg.svd(np.array(matrix, dtype=float), full_matrices=True)
@@ -76,23 +76,23 @@ class Floats:
 
     def points(self, written: Written, rows: WrittenRows, drawn: bool) -> list[FloatPoint]:
         if drawn:
-            return [self._drawn(written, rows)]
+            return [self._reference_point(written, rows)]
         ends = (self._newton_end(written, rows, k) for k in range(STARTS))
         return [*islice((point for point in ends if point is not None), POINTS)]
 
-    def _drawn(self, written: Written, rows: WrittenRows) -> FloatPoint:
+    def _reference_point(self, written: Written, rows: WrittenRows) -> FloatPoint:
+        """Return the reference configuration at time 0, with fixed pseudo-random values of all other symbols."""
         rng = random.Random("dofkit floats 0")
         symbols: dict[Expr, float] = {v.key: rng.uniform(0.5, 2) for v in rows.ring.vars if v.kind == "symbol"}
         reference = written.system.reference or {}
         parameters = {s for value in reference.values() for s in value.symbols}
         symbols |= {s: rng.uniform(0.5, 2) for s in sorted(parameters, key=repr) if s not in symbols}
-        place = FloatPoint(symbols)
-        symbols |= {s: float(drawn_value(value, place)) for s, value in reference.items()}
+        symbols |= {s: float(drawn_value(value, FloatPoint(symbols))) for s, value in reference.items()}
         symbols[ex.TIME] = 0.0
         return FloatPoint(symbols)
 
     def _newton_end(self, written: Written, rows: WrittenRows, k: int) -> FloatPoint | None:
-        """Where Gauss and Newton's method ends that begins at random."""
+        """Return the point where Newton's method ends after the random start number ``k``, None if it fails."""
         unknowns = [*written.coordinates, *(ex.parameter(p) for p in written.system.generic)]
         nodes = [node for _, node in rows.finite]
         search = RealSearch(rows.ring, nodes, unknowns, written.positive)
@@ -105,20 +105,21 @@ class Floats:
 
 
 def singular_values(matrix: Matrix) -> Any:
-    """From the largest to the smallest."""
+    """Return the singular values of a matrix, from the largest to the smallest."""
     return np.linalg.svd(np.array(matrix, dtype=float), compute_uv=False)
 
 
 def _points_of(scene: Scene | System) -> tuple[SampledPoints, Decider] | Reply:
+    """Return the rows at points with the arithmetic, or the reply of a contradiction if no point is found."""
     numbers = Floats()
     sampled = sampled_points(as_written(scene), numbers)
     return Reply(CONTRADICTORY, reason=NOWHERE.format(STARTS)) if sampled is None else (sampled, numbers)
 
 
 def _is_clear(sampled: SampledPoints, numbers: Decider) -> bool:
-    """Return whether a rank is clear: residuals vanish, no singular value lies between rounding and the least signal.
+    """Return whether the rank is clear: residuals vanish, and no singular value is between `ROUNDING` and `SIGNAL`.
 
-    A tolerance for the geometry, or a sign that rounding may turn, leaves nothing clear.
+    It is never clear with a tolerance for the geometry, or with a sign that rounding may change.
     """
     written, sample = sampled.rows.written, sampled.samples[0]
     if written.system.tolerance is not None or any(v.kind == "sign" for v in sampled.rows.ring.vars):

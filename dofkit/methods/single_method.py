@@ -1,4 +1,4 @@
-"""The reports of one method on its own: they decide what its own argument proves, the rest are warnings."""
+"""The report of one method on its own: answers that the method's argument proves are fields, all others warnings."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from dofkit.relations.blocks import Block
 from dofkit.report import ConstraintEntry, FieldVerdict, Report
 from dofkit.system import Constraint, System
 
-#: The questions that a report answers, and how each is called in a warning.
+#: The questions that a report answers, with their names in a warning.
 ASKED: Mapping[Question, str] = {
     "dof": "the number of degrees of freedom",
     "integrability": "which constraints are holonomic",
@@ -34,7 +34,7 @@ PROVED = "It is holonomic by this method's own argument."
 
 
 def report_of_method(system: System, method: MethodName) -> Report:
-    """Return the report of a method that is no engine of dofkit. Raises OutOfTimeError."""
+    """Return the report of a method that is not an engine of dofkit. Raises OutOfTimeError."""
     base = sketch(system, f"{method} on its own does not decide")
     replies = {question: _reply(system, method, question) for question in ASKED if question in methods()[method].uses}
     dof, redundancy, labels = (replies.get(q, Reply(None)) for q in ("dof", "redundancy", "integrability"))
@@ -49,12 +49,12 @@ def report_of_method(system: System, method: MethodName) -> Report:
         _entry(c, e, labels.verdict if c.name in holonomic else None, methods()[method].best)
         for c, e in zip(system.constraints, base.constraints, strict=True)
     ]
-    whole = {name: all_of(getattr(e, name) for e in entries) for name in ("holonomic", "scleronomic")}
+    labels_of_system = {name: all_of(getattr(e, name) for e in entries) for name in ("holonomic", "scleronomic")}
     about: About = "everywhere" if system.reference is None else "reference"
     verdicts = {
         **base.verdicts,
         **{name: _verdict(redundancy.verdict if name == "redundant" else dof.verdict, about) for name in fields},
-        **{name: _of_entries(name, value, entries) for name, value in whole.items()},
+        **{name: _of_entries(name, value, entries) for name, value in labels_of_system.items()},
     }
     changes = {
         "constraints": entries,
@@ -64,10 +64,11 @@ def report_of_method(system: System, method: MethodName) -> Report:
         "warnings": [*system.warnings, *(w for q, r in replies.items() if (w := _warning(method, q, r)))],
         "verdicts": verdicts,
     }
-    return base.model_copy(update={**changes, **fields, **whole})
+    return base.model_copy(update={**changes, **fields, **labels_of_system})
 
 
 def _reply(system: System, method: MethodName, question: Question) -> Reply:
+    """Return the method's reply, without a value if the method fails."""
     try:
         reply: Reply = function_of(method, question)(system)
     except OutOfTimeError:
@@ -78,7 +79,7 @@ def _reply(system: System, method: MethodName, question: Question) -> Reply:
 
 
 def _warning(method: MethodName, question: Question, reply: Reply) -> str:
-    """Return a sentence about an answer that is not certain, or the empty text."""
+    """Return a sentence about an undecided reply, or an empty text for a decided one."""
     if reply.verdict != "undecided":
         return ""
     if reply.value is None:
@@ -100,14 +101,14 @@ def _verdict(verdict: Verdict, about: About = "everywhere") -> FieldVerdict:
 
 
 def _of_entries(name: str, value: bool | None, entries: list[ConstraintEntry]) -> FieldVerdict:
-    """Return the verdict of a label of the system: the weakest of the entries that it rests on."""
+    """Return the verdict of the system's label ``name``: the weakest verdict of the entries with the same value."""
     if value is None:
         return _verdict("undecided")
     return _verdict(weakest(*(e.verdicts[name].verdict for e in entries if getattr(e, name) is value)))
 
 
 def _entry(constraint: Constraint, entry: ConstraintEntry, holonomic: Verdict | None, best: Verdict) -> ConstraintEntry:
-    """Return an entry with what its text itself shows; ``holonomic``: how certainly the method shows that it is."""
+    """Return a constraint's entry with its labels; ``holonomic``: the method's verdict that it is, or None."""
     label, reason, sure = None, entry.reason, holonomic or "proved"
     if entry.form == "finite":
         label, reason, sure = True, FINITE, "proved"
@@ -135,7 +136,7 @@ def _entry(constraint: Constraint, entry: ConstraintEntry, holonomic: Verdict | 
 
 
 def without_time(constraint: Constraint) -> bool:
-    """Return whether neither t nor dt occurs; dt is hidden where not all terms hold rates."""
+    """Return whether neither t nor dt occurs; a term without velocities among others with them contains dt."""
     return all(_without_time(r.expr) for r in constraint.relations)
 
 
@@ -151,7 +152,7 @@ def _without_time(e: Expr) -> bool:
 
 
 def report_of_engine(report: Report, outcome: Outcome, method: MethodName) -> Report:
-    """Return the report of one engine on its own: no surer than the engine is, and undecided where it cannot know."""
+    """Return the report of one engine on its own: no verdict is stronger than the best of this method."""
     row = methods()[method]
     entries = [e.model_copy(update={"verdict": weakest(e.verdict, row.best)}) for e in report.constraints]
     changes: dict[str, Any] = {

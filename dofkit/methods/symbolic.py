@@ -1,7 +1,7 @@
-"""SymPy as one would use it: the rank of a Jacobian, wedge products, simplify. A rival: nothing of dofkit rests on it.
+"""SymPy used in the obvious way: rank of a Jacobian, wedge products, simplify. No answer of dofkit depends on it.
 
-The answers are what SymPy says, whether it is right or not; the ranks are those of all of the space, not of the set
-on which the constraints hold, but for a drawing that is put in.
+SymPy's answers are taken whether they are right or not. Ranks are those at a generic point of the coordinate space, not
+of the configuration space, unless there is a reference configuration to substitute.
 """
 
 from __future__ import annotations
@@ -20,12 +20,12 @@ from dofkit.methods.table import Reply
 from dofkit.scene.scene import Scene
 from dofkit.system import System
 
-#: A form as its coefficients by increasing indices of differentials.
+#: A differential form: {increasing indices of the differentials: coefficient}.
 Form = dict[tuple[int, ...], Any]
 
 
 class Symbols:
-    """A scene's equations in SymPy, coordinates as plain symbols."""
+    """A scene's equations in SymPy, with coordinates as SymPy symbols."""
 
     def __init__(self, written: Written) -> None:
         self.written = written
@@ -47,20 +47,20 @@ class Symbols:
             self.drawing[self._time] = sympy.Integer(0)
 
     def read(self, e: Expr) -> Any:
-        """An expression of positions, parameters and time."""
+        """Return an expression in positions, parameters and time as a SymPy expression."""
         expression = self._bridge.sympy(e)
         return expression.xreplace(self._positions).xreplace({self._bridge.time: self._time})
 
     def row(self, form: Form) -> list[Any]:
-        """A one-form's coefficients."""
+        """Return the coefficients of a one-form as a row."""
         return [form.get((k,), sympy.Integer(0)) for k in range(len(self.columns))]
 
     def differential(self, g: Any) -> Form:
-        """dg."""
+        """Return the one-form dg."""
         return {(k,): g.diff(s) for k, s in enumerate(self.columns)}
 
     def rows(self, of: Sequence[int], more: Sequence[int]) -> Any:
-        """The matrix of some geometric equations and of some forms, by the coordinates, the reference put in."""
+        """Return the matrix of the geometric equations ``of`` and forms ``more``, at the reference if there is one."""
         rows = [self.row(self.differential(self.finite[k][1])) for k in of]
         rows += [self.row(self.forms[k][1]) for k in more]
         matrix = sympy.Matrix(len(rows), len(self.columns), [entry for row in rows for entry in row])
@@ -68,7 +68,7 @@ class Symbols:
 
 
 def wedge(a: Form, b: Form) -> Form:
-    """The exterior product."""
+    """Return the exterior product of two forms."""
     form: Form = {}
     for i, x in a.items():
         for j, y in b.items():
@@ -82,7 +82,7 @@ def wedge(a: Form, b: Form) -> Form:
 
 
 def exterior(form: Form, columns: Sequence[Any]) -> Form:
-    """d omega of a one-form."""
+    """Return the exterior derivative of a one-form."""
     derivative: Form = {}
     for (j,), a in form.items():
         for i, s in enumerate(columns):
@@ -93,19 +93,19 @@ def exterior(form: Form, columns: Sequence[Any]) -> Form:
 
 
 def passing(symbols: Symbols) -> list[bool]:
-    """[Frobenius1877]: is d omega_a with all of the system's forms wedged to it simplified to 0?"""
+    """Return which forms w satisfy dw ^ w_1 ^ ... ^ w_m = 0, with all forms w_i of the system [Frobenius1877]."""
     system = [symbols.differential(g) for _, g in symbols.finite] + [f for _, f in symbols.forms]
-    points = []
+    answers = []
     for _, form in symbols.forms:
         product = exterior(form, symbols.columns)
         for other in system:
             product = wedge(product, other)
-        points.append(all(sympy.simplify(a) == 0 for a in product.values()))
-    return points
+        answers.append(all(sympy.simplify(a) == 0 for a in product.values()))
+    return answers
 
 
 def dof(scene: Scene | System) -> Reply:
-    """Coordinates less the rank that SymPy finds, forms that pass Frobenius' test included."""
+    """Return coordinates less SymPy's rank of the equations and of the forms that pass Frobenius' test."""
     symbols = Symbols(as_written(scene))
     return Reply(_freedom(symbols, passing(symbols)))
 
@@ -116,7 +116,7 @@ def _freedom(symbols: Symbols, passes: Sequence[bool]) -> int:
 
 
 def integrability(scene: Scene | System) -> Reply:
-    """By wedge products."""
+    """Return {name: label}, by wedge products."""
     symbols = Symbols(as_written(scene))
     labels: dict[int, bool] = {}
     for (i, _), passes in zip(symbols.forms, passing(symbols), strict=True):
@@ -125,7 +125,7 @@ def integrability(scene: Scene | System) -> Reply:
 
 
 def redundancy(scene: Scene | System) -> Reply:
-    """Constraints without which the rank that SymPy finds stays as it is, the last written first."""
+    """Return the names of constraints that are removed, later ones first, while SymPy's ranks do not change."""
     symbols = Symbols(as_written(scene))
 
     def ranks(finite: Sequence[int], forms: Sequence[int]) -> tuple[int, int]:

@@ -1,9 +1,8 @@
-"""The methods, as a table (`methods.yaml`): each sound for something, none for everything but ``auto``.
+"""The table of the methods (`methods.yaml`), with what each is sound for.
 
-``auto``, ``field`` and ``balls`` share what is exact: reading, and rewriting a relation to its real zero set in the
-canonical ring; they differ in who decides ranks, zeros and integrability. All others take the equations as written.
-A method is a row of the table; one that is no engine of dofkit has a module of its name, with a function for each
-question.
+``auto``, ``field`` and ``balls`` share the exact steps (reading, and rewriting a relation to its real zero set in the
+canonical ring) and differ in the arithmetic that decides ranks, zeros and integrability. Each other method takes the
+equations as written, and has a module of its name with a function for each question.
 """
 
 from __future__ import annotations
@@ -27,7 +26,7 @@ QUESTIONS: tuple[Question, ...] = get_args(Question)
 class Use(NamedTuple):
     """How a method answers one question: what it is ``sound`` for, and what it ``costs``.
 
-    n: coordinates, m: scalar equations, k: differential ones, each by itself where parts share no coordinate.
+    In the costs, n is the number of coordinates, m of scalar equations, k of differential equations.
     """
 
     sound: str
@@ -35,20 +34,20 @@ class Use(NamedTuple):
 
 
 class Method(NamedTuple):
-    """One way to answer: its best verdict, what it cannot answer, and its use by question."""
+    """A method: its best verdict, a sentence about what it cannot answer, and its use by question."""
 
     best: Verdict
     cannot: str
     uses: Mapping[Question, Use]
 
 
-#: The engines that a method of dofkit asks; every other method has a module of its own.
+#: The methods that are dofkit's engines; every other method has a module of its own.
 ENGINES: Mapping[MethodName, Engines] = {"auto": BOTH, "field": FIELD, "balls": BALLS}
 
 
 @cache
 def methods() -> Mapping[MethodName, Method]:
-    """Return the methods by their names."""
+    """Return {name: method}."""
     return {
         name: Method(row["best"], row["cannot"], {question: Use(**use) for question, use in row["uses"].items()})
         for name, row in package_table(__package__, "methods.yaml").items()
@@ -56,10 +55,7 @@ def methods() -> Mapping[MethodName, Method]:
 
 
 def function_of(method: MethodName, question: Question) -> Callable[..., Reply]:
-    """Return the function of a method's module for a question of its row: (scene), for equivalence the answer too.
-
-    The module is imported where it is first asked for: some need SymPy or numpy.
-    """
+    """Return the method's function for a question; its arguments are (scene), for equivalence (scene, answer)."""
     function: Callable[..., Reply] = getattr(import_module(f"dofkit.methods.{method}"), question)
     return function
 
@@ -75,7 +71,7 @@ class Reply:
         constraint to whether it is holonomic in the system (None: undecided); for ``redundancy`` the names of a maximal
         redundant set, in the scene's order; for ``equivalence`` whether the two are equivalent. None: undecided.
     verdict
-        How certain the value is; of a method on its own, by its own argument, and of labels, those that are true.
+        How certain the value is; for a method on its own by its own argument, and for labels only of those True.
     reason
         Why there is no value.
     cannot
@@ -88,10 +84,10 @@ class Reply:
     cannot: bool = False
 
 
-#: The freedom of constraints that contradict each other.
+#: The value of dof for constraints that contradict each other.
 CONTRADICTORY = -1
 
 
 def cannot(reason: str) -> Reply:
-    """Return a reply without a value."""
+    """Return a reply without a value to a question that the method never answers for such a scene."""
     return Reply(None, reason=reason, cannot=True)

@@ -1,4 +1,4 @@
-"""Relations between the values of joints, written as a person would: letters, short numbers, nothing that is zero."""
+"""Relations between joint values as readable texts: letters for joints, short numbers, no zero terms."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ import math
 from collections.abc import Iterable, Sequence
 from typing import Any, NamedTuple
 
-#: Numbers are rounded to so many decimals: what a compiler of doubles knows.
+#: Decimals to which numbers are rounded, because a compiler with doubles is not more precise.
 DECIMALS = 12
-#: Why a hinge's range is not read.
+#: The reason why a hinge's range is left out.
 OVER = (
     "it extends beyond half a turn from the reference configuration, where the angle of a hinge in space starts again"
 )
@@ -16,13 +16,13 @@ _LETTERS = "pqrsuvwabcdefgh"
 
 
 class JointSum(NamedTuple):
-    """A sum of factors times joint values, which count from the reference configuration, and its value there."""
+    """A sum of (joint, factor) ``terms``, joint values from the reference on, and its value there (``drawn``)."""
 
     terms: tuple[tuple[str, float], ...]
     drawn: float = 0.0
 
     def text(self, letters: dict[str, str]) -> str:
-        """Return the sum as text; joints get their letters."""
+        """Return the sum as text; new joints are added to ``letters``, {joint: letter}."""
         terms = []
         for name, factor in self.terms:
             letter = letters.setdefault(name, _letter(len(letters)))
@@ -33,7 +33,7 @@ class JointSum(NamedTuple):
 
 
 def relation(driven: JointSum, driving: JointSum | None, polynomial: Sequence[float]) -> dict[str, Any]:
-    """Return the fields of a coupling: driven = a0 + a1 driving + a2 driving^2 + ...
+    """Return the fields of a coupling driven = a0 + a1 driving + a2 driving^2 + ..., with the a of ``polynomial``.
 
     >>> relation(JointSum((("hip", 1.0),)), JointSum((("knee", 1.0),)), [0, 2, 0, 0, 0])
     {'joints': {'p': 'hip', 'q': 'knee'}, 'text': 'p = 2 q'}
@@ -53,7 +53,7 @@ def relation(driven: JointSum, driving: JointSum | None, polynomial: Sequence[fl
 
 
 def bounds(total: JointSum, between: Sequence[float]) -> dict[str, Any]:
-    """Return the fields of a coupling that keeps a sum between two numbers.
+    """Return the fields of a coupling with the inequality that a sum is between two numbers.
 
     >>> bounds(JointSum((("hip", 1.0),)), [-1, 0.5])
     {'joints': {'p': 'hip'}, 'text': '-1 <= p <= 0.5'}
@@ -65,9 +65,9 @@ def bounds(total: JointSum, between: Sequence[float]) -> dict[str, Any]:
 
 
 def whole_turns(drawn: float, between: Sequence[float]) -> float | None:
-    """Return the whole turns from which a hinge's range counts, to lie within half a turn of the reference.
+    """Return the multiple of 2 pi by which a hinge's range must be shifted to be within half a turn of the reference.
 
-    None where it extends beyond that, so that it is no range of an angle between -pi and pi; 0 where it allows all.
+    None if the range extends beyond half a turn, 0 if it contains a full turn around the reference. Angles in radians.
 
     >>> round(whole_turns(0.0, [3.5, 5.0]), 6), whole_turns(0.0, [-7.0, 7.0]), whole_turns(0.0, [3.0, 4.0])
     (6.283185, 0.0, None)
@@ -80,7 +80,7 @@ def whole_turns(drawn: float, between: Sequence[float]) -> float | None:
 
 
 def figures(value: float) -> str:
-    """Return a number without an exponent.
+    """Return a number as decimal text, rounded to `DECIMALS`, without an exponent.
 
     >>> figures(1e-05), figures(-2.0)
     ('0.00001', '-2')

@@ -1,4 +1,4 @@
-"""XML, read with the line of every element, and never more of it than a model needs: no entities, bounded."""
+"""XML, read with the line of every element, within limits and without entities."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from typing_extensions import override
 
 from dofkit.base.errors import Fault, SceneError
 
-#: A longer file is refused; so is one of more elements, or nested deeper.
+#: The most bytes, elements and levels of nesting of a file; larger files are refused.
 MOST_BYTES, MOST_ELEMENTS, DEEPEST = 64_000_000, 500_000, 200
 
 
 @dataclass
 class Element:
-    """An element: its tag without a prefix (but that of a macro), attributes, line, and the elements in it."""
+    """An XML element: tag without a prefix (except of a macro), attributes, line, and child elements (``below``)."""
 
     tag: str
     attributes: dict[str, str]
@@ -29,19 +29,19 @@ class Element:
     below: list[Element] = field(default_factory=list)
 
     def get(self, key: str, otherwise: str = "") -> str:
-        """Return an attribute."""
+        """Return an attribute, ``otherwise`` if it is missing."""
         return self.attributes.get(key, otherwise)
 
     def all(self, tag: str) -> Iterator[Element]:
-        """Yield the elements right below it of that tag."""
+        """Yield the child elements with this tag."""
         return (part for part in self.below if part.tag == tag)
 
     def first(self, tag: str) -> Element | None:
-        """Return the first element right below it of that tag."""
+        """Return the first child element with this tag, or None."""
         return next(self.all(tag), None)
 
     def every(self) -> Iterator[Element]:
-        """Yield it and all elements below it, in the order of the file."""
+        """Yield this element and all its descendants, in the order of the file."""
         stack = [self]
         while stack:
             part = stack.pop()
@@ -50,7 +50,7 @@ class Element:
 
 
 class _MarkupReader(ContentHandler):
-    """Collects elements with their lines; the root is what is below the document."""
+    """Collects elements with their lines below ``document``, whose only child is the root."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -83,7 +83,7 @@ class _MarkupReader(ContentHandler):
 def read_markup(data: bytes | str, name: str) -> Element:
     """Return the root element of an XML file.
 
-    Raises SceneError, in its line, for what is not XML or more than is read.
+    Raises SceneError with the line for malformed XML, entities, or a file beyond the limits.
     """
     raw = data.encode() if isinstance(data, str) else data
     line, column = 1, 1

@@ -1,8 +1,8 @@
-"""MJCF, the models of MuJoCo, as scenes: what its compiler makes of bodies, joints, equalities and tendons.
+"""MJCF, the models of MuJoCo, as scenes: the compiled bodies, joints, equalities and tendons.
 
 The compiler runs in a worker that can be killed (`mujoco_model`). The origin of a body is its centre of mass. Several
-joints of one body are in series, as in MuJoCo: bodies without mass, named after the joint that moves them, are between.
-What MuJoCo welds to the world is the ground.
+joints of one body are in series, as in MuJoCo, with bodies without mass between them, named after the joint before.
+Bodies that MuJoCo welds to the world are part of the ground.
 """
 
 from __future__ import annotations
@@ -32,18 +32,18 @@ from dofkit.models.model_document import (
 )
 from dofkit.system import GROUND
 
-#: Attributes that place something.
+#: Attributes that give positions or orientations.
 _PLACING = ("pos", "quat", "axisangle", "xyaxes", "zaxis", "euler", "axis", "fromto", "anchor", "relpose", "ref")
 _KINDS = {"hinge": "revolute", "slide": "prismatic", "ball": "spherical"}
 
-#: Seconds that the compiler may take.
+#: The time limit of the compiler in seconds.
 SECONDS = 60.0
-#: What works in a process of its own, which is kept for the models that follow.
+#: The module that runs in a worker process, which is kept for later models.
 COMPILER = "dofkit.models.mujoco_model"
-#: Files that a model may include, one in another.
+#: The most files that a model may include, nested ones counted.
 MOST_INCLUDED = 300
 
-#: Attributes that place or weigh something.
+#: Attributes whose numbers must be finite.
 _MEASURES = (*_PLACING, "mass", "diaginertia", "fullinertia", "density", "polycoef", "size", "gravity")
 _NO_NUMBER = re.compile(r"[+-]?(?:nan|inf|infinity)", re.IGNORECASE)
 _LINE = re.compile(r"line (\d+)")
@@ -51,7 +51,7 @@ _NOISE = re.compile(r"^(?:XML )?Error: (?:Error: )?|,? ?line \d+\s*$|\bElement n
 
 
 def read(file: ModelFile) -> ModelDocument:
-    """Return the scene of an MJCF file. Raises SceneError for what the compiler does not take."""
+    """Return the scene of an MJCF file. Raises SceneError if it cannot be compiled, or no near pose is closed."""
     model = compiled(file)
     if not model.content["closed"]:
         hint = "give a pose that satisfies them, or switch them off: active='false'"
@@ -63,9 +63,9 @@ def read(file: ModelFile) -> ModelDocument:
 
 @dataclass
 class _MjcfScene:
-    """The scene while it is written: ``carriers`` has the body of each body of MuJoCo, ``names`` that of each joint.
+    """Writes the scene: ``carriers`` lists the scene's body for each body of MuJoCo, ``names`` maps joints to names.
 
-    ``loops``: more than joints holds bodies together. Without that no place is special, whatever the digits.
+    ``loops``: whether equalities close loops; otherwise the freedom does not depend on special positions.
     """
 
     model: CompiledModel
@@ -83,7 +83,7 @@ class _MjcfScene:
             self.line.setdefault((kind, element.get("name")), element.line)
 
     def document(self) -> ModelDocument:
-        """Return the scene, its entries in the order of the model."""
+        """Return the scene, with its entries in the order of the model."""
         used = {body for e in self.content["equalities"] for body, _ in e.get("ends", ())}
         used |= {step["end"][0] for t in self.content["tendons"] for step in t["path"] if step["end"]}
         parents = {b["parent"] for b in self.content["bodies"]}
@@ -108,6 +108,7 @@ class _MjcfScene:
         return self.draft.document(self._tolerance(), self.loops)
 
     def _body(self, index: int, body: Mapping[str, Any]) -> None:
+        """Add a body with its joints, and bodies without mass between several joints; without joints weld it."""
         name = body["name"] or f"body_{index}"
         line = self.line.get(("body", body["name"]))
         below = self.carriers[body["parent"]]
@@ -127,6 +128,7 @@ class _MjcfScene:
             self.draft.constraint(name, "weld", line, between=[below, inner])
 
     def _joint(self, index: int, joint: Mapping[str, Any], between: tuple[str, str]) -> None:
+        """Add a joint, unless it is free, and note its name in ``names``."""
         if joint["kind"] == "free":
             return
         line = self.line.get(("joint", joint["name"]))
@@ -137,6 +139,7 @@ class _MjcfScene:
         self.names[index] = self.draft.constraint(joint["name"] or between[1], kind, line, **fields)
 
     def _equality(self, entry: Mapping[str, Any]) -> None:
+        """Add an equality as a constraint, or note why it is left out."""
         kind, name = entry["kind"], entry["name"] or entry["kind"]
         line = self.line.get((kind, entry["name"])) if entry["name"] else None
         if not entry["active"]:
@@ -157,7 +160,7 @@ class _MjcfScene:
             self.draft.leave_out(f"{name}: of kind {kind}, which only MuJoCo defines", binding=True)
 
     def _coupling(self, name: str, kind: str, entry: Mapping[str, Any], line: int | None) -> None:
-        """Write an equality between joints or tendons, or of one tendon's length, where it can be written."""
+        """Add an equality between joints or tendons, or of a tendon's length, or note why it is left out."""
         of = [i for i in entry["of"] if i >= 0]
         if kind == "tendon" and len(of) == 1 and self._string(name, of[0], entry["polynomial"][0], line):
             return
@@ -174,7 +177,7 @@ class _MjcfScene:
         return JointSum(((self.names[index], 1.0),), joint["drawn"] - joint["zero"])
 
     def _fixed_tendon(self, index: int) -> JointSum | None:
-        """Return the elongation of a tendon that is a sum of joints, from MuJoCo's zero; None for any other."""
+        """Return the elongation, from MuJoCo's zero, of a tendon that is a sum of joint values; None for others."""
         tendon = self.content["tendons"][index]
         if any(step["kind"] != "joint" for step in tendon["path"]):
             return None
@@ -182,7 +185,7 @@ class _MjcfScene:
         return JointSum(terms, tendon["length"] - tendon["zero"])
 
     def _string(self, name: str, index: int, more: float, line: int | None) -> bool:
-        """Write a tendon of a given length from site to site as a string; return whether it is one."""
+        """Add a tendon between sites as a string, ``more`` longer than at zero; return False for other tendons."""
         tendon = self.content["tendons"][index]
         if any(step["kind"] != "site" for step in tendon["path"]):
             return False
@@ -193,11 +196,11 @@ class _MjcfScene:
         return True
 
     def _points(self, ends: Iterable[Sequence[Any]]) -> list[Any]:
-        """Return points that MuJoCo gives by the numbers of their bodies and their places."""
+        """Return the points of the scene for ``ends``: (number of a body, world position)."""
         return [point_of(self.carriers[body], at) for body, at in ends]
 
     def _ranges(self) -> None:
-        """Add ranges of joints and tendons: as inequalities where they are asked for, else as left out."""
+        """Add ranges of joints and tendons as inequalities with ``limits``, else note them as left out."""
         joints = [(name, self.content["joints"][i]) for i, name in self.names.items()]
         self.draft.ranges(
             [
@@ -221,7 +224,7 @@ class _MjcfScene:
                 self.draft.constraint(f"{tendon['name']} range", "coupling", None, **fields)
 
     def _remarks(self) -> None:
-        """Add what enters the motion without being a constraint, and what was changed in the model."""
+        """Add gravity, and note forces, contacts and other parts that are left out, and changes to the model."""
         entry = self.content
         if any(entry["gravity"]) and self.draft.bodies:
             self.draft.forces.append({"type": "gravity", "acceleration": vector(entry["gravity"])})
@@ -246,6 +249,7 @@ class _MjcfScene:
             self.draft.leave_out(note)
 
     def _tolerance(self) -> float:
+        """Return the tolerance by the digits of the positions and orientations in the files."""
         written = (
             value
             for root in (self.model.root, *self.model.included)
@@ -259,7 +263,7 @@ class _MjcfScene:
 
 
 class CompiledModel(NamedTuple):
-    """What the compiler made of a model, its elements in the order of its lines, and those of the files it includes."""
+    """A compiled model (see `mujoco_model.described_model`), the root of its XML, and the roots of included files."""
 
     content: dict[str, Any]
     root: Element
@@ -267,7 +271,7 @@ class CompiledModel(NamedTuple):
 
 
 def compiled(file: ModelFile) -> CompiledModel:
-    """Return the compiled model. Raises SceneError for what the compiler does not take."""
+    """Return the compiled model. Raises SceneError if the compiler refuses it or is stopped."""
     root = read_markup(file.data, file.name)
     included = tuple(_included(root, file))
     faults = [*_not_finite(root), *(fault for part in included for fault in _not_finite(part))]
@@ -281,7 +285,7 @@ def compiled(file: ModelFile) -> CompiledModel:
 
 
 def _not_finite(root: Element) -> Iterator[Fault]:
-    """Yield a fault for every number that is not finite: the compiler would make positions of them."""
+    """Yield a fault for every number that is not finite, which the compiler would accept."""
     for part in root.every():
         for key in _MEASURES:
             odd = [word for word in part.get(key).split() if _NO_NUMBER.fullmatch(word)]
@@ -291,7 +295,7 @@ def _not_finite(root: Element) -> Iterator[Fault]:
 
 
 def _fault(reason: str, error: str) -> Fault:
-    """Return the fault that the compiler reports, in its line."""
+    """Return the compiler's error as a fault with its line; without ``error`` the worker was stopped."""
     if not error:
         return Fault(f"MuJoCo's compiler was stopped: {reason}", hint="make the model smaller, or split it")
     said = reason.removeprefix(f"{error}: ")
@@ -304,7 +308,7 @@ def _fault(reason: str, error: str) -> Fault:
 
 
 def _included(root: Element, file: ModelFile) -> Iterator[Element]:
-    """Yield the roots of the files that are included; the compiler reports those that are missing."""
+    """Yield the root elements of all included files; missing ones are skipped, because the compiler reports them."""
     if file.path is None:
         return
     top, seen = file.path.parent, {file.path.resolve()}
@@ -330,6 +334,7 @@ def _included(root: Element, file: ModelFile) -> Iterator[Element]:
 
 
 def _read_part(place: Path, part: Element) -> Element:
+    """Return the root of an included file. Raises SceneError at the line of the ``include`` element ``part``."""
     try:
         return read_markup(place.read_bytes(), place.name)
     except SceneError as error:

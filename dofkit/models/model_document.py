@@ -1,4 +1,4 @@
-"""A model's file, and the scene that is made of it: its mapping, the line of each entry, and what was left out."""
+"""A model's file, and the scene that it describes: its mapping, the line of each entry, and what was left out."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ from dofkit.expressions.text import valid_name
 from dofkit.models.joint_relations import DECIMALS, OVER, JointSum, bounds, whole_turns
 from dofkit.system import BINDING, GROUND
 
-#: The tolerance lies between these; a file in which no number has so many decimals is taken at its word.
+#: The least and the largest tolerance; the numbers of a file with fewer than `FEW` decimals are taken as exact.
 FINEST, COARSEST, FEW = 1e-9, 1e-3, 3
-#: Of the same kind so many are named.
+#: The most entries of one kind that are named.
 MOST_NAMED = 4
 
 _NUMBER = re.compile(r"[-+]?\d*\.?(\d*)(?:[eE]([-+]?\d+))?", re.ASCII)
 
 
 class ModelFile(NamedTuple):
-    """A file of a model: its bytes, the scene's name, and its path (None for a text).
+    """A file of a model: its content, the scene's name, and its path (None for a text).
 
-    ``limits``: ranges of joints become inequalities.
+    ``limits``: whether ranges of joints become inequalities.
     """
 
     data: bytes | str
@@ -36,15 +36,15 @@ class ModelFile(NamedTuple):
 
     @property
     def text(self) -> str:
-        """Its text."""
+        """The content as text."""
         return self.data if isinstance(self.data, str) else self.data.decode("utf-8-sig", "replace")
 
 
 @dataclass(frozen=True)
 class ModelDocument:
-    """The mapping of a scene, and the line of the model that each part of it is from, by its path.
+    """The mapping of a scene, and {path in the scene: line of the model}.
 
-    ``tolerance``: what the digits of the file are worth, which the scene says only where places may be special.
+    ``tolerance``: the precision of the file's digits; the scene has it only if its freedom may depend on them.
     """
 
     value: dict[str, Any]
@@ -53,7 +53,7 @@ class ModelDocument:
 
 
 class JointRange(NamedTuple):
-    """The range of a joint's value: its constraint, whether that is an angle, and where it is drawn."""
+    """The range ``between`` of a joint's value: its constraint, whether it is an angle, its reference value."""
 
     joint: str
     turns: bool
@@ -64,7 +64,7 @@ class JointRange(NamedTuple):
 
 @dataclass
 class SceneDraft:
-    """A scene while it is written; names of the model are kept as far as a scene can have them."""
+    """A scene that is being written; the model's names are kept as far as a scene allows them."""
 
     title: str
     dimension: int = 3
@@ -88,7 +88,7 @@ class SceneDraft:
         return unique_name
 
     def place(self, body: str, at: Iterable[float]) -> None:
-        """Place the origin of a body; the body is turned as its inertia is written (`inertia_of`)."""
+        """Set the reference position of a body, and the orientation in which `inertia_of` writes its inertia."""
         self.configuration |= {f"{c}_{body}": number(v) for c, v in zip("xyz", at, strict=False)}
         self.configuration[f"theta_{body}"] = "pi/2"
 
@@ -100,7 +100,7 @@ class SceneDraft:
         return unique_name
 
     def coordinate(self, name: str, drawn: float) -> str:
-        """Add a coordinate of no body and no particle, where there is none of this name, and return it."""
+        """Add a further coordinate with its reference value, unless it exists already, and return its name."""
         if name not in self.configuration:
             self.coordinates.append(name)
             self.configuration[name] = number(drawn)
@@ -114,7 +114,7 @@ class SceneDraft:
         return unique_name
 
     def ranges(self, ranged: Sequence[JointRange], limits: bool) -> None:
-        """Add the ranges of joints: as inequalities with ``limits``, else as what was left out."""
+        """Add the ranges of joints as inequalities with ``limits``, else note them as left out."""
         if ranged and not limits:
             named = listed(f"{r.joint} from {r.between[0]:.4g} to {r.between[1]:.4g}" for r in ranged)
             self.leave_out(f"the ranges of joints ({named}): with `--limits` they become inequalities")
@@ -128,19 +128,19 @@ class SceneDraft:
                 self.constraint(f"{joint} range", "coupling", line, **fields)
 
     def leave_out(self, what: str, binding: bool = False) -> None:
-        """Note once what was not read, and why. ``binding``: it is a constraint, and would reduce the freedom."""
+        """Note what was left out, and why, once. ``binding``: it is a constraint, which might reduce the freedom."""
         what = f"{BINDING}{what}" if binding else what
         if what not in self.left_out:
             self.left_out.append(what)
 
     def document(self, tolerance: float | None, special: bool) -> ModelDocument:
-        """Return the scene, with its tolerance where its geometry may be ``special``."""
+        """Return the scene, with the tolerance if its geometry may be ``special``."""
         tolerance = None if tolerance is None else float(f"{tolerance:.2g}")
         value: dict[str, Any] = {"title": self.title, "dimension": self.dimension}
         for key in ("parameters", "particles", "bodies", "coordinates", "constraints", "forces"):
             if getattr(self, key):
                 value[key] = getattr(self, key)
-        self._measurable_axes()
+        self._give_rational_lengths()
         if special and tolerance is not None:
             value["tolerance"] = tolerance
         if self.configuration:
@@ -149,12 +149,12 @@ class SceneDraft:
             value["left_out"] = self.left_out
         return ModelDocument(value, self.lines, tolerance)
 
-    def _measurable_axes(self) -> None:
-        """Give the axes of coupled joints a length that is a fraction, so that their angles need no roots."""
+    def _give_rational_lengths(self) -> None:
+        """Replace the axes of coupled joints by vectors of rational length, so that their angles need no roots."""
         coupled = {joint for c in self.constraints for joint in c.get("joints", {}).values()}
         for constraint in self.constraints:
             if constraint["name"] in coupled and "axis" in constraint:
-                constraint["axis"] = measurable(constraint["axis"])
+                constraint["axis"] = with_rational_length(constraint["axis"])
 
     def _at(self, path: tuple[str | int, ...], line: int | None) -> None:
         if line is not None:
@@ -162,27 +162,28 @@ class SceneDraft:
 
 
 def number(value: float) -> float | int:
-    """Return a number as a person would write it: rounded, and whole where it is."""
+    """Return a number rounded to `DECIMALS`, as int if it is an integer."""
     rounded = round(float(value), DECIMALS)
     return int(rounded) if rounded == int(rounded) and abs(rounded) < 1e15 else rounded
 
 
 def vector(values: Iterable[float]) -> list[float | int]:
-    """Return numbers as a person would write them."""
+    """Return numbers rounded as `number` does."""
     return [number(v) for v in values]
 
 
 def point_of(body: str, at: Iterable[float]) -> Any:
-    """Return a point of a body, or of the ground, as a scene writes it."""
+    """Return the material point of ``body`` (or the ground) at a world position, as a scene writes it."""
     return vector(at) if body == GROUND else {"on": body, "at": vector(at)}
 
 
-def measurable(axis: Sequence[float | int]) -> list[float | int | Decimal]:
-    """Return a direction along the axis, right to within 1e-9, whose length is a fraction.
+def with_rational_length(axis: Sequence[float | int]) -> list[float | int | Decimal]:
+    """Return a vector of rational length, whose direction differs from the axis by at most about 1e-9.
 
-    With n of length 1, c its largest component, and (a, b) = the others over 1 + |c|: (2a, 2b, 1 - a^2 - b^2).
+    It is (2a, 2b, 1 - a^2 - b^2) of length 1 + a^2 + b^2, with rationals (a, b) near the other components over 1 + |c|,
+    where c is the largest component of the unit axis.
 
-    >>> measurable([0, 0, 1]), [float(v) for v in measurable([0.6, 0.0, 0.8])]
+    >>> with_rational_length([0, 0, 1]), [float(v) for v in with_rational_length([0.6, 0.0, 0.8])]
     ([0, 0, 1], [0.666666666, 0.0, 0.8888888891111111])
     """
     if sum(map(bool, axis)) == 1:
@@ -197,10 +198,10 @@ def measurable(axis: Sequence[float | int]) -> list[float | int | Decimal]:
 
 
 def inertia_of(rows: Sequence[Sequence[float]]) -> list[Any]:
-    """Return an inertia in the axes of a body that is turned by a right angle about x; its moments if it is diagonal.
+    """Return an inertia in the axes x, z, -y of the world, its three moments if it is diagonal.
 
-    At theta = 0 Euler's angles are no coordinates, so that no equations of motion could be given there. The axes of
-    the body are x, z and -y of the world.
+    These are the axes of a body with theta = pi/2 (see `SceneDraft.place`): at theta = 0 Euler angles are singular, so
+    that no equations of motion could be derived.
 
     >>> inertia_of([[1, 0, 0], [0, 2, 0], [0, 0, 3]])
     [1, 3, 2]
@@ -212,7 +213,7 @@ def inertia_of(rows: Sequence[Sequence[float]]) -> list[Any]:
 
 
 def unique(name: str, taken: set[str]) -> str:
-    """Return the name, with a number where it is taken, and note it as taken."""
+    """Return the name, with a number if it is in ``taken``, and add it to ``taken``."""
     unique_name, k = name, 2
     while unique_name in taken:
         unique_name, k = f"{name}_{k}", k + 1
@@ -221,7 +222,7 @@ def unique(name: str, taken: set[str]) -> str:
 
 
 def identifier(name: str, taken: set[str]) -> str:
-    """Return the name of a body or particle as texts can mention it: letters, digits and _.
+    """Return the name of a body or particle with letters, digits and _ only, and unique as in `unique`.
 
     >>> identifier("robot0:FF-J1", set()), identifier("9 mm", set())
     ('robot0_FF_J1', 'n9_mm')
@@ -234,7 +235,7 @@ def identifier(name: str, taken: set[str]) -> str:
 
 
 def decimals(texts: Iterable[str]) -> Iterator[int]:
-    """Yield the number of decimals with which each number in these texts is written."""
+    """Yield the number of decimals of each number in these texts."""
     for text in texts:
         for part in text.split():
             match = _NUMBER.fullmatch(part)
@@ -243,9 +244,9 @@ def decimals(texts: Iterable[str]) -> Iterator[int]:
 
 
 def tolerance_of(texts: Iterable[str], size: float) -> float:
-    """Return half a unit of the last digit of the number that is written longest, as a fraction of the size.
+    """Return half a unit of the last digit of the number with most decimals, as a fraction of ``size``.
 
-    Where all are short they are meant as they are written, and what a compiler of doubles rounds is left.
+    If all numbers have fewer than `FEW` decimals they are exact, up to the rounding of a compiler (`FINEST`).
 
     >>> tolerance_of(["0.7071 0 0", "1.5"], 2.0)
     2.5e-05

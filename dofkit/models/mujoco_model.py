@@ -1,6 +1,6 @@
-"""What MuJoCo's own compiler makes of a model: bodies, joints, equalities and tendons in the reference configuration.
+"""A model compiled by MuJoCo: its bodies, joints, equalities and tendons in the reference configuration.
 
-Only a worker imports this module: a compiler in C may crash, hang or take all memory.
+Only a worker process imports this module, because a compiler in C may crash, hang or use all memory.
 """
 
 from __future__ import annotations
@@ -14,13 +14,13 @@ import numpy as np
 
 from dofkit.base.wording import first_of
 
-#: Elements of a model that change nothing about how it moves, and may name files that are missing.
+#: Elements that do not affect the motion, and may refer to missing files.
 _SHOWN = ("textures", "skins", "sensors", "keys")
-#: A mass where a body has none that could be read.
+#: The mass and inertia of a moving body that has none.
 LEAST = 1e-6
-#: The reference satisfies an equality to within this; steps that look for a reference which does.
+#: The largest residual of an equality in the reference, and the most steps of Newton's method towards a reference.
 CLOSED, STEPS = 1e-8, 60
-#: Where a weld says how strongly it holds the turn of a body against its place; 0 for not at all.
+#: The index of a weld's torque scale in its data; with 0 it does not fix the orientation.
 _TORQUE = 10
 
 
@@ -33,7 +33,7 @@ class Compiled(NamedTuple):
 
 
 def described_model(source: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the content of a model as json can write it. ``source``: its ``path``, or else its ``text``."""
+    """Return the compiled content of a model as json can write it. ``source``: its ``path``, or else its ``text``."""
     mujoco.set_mju_user_warning(lambda message: None)
     path = source["path"]
     notes: list[str] = []
@@ -49,7 +49,7 @@ def described_model(source: Mapping[str, Any]) -> dict[str, Any]:
         notes.append("masses: some moving bodies have none that can be read")
     data = mujoco.MjData(model)
     compiled = Compiled(model, data, notes)
-    closed = _draw(compiled)
+    closed = _set_reference(compiled)
     return {
         "closed": closed,
         "bodies": [*_bodies(compiled)],
@@ -72,7 +72,7 @@ def described_model(source: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _without_files(spec: Any, folder: str) -> Iterator[str]:
-    """Remove meshes and height fields whose files are missing, with the shapes made of them; yield what is lost."""
+    """Remove meshes and height fields without files, and their shapes; yield a note about them."""
     lost: dict[str, str] = {}
     below = spec.compiler.meshdir
     for asset in [*spec.meshes, *spec.hfields]:
@@ -88,7 +88,7 @@ def _without_files(spec: Any, folder: str) -> Iterator[str]:
 
 
 def _without_looks(spec: Any) -> None:
-    """Remove what is only seen or measured, and bounds on memory that steps of a simulation would need."""
+    """Remove what is only for display or sensors, and the limit on a simulation's memory."""
     spec.memory = -1
     for material in spec.materials:
         material.textures = [""] * len(material.textures)
@@ -97,8 +97,8 @@ def _without_looks(spec: Any) -> None:
             spec.delete(asset)
 
 
-def _draw(compiled: Compiled) -> bool:
-    """Set the reference configuration: as written, or moved until the equalities hold; return whether they do."""
+def _set_reference(compiled: Compiled) -> bool:
+    """Set the reference configuration, given or moved to satisfy the equalities; return whether they are satisfied."""
     model, data = compiled.model, compiled.data
     model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONTACT | mujoco.mjtDisableBit.mjDSBL_LIMIT
     _place(compiled)
@@ -144,13 +144,13 @@ def _equality_rows(compiled: Compiled) -> tuple[Any, Any]:
 
 
 def _freedom_by_rank(compiled: Compiled) -> int:
-    """Return MuJoCo's own count of the freedom: nv less the rank of the active equality rows."""
+    """Return the freedom by MuJoCo: nv less the rank of the active equality rows."""
     rows, _ = _equality_rows(compiled)
     return int(compiled.model.nv - (np.linalg.matrix_rank(rows, tol=1e-8) if rows.size else 0))
 
 
 def _off(model: Any, *flags: str) -> bool:
-    """Return whether one of these is switched off for the whole model."""
+    """Return whether one of these flags is switched off for the model."""
     return any(model.opt.disableflags & getattr(mujoco.mjtDisableBit, f"mjDSBL_{flag}") for flag in flags)
 
 

@@ -1,7 +1,7 @@
-"""Constraints of a SolveSpace sketch in a plane, by the number of their kind, as constraints of a scene.
+"""Constraints of a SolveSpace sketch in a plane as constraints of a scene, by the number of their kind.
 
-The equations are those that SolveSpace solves, without its roots where squares state the same. Points, lines and curves
-are texts in the scene's coordinates, together with their position in the reference configuration.
+The equations are those of SolveSpace, with squares instead of roots where they are equivalent. Points, lines and curves
+are formulas in the scene's coordinates, together with their positions in the reference configuration.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ Written = str | dict[str, Any]
 
 
 class SketchPoint(NamedTuple):
-    """A point: its coordinates as texts, its reference position, and its particle (None for a fixed point)."""
+    """A point: its coordinates as formulas, its reference position, and its particle (None for a fixed point)."""
 
     x: str
     y: str
@@ -39,28 +39,28 @@ class Arrow(NamedTuple):
 
     @property
     def components(self) -> tuple[str, str]:
-        """Its components as texts."""
+        """The components as formulas."""
         return _difference(self.end.x, self.start.x), _difference(self.end.y, self.start.y)
 
     @property
     def drawn(self) -> tuple[float, float]:
-        """Its components in the reference configuration."""
+        """The components in the reference configuration."""
         return self.end.at[0] - self.start.at[0], self.end.at[1] - self.start.at[1]
 
     @property
     def squared(self) -> str:
-        """The square of its length."""
+        """The squared length as a formula."""
         u, v = self.components
         return f"({u}^2 + {v}^2)"
 
     @property
     def length(self) -> str:
-        """Its length."""
+        """The length as a formula."""
         return f"sqrt{self.squared}"
 
 
 class Round(NamedTuple):
-    """A circle or an arc: its centre, its squared radius and its radius as texts; an arc has two ends."""
+    """A circle or an arc: its centre, squared radius and radius as formulas; an arc has two ends."""
 
     centre: SketchPoint
     squared: str
@@ -69,7 +69,7 @@ class Round(NamedTuple):
 
 
 class SketchMentions(NamedTuple):
-    """What a constraint of a sketch refers to: points, lines and curves, its number and its two choices."""
+    """The points, lines and curves of a sketch's constraint, its number (``value``) and its two choices."""
 
     points: tuple[SketchPoint, ...]
     lines: tuple[Arrow, ...]
@@ -88,15 +88,15 @@ class SketchMentions(NamedTuple):
         return tuple(Arrow(line.start, point) for line, point in zip(self.lines, self.points, strict=False))
 
     def radii(self) -> tuple[Arrow, ...]:
-        """Return the radii to the ends at which its arcs meet something; a circle has none."""
+        """Return the vector from the centre of each arc to the end that the constraint is about; a circle has none."""
         ends = zip(self.curves, (self.other, self.other2), strict=False)
         return tuple(Arrow(curve.centre, curve.ends[end]) for curve, end in ends if curve.ends is not None)
 
 
 class SketchKind(NamedTuple):
-    """A kind of constraint: its name in SolveSpace, what it needs, and the function that writes it.
+    """A kind of constraint: its name in SolveSpace, what it refers to, and the function that writes it.
 
-    ``needs``: numbers of points, lines and curves, with alternatives.
+    ``needs``: the possible numbers of (points, lines, curves).
     """
 
     name: str
@@ -105,13 +105,13 @@ class SketchKind(NamedTuple):
 
 
 def cross(a: Arrow, b: Arrow) -> str:
-    """Return a x b as text: 0 where the vectors are parallel."""
+    """Return a x b as a formula."""
     (au, av), (bu, bv) = a.components, b.components
     return f"({au}*{bv} - {av}*{bu})"
 
 
 def dot(a: Arrow, b: Arrow) -> str:
-    """Return a . b as text: 0 where the vectors are perpendicular."""
+    """Return a . b as a formula."""
     (au, av), (bu, bv) = a.components, b.components
     return f"({au}*{bu} + {av}*{bv})"
 
@@ -139,7 +139,7 @@ def _bracketed(text: str) -> str:
 
 
 def at_angle(a: Arrow, b: Arrow, degrees: float) -> str:
-    """Return the equation of two lines at an angle: a x b cos w = +- a . b sin w, with the sign of the reference."""
+    """Return the equation of two lines at an angle w: a x b cos w = +-a . b sin w, with the sign of the reference."""
     if degrees % 180 == 90:
         return f"{dot(a, b)} = 0"
     if degrees % 180 == 0:
@@ -154,14 +154,14 @@ def _link(first: SketchPoint, second: SketchPoint, length: float) -> Written:
 
 
 def _line_distance(m: SketchMentions) -> Iterable[Written]:
-    """d x (p - a) = +-value |d|, on the side on which the point is drawn."""
+    """Yield d x (p - a) = +-value |d|, for the side of the line on which the point p is in the reference."""
     arm = m.arms()[0]
     side = _minus(_drawn_cross(m.line, arm) < 0)
     yield f"{cross(m.line, arm)} = {side}{figures(abs(m.value))}*{m.line.length}"
 
 
 def _length_and_distance(m: SketchMentions) -> Iterable[Written]:
-    """|a| |d| = +-d x (p - s): the length of one line is the distance of a point from the other."""
+    """Yield |a| |d| = +-d x (p - s): the length of the line a is the distance of p from the line d through s."""
     first, line = m.lines
     arm = Arrow(line.start, m.points[0])
     yield f"{first.length}*{line.length} = {_minus(_drawn_cross(line, arm) < 0)}{cross(line, arm)}"
@@ -174,20 +174,20 @@ def _equal_distances(m: SketchMentions) -> Iterable[Written]:
 
 
 def _equal_angle(m: SketchMentions) -> Iterable[Written]:
-    """Yield the cosines of the two angles are equal, or opposite where the supplement is meant."""
+    """Yield the equation that the cosines of two angles are equal, or opposite for the supplement."""
     a, b, c, d = m.lines
     yield f"{_minus(m.other)}{dot(a, b)}*{c.length}*{d.length} = {dot(c, d)}*{a.length}*{b.length}"
 
 
 def _mirrored(m: SketchMentions) -> Iterable[Written]:
-    """Yield the line through the points is across the line of symmetry, which goes through their midpoint."""
+    """Yield the equations that p - q is perpendicular to the line of symmetry, and their midpoint on this line."""
     (p, q), line = m.points, m.line
     yield f"{dot(line, Arrow(p, q))} = 0"
     yield f"{cross(line, Arrow(line.start, p))} + {cross(line, Arrow(line.start, q))} = 0"
 
 
 def _mirrored_on_axis(same: int) -> Callable[[SketchMentions], Iterable[Written]]:
-    """Return what writes that one coordinate of two points is the same, and the other one opposite."""
+    """Return the function that writes that two points have coordinate ``same`` in common, and opposite others."""
     return lambda m: (
         f"{m.points[0][same]} = {m.points[1][same]}",
         f"{m.points[0][1 - same]} + {m.points[1][1 - same]} = 0",
@@ -195,7 +195,7 @@ def _mirrored_on_axis(same: int) -> Callable[[SketchMentions], Iterable[Written]
 
 
 def _level(which: int) -> Callable[[SketchMentions], Iterable[Written]]:
-    """Return what writes that two points, or the ends of a line, have one coordinate in common."""
+    """Return the function that writes that two points, or the ends of a line, have coordinate ``which`` in common."""
 
     def writes(m: SketchMentions) -> Iterable[Written]:
         ends = (m.line.start, m.line.end) if m.lines else m.points
@@ -219,19 +219,19 @@ def _diameter(m: SketchMentions) -> Iterable[Written]:
 
 
 def _tangent_line(m: SketchMentions) -> Iterable[Written]:
-    """Yield a line is across the radius at the end of an arc."""
+    """Yield the equation that a line is perpendicular to the radius at the end of an arc."""
     for radius in m.radii():
         yield f"{dot(radius, m.line)} = 0"
 
 
 def _tangent_arcs(m: SketchMentions) -> Iterable[Written]:
-    """Yield the radii of two arcs to where they meet are parallel."""
+    """Yield the equation that the radii of two arcs to their common point are parallel."""
     radii = m.radii()
     if len(radii) == len(m.curves):
         yield f"{cross(*radii)} = 0"
 
 
-#: The kinds that are read, by their numbers in a file.
+#: {number of a kind in a file: kind}, for the kinds that are read.
 KINDS: Mapping[int, SketchKind] = {
     20: SketchKind("points-coincident", ((2, 0, 0),),
                    lambda m: [{"type": "coincident", "between": [p.written for p in m.points]}]),
@@ -263,7 +263,7 @@ KINDS: Mapping[int, SketchKind] = {
     130: SketchKind("eq-radius", ((0, 0, 2),), lambda m: [f"{m.curves[0].squared} = {m.curves[1].squared}"]),
     200: SketchKind("lock-where-dragged", ((1, 0, 0),), lambda m: [{"type": "fixed", "point": m.points[0].written}]),
 }  # fmt: skip
-#: The kinds that are not read: those of space, of cubics, and of the length of an arc.
+#: The kinds that are not read: in space, of cubic curves, and of lengths of arcs.
 NOT_READ: Mapping[int, str] = {
     31: "pt-plane-distance", 33: "pt-face-distance", 34: "proj-pt-pt-distance", 41: "pt-in-plane", 43: "pt-on-face",
     55: "eq-line-len-arc-len", 60: "symmetric", 110: "same-orientation",

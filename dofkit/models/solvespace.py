@@ -1,8 +1,8 @@
-"""SolveSpace's sketches as scenes of the plane: points are particles, radii of circles are coordinates.
+"""SolveSpace's sketches as planar scenes: points are particles, radii of circles are coordinates.
 
-One workplane is read, the one in which most points were drawn; what lies in space or is derived from a sketch is left
-out, and the scene says so. Names are those that SolveSpace shows: r004 for what was drawn fourth, c001 for the first
-constraint. All groups are satisfied at once: SolveSpace solves each after those before it, which then stay as they are.
+The workplane with most drawn points is read; points in space and parts derived from sketches are noted as left out.
+Names are those of SolveSpace: r004 for the entity drawn fourth, c001 for the first constraint. All groups are solved
+together, whereas SolveSpace solves each group with the earlier ones fixed.
 """
 
 from __future__ import annotations
@@ -22,29 +22,29 @@ from dofkit.models.joint_relations import figures
 from dofkit.models.model_document import COARSEST, FINEST, ModelDocument, ModelFile, SceneDraft, listed, number
 from dofkit.models.sketch_constraints import KINDS, NOT_READ, Arrow, Round, SketchMentions, SketchPoint, Written
 
-#: A file of more records is refused.
+#: The most records of a file.
 MOST_RECORDS = 400_000
 _KINDS = ("Group", "Request", "Entity", "Constraint")
-#: The handles of what groups made have this bit.
+#: The bit in the handles of entities that a group derived from others.
 DERIVED = 0x80000000
 #: Types of entities.
 POINT_2D, POINTS, LINE, CIRCLE, ARC = 2001, range(2000, 3000), 11000, 13000, 14000
 CUBICS, RECTANGLES = (12000, 12001), (15000, 16000)
-#: Types of groups that are drawn, in space and in a workplane, and the handle of the group of the axes.
+#: Types of groups with drawn entities (in space, in a workplane), and the handle of the group of the axes.
 DRAWN_GROUPS, REFERENCES = (5000, 5001), 1
-#: Names of the points of an entity.
+#: {type of entity: names of its points}.
 _ROLES = {LINE: ("start", "end"), CIRCLE: ("centre",), ARC: ("centre", "start", "end")}
-#: SolveSpace stops where its equations are satisfied to within this.
+#: The residual to which SolveSpace satisfies its equations.
 SOLVED = 1e-6
 _COMMENT, _COINCIDENT = 1000, 20
-#: Kinds that have a number, which a group may make all of them measure.
+#: Kinds with a number; a group may make all of them mere reference dimensions.
 _DIMENSIONS = frozenset({*range(30, 35), 51, 56, 90, 120, *range(210, 214)})
 _MENTIONS = ("ptA", "ptB", "entityA", "entityB", "entityC", "entityD")
 
 
 @dataclass(frozen=True)
 class Record:
-    """What stands before an ``Add...``: its values by key, without the kind, and the line where it begins."""
+    """The lines before an ``Add...``: {key without the kind: value}, and the line where they begin."""
 
     kind: str
     values: Mapping[str, str]
@@ -55,11 +55,11 @@ class Record:
         return int(self._read(key, lambda text: int(text, 16), "a handle such as 00040001"))
 
     def whole(self, key: str) -> int:
-        """Return a whole number; 0 where there is none. Raises SceneError for any other text."""
+        """Return an integer; 0 if the key is missing. Raises SceneError for any other text."""
         return int(self._read(key, int, "a whole number"))
 
     def number(self, key: str) -> float:
-        """Return a number; 0 where there is none. Raises SceneError for any other text."""
+        """Return a finite number; 0 if the key is missing. Raises SceneError for any other text."""
         value = self._read(key, float, "a number")
         if not math.isfinite(value):
             raise SceneError((self.fault(f"{self.kind}.{key} is not finite", "write a number"),))
@@ -84,7 +84,7 @@ class Record:
 
 @dataclass
 class SketchFile:
-    """The records of a file by their kinds, and by their handles."""
+    """The records of a file by kind, as {handle: record}."""
 
     groups: dict[int, Record] = field(default_factory=dict)
     requests: dict[int, Record] = field(default_factory=dict)
@@ -92,7 +92,7 @@ class SketchFile:
     constraints: dict[int, Record] = field(default_factory=dict)
 
     def group_of(self, handle: int) -> int:
-        """Return the group in which an entity was drawn, or which made it; 0 where that is not known."""
+        """Return the group in which an entity was drawn, or which derived it; 0 if that is not known."""
         if not is_drawn(handle):
             return (handle & ~DERIVED) >> 16
         request = self.requests.get(handle >> 16)
@@ -107,17 +107,17 @@ class SketchFile:
 
 
 def drawn_name(handle: int) -> str:
-    """Return SolveSpace's name of what was drawn by one request, such as ``r004``."""
+    """Return SolveSpace's name of an entity that was drawn, such as ``r004``."""
     return f"r{handle >> 16:03x}"
 
 
 def is_drawn(handle: int) -> bool:
-    """Return whether an entity was drawn, and not made by a group."""
+    """Return whether an entity was drawn, and not derived by a group."""
     return not handle & DERIVED
 
 
 def read_sketch(file: ModelFile) -> SketchFile:
-    """Return the records of a file. Raises SceneError for what is no such file."""
+    """Return the records of a file. Raises SceneError if it has no entity, or too many records."""
     sketch = SketchFile()
     by_kind = {kind: getattr(sketch, name) for kind, name in zip(_KINDS, vars(sketch), strict=True)}
     for count, record in enumerate(_records(file.text)):
@@ -150,7 +150,7 @@ def _records(text: str) -> Iterator[Record]:
 
 
 def read(file: ModelFile) -> ModelDocument:
-    """Return the scene of a sketch. Raises SceneError for what is no such file, or has no point in a workplane."""
+    """Return the scene of a sketch. Raises SceneError if the file has no point in a workplane."""
     sketch = read_sketch(file)
     drawn = [e for h, e in sketch.entities.items() if is_drawn(h) and e.whole("type") == POINT_2D]
     planes = Counter(plane for e in drawn if (plane := e.handle("workplane.v")) in sketch.entities)
@@ -162,12 +162,12 @@ def read(file: ModelFile) -> ModelDocument:
 
 
 class UnreadError(Exception):
-    """A constraint that is not read, and why."""
+    """A constraint cannot be read; the message says why."""
 
 
 @dataclass
 class _SketchScene:
-    """The scene while it is written: points, lines and curves by the handles of their entities."""
+    """Writes the scene: points, lines and curves by the handles of their entities; ``outside``: skipped points."""
 
     file: SketchFile
     draft: SceneDraft
@@ -189,7 +189,7 @@ class _SketchScene:
             self.axes = np.array([u, v])
 
     def document(self) -> ModelDocument:
-        """Return the scene, its parts in the order of the file."""
+        """Return the scene, with its parts in the order of the file."""
         for handle, record in self.file.entities.items():
             if record.whole("type") in POINTS:
                 self._point(handle, record)
@@ -207,7 +207,7 @@ class _SketchScene:
         return self.draft.document(min(COARSEST, max(FINEST, SOLVED / size)), special=True)
 
     def _point(self, handle: int, record: Record) -> None:
-        """Add a point of the sketch, or one of the references, which is fixed."""
+        """Add a drawn point of the plane as a particle, or a reference point as fixed; count other drawn points."""
         at = self.axes @ (np.array(record.numbers("actPoint", "x y z")) - self.origin)
         place = (float(number(at[0])), float(number(at[1])))
         drawn = is_drawn(handle)
@@ -222,7 +222,7 @@ class _SketchScene:
             self.outside += drawn
 
     def _drawn(self, handle: int, record: Record, ends: list[SketchPoint]) -> None:
-        """Add a line, circle or arc; the ends of an arc have the same distance from its centre."""
+        """Add a line, circle or arc; for an arc also the equation that both ends have the same radius."""
         kind = record.whole("type")
         if kind == LINE:
             self.lines[handle] = Arrow(ends[0], ends[1])
@@ -246,11 +246,12 @@ class _SketchScene:
 
     @cached_property
     def _joined(self) -> set[tuple[frozenset[int], int]]:
-        """Pairs of points that constraints put in one place, with the group of each constraint."""
+        """Pairs of points that constraints make coincide, with the group of each constraint."""
         together = [c for c in self.file.constraints.values() if c.whole("type") == _COINCIDENT]
         return {(frozenset((c.handle("ptA.v"), c.handle("ptB.v"))), c.handle("group.v")) for c in together}
 
     def _constraint(self, record: Record) -> None:
+        """Add a constraint of the sketch, or note why it is left out."""
         kind = KINDS.get(record.whole("type"))
         title = NOT_READ.get(record.whole("type"), "") if kind is None else kind.name
         name = f"c{record.handle():03x}" + (f"-{title}" if title else f": of kind {record.whole('type')}")
@@ -268,7 +269,7 @@ class _SketchScene:
             self.draft.constraint(called, fields.pop("type"), record.line, **fields)
 
     def _idle(self, record: Record) -> str:
-        """Return why a constraint is not enforced in SolveSpace either; empty where it is."""
+        """Return why a constraint is not enforced in SolveSpace either; empty if it is."""
         kind, group = record.whole("type"), self.file.groups.get(record.handle("group.v"))
         measures = group is not None and kind in _DIMENSIONS and group.whole("allDimsReference")
         if record.whole("reference") or measures:
@@ -277,7 +278,7 @@ class _SketchScene:
         return "its group is relaxed, so it is not enforced" if relaxed else ""
 
     def _written(self, record: Record) -> Iterable[Written]:
-        """Return what a constraint states. Raises UnreadError where it is not read."""
+        """Return the scene's constraints for a constraint of the sketch. Raises UnreadError if it cannot be read."""
         kind = KINDS.get(record.whole("type"))
         if kind is None:
             raise UnreadError("constraints of this kind are not read")
@@ -307,7 +308,7 @@ class _SketchScene:
         )
 
     def _leave_out(self) -> None:
-        """Note what of the file is outside the plane, or derived, or not enforced in the same order."""
+        """Note the parts of the file that are left out: outside the plane, derived, or an order of groups."""
         if self.outside:
             self.draft.leave_out(f"{many(self.outside, 'point')} outside the plane of most points: one plane is read")
         if len({c.handle("group.v") for c in self.file.constraints.values()}) > 1:

@@ -1,7 +1,7 @@
-"""URDF, the robot models of ROS, as scenes: links, joints, `mimic` elements, and loops where extensions give them.
+"""URDF, the robot models of ROS, as scenes: links, joints, `mimic` elements, and loops by extensions of URDF.
 
-The reference configuration has every joint at 0, and a joint that mimics another at its offset. The origin of a link is
-its centre of mass. A loop has to be closed there.
+In the reference configuration every joint is at 0, a joint that mimics another at its offset, and loops must be closed.
+The origin of a link is its centre of mass.
 """
 
 from __future__ import annotations
@@ -41,21 +41,21 @@ from dofkit.models.urdf_elements import (
 )
 from dofkit.system import GROUND
 
-#: The joint of a scene for each kind; one that is free has none.
+#: {kind of joint: constraint type}; a floating joint has none.
 _KINDS = {
     "revolute": "revolute", "continuous": "revolute", "prismatic": "prismatic", "fixed": "weld", "planar": "planar",
     "ball": "spherical", "spherical": "spherical", "cylindrical": "cylindrical",
 }  # fmt: skip
-#: What the joints of a chain may add up to, in tolerances.
+#: The largest gap of a loop in tolerances, because the rounding of several joints adds up.
 SLACK = 8.0
-#: Which of a joint's ends may turn about its axis, and move along it.
+#: The kinds of joints that allow rotation about the axis, and translation along it.
 _TURNING = ("revolute", "continuous", "cylindrical", "planar")
 _SLIDING = ("prismatic", "cylindrical")
 _BALLS = ("ball", "spherical")
 
 
 def read(file: ModelFile) -> ModelDocument:
-    """Return the scene of a URDF file. Raises SceneError with all its faults, each in its line."""
+    """Return the scene of a URDF file. Raises SceneError with all faults and their lines."""
     robot = read_robot(file)
     poses = robot.poses()
     places = [at.at for at in poses.pose.values()]
@@ -69,7 +69,7 @@ def read(file: ModelFile) -> ModelDocument:
 
 @dataclass
 class _UrdfScene:
-    """The scene while it is written: ``stands`` has the body of each link, ``names`` the constraint of each joint."""
+    """Writes the scene: ``stands`` is {link: body of the scene}, ``names`` {joint: constraint}."""
 
     robot: Robot
     poses: Poses
@@ -79,7 +79,7 @@ class _UrdfScene:
     names: dict[str, str] = field(default_factory=dict)
 
     def document(self, tolerance: float) -> ModelDocument:
-        """Return the scene, its entries in the order of the tree."""
+        """Return the scene, with its entries in the order of the tree."""
         robot, poses = self.robot, self.poses
         parents = {joint.parent for joint in robot.joints} | {end for loop in robot.loops for end, _ in loop.ends}
         markers = []
@@ -126,7 +126,7 @@ class _UrdfScene:
             self.names[joint.name] = self.draft.constraint(joint.name, _KINDS[joint.kind], joint.line, **fields)
 
     def _loop(self, loop: LoopJoint, pose: Mapping[str, Transform]) -> None:
-        """Add a joint that closes a loop, its place by the first link, its point by both."""
+        """Add a joint that closes a loop: a ball by its points on both links, others by the frame on the first link."""
         frames = [pose[link].after(at) for link, at in loop.ends]
         bodies = [self.stands[link] for link, _ in loop.ends]
         if loop.kind in _BALLS:
@@ -137,7 +137,7 @@ class _UrdfScene:
             self.draft.constraint(loop.name, _KINDS[loop.kind], loop.line, **fields)
 
     def _mimics(self) -> None:
-        """Add what joints mimic; a leader that does not move leaves nothing free."""
+        """Add the coupling of each joint that mimics another; if the other is fixed, the joint is fixed too."""
         kinds = {joint.name: joint.kind for joint in self.robot.joints}
         for joint in self.robot.joints:
             if joint.mimic is None or joint.kind == FIXED:
@@ -165,21 +165,21 @@ class _UrdfScene:
 
 
 def _geometry(joint: RobotJoint | LoopJoint, frame: Transform) -> dict[str, Any]:
-    """Return the place and the axis of a joint in the world, as far as its kind has them."""
+    """Return the fields ``at`` and ``axis`` of a joint in the world, as far as its kind has them."""
     place = {} if joint.kind == FIXED else {"at": vector(frame.at)}
     return place | ({"axis": vector(frame.turn @ np.array(joint.axis))} if joint.kind in WITH_AXIS else {})
 
 
 def _written(robot: Robot) -> Iterator[str]:
-    """Yield all positions and orientations as they are written."""
+    """Yield the texts of all positions and orientations in the file."""
     for element in robot.root.every():
         yield from (element.attributes[key] for key in ("xyz", "rpy") if key in element.attributes)
 
 
 class Closure(NamedTuple):
-    """A joint that closes a loop, by its frames in the reference configuration; the axis is in the first.
+    """A joint that closes a loop, with its two frames in the reference configuration, and its axis in the first frame.
 
-    ``turned``: the second frame has axes, and not only a position.
+    ``turned``: whether the second frame gives an orientation, and not only a position.
     """
 
     name: str
@@ -191,10 +191,10 @@ class Closure(NamedTuple):
     line: int
 
     def is_closed(self, size: float, tolerance: float) -> bool:
-        """Return whether the ends meet in the reference configuration.
+        """Return whether the ends of the joint meet in the reference configuration.
 
-        The reference is right to within ``tolerance``, a fraction of its ``size``: lengths and angles to the last digit
-        that is written, and places to what such angles move them by.
+        Lengths and angles are accurate to ``tolerance``, a fraction of ``size``, which is the last digit in the file;
+        positions to the displacements by such angles.
         """
         arm = self.first.turn.T @ (self.second.at - self.first.at)
         turn = self.first.turn.T @ self.second.turn if self.turned else np.eye(3)
@@ -205,14 +205,14 @@ class Closure(NamedTuple):
         return off <= digit * max(size, 1.0) and self._twist(turn, n) <= digit
 
     def _twist(self, turn: Array, axis: Array) -> float:
-        """Return the size of the relative rotation that the joint does not allow."""
+        """Return the size of the part of a relative rotation that the joint does not allow."""
         if self.kind in _BALLS:
             return 0.0
         return float(np.linalg.norm(turn @ axis - axis if self.kind in _TURNING else turn - np.eye(3)))
 
 
 def closures(robot: Robot, poses: Poses) -> Iterator[Closure]:
-    """Yield the joints that close loops: those whose child another joint carries, and those of extensions."""
+    """Yield the joints that close loops: those whose child is already in the tree, and those of extensions."""
     for joint in poses.closing:
         if joint.kind != "floating":
             frame, child = poses.frame[joint.name], poses.pose[joint.child]
@@ -226,7 +226,7 @@ def closures(robot: Robot, poses: Poses) -> Iterator[Closure]:
 
 
 def faults_of_loops(robot: Robot, poses: Poses, size: float, tolerance: float) -> Iterator[Fault]:
-    """Yield the faults of links that no root carries, of loops that are open, and of what mimics within a loop."""
+    """Yield the faults of links without a root, of open loops, and of joints in a loop that mimic or are mimicked."""
     adrift = [name for name in robot.links if name not in poses.pose]
     if adrift:
         detail = f"the link '{adrift[0]}' is not connected to a root link: the joints above it form a cycle"

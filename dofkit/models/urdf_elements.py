@@ -1,4 +1,4 @@
-"""The elements of a URDF file: its links and joints with every fault in its line, and where they stand."""
+"""The elements of a URDF file: its links and joints, their faults with lines, and their poses."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ from dofkit.models.model_document import ModelFile, listed
 Array: TypeAlias = Any
 KINDS = ("revolute", "continuous", "prismatic", "fixed", "floating", "planar", "ball", "spherical", "cylindrical")
 FIXED = "fixed"
-#: Kinds with one angle or displacement, which others may mimic, and kinds with an axis.
+#: Kinds of joints with one angle or displacement, which can be mimicked, and kinds with an axis.
 SCALAR = ("revolute", "continuous", "prismatic")
 WITH_AXIS = (*SCALAR, "planar", "cylindrical")
 _X = (1.0, 0.0, 0.0)
 _ZERO = (0.0, 0.0, 0.0)
-#: Elements that say nothing of how a robot moves, and what they are.
+#: {tag of elements that do not affect the motion: note about them}.
 _OTHERS = {
     "transmission": "transmissions: actuators are forces, not constraints",
     "gazebo": "elements for Gazebo, which only Gazebo defines",
@@ -32,23 +32,23 @@ _OTHERS = {
 
 
 class Transform(NamedTuple):
-    """A frame in another: x -> turn x + at."""
+    """A frame relative to another: x -> turn x + at."""
 
     turn: Array
     at: Array
 
     def after(self, other: Transform) -> Transform:
-        """Return the other frame, given in this one, in the frame in which this one is given."""
+        """Return ``other``, which is relative to this frame, relative to the same frame as this one."""
         return Transform(self.turn @ other.turn, self.at + self.turn @ other.at)
 
 
 def moved_by(at: tuple[float, ...] = _ZERO) -> Transform:
-    """Return a frame that is displaced and not turned."""
+    """Return a frame that is displaced and not rotated."""
     return Transform(np.eye(3), np.array(at))
 
 
 class Mimic(NamedTuple):
-    """q = factor times that of the other joint, and an offset."""
+    """A joint value q = factor * (value of ``joint``) + offset."""
 
     joint: str
     factor: float
@@ -57,7 +57,7 @@ class Mimic(NamedTuple):
 
 
 class RobotLink(NamedTuple):
-    """A link: its centre of mass with axes, mass, and inertia about the centre in these."""
+    """A link: its centre of mass with axes, its mass, and its inertia about the centre in these axes."""
 
     line: int
     centre: Transform
@@ -90,9 +90,9 @@ class LoopJoint(NamedTuple):
 
 
 class Poses(NamedTuple):
-    """Where links and the frames of joints stand; links from the root outwards, the joint that carries each.
+    """The poses of links and joint frames; ``order``: links from the root outwards; ``joint_of``: parent joints.
 
-    ``closing``: joints whose child is carried by another one already.
+    ``closing``: joints whose child already has a parent joint.
     """
 
     order: tuple[str, ...]
@@ -104,7 +104,7 @@ class Poses(NamedTuple):
 
 @dataclass(frozen=True)
 class Robot:
-    """A URDF file without faults."""
+    """The content of a URDF file without faults; ``unread``: notes on what is left out."""
 
     name: str
     root: Element
@@ -114,7 +114,7 @@ class Robot:
     unread: tuple[str, ...]
 
     def drawn(self) -> dict[str, float]:
-        """Return the joint values of the reference configuration that are not 0: offsets of those that mimic."""
+        """Return {joint: nonzero value in the reference configuration}, by the offsets of `mimic` elements."""
         by_name = {joint.name: joint for joint in self.joints}
         values: dict[str, float] = {}
         for joint in self.joints:
@@ -131,7 +131,7 @@ class Robot:
         return values
 
     def poses(self) -> Poses:
-        """Return where everything stands, from the links that no joint carries."""
+        """Return the poses in the reference configuration, with the root links at the origin."""
         drawn = self.drawn()
         below: dict[str, list[RobotJoint]] = {}
         for joint in self.joints:
@@ -152,7 +152,7 @@ class Robot:
 
 
 def _displaced(joint: RobotJoint, value: float) -> Transform:
-    """Return the child's frame in the joint's, where the joint has a value."""
+    """Return the child's frame relative to the joint's frame for a joint value."""
     if not value:
         return moved_by()
     n = np.array(joint.axis) / np.linalg.norm(joint.axis)
@@ -163,7 +163,7 @@ def _displaced(joint: RobotJoint, value: float) -> Transform:
 
 
 def read_robot(file: ModelFile) -> Robot:
-    """Return the robot of a file. Raises SceneError with all its faults."""
+    """Return the robot of a file. Raises SceneError with all faults."""
     reader = _RobotReader(read_markup(file.data, file.name))
     robot = reader.robot()
     if reader.faults:
@@ -173,13 +173,13 @@ def read_robot(file: ModelFile) -> Robot:
 
 @dataclass
 class _RobotReader:
-    """Reads a robot; ``faults`` are collected on the way."""
+    """Reads a robot, and collects ``faults``."""
 
     root: Element
     faults: list[Fault] = field(default_factory=list)
 
     def robot(self) -> Robot:
-        """Return the robot, of which nothing may be used where there are faults."""
+        """Return the robot, which must not be used if there are faults."""
         macro = next((part for part in self.root.every() if part.tag.startswith("xacro:")), None)
         if macro is not None:
             self._fault(macro, "this file has xacro macros", "expand them first: `xacro FILE > robot.urdf`")
@@ -209,6 +209,7 @@ class _RobotReader:
         return Robot(self.root.get("name"), self.root, links, joints, tuple(loops), tuple(unread))
 
     def _link(self, part: Element) -> RobotLink:
+        """Return a link, without mass if it has no `inertial` element."""
         inertial = part.first("inertial")
         if inertial is None:
             return RobotLink(part.line, moved_by(), 0.0, np.zeros((3, 3)))
@@ -216,9 +217,7 @@ class _RobotReader:
         value = self._number(mass, "value", 0.0)
         if mass is not None and value < 0:
             self._fault(mass, f"the mass of '{part.get('name')}' is negative", "write its mass, or 0")
-        xx, xy, xz, yy, yz, zz = (
-            self._number(inertia, f"i{axes}", 0.0) for axes in ("xx", "xy", "xz", "yy", "yz", "zz")
-        )
+        xx, xy, xz, yy, yz, zz = (self._number(inertia, f"i{ij}", 0.0) for ij in ("xx", "xy", "xz", "yy", "yz", "zz"))
         rows = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
         return RobotLink(part.line, self._origin(inertial.first("origin")), value, rows)
 
@@ -247,7 +246,7 @@ class _RobotReader:
         )
 
     def _check_joints(self, joints: tuple[RobotJoint, ...]) -> None:
-        """Record joints with one name, and what cannot be mimicked."""
+        """Record faults of repeated joint names, and of `mimic` elements that are impossible or cyclic."""
         by_name: dict[str, RobotJoint] = {}
         lines = {part.get("name"): part for part in self.root.all("joint")}
         for joint, part in zip(joints, self.root.all("joint"), strict=True):
@@ -291,7 +290,7 @@ class _RobotReader:
         return LoopJoint(f"ball_{part.line}", "ball", (first, second), _X, part.line)
 
     def _named(self, part: Element, tag: str, key: str, links: Mapping[str, RobotLink]) -> str:
-        """Return the link that an element right below names."""
+        """Return the link that the attribute ``key`` of the child element ``tag`` names; a fault if there is none."""
         below = part.first(tag)
         name = "" if below is None else below.get(key)
         if name not in links:
@@ -305,7 +304,7 @@ class _RobotReader:
         return self._numbers(part.first("axis"), "xyz", _X)
 
     def _origin(self, part: Element | None) -> Transform:
-        """Return x -> Rz(yaw) Ry(pitch) Rx(roll) x + xyz."""
+        """Return the frame x -> Rz(yaw) Ry(pitch) Rx(roll) x + xyz of an `origin` element."""
         r, p, y = self._numbers(part, "rpy", _ZERO)
         (cr, cp, cy), (sr, sp, sy) = (tuple(map(f, (r, p, y))) for f in (math.cos, math.sin))
         turn = np.array(
@@ -321,7 +320,7 @@ class _RobotReader:
         return self._numbers(part, key, (default,))[0]
 
     def _numbers(self, part: Element | None, key: str, default: tuple[float, ...]) -> tuple[float, ...]:
-        """Return as many numbers as the default has."""
+        """Return as many numbers as ``default`` has; ``default`` if they are missing or after a fault."""
         text = "" if part is None else part.get(key)
         if part is None or not text.strip():
             return default

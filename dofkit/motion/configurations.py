@@ -1,4 +1,4 @@
-"""A motion sampled: configurations along it, for pictures."""
+"""Samples of a motion: configurations along it, for pictures."""
 
 from __future__ import annotations
 
@@ -26,12 +26,12 @@ from dofkit.scene.lowering import lower
 from dofkit.scene.reading import SceneLike, scene_or_system
 from dofkit.system import System
 
-#: Random configurations from which one is looked for where there is no reference.
+#: Random starts of the search for a configuration if there is no reference.
 STARTS = 24
 
 
 class NoMotionError(DofkitError):
-    """No motion can be sampled: nothing moves, nothing is consistent, or it was not decided; the message says which."""
+    """No motion can be sampled: nothing moves, or the scene is inconsistent or undecided; the message says which."""
 
 
 def configurations(
@@ -97,13 +97,13 @@ def configurations(
 
 @contextmanager
 def sampling(system: System) -> Iterator[None]:
-    """Sample motions of a system within a time limit, as precisely as its numbers ask for. Raises OutOfTimeError."""
+    """Within the block, limit the time and set the precision that the system's numbers need. Raises OutOfTimeError."""
     with limited(DEFAULT_SECONDS), precise_for(system.longest):
         yield
 
 
 class MotionSampler:
-    """A system with its relations, a follower, and the first pose."""
+    """A system with its relations in floating point, a `Follower` of motions, and the first pose."""
 
     def __init__(self, system: System, numbers: Mapping[str, float]) -> None:
         reduced, setting = prepared(system)
@@ -116,7 +116,7 @@ class MotionSampler:
         self.start = self._first()
 
     def _first(self) -> Pose:
-        """The reference, with the numbers given; else a generic configuration."""
+        """Return the reference pose with the given numbers, else a generic pose. Raises NoMotionError."""
         places = [ex.coordinate(c) for c in self.names]
         search = RealSearch(
             self.relations.ring, self.relations.finite, [*places, *self.setting.generic], self.setting.positive
@@ -128,9 +128,7 @@ class MotionSampler:
             placed = {s: number(e, parameters) for s, e in self.system.reference.items()}
             first_pose = self.follower.onto(self.relations.pose({**placed, **self.numbers}))
             if first_pose is None:
-                raise NoMotionError(
-                    "near the reference configuration the relations hold only roughly, to no last digit"
-                )
+                raise NoMotionError("Newton's method finds no exact solution near the reference configuration")
             return first_pose
         near = {s: number(e) for s, e in self.setting.pose.items() if not e.symbols} | self.numbers
         for seed in range(STARTS):
@@ -144,7 +142,7 @@ class MotionSampler:
         raise NoMotionError("no regular configuration was found that satisfies the constraints")
 
     def configurations(self, steps: int, step: float, along: str | None = None) -> list[dict[str, float]]:
-        """Return the configurations backward, the first, and those forward."""
+        """Return the configurations in order: backward, the first, forward. Raises NoMotionError."""
         if along is not None and along not in self.names:
             raise NoMotionError(no_such(along, self.names, "coordinate"))
         target = None if along is None else self.relations.axis(along, self.start)
@@ -165,7 +163,7 @@ class MotionSampler:
         return self._followed(follower, both_directions, steps, step)
 
     def branches(self, steps: int, step: float) -> Iterator[tuple[Array, list[dict[str, float]]]]:
-        """Yield each motion that was found to leave a singular first configuration: its direction, configurations."""
+        """Yield (direction, configurations) for each motion that was found to leave a singular first configuration."""
         for both_directions in self.follower.branches(self.start, step):
             direction = next(reached.direction for reached in both_directions if reached)
             yield direction, self._followed(self.follower, both_directions, steps, step)
@@ -181,19 +179,19 @@ class MotionSampler:
         return [*self.values_along([self.start, *backward])[:0:-1], *self.values_along([self.start, *forward])]
 
     def values_along(self, poses: Iterable[Pose]) -> list[dict[str, float]]:
-        """Return the values at some poses, Euler angles near those of the pose before."""
+        """Return the `values` at poses in order, with Euler angles near those of the previous pose."""
         return list(accumulate(poses, lambda last, pose: self.values(pose, last), initial=dict[str, float]()))[1:]
 
     def values(self, pose: Pose, last: Mapping[str, float]) -> dict[str, float]:
-        """The coordinates of a pose (Euler angles near those of ``last``), and the values of parameters."""
+        """Return {name: value} of coordinates (Euler angles near ``last``), t and all but internal parameters."""
         coordinates = self.relations.coordinate_values(pose, last)
-        chosen = {str(s.args[1]): v for s, v in self.relations.constants.items() if not str(s.args[1]).startswith("_")}
+        constants = {str(s.args[1]): v for s, v in self.relations.constants.items() if s.args[1][0] != "_"}
         timed = {"t": coordinates["t"]} if self.relations.timed else {}
-        return {**{n: coordinates[n] for n in self.names}, **timed, **chosen}
+        return {**{n: coordinates[n] for n in self.names}, **timed, **constants}
 
 
 def _known_symbols(system: System, numbers: Mapping[str, float]) -> dict[Expr, float]:
-    """Numbers for parameters and coordinates, by their symbols."""
+    """Return {symbol: number} for parameters, coordinates and t. Raises NoMotionError for other names."""
     places = {c.name for c in system.coordinates}
     symbols = {n: ex.parameter(n) for n in (*system.parameters, *system.generic)} | {"t": ex.TIME}
     symbols |= {n: ex.coordinate(n) for n in places}
@@ -205,7 +203,7 @@ def _known_symbols(system: System, numbers: Mapping[str, float]) -> dict[Expr, f
 
 
 def _limits(reduced: Sequence[Reduced], outcome: Outcome) -> list[Expr]:
-    """What is to stay at 0 or above: inequalities between places, and where the relations say what they say."""
+    """Return expressions that must stay >= 0: inequalities of coordinates, and conditions of the relations."""
     limits = [q.expr for r in reduced for q in r.inequalities]
     pieces = [p for row in outcome.rows if isinstance(p := row.piece, DomainCondition)]
     limits += [p.expr for p in pieces if p.sense != "!="]
@@ -213,7 +211,7 @@ def _limits(reduced: Sequence[Reduced], outcome: Outcome) -> list[Expr]:
 
 
 def _relations(system: System, outcome: Outcome, setting: Setting, limits: Sequence[Expr]) -> PoseRelations:
-    """What is to be held; raises where that is not possible."""
+    """Return the relations that a motion satisfies. Raises NoMotionError if it cannot be followed."""
     if any("call" in r.expr.functions for c in system.constraints for r in c.relations):
         raise NoMotionError(f"'{next(iter(system.functions))}' is a function without a formula")
     if outcome.consistent is False:
@@ -230,7 +228,7 @@ def _relations(system: System, outcome: Outcome, setting: Setting, limits: Seque
 
 
 def _freedom(outcome: Outcome, timed: bool) -> int:
-    """The dimension of the admissible directions, time among them where it occurs."""
+    """Return the dimension of the admissible directions, which include time if that occurs. Raises if it is 0."""
     dimension = (outcome.velocity_dof or 0) + timed
     if not dimension:
         raise NoMotionError("nothing moves: the scene has no freedom of velocity")

@@ -1,9 +1,9 @@
-"""Following a motion: steps along the null space of the constraints, and back onto them (arclength continuation).
+"""Following a motion by arclength continuation: a step along the null space of the constraints, then a correction.
 
-With A the derivatives of the geometric equations and the one-forms, a direction d with A d = 0 is transported along the
-path as straight as the constraints allow: reflected at each chord, and projected. A step of length h solves g(z) = 0,
-(z - z0 - h d).d = 0 and, for forms, omega(midpoint)(z - z0) = 0, so a form is satisfied to the third order of a step.
-Where time occurs it is what advances.
+Let A be the matrix of the derivatives of the geometric equations g and of the one-forms omega. A direction d with
+A d = 0 is continued as straight as the constraints allow: reflected at each chord, and projected. A step of length h
+from z0 solves g(z) = 0, (z - z0 - h d).d = 0 and omega(midpoint)(z - z0) = 0, so that forms are satisfied to the third
+order in h. If time occurs, steps are in time instead of arclength.
 """
 
 from __future__ import annotations
@@ -17,36 +17,36 @@ import numpy as np
 from dofkit.exact.matrices.dense import array_step
 from dofkit.motion.poses import FAULTS, Array, Pose, PoseRelations
 
-#: Relative residual of what is enforced, rounds of Newton's method, and those with much damping.
+#: The largest relative residual, rounds of Newton's method, and rounds at its beginning with stronger damping.
 HELD, ROUNDS, EASY = 1e-12, 60, 8
-#: Singular values below this, of rows of length 1, count as 0.
+#: Singular values of a matrix with rows of length 1 count as 0 below this.
 SMALL = 1e-7
-#: What a correction may add to a step, the least cosine between steps, and the least part of a step that is tried.
+#: The largest correction relative to a step, the least cosine between steps, the smallest fraction of a step.
 SLACK, STRAIGHT, LEAST = 0.3, 0.9, 2.0**-12
-#: What a value is below 0 by that does not count.
+#: A value above minus this counts as not negative, and a velocity below it as 0.
 STILL = 1e-6
 #: The longest chord on which forms are integrated.
 CHORD = 1 / 100
-#: Directions in which a singular configuration is left, and how much of a step the first one is.
+#: Random directions in which a singular configuration is left, and lengths of the first step, in steps.
 TRIES, AWAY = 32, (1.0, 0.25, 0.0625, 0.015625)
 
 
 @dataclass(frozen=True)
 class Reached:
-    """A pose, and the direction in which it was reached (unit, or with unit speed in time)."""
+    """A pose, and the direction in which it was reached (of length 1, or with unit speed in time)."""
 
     pose: Pose
     direction: Array
 
 
-#: Forward and backward, where a motion begins.
+#: The first poses of a motion (forward, backward), None where there is none.
 BothDirections = tuple[Reached | None, Reached | None]
 
 
 class Follower:
-    """Motions on the relations; ``freedom``: the dimension of the admissible directions at a regular pose.
+    """Follows motions under relations; ``freedom``: the dimension of the admissible directions at a regular pose.
 
-    ``held``: directions, as rows, in which nothing moves besides; the freedom is what they leave.
+    ``held``: rows r of further conditions r.velocity = 0, which ``freedom`` takes into account.
     """
 
     def __init__(self, relations: PoseRelations, freedom: int, held: Array | None = None) -> None:
@@ -64,7 +64,7 @@ class Follower:
         return f.size == 0 or float(np.max(np.abs(f))) < HELD * reach
 
     def onto(self, pose: Pose, any_time: bool = False) -> Pose | None:
-        """The nearest pose at which the geometric equations hold, at the same time unless any will do."""
+        """Return a near pose on the geometric equations, at the same time unless ``any_time``, or None."""
         start = pose
         try:
             for k in range(4 * ROUNDS):
@@ -79,7 +79,7 @@ class Follower:
         return pose if np.all(np.isfinite(self.relations.between(start, pose))) and self.holds(pose) else None
 
     def null_space(self, pose: Pose) -> Array:
-        """An orthonormal basis of the admissible velocities, as rows."""
+        """Return an orthonormal basis of the admissible velocities, as rows."""
         _, j = self.relations.at(pose)
         rows = np.vstack([j, self.relations.forms_at(pose), self.held])
         if not rows.size:
@@ -88,7 +88,7 @@ class Follower:
         return np.asarray(right[int(np.sum(singular > SMALL)) :])
 
     def ahead(self, pose: Pose, direction: Array) -> Array | None:
-        """The admissible direction nearest to the given one: of length 1, or of unit speed in time."""
+        """Return the admissible direction nearest to ``direction``, of length 1 or unit speed in time, or None."""
         basis = self.null_space(pose)
         tangent = np.asarray(basis.T @ (basis @ direction))
         if self.clock is None:
@@ -102,7 +102,7 @@ class Follower:
         return np.asarray(tangent)
 
     def path(self, start: Reached, step: float) -> Iterator[Reached]:
-        """What is reached step by step, as long as the motion goes on."""
+        """Yield the poses after each step, until the motion cannot be continued."""
         current = start
         while True:
             remaining, part = step, min(step, CHORD) if self.relations.forms else step
@@ -120,7 +120,7 @@ class Follower:
             yield current
 
     def _step(self, current: Reached, length: float) -> Reached | None:
-        """The pose so far ahead; None where the step is too long to be sure of, or nothing is ahead."""
+        """Return the pose at a distance ahead; None if the step is too long to be reliable, or the motion ends."""
         try:
             wanted = length * current.direction
             along = np.zeros((1, self.relations.columns))
@@ -143,7 +143,7 @@ class Follower:
         return Reached(pose, direction) if cosine > STRAIGHT else None
 
     def stepped(self, start: Pose, wanted: Array, along: Array) -> Pose | None:
-        """The pose after a step that satisfies everything and is as wanted in the directions ``along``, as rows."""
+        """Return the pose after a step that satisfies all relations, and equals ``wanted`` along the rows ``along``."""
         relations = self.relations
         pose, rounds, rests = relations.moved(start, wanted), 0, False
         while True:
@@ -160,7 +160,7 @@ class Follower:
         return pose if self._is_met(pose, f) and slip < HELD else None
 
     def begin(self, pose: Pose, target: Array | None, step: float) -> BothDirections:
-        """Where and in which direction motions begin, forward and backward."""
+        """Return the first poses of a motion, forward and backward, near the direction ``target`` if given."""
         basis = self.null_space(pose)
         stopped = self.clock is not None and float(np.sum(basis[:, self.clock] ** 2)) < SMALL
         if stopped or len(basis) != self.freedom:
@@ -173,7 +173,7 @@ class Follower:
         return None if ahead is None else Reached(pose, ahead), None if back is None else Reached(pose, back)
 
     def _first_direction(self, basis: Array) -> Array:
-        """The first column that moves (with one freedom: forward), or time."""
+        """Return the direction of the first column that moves, or of time."""
         weights = np.zeros(basis.shape[1])
         sizes = np.linalg.norm(basis, axis=0)
         column = int(np.argmax(sizes > 0.1 * np.max(sizes))) if self.clock is None else self.clock
@@ -181,7 +181,7 @@ class Follower:
         return weights
 
     def _departures(self, pose: Pose, step: float, basis: Array) -> list[Reached]:
-        """At a singular pose: regular ones close to it, reached from random directions; else singular ones."""
+        """Return regular poses near a singular one, reached in random directions; if there are none, singular ones."""
         rng = np.random.default_rng(3)
         singular: list[Reached] = []
         for part in AWAY:
@@ -197,7 +197,7 @@ class Follower:
         return singular
 
     def branches(self, pose: Pose, step: float) -> list[BothDirections]:
-        """Return the motions that were found to leave a singular pose, each forward and backward."""
+        """Return the first poses, (forward, backward), of each motion that was found to leave a singular pose."""
         departures = self._departures(pose, step, self.null_space(pose))
         branches: list[Reached] = []
         for reached in departures:
@@ -206,6 +206,7 @@ class Follower:
         return [self._both_ways(pose, [reached], reached.direction) for reached in branches]
 
     def _reached(self, pose: Pose, step: Array) -> Reached | None:
+        """Return the pose near ``pose`` + ``step`` on the configuration space; None if the way there differs much."""
         length = float(np.linalg.norm(step))
         moved = self.onto(self.relations.moved(pose, step), any_time=True)
         if moved is None:
@@ -233,9 +234,9 @@ class Follower:
 
 
 def trail(follower: Follower, start: Pose, first: Reached | None, steps: int, step: float) -> tuple[list[Pose], bool]:
-    """Return the poses of one way from a start, and whether it closes up.
+    """Return (poses of a motion from ``start`` over ``first``, whether the motion closes).
 
-    It ends where an inequality is violated that was satisfied at the start.
+    The motion ends before an inequality is violated that was satisfied at the start.
     """
     poses: list[Pose] = []
     if first is None:

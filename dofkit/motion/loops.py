@@ -1,9 +1,9 @@
-"""Closed loops of the free coordinates: whether the others return too, and what the bracket predicts.
+"""Closed loops of two free coordinates: the displacement of the other coordinates, and its prediction by the bracket.
 
-The admissible directions are spanned by fields X_k, each of which moves one of the chosen columns at unit speed and no
-other chosen one. Around a small loop of area A of the columns i and j, counterclockwise, the others are displaced by
-A [X_i, X_j], here at the centre of the loop, and terms of third order. Forms that integrate have no displacement: their
-integral keeps its value.
+The admissible directions are spanned by fields X_k, each of which moves one chosen column (coordinate) with speed 1 and
+no other chosen column. Around a small counterclockwise loop of area A of the columns i and j, the other columns are
+displaced by A [X_i, X_j], evaluated at the centre of the loop, up to terms of third order. Integrable forms cause no
+displacement, because their integral keeps its value.
 """
 
 from __future__ import annotations
@@ -20,9 +20,9 @@ from dofkit.motion.configurations import MotionSampler, NoMotionError, sampling
 from dofkit.motion.poses import FAULTS, Array, Pose
 from dofkit.system import System
 
-#: Corners of a loop, the loops that are followed at most, and the steps of differences.
+#: Corners of a loop, the most loops that are followed, and the steps of outer and inner difference quotients.
 CORNERS, MOST_LOOPS, OUTER, INNER = 72, 2, 1e-3, 1e-4
-#: The least velocity of a column that makes it one of those that are moved.
+#: The least velocity of a column that can be chosen to be moved.
 LEAST = 1e-4
 Field = Callable[[Array], Array]
 ONE_FIELD = "a loop needs two free velocities: with one, every motion runs back along itself"
@@ -32,10 +32,10 @@ NOT_APART = "at a configuration the free coordinates cannot be moved one by one"
 
 @dataclass(frozen=True)
 class Loop:
-    """A loop of two ``coordinates`` of a radius ``size``, and what it does to the others.
+    """A circular loop of two ``coordinates`` with radius ``size``, and its effect on the other coordinates.
 
-    ``configurations`` along it; ``displacement`` of the others at its end, and the ``prediction`` of the bracket.
-    Lengths are in the scene's units; a body in space is displaced by a rotation vector, whose components are named
+    ``configurations`` along the loop; ``displacement`` of the others at its end, and its ``prediction`` by the bracket.
+    Lengths are in the scene's units; rotations of a spatial body are the components of a rotation vector, named
     ``BODY about x`` and so on.
     """
 
@@ -77,7 +77,7 @@ class LoopSampler:
         return fields_of_pivots(self.follower.null_space(pose), self.chosen)
 
     def loops(self, size: float) -> list[Loop]:
-        """Return the loops of the pairs of coordinates that can be followed; ``stopped`` says why others cannot."""
+        """Return the loops of radius ``size`` that can be followed; ``stopped`` gets the reasons for others."""
         loops = []
         with sampling(self.sampler.system):
             for pair in self.pairs:
@@ -96,12 +96,11 @@ class LoopSampler:
         configurations = self.sampler.values_along(poses)
         names = (self.columns[pair[0]], self.columns[pair[1]])
         displacement = self._named(self.relations.between(self.start, poses[-1]))
-        return Loop(
-            names, size, tuple(configurations), displacement, self._named(area * self.bracket(pair, centre[-1]))
-        )
+        prediction = self._named(area * self.bracket(pair, centre[-1]))
+        return Loop(names, size, tuple(configurations), displacement, prediction)
 
     def _along(self, pair: tuple[int, int], corners: Array) -> list[Pose]:
-        """Return the poses along a polygon of two coordinates. Raises one of `FAULTS` where it cannot be followed."""
+        """Return the poses along a polygon of two coordinates. Raises one of `FAULTS` if it cannot be followed."""
         along = np.eye(self.relations.columns)[self.chosen]
         first, second = (self.chosen.index(column) for column in pair)
         poses = [self.start]
@@ -115,14 +114,14 @@ class LoopSampler:
         return poses
 
     def _named(self, step: Array) -> dict[str, float]:
-        """Return a step by the names of all columns but the chosen coordinates, in the scene's units."""
+        """Return {column: component of ``step``} for all columns but the chosen coordinates, in the scene's units."""
         plain = len(self.relations.plain)
         units = np.concatenate([self.relations.scales, np.ones(self.relations.columns - plain)])
         others = [c for c in range(len(units)) if c >= plain or c not in self.chosen]
         return {self.columns[c]: float(units[c] * step[c]) for c in others}
 
     def bracket(self, pair: tuple[int, int], pose: Pose) -> Array:
-        """Return the bracket of the fields of two columns at a pose, in the chart of steps from the pose."""
+        """Return the bracket of the fields of two columns at ``pose``, in the coordinates of steps from the pose."""
 
         def field(number: int, at: Array) -> Array:
             moved = self.relations.moved(pose, at)
@@ -135,7 +134,7 @@ class LoopSampler:
 
 
 def by_pivots(basis: Array, order: Sequence[int]) -> tuple[Array, list[int]]:
-    """Return the basis reduced so that each row alone moves one column, the first possible in an order; and these."""
+    """Return (reduced basis, pivots): each row alone moves its pivot, the first possible columns in ``order``."""
     rows = basis.copy()
     pivots: list[int] = []
     for column in order:
@@ -157,7 +156,7 @@ def by_pivots(basis: Array, order: Sequence[int]) -> tuple[Array, list[int]]:
 def fields_of_pivots(basis: Array, pivots: Sequence[int]) -> Array:
     """Return the basis reduced so that each row moves one of the pivots, at unit speed, and no other pivot.
 
-    Raises LinAlgError where there is no such basis: where directions are more or fewer, or a pivot cannot move alone.
+    Raises LinAlgError if there is no such basis, because there are more or fewer rows or a pivot cannot move alone.
     """
     fields, moved = by_pivots(basis, pivots)
     if len(basis) != len(pivots) or moved != list(pivots):
@@ -166,13 +165,13 @@ def fields_of_pivots(basis: Array, pivots: Sequence[int]) -> Array:
 
 
 def by_size(basis: Array, columns: Sequence[int]) -> list[int]:
-    """Return some columns in the order of their sizes, the largest first."""
+    """Return ``columns`` sorted by their norm in the basis, the largest first."""
     sizes = np.round(np.linalg.norm(basis, axis=0), 6)
     return sorted(columns, key=lambda column: -sizes[column])
 
 
 def bracket(x: Field, y: Field, step: float) -> Field:
-    """Return [X, Y] = DY X - DX Y, by differences along both."""
+    """Return the field [X, Y] = DY X - DX Y, by difference quotients."""
 
     def along(f: Field, q: Array, v: Array) -> Array:
         return np.asarray((f(q + step * v) - f(q - step * v)) / (2 * step))

@@ -1,8 +1,8 @@
-"""Poses of a system in floating point: coordinates, turns of bodies as unit quaternions, and time; for pictures only.
+"""Poses of a system in floating point: coordinates, rotations as unit quaternions, and time; for pictures only.
 
-A body whose orientation is written by a Gibbs vector g turns by R(g) from its reference. Here it is kept as a
-quaternion (w, v), g = v / w, and moved by a small turn omega in the world: dg = (omega + omega x g + g (g.omega)) / 2.
-Near half a turn, where g is infinite, the relations are evaluated to high precision.
+A rotation R(g) with Gibbs vector g is kept as a quaternion (w, v), g = v / w, and changed by a small rotation vector
+omega in world axes: dg = (omega + omega x g + g (g.omega)) / 2. Near half a turn, where g is infinite, relations are
+evaluated in high precision.
 """
 
 from __future__ import annotations
@@ -25,25 +25,25 @@ from dofkit.relations.normal.pieces import Pfaffian
 from dofkit.system import System
 
 Array = np.ndarray[Any, Any]
-#: Below this w the relations are evaluated as balls, and this is the least that is distinguished from 0.
+#: The |w| below which the relations are evaluated in high precision, and the least |w| distinguished from 0.
 HALF_TURN, NO_LESS = 1e-3, 1e-14
-#: A gradient shorter than this part of what is usual for its relation is left as it is; poses that tell what is usual.
+#: A gradient below this share of the usual length is not normalized; the random poses that give the usual length.
 FLAT, USUAL = 1e-9, 5
-#: The roles of coordinates that come back after a full turn.
+#: The roles of coordinates that are angles.
 ANGLES = ("angle", "phi", "theta", "psi")
 FAULTS = (ArithmeticError, ValueError)
 
 
 @dataclass(frozen=True)
 class Pose:
-    """``plain``: coordinates, then time; ``turns``: a unit quaternion for each spatial body in the Gibbs chart."""
+    """A pose: ``plain`` are coordinates, then time; ``turns`` the unit quaternion of each body in the Gibbs chart."""
 
     plain: Array
     turns: Array
 
 
 class PoseRelations:
-    """Geometric equations and one-forms over the columns: plain coordinates, three for each turn, then time."""
+    """Geometric equations and one-forms, and their derivatives by the columns (see `columns`)."""
 
     def __init__(
         self,
@@ -82,16 +82,16 @@ class PoseRelations:
 
     @property
     def columns(self) -> int:
-        """Plain columns first (time is the last of them), then three for each turn."""
+        """The number of columns: plain coordinates over `scales`, then time, then a rotation vector for each turn."""
         return len(self.plain) + 3 * len(self.rotations)
 
     @property
     def time(self) -> int:
-        """The column of time, where it occurs."""
+        """The column of time, if it occurs."""
         return len(self.plain) - 1
 
     def pose(self, symbols: Mapping[Expr, float]) -> Pose:
-        """The pose with the given values."""
+        """Return the pose with the given values, 0 for others."""
         turns = []
         for r in self.rotations:
             q = np.array([1.0, *(symbols.get(ex.coordinate(n), 0.0) for n in r.names)])
@@ -100,19 +100,19 @@ class PoseRelations:
         return Pose(plain, np.array(turns).reshape(-1, 4))
 
     def moved(self, pose: Pose, step: Array) -> Pose:
-        """The pose after a step in scaled columns."""
+        """Return the pose after a step, which is a vector over the columns."""
         n = len(self.plain)
         turns = [_times(_turn(step[n + 3 * k : n + 3 * k + 3]), q) for k, q in enumerate(pose.turns)]
         return Pose(pose.plain + self.scales * step[:n], np.array(turns).reshape(-1, 4))
 
     def between(self, first: Pose, last: Pose) -> Array:
-        """The step from one pose to another."""
+        """Return the step from one pose to another."""
         back = np.array([1.0, -1.0, -1.0, -1.0])
         turns = [_vector(_times(b, a * back)) for a, b in zip(first.turns, last.turns, strict=True)]
         return np.concatenate([(last.plain - first.plain) / self.scales, *turns])
 
     def at(self, pose: Pose) -> tuple[Array, Array]:
-        """The geometric equations and their derivatives by the scaled columns, rows of length 1 where they can be."""
+        """Return (values, derivatives by the columns) of the geometric equations, normalized to rows of length 1."""
         f, j = self._gradients(pose)
         norms = np.linalg.norm(j, axis=1)
         usual = self._usual
@@ -121,7 +121,7 @@ class PoseRelations:
 
     @cached_property
     def _usual(self) -> Array:
-        """The length of each geometric equation's gradient at random poses."""
+        """The largest length of each geometric equation's gradient at random poses, 1 if it is 0."""
         rng = np.random.default_rng(1)
         lengths = np.zeros(len(self.finite))
         for _ in range(USUAL):
@@ -135,7 +135,7 @@ class PoseRelations:
         return np.where(lengths > 0, lengths, 1.0)
 
     def forms_at(self, pose: Pose) -> Array:
-        """The forms over the scaled columns, rows of length 1."""
+        """Return the forms over the columns, as rows of length 1."""
         point, vectors = self._point(pose)
         at, zero = values(self.ring, point), point.number(ex.ZERO.args[0])
         rows = [[at[form[s]] if s in form else zero for s in self.symbols] for form in self.forms]
@@ -144,7 +144,7 @@ class PoseRelations:
         return j / np.where(norms > FLAT, norms, 1.0)[:, None]
 
     def margins(self, pose: Pose) -> list[float]:
-        """Return the values of the inequalities at a pose, negative where one is violated; none if one has no value."""
+        """Return the values of the limits at a pose, negative if one is violated; empty if one has no value."""
         try:
             at = values(self.limiting, self._point(pose)[0])
         except FAULTS:
@@ -152,7 +152,7 @@ class PoseRelations:
         return [_middle(at[n]) for n in self.limits]
 
     def axis(self, name: str, pose: Pose) -> Array:
-        """The step that moves one coordinate alone; an Euler angle turns its body about that angle's own axis."""
+        """Return the step that moves only the coordinate ``name``; for an Euler angle a rotation about its axis."""
         step = np.zeros(self.columns)
         if name in self.names:
             step[self.names.index(name)] = 1.0
@@ -166,17 +166,18 @@ class PoseRelations:
         return step
 
     def step_of(self, rates: Mapping[Expr, float]) -> Array:
-        """Return the step in scaled columns that changes symbols so fast, with rotations as in the reference."""
+        """Return the step over the columns with these rates of symbols, for rotations as in the reference."""
         plain = np.array([rates.get(s, 0.0) for s in self.plain]) / self.scales
         turns = [2 * rates.get(ex.coordinate(n), 0.0) for r in self.rotations for n in r.names]
         return np.concatenate([plain, turns])
 
     def same(self, pose: Pose, near: Pose) -> Pose:
-        """``pose`` with full turns added to the angles, so as to be near another."""
+        """Return ``pose`` with full turns added to its angles, so that they are close to those of ``near``."""
         turns = np.where(self.angles, np.round((near.plain - pose.plain) / (2 * math.pi)), 0.0)
         return Pose(pose.plain + 2 * math.pi * turns, pose.turns)
 
     def _point(self, pose: Pose) -> tuple[Any, list[Any]]:
+        """Return (point of evaluation, Gibbs vectors), as balls if a rotation is close to half a turn."""
         symbols: dict[Expr, Any] = {**self.constants, **dict(zip(self.plain, map(float, pose.plain), strict=True))}
         exact = bool(len(pose.turns)) and float(np.min(np.abs(pose.turns[:, 0]))) < HALF_TURN
         vectors: list[Any] = []
@@ -188,14 +189,14 @@ class PoseRelations:
         return (BallPoint(symbols) if exact else FloatPoint(symbols)), vectors
 
     def _gradients(self, pose: Pose) -> tuple[Array, Array]:
-        """Return the values of the geometric equations and their derivatives by the scaled columns."""
+        """Return (values, derivatives by the columns) of the geometric equations."""
         point, vectors = self._point(pose)
         at, zero = values(self.ring, point), point.number(ex.ZERO.args[0])
         lines = jacobian(self.ring, at, point, self.finite, self.generators, zero)
         return np.array([_middle(at[n]) for n in self.finite]), self._by_columns(lines, vectors)
 
     def _by_columns(self, lines: Sequence[Sequence[Any]], vectors: Sequence[Sequence[Any]]) -> Array:
-        """Return rows over the symbols as rows over the scaled columns."""
+        """Return rows of derivatives by the symbols as rows of derivatives by the columns."""
         n, j = len(self.plain), np.zeros((len(lines), self.columns))
         for row, line in zip(j, lines, strict=True):
             row[:n] = [_middle(v) * s for v, s in zip(line[:n], self.scales, strict=True)]
@@ -205,7 +206,7 @@ class PoseRelations:
         return j
 
     def coordinate_values(self, pose: Pose, last: Mapping[str, float]) -> dict[str, float]:
-        """The values of all coordinates (Euler angles near those returned ``last``), and of time where it occurs."""
+        """Return {coordinate: value}, with t if it occurs; Euler angles near those of ``last``."""
         coordinates = {str(s.args[1]): float(v) for s, v in zip(self.plain, pose.plain, strict=True) if s != ex.TIME}
         for r, q in zip(self.rotations, pose.turns, strict=True):
             initial = [number(e) for e in r.initial]
@@ -221,32 +222,34 @@ def _middle(value: Any) -> float:
 
 
 def number(e: Expr, symbols: Mapping[Expr, float] | None = None) -> float:
-    """The value of an expression in known symbols."""
+    """Return the value of an expression at the values of its symbols."""
     ring = Ring([e])
     node = ring.node(e)
     return float(values(ring, FloatPoint(symbols or {}))[node])
 
 
 def _by_turn(line: Sequence[Any], g: Sequence[Any]) -> list[Any]:
-    """A covector a on dg as one on omega, (a + g x a + g (g.a)) / 2: the transpose of omega -> dg."""
+    """Return the covector a on dg as a covector on omega, (a + g x a + g (g.a)) / 2."""
     a, along = line, sum((x * y for x, y in zip(line, g, strict=True)), line[0] * 0)
     cross = [g[1] * a[2] - g[2] * a[1], g[2] * a[0] - g[0] * a[2], g[0] * a[1] - g[1] * a[0]]
     return [(a[i] + cross[i] + g[i] * along) / 2 for i in range(3)]
 
 
 def _turn(omega: Array) -> Array:
+    """Return the unit quaternion of a rotation vector."""
     half = math.hypot(*omega) / 2
     return np.array([math.cos(half), *((math.sin(half) / half if half else 1.0) / 2 * omega)])
 
 
 def _vector(q: Array) -> Array:
-    """The turn by less than half a circle that a quaternion stands for."""
+    """Return the rotation vector, of at most half a turn, of a unit quaternion."""
     q = q if q[0] >= 0 else -q
     size = float(np.linalg.norm(q[1:]))
     return q[1:] * (2.0 if size < 1e-12 else 2 * math.atan2(size, float(q[0])) / size)
 
 
 def _times(p: Array, q: Array) -> Array:
+    """Return the product of two quaternions, normalized."""
     (a, b, c, d), (w, x, y, z) = map(float, p), map(float, q)
     product = (
         a * w - b * x - c * y - d * z,
@@ -258,26 +261,26 @@ def _times(p: Array, q: Array) -> Array:
 
 
 def matrix_of(q: Array) -> Array:
-    """Return the rotation that a unit quaternion stands for."""
+    """Return the rotation matrix of a unit quaternion."""
     w, v = q[0], q[1:]
     cross = np.array([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
     return np.asarray(np.eye(3) + 2 * w * cross + 2 * cross @ cross)
 
 
 def from_euler(phi: float, theta: float, psi: float) -> Array:
-    """Return the rotation by z-x-z Euler angles."""
+    """Return the rotation matrix of z-x-z Euler angles."""
     return about(2, phi) @ about(0, theta) @ about(2, psi)
 
 
 def about(axis: int, angle: float) -> Array:
-    """Return the rotation about a coordinate axis."""
+    """Return the rotation matrix about a coordinate axis (0, 1 or 2)."""
     q = np.zeros(4)
     q[0], q[1 + axis] = math.cos(angle / 2), math.sin(angle / 2)
     return matrix_of(q)
 
 
 def euler_angles(r: Array, last: Sequence[float]) -> list[float]:
-    """z-x-z Euler angles; where z stays upright phi is as it was. Full turns are added to stay near ``last``."""
+    """Return the z-x-z Euler angles of a rotation near ``last``; if its z axis is vertical, phi is that of ``last``."""
     theta = math.atan2(math.hypot(r[0, 2], r[1, 2]), r[2, 2])
     if math.hypot(r[0, 2], r[1, 2]) < 1e-9:
         up = 1.0 if r[2, 2] > 0 else -1.0

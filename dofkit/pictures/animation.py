@@ -45,7 +45,7 @@ class Animation(DrawnSketch):
         return page_html(self.sketch, self.clips, self.program, self.switches)
 
     def pages(self) -> Iterator[Page]:
-        """Yield every frame on paper, one motion after another; a motion that is not closed goes there and back."""
+        """Yield every frame as a page, motion after motion; one that is not closed is also played backwards."""
         standpoint = self._standpoint
         if not self.clips:
             yield page_of(self.sketch)
@@ -57,7 +57,7 @@ class Animation(DrawnSketch):
 
     @property
     def page(self) -> Page:
-        """The end of the first motion, in its largest size, on paper, with the paths that lead there."""
+        """The last frame of the first motion (of a loop the largest) as a page, with the traced paths."""
         if not self.clips:
             return page_of(self.sketch)
         clip = [clip for clip in self.clips if clip.name == self.clips[0].name][-1]
@@ -74,7 +74,7 @@ class Animation(DrawnSketch):
         return page_of(sketch, clip.frames[number], standpoint)
 
     def writers(self) -> Mapping[str, Writer]:
-        """Return what writes a file of each ending: pictures of its end, pages and films."""
+        """Return {file extension: function that writes the file}."""
         return {**super().writers(), "gif": partial(_write_gif, self), "mp4": partial(_write_mp4, self)}
 
     def _repr_html_(self) -> str:
@@ -82,15 +82,15 @@ class Animation(DrawnSketch):
 
 
 def animate(scene: SceneLike, report: Report | None = None, *, loop: bool = False) -> Animation:
-    """Return a moving picture of a scene: a free velocities in turn, as finite motions where they were followed.
+    """Return a moving picture of a scene: its free velocities in turn, as finite motions where they could be followed.
 
     Parameters
     ----------
     scene, report
         As for `draw`.
     loop
-        Whether free coordinates go round a closed loop instead, in pairs: non-holonomic constraints let the others end
-        displaced, by about what the bracket of the two directions predicts.
+        Whether pairs of free coordinates move around a closed loop instead: with non-holonomic constraints the other
+        coordinates end displaced, by about what the bracket of the two directions predicts.
 
     Returns
     -------
@@ -131,6 +131,7 @@ def animate(scene: SceneLike, report: Report | None = None, *, loop: bool = Fals
 
 
 def _write_film(animation: Animation, path: Path, writer: Any) -> None:
+    """Write all frames by a matplotlib movie ``writer``."""
     pages = animation.pages()
     figure = figure_of(next(pages))
     axes = figure.axes[0]

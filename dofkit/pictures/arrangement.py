@@ -1,6 +1,6 @@
-"""Where everything stands, and what can move from there; for pictures only.
+"""Positions of bodies and particles, and the infinitesimal motions there; for pictures only.
 
-The positions are those of the reference configuration, or some that satisfy the holonomic equations.
+The positions are those of the reference configuration, or else some that satisfy the holonomic equations.
 """
 
 from __future__ import annotations
@@ -26,13 +26,13 @@ from dofkit.system import GROUND, PARTICLE_ROLES, Rotation, System
 
 #: Rounds of Newton's method, the residual that counts as 0, and the number of starting points.
 ROUNDS, MET, STARTS = 60, 1e-9, 8
-#: The angle between points that are spread over a sphere from below.
+#: The angle between successive points of a spiral that spreads points over a sphere.
 GOLDEN = math.pi * (3 - math.sqrt(5))
-#: The time at which a scene is drawn whose equations contain it, if no reference says where it begins.
+#: The time at which a scene is drawn if its equations contain time and there is no reference.
 MOMENT = 0.5
-#: More coordinates than this are not moved onto the equations.
+#: The most coordinates for which positions are computed from the equations.
 MOST_COORDINATES = 400
-#: The least velocity, of a unit velocity, that counts as motion.
+#: The least displacement that counts as motion, relative to the step.
 MOVES = 1e-5
 EXAMPLES = "The scene gives no positions: those drawn are examples."
 CHOSEN = "The scene gives no positions: those drawn were chosen to satisfy its constraints."
@@ -41,7 +41,7 @@ SCHEMATIC = "Schematic: no positions were found that satisfy all constraints."
 
 @dataclass(frozen=True)
 class Arrangement:
-    """Numbers for all symbols of a system; ``note`` says where they come from, ``met`` whether they satisfy it."""
+    """Numbers for all symbols of a system; ``note`` says where they come from, ``met`` whether the equations hold."""
 
     system: System
     numbers: Mapping[Expr, float]
@@ -51,11 +51,11 @@ class Arrangement:
 
     @cached_property
     def poses(self) -> dict[str, Displacement]:
-        """Where every carrier is."""
+        """The displacement of every carrier (body, particle or placed shape)."""
         return self.poses_at(self.numbers, gibbs=True)
 
     def poses_at(self, numbers: Mapping[Expr, float], *, gibbs: bool) -> dict[str, Displacement]:
-        """Return where every carrier is at some numbers; ``gibbs``: rotations are in the system's own charts."""
+        """Return the displacement of every carrier; ``gibbs``: rotations in ``numbers`` are in the system's charts."""
         poses = {GROUND: AT_REST, **_spatial_poses(self.system, numbers, gibbs)}
         values = dict(numbers)
         for r in (r for r in self.system.rotations if gibbs and r.chart == "gibbs"):
@@ -68,13 +68,13 @@ class Arrangement:
         return {name: placement for name, placement in self.placements.items() if placement.moves}
 
     def along(self, path: Iterable[Mapping[str, float]]) -> Iterator[dict[Expr, float]]:
-        """Yield the numbers at some configurations, which have the Euler angles of bodies in space."""
+        """Yield the numbers of all symbols at configurations, which have Euler angles for spatial bodies."""
         for q in path:
             yield {**self.numbers, **{TIME if n == TIME.args[1] else coordinate(n): v for n, v in q.items()}}
 
     @property
     def first_values(self) -> dict[str, float]:
-        """The values of parameters, and of coordinates without a reference, at which a motion begins."""
+        """{name: value} at which a motion begins: of parameters, and without a reference of t and coordinates."""
         values = {p: self.numbers[parameter(p)] for p in (*self.system.parameters, *self.system.generic)}
         if self.system.reference is None:
             values["t"] = self.numbers[TIME]
@@ -84,7 +84,7 @@ class Arrangement:
         return values
 
     def number(self, e: Expr) -> float:
-        """Return the value of an expression."""
+        """Return the value of an expression, 0 if it has none."""
         value = float(evaluated(e, self.numbers))
         return value if math.isfinite(value) else 0.0
 
@@ -94,13 +94,13 @@ class Arrangement:
 
 
 def geometric_equations(system: System, senses: Sequence[str] = ("=",)) -> list[Expr]:
-    """Return the relations between coordinates alone, of some senses."""
+    """Return the relations of the given senses in which no velocities occur."""
     relations = (r for c in system.constraints for r in c.relations if r.sense in senses)
     return [r.expr for r in relations if all(s.args[0] in ("coordinate", "parameter", "time") for s in r.expr.symbols)]
 
 
 def arrangement_of(system: System) -> Arrangement:
-    """Return the reference configuration, else positions that satisfy the equations, else a schematic."""
+    """Return the reference configuration, else positions that satisfy the equations, else schematic positions."""
     numbers: dict[Expr, float] = {parameter(p): 1.0 for p in (*system.parameters, *system.generic)}
     equations = (r.expr for c in system.constraints for r in c.relations if r.sense == "=")
     driven = system.reference is None and any(TIME in e.symbols for e in equations)
@@ -145,13 +145,13 @@ def onto(system: System, numbers: Mapping[Expr, float]) -> dict[Expr, float] | N
 
 
 def _start(system: System, numbers: Mapping[Expr, float], seed: int) -> dict[Expr, float]:
-    """Return starting values: particles hang in a chain or stand as their links say; all others are a little off 0."""
+    """Return starting values of coordinates: particles by their links, others near 0; random for ``seed`` > 0."""
     rng = np.random.default_rng(seed)
     values = {coordinate(c.name): 0.6 - 0.2 * (k % 3) for k, c in enumerate(system.coordinates) if c.owner is None}
     for r in system.rotations:
         if r.chart == "euler":
             values |= {coordinate(n): a for n, a in zip(r.names, (0.4, 0.7, 0.2), strict=True)}
-    for name, position in _spots(system, numbers).items():
+    for name, position in _initial_positions(system, numbers).items():
         names = [c.name for c in system.coordinates if c.owner == name]
         values |= {coordinate(n): float(v) for n, v in zip(names, position, strict=False)}
     if seed:
@@ -159,8 +159,8 @@ def _start(system: System, numbers: Mapping[Expr, float], seed: int) -> dict[Exp
     return values
 
 
-def _spots(system: System, numbers: Mapping[Expr, float]) -> dict[str, Array]:
-    """Return positions for particles that have none."""
+def _initial_positions(system: System, numbers: Mapping[Expr, float]) -> dict[str, Array]:
+    """Return {particle: starting position}: hanging chains, or the links as a graph spread by springs."""
     d = len(PARTICLE_ROLES[system.dimension])
     graph, fixed = _links(system)
     if not system.particles:
@@ -185,7 +185,7 @@ def _spots(system: System, numbers: Mapping[Expr, float]) -> dict[str, Array]:
 
 
 def _lone(system: System, numbers: Mapping[Expr, float], d: int) -> Array:
-    """Return a position for a single particle: low, unless its equations are nearer to the same place above."""
+    """Return a position for a single particle: below the origin, unless the equations are satisfied nearer above it."""
     up = np.array([0.9, 0.7, 0.8])[:d]
     down = up * np.where(np.arange(d) == d - 1, -1.0, 1.0)
     symbols = [coordinate(c.name) for c in system.coordinates if c.owner == system.particles[0]]
@@ -198,7 +198,7 @@ def _lone(system: System, numbers: Mapping[Expr, float], d: int) -> Array:
 
 
 def _links(system: System) -> tuple[nx.Graph, dict[str, list[float]]]:
-    """Return the graph of particles and fixed points that constraints connect, and where the fixed ones are."""
+    """Return (graph of particles and fixed points, {fixed point: position}), with an edge for each link."""
     graph = nx.Graph()
     graph.add_nodes_from(system.particles)
     fixed: dict[str, list[float]] = {}
@@ -232,7 +232,7 @@ def _hanging(graph: nx.Graph, fixed: Mapping[str, Sequence[float]], d: int) -> d
 
 
 def _spatial_poses(system: System, numbers: Mapping[Expr, float], gibbs: bool) -> dict[str, Displacement]:
-    """Return how each body in space is displaced from its start; ``gibbs``: rotations are in the system's charts."""
+    """Return {spatial body: displacement from the reference}; ``gibbs``: rotations are in the system's charts."""
     poses = {}
     for r in system.rotations:
         at = np.array([numbers.get(coordinate(c.name), 0.0) for c in system.coordinates if c.owner == r.body])
@@ -255,7 +255,7 @@ def _initial(rotation: Rotation, numbers: Mapping[Expr, float]) -> Array:
 
 
 class FreeMotion(NamedTuple):
-    """A velocity that the constraints allow: ``rates`` of symbols; the ``symbol`` that it moves alone, and its name."""
+    """An admissible velocity: the ``rates`` of all symbols; ``symbol``: the one that moves in no other free motion."""
 
     name: str
     symbol: Expr
@@ -265,8 +265,8 @@ class FreeMotion(NamedTuple):
 def free_motions(arrangement: Arrangement, chosen: Sequence[str] = (), freedom: int | None = None) -> list[FreeMotion]:
     """Return independent infinitesimal motions; each moves one coordinate alone, of those ``chosen`` if possible.
 
-    ``freedom``: their number, if it is known and time does not occur. If time occurs, the first of them follows it:
-    what is driven moves with it.
+    ``freedom``: their number, if it is known and time does not occur. If time occurs, it advances in the first motion,
+    and driven parts move.
     """
     rows, columns = velocity_rows(arrangement.system, arrangement.numbers)
     timed = columns[-1:] == [TIME]
@@ -290,7 +290,7 @@ def free_motions(arrangement: Arrangement, chosen: Sequence[str] = (), freedom: 
 
 
 def velocity_rows(system: System, numbers: Mapping[Expr, float]) -> tuple[Array, list[Expr]]:
-    """Return linear equations of the velocities, and their columns: coordinates, then time if it occurs."""
+    """Return (rows of the linear equations of velocities, columns: coordinates, then time if it occurs)."""
     columns = [coordinate(c.name) for c in system.coordinates]
     finite = geometric_equations(system)
     others = [r.expr for c in system.constraints for r in c.relations if r.sense == "=" and r.expr not in set(finite)]

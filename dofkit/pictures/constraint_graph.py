@@ -1,4 +1,4 @@
-"""The constraint graph: redundant constraints are marked, and circuits highlighted when one is pointed at."""
+"""The constraint graph: redundant constraints are marked, and circuits are highlighted under the pointer."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ from dofkit.report import Report
 from dofkit.scene.scene import Scene
 from dofkit.system import GROUND, System
 
-#: More nodes than this are put on circles instead of being spread by springs; more than the second have no names.
+#: The most nodes that are spread by springs (more are put on a circle), and the most nodes with names.
 MOST_SPREAD, MOST_NAMES = 450, 90
-#: The number of circuits that stand below, and of the members of each.
+#: The most circuits in the notes, and the most members of each.
 MOST_CIRCUITS, MOST_MEMBERS = 3, 12
 WHAT = "Constraint graph: dots are bodies, particles and coordinates; boxes are constraints."
 #: ("thing", name of a body, particle or coordinate), or ("constraint", name).
@@ -26,9 +26,9 @@ Node = tuple[str, str]
 
 
 def graph_sketch(scene: Scene, system: System, report: Report, reason: str | None = None) -> Sketch:
-    """Return the graph of a scene: carriers as dots, constraints as boxes, a line to all that each mentions."""
+    """Return the sketch of the constraint graph: carriers (dots), constraints (boxes), lines to what each mentions."""
     graph = constraint_graph(system)
-    positions = _spots(graph)
+    positions = _positions_of(graph)
     unit = 0.16 / max(1.0, (len(graph) / 14) ** 0.5)
     shapes: list[Shape] = []
     for first, second in graph.edges:
@@ -53,7 +53,7 @@ def graph_sketch(scene: Scene, system: System, report: Report, reason: str | Non
 
 
 def constraint_graph(system: System) -> nx.Graph:
-    """Return carriers, free coordinates and the ground, joined to the constraints that mention them."""
+    """Return the graph with an edge from each constraint to the carriers and free coordinates that it mentions."""
     graph = nx.Graph()
     graph.add_nodes_from(("thing", n) for n in (*system.bodies, *system.particles))
     graph.add_nodes_from(("thing", c.name) for c in system.coordinates if c.owner is None)
@@ -65,7 +65,7 @@ def constraint_graph(system: System) -> nx.Graph:
     return graph
 
 
-def _spots(graph: nx.Graph) -> dict[Node, Place]:
+def _positions_of(graph: nx.Graph) -> dict[Node, Place]:
     if len(graph) > MOST_SPREAD:
         laid = nx.circular_layout(graph)
     elif len(graph) < 3:
@@ -89,7 +89,7 @@ def _node(report: Report, node: Node, position: Place, unit: float, named: bool)
 
 
 def circuits_of(report: Report) -> Mapping[str, list[str]]:
-    """Return each redundant constraint with those that it depends on."""
+    """Return {redundant constraint: it and the constraints that it depends on}."""
     return {entry.name: [entry.name, *entry.circuit] for entry in report.constraints if entry.circuit}
 
 

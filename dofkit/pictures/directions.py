@@ -1,4 +1,4 @@
-"""Scenes of coordinates alone: their axes, the directions that constraints allow, and those that brackets add."""
+"""Scenes of coordinates only: their axes, the directions that constraints allow, and those that brackets add."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ from dofkit.pictures.words import alternative, answer, sure
 from dofkit.report import Report
 from dofkit.system import GROUND
 
-#: Elements of a field of the plane along each direction, and corners of an element of space.
+#: Grid points of a planar field in each direction, and corners of a disc.
 PLANE, CORNERS = 11, 24
-#: Half of the box that is shown, the length of directions, and the step of brackets.
+#: Half the side of the box that is shown, the length of directions, and the step of difference quotients in brackets.
 HALF, LONG, STEP = 1.2, 0.75, 1e-3
 #: The least sine of the angle of a new direction, and the depth of brackets.
 NEW, DEEPEST = 2e-2, 4
@@ -32,7 +32,7 @@ NOT_REGULAR = "the directions allowed at this configuration are no smooth fields
 
 
 class NoFormsError(DofkitError):
-    """A picture of directions was asked of a scene without differential constraints, or with one coordinate."""
+    """A scene has no directions to show, such as without differential constraints or with one coordinate."""
 
 
 class Direction3(NamedTuple):
@@ -44,10 +44,10 @@ class Direction3(NamedTuple):
 
 
 class Distribution:
-    """The directions that all constraints allow at a point, as smooth vector fields near one.
+    """The directions that all constraints allow, as smooth vector fields near the configuration of the scene.
 
-    ``names`` are the coordinates, in order. ``fields`` is the number of independent fields there. ``timed``: whether
-    time occurs; it is fixed.
+    ``names``: the coordinates in order; ``fields``: the number of independent fields; ``timed``: whether time occurs,
+    which is fixed.
     """
 
     def __init__(self, arrangement: Arrangement) -> None:
@@ -61,7 +61,7 @@ class Distribution:
         self.fields = len(basis)
 
     def values(self, q: Array) -> Mapping[Expr, float]:
-        """Return all numbers, with the coordinates at q."""
+        """Return the numbers of all symbols, with the coordinates q."""
         return {**self.arrangement.numbers, **dict(zip(self.symbols, map(float, q), strict=True))}
 
     def basis(self, q: Array) -> Array:
@@ -73,7 +73,7 @@ class Distribution:
     def at(self, q: Array) -> Array:
         """Return the vector fields at q: each moves one of the pivots at unit speed and no other pivot.
 
-        Raises LinAlgError where there are none such.
+        Raises LinAlgError if there are no such fields.
         """
         return fields_of_pivots(self.basis(q), self.pivots)
 
@@ -111,7 +111,10 @@ def elements(distribution: Distribution, half: float) -> Iterator[Shape]:
 
 
 def phase_sketch(stage: StagedScene) -> Sketch:
-    """Return the admissible directions of a scene's forms about its configuration, and what their brackets add."""
+    """Return the sketch of the admissible directions at a scene's configuration, and of those that brackets add.
+
+    With two coordinates, the directions are also shown over a grid. Raises NoFormsError if there is nothing to show.
+    """
     report, system = stage.report, stage.system
     if len(system.coordinates) < 2 or not any(e.form in ("pfaffian", "nonlinear") for e in report.constraints):
         raise NoFormsError("a picture of directions needs differential constraints and at least two coordinates")
@@ -128,12 +131,12 @@ def phase_sketch(stage: StagedScene) -> Sketch:
     shapes = [*elements(distribution, HALF)] if len(distribution.names) == 2 else []
     shapes += [*_at_start(distribution, directions, chosen)]
     names = [distribution.names[k] for k in chosen]
-    axes = f"hown: {', '.join(names)}."
+    axes = f"Shown: {', '.join(names)}."
     if len(names) < len(distribution.names):
         axes += f" Not shown: {', '.join(n for n in distribution.names if n not in names)}."
     if distribution.timed:
         axes += " Time is fixed."
-    note = f"{_growth(report, directions)}; s{axes}"
+    note = f"{_growth(report, directions)}; {axes[0].lower()}{axes[1:]}"
     return Sketch(
         title=f"{stage.title}: directions",
         dimension=max(2, len(chosen)),
@@ -141,14 +144,14 @@ def phase_sketch(stage: StagedScene) -> Sketch:
         poses={GROUND: AT_REST},
         size=2 * HALF,
         answer=answer(report),
-        alternative=f"{alternative(stage.scene, report)} {note if report.growth_vector is None else f'S{axes}'}",
+        alternative=f"{alternative(stage.scene, report)} {note if report.growth_vector is None else axes}",
         notes=(note, *(f"{d.name}: {_vector(distribution, d)}" for d in directions[:4]), *notes_of(stage)),
         axes=tuple(names),
     )
 
 
 def _growth(report: Report, directions: Sequence[Direction3]) -> str:
-    """Return the report's growth vector, or what the brackets at this point make likely."""
+    """Return a text with the report's growth vector, or with the one that the brackets at this point suggest."""
     if report.growth_vector is not None:
         return f"Growth vector ({', '.join(map(str, report.growth_vector))}){sure(report, 'growth_vector')}"
     depth = max(d.order for d in directions)
@@ -189,7 +192,7 @@ def directions_of(distribution: Distribution) -> list[Direction3]:
 
 
 def _adds(directions: Sequence[Direction3], vector: Array) -> bool:
-    """Return whether a vector is clear of what is spanned already."""
+    """Return whether a vector is clearly independent of the directions."""
     size = float(np.linalg.norm(vector))
     if size < NEW or not np.isfinite(size):
         return False
@@ -198,7 +201,7 @@ def _adds(directions: Sequence[Direction3], vector: Array) -> bool:
 
 
 def _chosen(distribution: Distribution, directions: Sequence[Direction3]) -> list[int]:
-    """Return up to three coordinates: those that the directions depend on or that brackets move, then the first."""
+    """Return up to three coordinate numbers: those the directions depend on or brackets move, then the first ones."""
     count = len(distribution.names)
     if count <= 3:
         return list(range(count))
@@ -219,7 +222,7 @@ def _chosen(distribution: Distribution, directions: Sequence[Direction3]) -> lis
 
 
 def _at_start(distribution: Distribution, directions: Sequence[Direction3], chosen: Sequence[int]) -> Iterator[Shape]:
-    """Yield what is admissible at the configuration, large; and each new direction of a bracket as an arrow."""
+    """Yield the large symbol of the admissible directions at the configuration, and an arrow for each direction."""
     start = distribution.start[list(chosen)]
     admissible = np.array([d.vector[list(chosen)] for d in directions if d.order == 1])
     yield from element(start, admissible, 0.55 * LONG)
@@ -235,11 +238,11 @@ def _at_start(distribution: Distribution, directions: Sequence[Direction3], chos
         yield Shape("words", fixed(tip), "name", owner=direction.name, text=direction.name)
 
 
-# scenes of two or three coordinates
+# Scenes of two or three coordinates
 
 
 def coordinate_sketch(stage: StagedScene) -> Sketch:
-    """Return the sketch of a particle whose position are the coordinates, with the axes."""
+    """Return the sketch of a scene of coordinates as a particle at this position, with the axes."""
     sketch = sketch_of(stage)
     shapes = (*_axes(stage), *_field(stage), *sketch.shapes)
     return replace(sketch, shapes=shapes, axes=(), alternative=f"{sketch.alternative} The axes are the coordinates.")

@@ -1,4 +1,4 @@
-"""Expressions in floating point over whole grids at once, their derivatives and null spaces; for pictures only.
+"""Expressions in floating point on arrays, their derivatives and null spaces; for pictures only.
 
 An unknown function is drawn as an example: a rising wave for each argument.
 """
@@ -24,14 +24,14 @@ _FUNCTIONS: Mapping[str, Callable[..., Array]] = {
     "cot": lambda u: 1.0 / np.tan(u), "sec": lambda u: 1.0 / np.cos(u), "csc": lambda u: 1.0 / np.sin(u),
     "atan2": np.arctan2,
 }  # fmt: skip
-#: Values of symbols that are not given: parameters are 1, all others 0.
+#: Values of kinds of symbols that are not given; all other kinds are 0.
 _DEFAULT = {"parameter": 1.0}
-#: The step of derivatives, and the singular value (of rows of length 1) that counts as 0.
+#: The step of difference quotients, and the largest singular value (of rows of length 1) that counts as 0.
 STEP, SMALL = 1e-6, 1e-5
 
 
 def evaluated(e: Expr, values: Values, memo: dict[Expr, Array] | None = None) -> Array:
-    """Return the value of an expression; ``nan`` where it has none."""
+    """Return the values of an expression as an array, ``nan`` where it has none; ``memo`` keeps those of its nodes."""
     memo = {} if memo is None else memo
     if e not in memo:
         with np.errstate(all="ignore"):
@@ -59,9 +59,9 @@ def _value(e: Expr, values: Values, memo: dict[Expr, Array]) -> Array | float:
 
 
 def example_of(call: Expr) -> Expr:
-    """Return what is drawn for an unknown function or its derivative: sums of u/2 + 0.4 sin(w u + p).
+    """Return the example for an unknown function: the sum of u/2 + 0.4 sin(w u + p) over its arguments u.
 
-    The sum is over its arguments u; the phase p comes from its name.
+    A derivative of the function gives that of the example; the phase p comes from the name.
     """
     name, orders, arguments = call.args
     phase = num(Fraction(7 * (sum(map(ord, name)) % 9), 10))
@@ -76,7 +76,7 @@ def example_of(call: Expr) -> Expr:
 
 
 def with_examples(e: Expr) -> Expr:
-    """Return an expression with what is drawn for unknown functions in their place."""
+    """Return an expression with examples instead of its unknown functions."""
     memo: dict[Expr, Expr] = {}
     for node in nodes(e):
         new = rebuild(node, tuple(memo[child] for child in children(node)))
@@ -85,7 +85,7 @@ def with_examples(e: Expr) -> Expr:
 
 
 def exemplified(system: System) -> System:
-    """Return a system in whose relations what is drawn stands in the place of unknown functions."""
+    """Return a system with examples instead of its unknown functions."""
     if not system.functions:
         return system
     constraints = tuple(
@@ -96,7 +96,7 @@ def exemplified(system: System) -> System:
 
 
 def values_at(exprs: Sequence[Expr], values: Values) -> Array:
-    """Return the values of some expressions, a row for each."""
+    """Return the values of expressions, one row for each."""
     memo: dict[Expr, Array] = {}
     rows = [evaluated(e, values, memo) for e in exprs]
     shape = np.broadcast_shapes(*(row.shape for row in rows)) if rows else ()
@@ -104,7 +104,7 @@ def values_at(exprs: Sequence[Expr], values: Values) -> Array:
 
 
 def derivatives(exprs: Sequence[Expr], by: Sequence[Expr], values: Values) -> Array:
-    """Return their derivatives by some symbols, a row for each expression, by central differences."""
+    """Return the derivatives of expressions by the symbols ``by``, one row for each, by central differences."""
     half = len(by)
     if not exprs or not by:
         return np.zeros((len(exprs), half))
@@ -123,7 +123,7 @@ def with_unit_rows(rows: Array) -> Array:
 
 
 def kernel(rows: Array, columns: int, dimension: int | None = None) -> Array:
-    """Return a basis of the null space as rows; ``dimension``: its dimension, if that is known from elsewhere."""
+    """Return a basis of the null space as rows; ``dimension``: its dimension, if it is known."""
     if not rows.size:
         return np.eye(columns)
     _, singular, right = np.linalg.svd(with_unit_rows(rows))

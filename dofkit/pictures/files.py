@@ -19,13 +19,13 @@ from dofkit.base.wording import format_of_path
 from dofkit.pictures.paper import Mark, Page, Spot
 from dofkit.pictures.shapes import ON_DARK, Sketch
 
-#: The class of everything that is drawn, for its style.
+#: The CSS class of all pictures.
 CLASS = "dofkit-picture"
 FONT = "DejaVu Sans, Verdana, Arial, sans-serif"
 #: Dots per inch of still pictures.
 DOTS = 160
 NO_MATPLOTLIB = "{} needs matplotlib: pip install 'dofkit[pictures]'"
-#: Typesetters that do not know the colours of style sheets would take them for black: they pass over this.
+#: A condition by which programs that do not know ``light-dark`` ignore the rules (they would paint black).
 _AS_MODERN = "@supports (color:light-dark(#fff,#000))"
 _COLOUR = re.compile('(fill|stroke)="(#[0-9A-F]{6})"')
 _HATCH = (
@@ -35,7 +35,7 @@ _HATCH = (
 
 
 class ExtraMissingError(DofkitError):
-    """What was asked needs a package that is not installed; the message says which to install."""
+    """A package or program that is needed is not installed; the message says which."""
 
 
 Writer = Callable[[Path], object]
@@ -43,7 +43,7 @@ Writer = Callable[[Path], object]
 
 @dataclass(frozen=True)
 class DrawnSketch(ABC):
-    """A sketch as notebooks show it and files hold it."""
+    """The base class of pictures that notebooks show and `save` writes to files."""
 
     sketch: Sketch
 
@@ -52,26 +52,27 @@ class DrawnSketch(ABC):
 
     @property
     def alternative(self) -> str:
-        """What the picture says, in words, with the answer."""
+        """A description of the picture in words, with the answer."""
         return self.sketch.alternative
 
     @property
     @abstractmethod
     def page(self) -> Page:
-        """The picture on paper."""
+        """The picture as a page of marks."""
 
     @abstractmethod
     def html(self) -> str:
-        """Return a page that needs no network."""
+        """Return an HTML page that needs no network."""
 
     def svg(self) -> str:
         """Return the picture as the text of an SVG."""
         return svg_of(self.page)
 
     def save(self, path: str | Path) -> Path:
-        """Write a file by the path's ending, and return the path: svg, png, pdf or html, of a motion also gif or mp4.
+        """Write a file whose format is the path's extension (svg, png, pdf, html, gif, mp4), and return the path.
 
-        Raises ArgumentError for any other ending, ExtraMissingError if matplotlib or ffmpeg is missing, OSError.
+        Only motions can be films (gif, mp4). Raises ArgumentError for any other extension, ExtraMissingError if
+        matplotlib or ffmpeg is missing, OSError.
         """
         target = Path(path)
         writers = self.writers()
@@ -79,7 +80,7 @@ class DrawnSketch(ABC):
         return target
 
     def writers(self) -> Mapping[str, Writer]:
-        """Return what writes a file of each ending."""
+        """Return {file extension: function that writes the file}."""
         return {
             "svg": lambda path: path.write_text(self.svg(), encoding="utf-8"),
             "png": lambda path: path.write_bytes(png_of(self.page)),
@@ -92,7 +93,7 @@ class DrawnSketch(ABC):
 
 
 def svg_of(page: Page, width: float | None = None, script: str = "") -> str:
-    """Return the page as an ``svg`` element, ``width`` wide on a screen (None: its own); ``script`` runs in it.
+    """Return the page as an ``svg`` element, ``width`` pixels wide (None: the page's width), with a ``script``.
 
     In a dark page its colours are those of dark paper; programs without style sheets show light paper.
     """
@@ -135,7 +136,7 @@ def _element(mark: Mark, height: float) -> str:
 
 
 def _steps(positions: Sequence[Spot], height: float) -> str:
-    """Return a first place and the steps from one place to the next, in tenths of a point, as a path has them."""
+    """Return an SVG path: the first position and the steps to the next ones, rounded to tenths of a point."""
     tenths = [(round(10 * x), round(10 * (height - y))) for x, y in positions]
     pairs = [tenths[0], *((c - a, d - b) for (a, b), (c, d) in pairwise(tenths))]
     first, *others = (f"{x / 10:g}{'' if y < 0 else ' '}{y / 10:g}" for x, y in pairs)
@@ -161,7 +162,7 @@ def has_matplotlib() -> bool:
 
 
 def require_matplotlib(what: str) -> None:
-    """Raise ExtraMissingError if matplotlib is not installed; ``what`` needs it."""
+    """Raise ExtraMissingError if matplotlib, which ``what`` needs, is not installed."""
     if not has_matplotlib():
         raise ExtraMissingError(NO_MATPLOTLIB.format(what))
 

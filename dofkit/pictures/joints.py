@@ -1,4 +1,4 @@
-"""The symbols of joints, and what constraints draw besides: bars, strings over pulleys, gears, wheels, the ground."""
+"""The symbols of joints, and further shapes of constraints: bars, strings over pulleys, gears, wheels, the ground."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ def joint_shapes(stage: StagedScene, number: int) -> Iterator[Shape]:
 
 
 def _frame(stage: StagedScene, connection: Connection) -> Array:
-    """Return the directions along the axis, across it, and across both, as rows."""
+    """Return the orthonormal directions along the axis, across it, and across both, as rows."""
     first = axis_of(stage.arrangement, connection, 0)
     if stage.flat:
         return np.array([first, [-first[1], first[0], 0.0], [0.0, 0.0, 1.0]])
@@ -80,7 +80,7 @@ def _frame(stage: StagedScene, connection: Connection) -> Array:
 
 
 def _stroke(stage: StagedScene, stroke: Stroke, carrier: str, position: Array, frame: Array) -> Shape:
-    """Return a stroke of a joint's symbol as a shape that its body carries; in the plane, one not filled is a guide."""
+    """Return a stroke of a joint's symbol as a shape on ``carrier``; in the plane an unfilled stroke is a guide."""
     role: Role = "joint" if stroke.filled or not stage.flat else "guide"
     points = [position + stage.unit * (np.array((*at, 0.0, 0.0)[:3]) @ frame) for at in stroke.positions]
     vertices = carried_by(carrier, points)
@@ -90,7 +90,7 @@ def _stroke(stage: StagedScene, stroke: Stroke, carrier: str, position: Array, f
 
 
 def with_long_guides(stage: StagedScene, sketch: Sketch, clips: Sequence[Clip]) -> Sketch:
-    """Return a sketch whose guides are as long as the motions of what slides on them."""
+    """Return the sketch with guides as long as the motions of the sliders in the clips."""
     shapes = list(sketch.shapes)
     for number, connection in enumerate(stage.system.connections):
         symbol, members = stage.symbol(number), carriers(connection)
@@ -117,7 +117,7 @@ def with_long_guides(stage: StagedScene, sketch: Sketch, clips: Sequence[Clip]) 
 
 
 def _footing(stage: StagedScene, number: int, at: Place, frame: Array) -> Iterator[Shape]:
-    """Yield what fixes a joint to the ground: hatching along a rail, or a stand under a pin."""
+    """Yield the symbol that a joint is on the ground: hatching along a rail, or a stand under a pin."""
     symbol, connection = stage.symbol(number), stage.system.connections[number]
     if symbol.rails and stage.flat:
         side = frame[1] if frame[1][1] < 0 or (frame[1][1] == 0 and frame[1][0] > 0) else -frame[1]
@@ -150,11 +150,11 @@ def stand(stage: StagedScene, at: Place) -> Iterator[Shape]:
         yield Shape("line", fixed(at, root + corner), "ground")
 
 
-# What constraints draw besides strokes
+# Further shapes of constraints
 
 
 def run_shapes(stage: StagedScene, number: int) -> Iterator[Shape]:
-    """Yield what a constraint draws besides strokes."""
+    """Yield the shapes of a constraint other than strokes, by the `run` of its symbol."""
     draw = _RUNS.get(stage.symbol(number).run)
     if draw is not None:
         name = stage.system.constraints[number].name
@@ -163,7 +163,7 @@ def run_shapes(stage: StagedScene, number: int) -> Iterator[Shape]:
 
 
 def _bar(stage: StagedScene, number: int, connection: Connection) -> Iterator[Shape]:
-    """Yield bars between its points, with a ring at each end; on a line they are bows, so that all can be seen."""
+    """Yield bars between the points of a constraint, with a ring at each end; in one dimension bows, to see all."""
     del number
     ends = list(stage.vertices(connection))
     for first, second in combinations(ends, 2):
@@ -231,7 +231,7 @@ def _toothed(radius: float, teeth: int, phase: float) -> Iterator[Array]:
 
 
 def _pin(stage: StagedScene, member: str, number: int) -> Place:
-    """Return the pin about which a body turns; else its origin."""
+    """Return the position of a pin about which a body turns; without one, the body's origin."""
     for k, other in enumerate(stage.system.connections):
         at = stage.places[k]
         if k != number and member in other.members and other.facts.axial and at is not None:
@@ -240,7 +240,7 @@ def _pin(stage: StagedScene, member: str, number: int) -> Place:
 
 
 def _wheel(stage: StagedScene, number: int, connection: Connection) -> Iterator[Shape]:
-    """Yield a disc on a hatched line; in space a ball on a plane."""
+    """Yield a rolling body: a disc on a hatched line, or in space a ball on a plane."""
     body = connection.members[0]
     radius = radius_of(stage.scene, stage.arrangement, number)
     centre = stage.origin(body)
@@ -261,7 +261,7 @@ def _wheel(stage: StagedScene, number: int, connection: Connection) -> Iterator[
 
 
 def _rim(centre: Vertex, radius: float, frame: Array) -> tuple[Vertex, ...]:
-    """Return a circle in the plane of two directions."""
+    """Return a circle around ``centre`` in the plane of the two rows of ``frame``."""
     return carried_by(centre.carrier, (np.array(centre.at) + radius * (p[:2] @ frame) for p in circle(36, closed=True)))
 
 

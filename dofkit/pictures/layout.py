@@ -11,31 +11,31 @@ import numpy as np
 from dofkit.pictures.paper import HIGH, Mark, Page, Spot, View, outline, view_of, width_of, wrapped
 from dofkit.pictures.shapes import GREY, INK, Array, Ink, Poses, Shape, Sketch, ink_of, keys_of
 
-#: The sheet in points, its margin, room for names around the picture, and sizes of texts.
+#: The sheet in points, its margin, the space for names around the picture, and sizes of texts.
 WIDTH, HEIGHT, MARGIN, ROOM = 460.0, 400.0, 14.0, 26.0
 TITLE, ANSWER, NOTE, NAME = 12.5, 10.0, 8.0, 9.0
-#: The most that a ruler takes, in points.
+#: The greatest length of a ruler, in points.
 RULER = 90.0
-#: Distances (in sizes of its text) and directions in which a name is tried.
+#: Distances (in text sizes) and number of directions at which a name is tried.
 FARS, WAYS = (0.0, 1.3, 2.2, 3.4), 12
-#: The least part of its own size that a sketch is shown as, so that a single dot is no ball.
+#: The least extent that fills the sheet, by the size of the sketch, so that a single dot is not magnified.
 LEAST = 0.55
 FAINT = Ink("#444444", layer=9)
 
 
 class PaperScale(NamedTuple):
-    """Points of the sheet per unit of length, and where the origin is."""
+    """The map to the sheet: points per unit of length (``scale``), and the position of the origin (``shift``)."""
 
     scale: float
     shift: Array
 
     def put(self, seen: Array) -> Array:
-        """Return where on the sheet a point is."""
+        """Return the position on the sheet of a point in the view."""
         return np.asarray(self.scale * seen[..., :2] + self.shift)
 
 
 class Standpoint(NamedTuple):
-    """The view of a sketch, its scale on the sheet, and the offset of each name from what it names."""
+    """The view of a sketch, its map to the sheet, and the offset of each name from its anchor."""
 
     view: View
     fit: PaperScale
@@ -43,7 +43,7 @@ class Standpoint(NamedTuple):
 
 
 class Margins(NamedTuple):
-    """What stands above and below the picture."""
+    """The marks above and below the picture, and the heights ``high`` and ``low`` between which the picture is."""
 
     above: tuple[Mark, ...]
     below: tuple[Mark, ...]
@@ -52,7 +52,7 @@ class Margins(NamedTuple):
 
 
 def standpoint_of(sketch: Sketch, every: Sequence[Poses] = ()) -> Standpoint:
-    """Return the view and scale with which a sketch stays on the sheet in ``every`` pose."""
+    """Return the view and scale with which a sketch stays on the sheet in its own and ``every`` pose."""
     view = view_of(sketch)
     fit = fit_of(sketch, view, [sketch.poses, *every])
     return Standpoint(view, fit, tuple(_offsets(sketch, view, fit)))
@@ -61,9 +61,9 @@ def standpoint_of(sketch: Sketch, every: Sequence[Poses] = ()) -> Standpoint:
 def page_of(
     sketch: Sketch, poses: Poses | None = None, standpoint: Standpoint | None = None, margins: Margins | None = None
 ) -> Page:
-    """Return a sketch on paper, with everything where ``poses`` put it (by default the sketch's own).
+    """Return a sketch as a page, in ``poses`` (by default the sketch's own).
 
-    ``margins`` are what stands around it; the sheet ends at the height of what stands above.
+    With ``margins``, which are otherwise computed, the sheet ends at the lower edge of the marks above the picture.
     """
     here = sketch.poses if poses is None else poses
     view, fit, offsets = standpoint or standpoint_of(sketch)
@@ -80,7 +80,7 @@ def page_of(
 
 
 def margins_of(sketch: Sketch) -> Margins:
-    """Return title and answer, which stand above, and legend and notes, which stand below."""
+    """Return the marks of title and answer above the picture, and of legend and notes below."""
     above, y = [], HEIGHT - MARGIN
     heads = [(line, TITLE, INK) for line in wrapped(sketch.title, TITLE, 0.88 * (WIDTH - 2 * MARGIN))]
     heads += [(line, ANSWER, FAINT.line) for line in wrapped(sketch.answer, ANSWER, WIDTH - 2 * MARGIN)]
@@ -103,7 +103,7 @@ def _text_mark(position: Spot, text: str, size: float, ink: Ink = FAINT) -> Mark
 
 
 def _legend(sketch: Sketch) -> list[list[Mark]]:
-    """Return a sample and a text for each line of the legend, in rows."""
+    """Return the legend as rows of marks, a sample and a text for each entry."""
     rows: list[list[Mark]] = [[]]
     x = MARGIN
     for ink, text in keys_of(sketch.shapes, sketch.meanings):
@@ -119,7 +119,7 @@ def _legend(sketch: Sketch) -> list[list[Mark]]:
 
 
 def fit_of(sketch: Sketch, view: View, every: Iterable[Poses]) -> PaperScale:
-    """Return the largest scale at which the sketch, wherever it moves, stays on the sheet."""
+    """Return the map to the sheet with the largest scale at which the sketch stays on it in all poses."""
     margins = margins_of(sketch)
     shapes = [s for s in sketch.shapes if s.kind != "words"]
     seen = [_box(sketch, s, poses, view) for poses in every for s in shapes]
@@ -136,7 +136,7 @@ def fit_of(sketch: Sketch, view: View, every: Iterable[Poses]) -> PaperScale:
 
 
 def _box(sketch: Sketch, shape: Shape, poses: Poses, view: View) -> Array:
-    """Return points between which a shape lies on paper."""
+    """Return points whose bounding box contains the shape in the view."""
     if shape.kind not in ("hull", "ball"):
         return outline(sketch, shape, poses, view)[:, :2]
     seen = np.array([view.seen(sketch.at(v, poses))[:2] for v in shape.vertices])
@@ -150,7 +150,7 @@ def _at_least(low: Array, high: Array, least: float) -> tuple[Array, Array]:
 
 
 def mark_of(sketch: Sketch, shape: Shape, poses: Poses, view: View, fit: PaperScale) -> Mark:
-    """Return a shape on the sheet."""
+    """Return the mark of a shape on the sheet."""
     positions = fit.put(outline(sketch, shape, poses, view))
     closed = shape.kind in ("area", "hull", "ball")
     ink = ink_of(shape)
@@ -162,7 +162,7 @@ def _spots(points: Iterable[Array]) -> tuple[Spot, ...]:
 
 
 def axes_marks(sketch: Sketch, view: View, margins: Margins) -> Iterator[Mark]:
-    """Yield the directions of the world, in a corner."""
+    """Yield the marks of the world's axes, in a corner."""
     if not sketch.axes:
         return
     long = 20.0
@@ -187,7 +187,7 @@ def axes_marks(sketch: Sketch, view: View, margins: Margins) -> Iterator[Mark]:
 
 
 def ruler_of(sketch: Sketch, fit: PaperScale) -> tuple[float, str] | None:
-    """Return a round length for the ruler, and its text; None if lengths mean nothing."""
+    """Return (round length of the ruler, its text); None if lengths in the picture mean nothing."""
     if not sketch.measurable:
         return None
     wanted = RULER / fit.scale
@@ -197,7 +197,7 @@ def ruler_of(sketch: Sketch, fit: PaperScale) -> tuple[float, str] | None:
 
 
 def _ruler_marks(sketch: Sketch, fit: PaperScale, margins: Margins) -> Iterator[Mark]:
-    """Yield the marks of a ruler, at the right below."""
+    """Yield the marks of a ruler, at the lower right."""
     ruler = ruler_of(sketch, fit)
     if ruler is None:
         return
@@ -211,7 +211,7 @@ def _ruler_marks(sketch: Sketch, fit: PaperScale, margins: Margins) -> Iterator[
 
 
 def _offsets(sketch: Sketch, view: View, fit: PaperScale) -> Iterator[Array]:
-    """Yield the offset of each name from what it names, where it covers least."""
+    """Yield the offset of each name from its anchor at which it covers least."""
     margins = margins_of(sketch)
     words = [s for s in sketch.shapes if s.kind == "words"]
     busy = _busy(sketch, sketch.poses, view, fit)
@@ -242,7 +242,7 @@ def _name_marks(sketch: Sketch, poses: Poses, view: View, fit: PaperScale, offse
 
 
 def _busy(sketch: Sketch, poses: Poses, view: View, fit: PaperScale) -> Array:
-    """Return points of all that is drawn, a few points of length apart."""
+    """Return positions on all marks but names, spaced by about five points."""
     points = [np.zeros((0, 2))]
     for shape in sketch.shapes:
         if shape.kind == "words":

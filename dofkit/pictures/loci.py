@@ -1,4 +1,4 @@
-"""Curves and surfaces of equations: what a point may reach while everything else stands still."""
+"""Curves and surfaces of equations: the positions that a point can reach while everything else is at rest."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ from dofkit.pictures.shapes import Array, Role, Shape, fixed
 from dofkit.pictures.stage import StagedScene
 from dofkit.system import Connection, Relation
 
-#: Points of a grid in the plane, and in each slice of space; slices in each direction; points of a line in the
-#: plane, and in a slice.
+#: Grid points per direction in the plane, and in a slice of space; slices per direction; the most points of a line in
+#: the plane, and in a slice.
 GRID, SLICE_GRID, SLICES, DRAWN, FEW_DRAWN = 161, 41, 6, 40, 22
-#: Steps of a curve in space to either side.
+#: The most steps of a curve in space in each direction.
 STEPS = 220
 
 
@@ -37,13 +37,12 @@ def level_lines(value: Callable[[Array, Array], Array], box: Sequence[float], co
     contours: Any = contour_generator(x, y, z, name="mpl2014")
     segments = contours.lines(0.0)[0]
     usual = float(np.median(np.abs(z.compressed())))
-    return [
-        _thinned(s, DRAWN if count == GRID else FEW_DRAWN) for s in segments if len(s) > 1 and _is_zero(value, s, usual)
-    ]
+    most = DRAWN if count == GRID else FEW_DRAWN
+    return [_thinned(s, most) for s in segments if len(s) > 1 and _is_zero(value, s, usual)]
 
 
 def _is_zero(value: Callable[[Array, Array], Array], line: Array, usual: float) -> bool:
-    """Return whether a function is small along a line, which it is not where it changes sign through a pole."""
+    """Return whether a function is small along a line, and so does not change sign there through a pole."""
     along = np.abs(np.broadcast_to(value(line[:, 0], line[:, 1]), len(line)))
     return bool(np.median(np.nan_to_num(along, nan=np.inf)) <= 0.5 * usual)
 
@@ -54,7 +53,7 @@ def _thinned(line: Array, most: int) -> Array:
 
 
 def locus(stage: StagedScene, number: int, connection: Connection) -> Iterator[Shape]:
-    """Yield the curve or surface of each relation on one carrier, and ties between the carriers of others."""
+    """Yield the curve or surface of each relation on one carrier; for relations on several, lines between them."""
     del connection
     constraint = stage.system.constraints[number]
     alone: dict[str, list[Relation]] = {}
@@ -128,7 +127,7 @@ def half_of(stage: StagedScene) -> float:
 
 
 def lines_of(arrangement: Arrangement, e: Expr, symbols: Sequence[Expr], half: float) -> Iterator[Array]:
-    """Yield lines on which an expression is 0: of two symbols curves, of three those in planes across each axis."""
+    """Yield lines on which an expression is 0: curves for two symbols, plane sections of a surface for three."""
     if len(symbols) == 2:
         yield from _slice(arrangement, e, symbols, {}, half)
         return
@@ -154,7 +153,7 @@ def _slice(
 
 
 def curve(arrangement: Arrangement, exprs: Sequence[Expr], symbols: Sequence[Expr], limit: float) -> list[Array]:
-    """Return the curve in which surfaces meet, from where the point is until it closes or leaves the picture."""
+    """Return the intersection curve of surfaces, followed from the point until it closes or leaves the picture."""
     relations = PoseRelations(arrangement.system, exprs, (), frozenset())
     relations.constants |= arrangement.numbers
     columns = [relations.plain.index(s) for s in symbols]
@@ -172,7 +171,7 @@ def curve(arrangement: Arrangement, exprs: Sequence[Expr], symbols: Sequence[Exp
 
 
 def profile(stage: StagedScene, number: int, connection: Connection) -> Iterator[Shape]:
-    """Yield the curve along which a point may slide, carried by the second member."""
+    """Yield the profile of a cam, which moves with the second member of the constraint."""
     relations = stage.system.constraints[number].relations
     vertex = next(stage.vertices(connection), None)
     if not relations or vertex is None:

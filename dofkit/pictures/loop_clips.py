@@ -1,4 +1,4 @@
-"""Loops as motions: some coordinates go round and return, and it is seen whether the others do."""
+"""Clips of loops: two coordinates move around a closed curve, and the others return or end displaced."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from dofkit.pictures.stage import StagedScene
 from dofkit.pictures.words import sure
 from dofkit.report import Report
 
-#: Radii of loops, in radians or parts of the scene's size; one frame of so many is kept; less displacement is none.
+#: Radii of loops, in radians or scene sizes; one of `EVERY` frames is kept; displacements below `CLOSED` count as 0.
 SIZES, EVERY, CLOSED = (0.25, 0.5, 0.8), 3, 1e-9
 
 
 def loop_clips(stage: StagedScene) -> tuple[list[Clip], list[str]]:
-    """Return the loops of each pair of free coordinates, in several sizes, and why others could not be followed.
+    """Return (clips of loops of pairs of free coordinates in several sizes, why others could not be followed).
 
     Raises NoMotionError if there are none.
     """
@@ -39,7 +39,7 @@ def _clip(stage: StagedScene, loop: Loop) -> Clip:
 
 
 def _words(loop: Loop) -> str:
-    """Return which coordinates return, and how far the others are displaced beside the prediction of the bracket."""
+    """Return a sentence on the displacement at the end of a loop, with the prediction of the bracket."""
     round_again = f"{' and '.join(loop.coordinates)} return"
     moved = {n: v for n, v in loop.displacement.items() if abs(v) > CLOSED}
     if not moved:
@@ -51,7 +51,7 @@ def _words(loop: Loop) -> str:
 
 
 def loop_notes(report: Report) -> Iterator[str]:
-    """Yield the growth vector, one bracket after another, and the integrals that keep their values."""
+    """Yield sentences on the growth vector, bracket by bracket, and on the integrals, which are constant."""
     vector = report.growth_vector or []
     if vector:
         added = [
@@ -67,7 +67,7 @@ def loop_notes(report: Report) -> Iterator[str]:
 
 
 def traces(sketch: Sketch, clip: Clip, frame: int) -> Iterator[Shape]:
-    """Yield the paths of traced vertices up to a frame; of a loop where it began, and at its end the displacement."""
+    """Yield the paths of traced vertices up to a frame; for a loop also its start, and at its end the displacement."""
     bodies = [s for s in sketch.shapes if clip.loop and frame and s.role in ("body", "bar") and s.state == "moving"]
     for shape in bodies:
         corners = fixed(*(sketch.at(v, clip.frames[0]) for v in shape.vertices))

@@ -1,4 +1,4 @@
-"""From a scene and its report to the sketch of a mechanism: bodies, particles, springs, all names, and notes."""
+"""The sketch of a mechanism, from a scene and its report: bodies, particles, springs, names, and notes."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ from dofkit.pictures.stage import POINT, StagedScene, axis_of, force_ends
 from dofkit.pictures.words import alternative, answer
 from dofkit.system import GROUND, System
 
-#: How far a hull reaches beyond its points, how long a stub is and the sides of a free body; in symbols.
+#: In symbol sizes: the padding of hulls (in the plane, in space), the length of a stub, half the sides of a free body.
 PAD, THIN, STUB, FREE = 0.85, 0.45, 6.0, (3.0, 1.8, 1.2)
-#: More particles, and more named constraints, than this have no names; so many equations stand below.
+#: The most particles and constraints that are named, the most equations in the notes, the most traced points.
 MOST_PARTICLES, MOST_NAMES, MOST_TEXTS, MOST_TRACED = 60, 24, 4, 8
 _WEIGHT: tuple[State, ...] = ("plain", "moving", "redundant", "conflicting")
 BY_FORM = "Drawn by the form of its constraints: an upright disc that rolls, or a knife edge."
@@ -56,7 +56,7 @@ def sketch_of(stage: StagedScene) -> Sketch:
 
 
 def _traced(stage: StagedScene, shapes: Sequence[Shape]) -> Iterator[Vertex]:
-    """Yield points that draw paths: balls; else origins of drawn shapes; else corners of hulls; else of bodies."""
+    """Yield the points whose paths are drawn: balls, else origins of placed shapes, corners of hulls, or bodies."""
     dots = [s.vertices[0] for s in shapes if s.kind == "ball" and s.vertices[0].at == (0.0, 0.0, 0.0)]
     dots = [v for v in dots if v.carrier != GROUND]
     frames = [v for s in shapes if s.role == "body" for v in s.vertices if v.carrier not in stage.system.bodies]
@@ -86,14 +86,14 @@ def _body_shapes(stage: StagedScene) -> Iterator[Shape]:
 
 
 def _shapes_body(stage: StagedScene, number: int, body: str) -> bool:
-    """Return whether a constraint draws the body itself: a wheel, a toothed one, a cam."""
+    """Return whether a constraint's shapes include the body itself: a wheel, a gear, a cam."""
     members = stage.system.connections[number].members
     run = stage.symbol(number).run
     return (run == "profile" and members[-1] == body) or (run in ("wheel", "teeth") and body in members[:2])
 
 
 def _attached(stage: StagedScene, body: str) -> list[Place]:
-    """Return the points of a body at which something is attached."""
+    """Return the points of a body at which constraints or forces are attached."""
     points: list[Place] = []
     for k, connection in enumerate(stage.system.connections):
         if body not in connection.members or stage.symbol(k).run == "teeth":
@@ -108,7 +108,7 @@ def _attached(stage: StagedScene, body: str) -> list[Place]:
 
 
 def _stub(stage: StagedScene, body: str, at: Place) -> list[Place]:
-    """Return the end of a body that is attached at one point only."""
+    """Return a second end for a body that is attached at one point only; none on a rail."""
     length, turn = STUB * stage.unit, 0.9 * stage.system.bodies.index(body)
     for k, connection in enumerate(stage.system.connections):
         if body not in connection.members or stage.places[k] is None:
@@ -126,7 +126,7 @@ def _stub(stage: StagedScene, body: str, at: Place) -> list[Place]:
 
 
 def _free_body(stage: StagedScene, body: str) -> Iterator[Shape]:
-    """Yield a body that nothing is attached to: a box with its axes."""
+    """Yield a box with axes for a body without attached points."""
     origin = stage.origin(body)
     centre, state, u = np.array(origin.at), stage.state_of_body(body), stage.unit
     half = np.array(FREE) * u
@@ -150,7 +150,7 @@ def _particle_shapes(stage: StagedScene) -> Iterator[Shape]:
 
 
 def _rail(stage: StagedScene) -> Iterator[Shape]:
-    """Yield, in one dimension, the line that everything is on."""
+    """Yield, in one dimension, the line of the motion."""
     if stage.system.dimension != 1:
         return
     poses = stage.arrangement.poses
@@ -181,7 +181,7 @@ def _names(stage: StagedScene) -> Iterator[Shape]:
 
 
 def _anchor(stage: StagedScene, number: int) -> tuple[Vertex, ...]:
-    """Return the vertices next to which the name of a constraint stands."""
+    """Return the vertices next to which the name of a constraint is written; none if it has no place."""
     connection, at = stage.system.connections[number], stage.places[number]
     run = stage.symbol(number).run
     if run in ("bar", "bars", "rope"):
@@ -197,7 +197,7 @@ def _anchor(stage: StagedScene, number: int) -> tuple[Vertex, ...]:
 
 
 def notes_of(stage: StagedScene) -> Iterator[str]:
-    """Yield what stands below a picture: where its positions come from, numbers, and the equations as written."""
+    """Yield the notes below a picture: the origin of its positions, numbers, and the equations as written."""
     if stage.unseen is not None:
         yield stage.unseen
     if stage.picture.shapes and not stage.scene.picture:

@@ -1,4 +1,4 @@
-"""The motions of a scene as clips: sampled finite ones, infinitesimal ones, and those without a constraint."""
+"""The motions of a scene as clips: sampled finite motions, infinitesimal ones, and those without some constraint."""
 
 from __future__ import annotations
 
@@ -22,19 +22,19 @@ from dofkit.scene.lowering import lower
 from dofkit.scene.scene import without
 from dofkit.system import GROUND
 
-#: Steps of a sampled motion to either side, their length, and the most frames that are kept.
+#: Steps of a sampled motion in each direction, their length, and the most frames that are kept.
 STEPS, STEP, FRAMES = 160, 0.1, 96
-#: Steps and frames of each motion if there are several, and their frames together.
+#: If there are several motions: steps and frames of each, and the most frames of all.
 SHORT, FEW, MOST_FRAMES = 25, 28, 84
-#: How far beyond the picture a motion is shown, by the picture's size; a closed one returns to within this part of it.
+#: By the picture's size: how far beyond the picture a motion is shown, and how close a closed motion returns.
 FAR, BACK = 0.5, 0.05
 #: The number of points of a sketch by which two poses are compared.
 MOST_SEEN = 60
-#: With many coordinates fewer steps are made: this many coordinates times steps, but not fewer steps than this.
+#: The most steps times coordinates, and the least number of steps.
 MANY, LEAST = 3000, 10
-#: The processor time of the finite motions.
+#: The limit of processor time for finite motions, in seconds.
 SECONDS = 12.0
-#: Frames of an infinitesimal motion to both sides, its extent by the picture's size, and its largest rotation.
+#: An infinitesimal motion: its frames, its extent by the picture's size, its largest rotation in radians.
 SWING, REACH, TURN = 9, 0.22, 0.6
 #: The number of motions, and of constraints with a switch, that are shown.
 MOST_MOTIONS, MOST_SWITCHES = 12, 8
@@ -43,14 +43,14 @@ GOES_ON = "This infinitesimal motion goes on: it was followed as a finite motion
 ENDS = "This infinitesimal motion does not go on: "
 NONE_FOUND, NO_MOTION = "no finite motion in its direction was found.", "no finite motion is possible{}."
 NOT_SAMPLED = "No finite motion was sampled: {}"
-RESTS = "Time goes on, and the coordinates rest."
+AT_REST_TEXT = "Time goes on, and the coordinates rest."
 UNCHANGED = "{} is redundant{}: without it the motion goes on unchanged."
 IMPLIED = "{} is implied by the others as long as {} in use: without it the motion goes on unchanged."
 NEEDED = "{} is needed: without it this motion is possible too (what it moves is outlined in dashes and dots)."
 
 
 class ClipMaker:
-    """The clips of a scene whose motions are seen by the points of a sketch."""
+    """Makes the clips of a scene; motions are compared by the positions of a sketch's vertices."""
 
     def __init__(self, stage: StagedScene, sketch: Sketch) -> None:
         every = dict.fromkeys(v for s in sketch.shapes if s.kind != "words" for v in s.vertices if v.carrier != GROUND)
@@ -61,22 +61,22 @@ class ClipMaker:
         self.moves = can_hold(stage.report) and bool(vertices)
 
     def clips(self) -> list[Clip]:
-        """Return finite motions where they could be followed, infinitesimal ones in the place of others, and time."""
+        """Return the clips of finite motions, infinitesimal ones where they could not be followed, and of `_time`."""
         if not self.moves:
             return []
         return [*self._motions(), *self._time()]
 
     def _time(self) -> Iterator[Clip]:
-        """Yield what only the picture shows of time: shapes that move as it goes on while the coordinates rest."""
+        """Yield a clip of shapes that depend on time, with all coordinates at rest, if no constraint mentions time."""
         arrangement = self.stage.arrangement
         written = {s for c in self.stage.system.constraints for r in c.relations for s in r.expr.symbols}
         if TIME not in written and any(p.depends_on("time") for p in arrangement.placements.values()):
             path = [{**arrangement.numbers, TIME: t} for t in np.linspace(0.0, 2 * math.pi, self.few)]
             frames = tuple(arrangement.poses_at(numbers, gibbs=True) for numbers in path)
-            yield Clip("time", frames, tuple(path), text=RESTS)
+            yield Clip("time", frames, tuple(path), text=AT_REST_TEXT)
 
     def _motions(self) -> list[Clip]:
-        """Return finite motions, or infinitesimal ones in their place."""
+        """Return the clips of finite motions, or of infinitesimal ones if none could be sampled."""
         with by_processor(SECONDS), sampling(self.stage.system):
             try:
                 sampler = MotionSampler(self.stage.system, self.stage.arrangement.first_values)
@@ -93,7 +93,7 @@ class ClipMaker:
         return min(most, max(LEAST, MANY // max(1, len(self.stage.system.coordinates))))
 
     def _in_turn(self, sampler: MotionSampler) -> Iterator[Clip]:
-        """Yield a motion of each free velocity, while the others rest."""
+        """Yield a clip for each free velocity, with the others held at 0."""
         names = _names_in_turn(self.stage.motions)
         for name, motion in zip(names, self.motions, strict=False):
             held = [other.symbol for other in self.stage.motions if other is not motion]
@@ -105,15 +105,14 @@ class ClipMaker:
             yield from clips or self._swings([motion], reason)
 
     def _free_motion(self, sampler: MotionSampler, motion: FreeMotion, held: Sequence[Expr]) -> list[dict[str, float]]:
-        """Return a motion in steps that reach the edge of the picture in half of `SHORT`, and then go on."""
+        """Return a motion with such steps that it reaches the edge of the picture in half of `SHORT` steps."""
         speed = float(np.linalg.norm(sampler.relations.step_of(motion.rates)))
         step = float(np.clip(2 * FAR / REACH * self._reach(motion) * speed / SHORT, STEP / 10, 2 * STEP))
-        return sampler.free_motion(
-            motion.rates, held, self._steps(SHORT if sampler.relations.forms else 2 * SHORT), step
-        )
+        steps = self._steps(SHORT if sampler.relations.forms else 2 * SHORT)
+        return sampler.free_motion(motion.rates, held, steps, step)
 
     def _at_singularity(self, sampler: MotionSampler) -> Iterator[Clip]:
-        """Yield the finite motions that leave a singular configuration, and infinitesimal ones that do not go on."""
+        """Yield the finite motions that leave a singular configuration, and the other infinitesimal motions."""
         rows = np.array([sampler.relations.step_of({m.symbol: 1.0}) for m in self.motions])
         coefficients: list[Array] = []
         for direction, path in sampler.branches(self._steps(SHORT), STEP):
@@ -128,7 +127,7 @@ class ClipMaker:
         ])  # fmt: skip
 
     def _sampled(self, name: str, path: Iterable[Mapping[str, float]], most: int = FRAMES) -> Iterator[Clip]:
-        """Yield a sampled motion, cut where it leaves the picture; nothing if it has one frame only."""
+        """Yield the clip of a sampled motion, cut where it leaves the picture; nothing if one frame is left."""
         numbers = [*self.stage.arrangement.along(path)]
         frames = [self.stage.arrangement.poses_at(n, gibbs=False) for n in numbers]
         size = self.stage.size
@@ -145,7 +144,7 @@ class ClipMaker:
         return max((float(np.linalg.norm(a - b)) for a, b in pairs), default=0.0)
 
     def _turn(self, frames: Sequence[Poses], start: int) -> tuple[int, int] | None:
-        """Return the first and last frame of a motion that comes back to where it began, once around."""
+        """Return (first, last) frame of one turn of a motion that returns to its beginning, or None."""
         gone, back = False, BACK * self.stage.size
         for k in range(start + 1, len(frames)):
             far = self._gap(frames[start], frames[k])
@@ -156,7 +155,7 @@ class ClipMaker:
         return (0, len(frames) - 1) if whole else None
 
     def _near(self, frames: Sequence[Poses], start: int, far: float) -> tuple[int, int]:
-        """Return the first and last frame of the part of a motion about its beginning that stays near the picture."""
+        """Return (first, last) frame of the part of a motion around frame ``start`` that stays near the picture."""
         places = np.array([[self.sketch.at(v, frame) for v in self.vertices] for frame in frames])
         low, high = np.min(places[start], axis=0) - far, np.max(places[start], axis=0) + far
         outside = np.flatnonzero(np.any((places < low) | (places > high), axis=(1, 2)))
@@ -166,9 +165,9 @@ class ClipMaker:
     # Infinitesimal motions
 
     def _swings(self, motions: Sequence[FreeMotion], reason: str = "") -> list[Clip]:
-        """Return each infinitesimal motion on its own, from one side to the other.
+        """Return a clip of each infinitesimal motion, from one side to the other.
 
-        ``reason``: why no finite motion is shown in its place.
+        ``reason``: why no finite motion is shown instead.
         """
         clips, report = [], self.stage.report
         end = NO_MOTION.format(sure(report, "velocity_dof")) if report.velocity_dof == 0 else NONE_FOUND
@@ -183,7 +182,7 @@ class ClipMaker:
         return clips
 
     def _arrows(self, motion: FreeMotion) -> tuple[tuple[Array, Array], ...]:
-        """Return where traced points are, and the ends of arrows that show their velocities."""
+        """Return (start, end) of the arrows that show the velocities of traced points."""
         step = 1e-4
         moved, scale = displaced(self.stage.arrangement, motion, step), self._reach(motion) / step
         points = [(self.sketch.at(v), self.sketch.at(v, moved)) for v in self.sketch.traced]
@@ -191,7 +190,7 @@ class ClipMaker:
         return tuple((a, b) for a, b in pairs if np.linalg.norm(b - a) > MOVES * self.stage.size)
 
     def _reach(self, motion: FreeMotion) -> float:
-        """Return how far a motion is followed: a part of the picture's size, or a rotation that is still small."""
+        """Return the extent of an infinitesimal motion: `REACH` of the picture size, less if a body turns by `TURN`."""
         step = 1e-3
         far, turned = 0.0, 0.0
         for name, pose in displaced(self.stage.arrangement, motion, step).items():
@@ -208,9 +207,9 @@ class ClipMaker:
     # Constraints left out
 
     def switches(self) -> Iterator[tuple[Switch, list[Clip]]]:
-        """Yield switches for the constraints of a scene with redundant ones, and the motion that is new without each.
+        """Yield (switch, clips that are new without the constraint) for the constraints of a redundant scene.
 
-        Of many constraints the redundant ones have a switch before others.
+        If there are many constraints, the redundant ones come first.
         """
         report = self.stage.report
         redundant = report.redundant or []
@@ -230,7 +229,7 @@ class ClipMaker:
             yield Switch(entry.name, text), clips or []
 
     def _without(self, name: str) -> list[Clip] | None:
-        """Return the first motion that is possible only without a constraint; None if there is none."""
+        """Return the clip of the first motion that is possible only without a constraint; None if there is none."""
         stage = self.stage
         scene = without(stage.scene, [name])
         arrangement = replace(stage.arrangement, system=exemplified(lower(scene)))
@@ -248,7 +247,7 @@ class ClipMaker:
 
 
 def _names_in_turn(motions: Sequence[FreeMotion]) -> list[str]:
-    """Return what the finite motion of each free velocity is called; that in which time goes on is none of them."""
+    """Return a name for the finite motion of each free velocity, and for the motion in time."""
     free = [motion for motion in motions if motion.symbol != TIME]
     if len(motions) == 1:
         return [FINITE]

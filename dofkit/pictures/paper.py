@@ -1,4 +1,4 @@
-"""From the world to the paper: views, outlines of shapes, marks in points, and lines of text that fit."""
+"""Projection to a page: views, outlines of shapes, marks in points, and wrapped lines of text."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from dofkit.pictures.shapes import Array, Ink, Poses, Shape, Sketch, circle
 
 #: Directions from which spatial scenes are seen: azimuth and elevation in degrees.
 DIRECTIONS = ((-55.0, 24.0), (-35.0, 24.0), (-70.0, 20.0), (35.0, 24.0), (60.0, 20.0), (-50.0, 42.0), (-20.0, 30.0))
-#: For more points than this the first direction is taken.
+#: The most points for which the best direction is searched.
 MOST_POINTS = 40
 #: Turns of a coil, points of a bow, and of a circle.
 TURNS, BOW, ROUND = 6, 17, 32
-#: Through so many points a line is smooth as it is.
+#: A line through this many points is not smoothed.
 ENOUGH = 40
 #: A character's width and a line's height, by the size of the text.
 WIDE, HIGH = 0.56, 1.25
@@ -26,7 +26,7 @@ Spot = tuple[float, float]
 
 
 class Mark(NamedTuple):
-    """A line or area through positions, or a text at one of them; ``owner`` is what it shows. In points, y upwards."""
+    """A line or area through positions, or a text at one, in points with y upwards; ``owner``: what it shows."""
 
     positions: tuple[Spot, ...]
     ink: Ink
@@ -49,12 +49,12 @@ class Page(NamedTuple):
 
 
 def width_of(text: str, size: float) -> float:
-    """Return about how wide a text is."""
+    """Return the approximate width of a text."""
     return WIDE * size * max((len(line) for line in text.split("\n")), default=0)
 
 
 def wrapped(text: str, size: float, width: float) -> list[str]:
-    """Return a text in lines that fit."""
+    """Return a text as lines that fit into a width."""
     most = max(12, int(width / (WIDE * size * 0.92)))
     lines: list[str] = []
     for word in text.split():
@@ -76,7 +76,7 @@ class View(NamedTuple):
     elevation: float
 
     def seen(self, point: Array) -> Array:
-        """Return a point to the right, up, and by its nearness."""
+        """Return the components of a point to the right, upwards and towards the viewer."""
         return np.asarray(self.rows @ point)
 
 
@@ -93,7 +93,7 @@ def view_from(azimuth: float, elevation: float) -> View:
 
 
 def view_of(sketch: Sketch) -> View:
-    """Return the view in which the points of a sketch are furthest apart."""
+    """Return the view in which the least distance between points of a sketch is (nearly) largest."""
     if sketch.dimension < 3:
         return FLAT
     vertices = [v for s in sketch.shapes if s.kind in ("ball", "hull") for v in s.vertices]
@@ -115,7 +115,7 @@ def view_of(sketch: Sketch) -> View:
 
 
 def outline(sketch: Sketch, shape: Shape, poses: Poses, view: View) -> Array:
-    """Return the points of a shape as seen: to the right, up, and by their nearness."""
+    """Return the outline of a shape as rows (right, up, towards the viewer)."""
     seen = np.array([view.seen(sketch.at(v, poses)) for v in shape.vertices])
     match shape.kind:
         case "hull":
@@ -156,7 +156,7 @@ def convex_hull(points: Array) -> list[Spot]:
 
 
 def _across(first: Array, last: Array) -> tuple[Array, Array]:
-    """Return the vector from one point to another, and a unit vector across it on the paper."""
+    """Return (vector from one point to another, unit vector perpendicular to it on the paper)."""
     arm = last - first
     length = math.hypot(arm[0], arm[1])
     return arm, np.array([-arm[1], arm[0], 0.0]) / (length if length > 1e-12 else 1.0)

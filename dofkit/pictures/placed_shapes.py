@@ -1,6 +1,6 @@
-"""The shapes that a scene's `picture` places: how each looks, and where it is at given values of the coordinates.
+"""The shapes of a scene's `picture`: their looks, and their poses at given values of the coordinates.
 
-What moves is carried by a carrier of its own: a disc, ball or box by a frame, the ends of a rod by a place each.
+Each shape has carriers of its own: a disc, ball or box one frame, a rod one for each end.
 """
 
 from __future__ import annotations
@@ -22,15 +22,15 @@ from dofkit.pictures.shapes import SQUARE, Array, Displacement, Kind, Role, Shap
 from dofkit.scene.picture import PlacedPicture, PlacedShape
 from dofkit.system import GROUND, System
 
-#: Points of a curve that rests and of one that moves, lines of a surface in each direction and their points, corners
-#: of a disc, strokes of the ground.
+#: Points of a curve at rest and of a moving one, lines of a surface in each direction and their points, corners of a
+#: disc, strokes of the ground.
 CURVE, MOVING_CURVE, MESH, MESH_POINTS, RIM, STROKES = 61, 11, 9, 25, 40, 12
-#: Shapes that are one line or dot: its kind and role, and its size in symbols where no radius is given.
+#: {shape that is one line or dot: (kind, role, size in symbols if no radius is given)}.
 _LINES: Mapping[str, tuple[Kind, Role, float]] = {
     "rod": ("line", "bar", 0.0), "string": ("line", "rope", 0.0), "spring": ("coil", "force", 0.8),
     "arrow": ("arrow", "arrow", 0.8), "point": ("ball", "point", 0.42), "curve": ("curve", "guide", 0.0),
 }  # fmt: skip
-#: The sides of the ground, of axes and of a blade whose size is not given.
+#: Default lengths of the ground, of axes and of a blade.
 SIDE, AXIS, BLADE = 4.0, 1.0, 0.8
 #: The rim of a blade, seen from above in the plane and from the side in space, for half its length.
 BLADES = {
@@ -40,7 +40,7 @@ BLADES = {
 
 
 class ShapePlacement(NamedTuple):
-    """Where a carrier is: a place, and in space its axis or heading, and its turn about that.
+    """The pose of a carrier as expressions: its place, its axis (in space) or heading, and its rotation about that.
 
     ``start`` is the point of the carrier that is at the place.
     """
@@ -54,17 +54,17 @@ class ShapePlacement(NamedTuple):
     start: Vec = ()
 
     def depends_on(self, *kinds: str) -> bool:
-        """Return whether it depends on symbols of some kinds."""
+        """Return whether symbols of one of these kinds occur in the placement."""
         exprs = [*self.at, *(self.axis or ()), *(e for e in (self.heading, self.turn) if e is not None)]
         return any(s.args[0] in kinds for e in exprs for s in e.symbols)
 
     @property
     def moves(self) -> bool:
-        """Whether it depends on coordinates or time."""
+        """Whether the placement depends on coordinates or time."""
         return self.depends_on("coordinate", "time")
 
     def pose(self, values: Values) -> Displacement:
-        """Return the displacement of the carrier, whose own frame has its axis along z and its mark along y."""
+        """Return the displacement of the carrier's frame, in which the axis is z and the mark of a disc on y."""
 
         def number(e: Expr | None) -> float:
             return 0.0 if e is None else float(evaluated(e, values))
@@ -81,7 +81,7 @@ class ShapePlacement(NamedTuple):
         return Displacement(_frame(across) @ about(2, turn), shift)
 
     def planar(self) -> tuple[Expr, ...]:
-        """Return the shift of a carrier of the plane, and if it rotates the cosine and sine of its angle."""
+        """Return (shift x, shift y) of a planar carrier, and if it rotates also (cosine, sine) of its angle."""
         (x, y), (a, b) = ((*at, ZERO, ZERO)[:2] for at in (self.at, self.start))
         angles = [e for e in (self.heading, self.turn) if e is not None]
         if not angles:
@@ -103,7 +103,7 @@ def carrier_placements(system: System) -> dict[str, ShapePlacement]:
 
 
 def _frame(across: Array) -> Array:
-    """Return a rotation that takes z to a direction, with y as far upwards as that leaves."""
+    """Return a rotation that takes z to the direction ``across``, and y as far upwards as possible."""
     size = float(np.linalg.norm(across))
     normal = across / size if size > 1e-12 else np.array([0.0, 0.0, 1.0])
     up = np.array([0.0, 0.0, 1.0]) - normal[2] * normal
@@ -112,7 +112,7 @@ def _frame(across: Array) -> Array:
 
 
 def placements_of(picture: PlacedPicture) -> Mapping[str, ShapePlacement]:
-    """Return the placements of everything in a picture, by the names of their carriers."""
+    """Return {carrier: placement} of all shapes in a picture."""
     placements: dict[str, ShapePlacement] = {}
     for k, shape in enumerate(picture.shapes):
         for j, at in enumerate(_sampled(shape)):
@@ -126,7 +126,7 @@ def _carrier(shape: int, number: int) -> str:
 
 
 def _sampled(shape: PlacedShape) -> Iterator[Vec]:
-    """Yield the places of a shape; of a curve and a surface, points along it."""
+    """Yield the places of a shape; for a curve or a surface, points along it."""
     if not shape.range:
         yield from shape.places
         return
@@ -141,7 +141,7 @@ def _sampled(shape: PlacedShape) -> Iterator[Vec]:
 
 
 def _grid(count: int, points: int) -> Iterator[tuple[Fraction, ...]]:
-    """Yield where points of a curve are between its ends, or those of the lines of a surface."""
+    """Yield the positions, from 0 to 1 in each parameter, of the points of a curve or of the lines of a surface."""
     if count == 1:
         yield from ((part,) for part in _fractions(points))
         return
@@ -159,7 +159,7 @@ def picture_shapes(picture: PlacedPicture, values: Values, unit: float) -> Itera
     """Yield the shapes of a picture; ``unit``: the size of symbols."""
     placements = placements_of(picture)
     for k, shape in enumerate(picture.shapes):
-        drawn = list(_Drawing(k, shape, picture.dimension, placements, values, unit).shapes())
+        drawn = list(_DrawnShape(k, shape, picture.dimension, placements, values, unit).shapes())
         yield from drawn
         if shape.name and shape.kind not in ("text", "axes") and drawn:
             ends = drawn[0].vertices
@@ -167,8 +167,8 @@ def picture_shapes(picture: PlacedPicture, values: Values, unit: float) -> Itera
             yield Shape("words", positions, "name", owner=shape.name, text=shape.name)
 
 
-class _Drawing(NamedTuple):
-    """One shape with what is needed to draw it."""
+class _DrawnShape(NamedTuple):
+    """One shape of a picture, with the data to draw it."""
 
     number: int
     shape: PlacedShape
@@ -178,7 +178,7 @@ class _Drawing(NamedTuple):
     unit: float
 
     def shapes(self) -> Iterator[Shape]:
-        """Yield what is drawn of the shape."""
+        """Yield the basic shapes that draw it."""
         shape = self.shape
         if shape.kind in _LINES:
             kind, role, size = _LINES[shape.kind]
@@ -222,7 +222,7 @@ class _Drawing(NamedTuple):
         return tuple(self._vertex(carrier, p) for p in points)
 
     def _vertex(self, carrier: str, at: Iterable[float]) -> Vertex:
-        """Return a point of a carrier, fixed in the world where the carrier never moves."""
+        """Return a vertex of a carrier, or a fixed vertex if the carrier never moves."""
         placement = self.placements[carrier]
         if placement.moves:
             return Vertex(carrier, place(at))
@@ -246,7 +246,7 @@ class _Drawing(NamedTuple):
             yield Shape("words", tip, "name", text=letter)
 
     def _ground(self, half: float) -> Iterator[Shape]:
-        """Yield the ground: in the plane a line with strokes on the side that its axis turns away from."""
+        """Yield the ground: a plane, or in the plane a line with strokes on the side opposite to its axis."""
         if self.dimension == 3:
             yield self._shape_of("area", self._in_frame([(half * x, half * y, 0) for x, y in SQUARE]), "plane")
             return

@@ -1,4 +1,4 @@
-"""A planar scene as a program that the player runs: where everything is, and what the coordinates have to satisfy."""
+"""A planar scene as a program for the player: the poses as functions of the coordinates, and their relations."""
 
 from __future__ import annotations
 
@@ -11,19 +11,20 @@ from dofkit.pictures.evaluation import evaluated
 from dofkit.pictures.stage import StagedScene
 from dofkit.system import GROUND
 
-#: Functions that the player knows.
+#: The functions that the player implements.
 _FUNCTIONS = ("sin", "cos", "tan", "exp", "log", "abs")
 
 
 class UnknownStepError(ValueError):
-    """The player does not know a function of an expression."""
+    """An expression contains a function that the player does not implement."""
 
 
 class PlanarProgram(NamedTuple):
     """Expressions over some columns: coordinates with their scales, then time if it occurs.
 
-    ``poses``: of each carrier its shift and, if it rotates, the cosine and sine of its angle; ``relations`` with the
-    names of their constraints, and ``limits`` that stay at 0 or above. ``can_drag``: the relations are all there is.
+    ``poses``: {carrier: (shift x, shift y), and (cosine, sine) of its angle if it rotates}; ``relations``: (constraint,
+    expression = 0); ``limits``: expressions >= 0. ``can_drag``: whether these are all relations, so that points can be
+    dragged.
     """
 
     columns: tuple[Expr, ...]
@@ -52,12 +53,12 @@ class PlanarProgram(NamedTuple):
         }
 
     def values(self, numbers: Mapping[Expr, float]) -> list[float]:
-        """Return the values of the columns."""
+        """Return the values of the columns, rounded."""
         return [round(float(numbers.get(column, 0.0)), 9) for column in self.columns]
 
 
 class _Steps:
-    """Expressions as steps, each written once."""
+    """Collects expressions as steps of a program, each node once."""
 
     def __init__(self, columns: Sequence[Expr], numbers: Mapping[Expr, float]) -> None:
         self.columns, self.numbers = {column: k for k, column in enumerate(columns)}, numbers
@@ -89,7 +90,7 @@ class _Steps:
 
 
 def planar_program(stage: StagedScene, dimension: int) -> PlanarProgram | None:
-    """Return the program of a scene that is drawn in the plane; None in space, or if the player cannot run it."""
+    """Return the program of a planar picture; None in space, or if the player cannot run it."""
     if dimension > 2 or (stage.system.dimension > 2 and stage.system.bodies):
         return None
     system = stage.system

@@ -1,4 +1,4 @@
-"""A page that rotates and plays a sketch: one file with its script, which fetches nothing."""
+"""An HTML page that rotates and plays a sketch: one file with its script, which loads nothing."""
 
 from __future__ import annotations
 
@@ -43,11 +43,11 @@ from dofkit.pictures.shapes import (
     quaternion,
 )
 
-#: An inline page in pixels: how wide it is at most, its edge, and a line of its text.
+#: An inline page in pixels: its greatest width, its padding, and the height of a line of text.
 FRAME, EDGE, LINE = int(WIDTH * 1.5), 12.0, 22.0
-#: Part of the panel that a sketch of space fills, so that it can be turned.
+#: The share of the panel that a spatial sketch fills, so that it can be rotated.
 FILL = 0.94
-#: How far above the panel's edge its axes and its ruler stand, beyond what stands below a picture on paper.
+#: The height of the axes and the ruler above the panel's lower edge.
 LOW = 6.0
 _COMMENT = re.compile(r"^ +/\*.*?\*/\n", re.MULTILINE | re.DOTALL)
 DRAG = "Drag the picture, or use the arrow keys, to turn it."
@@ -56,7 +56,7 @@ DRAG = "Drag the picture, or use the arrow keys, to turn it."
 def page_html(
     sketch: Sketch, clips: Sequence[Clip], program: PlanarProgram | None = None, switches: Sequence[Switch] = ()
 ) -> str:
-    """Return a page with a sketch that can be played, and turned if it is spatial, or else dragged."""
+    """Return an HTML page with a sketch that can be played, and rotated if it is spatial, else dragged."""
     package = files("dofkit.pictures")
     panel = panel_of(sketch, clips)
     contents = player_data(sketch, clips, program, switches, panel)
@@ -76,7 +76,7 @@ def page_html(
 
 
 def player_script(drags: bool = True) -> str:
-    """Return the script that plays and turns pictures and ``drags`` points, without indentation and inner comments."""
+    """Return the script that plays and rotates pictures (and ``drags`` points), without indentation and comments."""
     names = ("planar.js", "player.js") if drags else ("player.js",)
     texts = [(files("dofkit.pictures") / name).read_text(encoding="utf-8") for name in names]
     script = _COMMENT.sub("", "".join(texts))
@@ -88,7 +88,7 @@ def _notes(sketch: Sketch) -> tuple[str, ...]:
 
 
 def framed(page: str, height: float) -> str:
-    """Return a page as an inline frame of a height in pixels, whose script and style do not affect the rest."""
+    """Return a page as an inline frame of a height in pixels, isolated from the page around it."""
     return (
         f'<style>{schemes("." + CLASS)}</style><iframe class="{CLASS}" srcdoc="{escape(page, quote=True)}" '
         f'sandbox="allow-scripts" title="dofkit" '
@@ -106,7 +106,7 @@ def page_height(sketch: Sketch, clips: Sequence[Clip], switches: Sequence[Switch
 
 
 class Panel(NamedTuple):
-    """The part of a page that a script draws on: its height, where it is seen from, and what is in its middle."""
+    """The part of a page on which the script draws: its height, its standpoint, and the point in its middle."""
 
     height: float
     standpoint: Standpoint
@@ -114,7 +114,7 @@ class Panel(NamedTuple):
 
 
 def panel_of(sketch: Sketch, clips: Sequence[Clip]) -> Panel:
-    """Return the panel on which a sketch fits wherever it moves; one of space fits however it is turned."""
+    """Return the panel on which a sketch fits in all frames, and a spatial one in all views."""
     every = [sketch.poses, *(frame for clip in clips for frame in clip.frames)]
     standpoint, margins = standpoint_of(sketch, every), margins_of(sketch)
     height, fit = margins.high - margins.low, standpoint.fit
@@ -130,7 +130,7 @@ def panel_of(sketch: Sketch, clips: Sequence[Clip]) -> Panel:
 
 
 def first_frame(sketch: Sketch, panel: Panel) -> Page:
-    """Return what the panel shows before the script runs."""
+    """Return the page that the panel shows before the script runs."""
     page = page_of(sketch, None, panel.standpoint, Margins((), (), panel.height, LOW))
     return page._replace(marks=tuple(mark._replace(owner="") for mark in page.marks))
 
@@ -142,7 +142,7 @@ def player_data(
     switches: Sequence[Switch] = (),
     panel: Panel | None = None,
 ) -> dict[str, Any]:
-    """Return what the script needs: shapes on their carriers, poses frame by frame or as a program, and the view."""
+    """Return the script's data: shapes on their carriers, poses frame by frame or as a program, and the view."""
     panel = panel or panel_of(sketch, clips)
     view, fit, named = panel.standpoint
     carriers = list(dict.fromkeys(v.carrier for s in sketch.shapes for v in s.vertices))
@@ -178,7 +178,7 @@ def player_data(
 
 
 def _shape_data(shape: Shape, owners: frozenset[str], offsets: Iterator[Array]) -> dict[str, Any]:
-    """Return the size of a shape, the constraint with a switch that it shows, and of a name its text and offset."""
+    """Return a shape's size (s), constraint with a switch (c), and for a name its text (t) and offset (o)."""
     entry: dict[str, Any] = {"s": _number(shape.size)} if shape.size else {}
     if shape.owner in owners:
         entry["c"] = shape.owner
@@ -186,7 +186,7 @@ def _shape_data(shape: Shape, owners: frozenset[str], offsets: Iterator[Array]) 
 
 
 def _vertex_data(shape: Shape, carriers: Sequence[str], digits: int) -> dict[str, Any]:
-    """Return the vertices of a shape: of one carrier its number and all components in a row, else one by one."""
+    """Return a shape's vertices: carrier (n) and all components (p) if there is one carrier, else one by one (v)."""
     if shape.role in ("surface", "mesh"):
         digits -= 1
     places = [[round(x, digits) for x in v.at] for v in shape.vertices]
@@ -199,10 +199,10 @@ def _vertex_data(shape: Shape, carriers: Sequence[str], digits: int) -> dict[str
 def _clip_data(
     sketch: Sketch, clip: Clip, carriers: Sequence[str], program: PlanarProgram | None, digits: int
 ) -> dict[str, Any]:
-    """Return a clip, whose frames are values of the program's columns if there is one, else poses of all carriers.
+    """Return a clip with frames that are values of the program's columns, or without a program poses of all carriers.
 
-    The pose of a carrier that is where the sketch has it is written as 0.
-    ``digits`` after the point are as many as can be seen; ``start`` is the frame that is nearest to the sketch.
+    A pose that equals that of the sketch is written as 0. ``digits``: decimals that can be seen; ``start``: the frame
+    nearest to the sketch.
     """
     gaps = [sum(far(frame.get(c, AT_REST), sketch.poses.get(c, AT_REST)) for c in carriers) for frame in clip.frames]
     entry: dict[str, Any] = {"name": clip.name, "closed": clip.closed, "loop": clip.loop, "text": clip.text}
@@ -218,7 +218,7 @@ def _clip_data(
 
 
 def far(first: Displacement, last: Displacement) -> float:
-    """Return how far two displacements of a carrier are apart: the largest difference of their numbers."""
+    """Return the largest difference between the numbers of two displacements."""
     return float(max(np.max(np.abs(first.turn - last.turn)), np.max(np.abs(first.shift - last.shift))))
 
 

@@ -1,4 +1,4 @@
-"""What forms of two positions and a heading are of: a disc that rolls upright, or a knife edge."""
+"""Recognition of an upright rolling disc or a knife edge from constraints on two positions and a heading."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from dofkit.pictures.shapes import Array
 from dofkit.scene.picture import PlacedPicture, PlacedShape
 from dofkit.system import System
 
-#: Random configurations at which forms are looked at, and the difference that counts as 0.
+#: The number of random configurations at which constraints are examined, and the difference that counts as 0.
 SAMPLES, SAME = 5, 1e-6
 
 
 def recognised(system: System) -> PlacedPicture | None:
-    """Return the picture of a disc or blade at x, y, if every admissible direction moves it along one heading."""
+    """Return the picture of a disc or blade at (x, y) if all admissible directions move it along a heading, or None."""
     names = [c.name for c in system.coordinates]
     if not {"x", "y"} <= set(names) or len(names) < 3:
         return None
@@ -45,7 +45,7 @@ def recognised(system: System) -> PlacedPicture | None:
 
 
 def _samples(system: System, names: list[str]) -> list[tuple[Array, Array]]:
-    """Return random configurations with bases of the admissible directions there."""
+    """Return (random configuration, basis of the admissible directions there) several times."""
     random = np.random.default_rng(5)
     samples = []
     for _ in range(SAMPLES):
@@ -56,7 +56,7 @@ def _samples(system: System, names: list[str]) -> list[tuple[Array, Array]]:
 
 
 def _along(q: Array, basis: Array, names: list[str], heading: tuple[str, int, int]) -> tuple[Array, Array]:
-    """Return how far each admissible direction moves the place along a heading, and across it."""
+    """Return (along, across): the velocity of (x, y) relative to a heading, for each admissible direction."""
     name, sign, quarter = heading
     angle = sign * q[names.index(name)] + quarter * math.pi / 2
     x, y = basis[:, names.index("x")], basis[:, names.index("y")]
@@ -64,7 +64,7 @@ def _along(q: Array, basis: Array, names: list[str], heading: tuple[str, int, in
 
 
 def _fits(samples: list[tuple[Array, Array]], names: list[str], heading: tuple[str, int, int]) -> bool:
-    """Return whether the place moves, and only along the heading."""
+    """Return whether (x, y) moves, and only along the heading."""
     pairs = [_along(q, basis, names, heading) for q, basis in samples]
     return all(
         float(np.max(np.abs(along), initial=0.0)) > SAME > float(np.max(np.abs(across), initial=0.0))
@@ -73,7 +73,7 @@ def _fits(samples: list[tuple[Array, Array]], names: list[str], heading: tuple[s
 
 
 def _radius(samples: list[tuple[Array, Array]], names: list[str], heading: tuple[str, int, int], name: str) -> float:
-    """Return the constant ratio of the way along the heading to the turn of a coordinate; 0 if there is none."""
+    """Return the constant ratio of the velocity along the heading to that of a coordinate; 0 if there is none."""
     distances, turns = [], []
     for q, basis in samples:
         distances.append(_along(q, basis, names, heading)[0])

@@ -1,4 +1,4 @@
-"""What a picture is made of before it is put on paper: shapes carried by bodies and particles, and their looks."""
+"""The elements of a sketch: shapes whose vertices move with bodies and particles, and their colours and lines."""
 
 from __future__ import annotations
 
@@ -20,19 +20,19 @@ Place = tuple[float, float, float]
 #: ``size``; ``ball``: a disc on paper of radius ``size``; ``coil``: a spring between two; ``bow``: an arc between two,
 #: as high as ``size`` of its length; ``arrow``: from one to another, with a head of ``size``; ``words``: a text there.
 Kind = Literal["line", "area", "curve", "hull", "ball", "coil", "bow", "arrow", "words"]
-#: What a shape is part of.
+#: The part of the picture to which a shape belongs.
 Role = Literal[
     "body", "joint", "guide", "bar", "rope", "ground", "hatch", "axis", "locus", "trace", "tie", "force", "point",
     "name", "field", "bracket", "further", "surface", "mesh", "arrow", "node", "plane", "ghost",
 ]  # fmt: skip
-#: What the report says of it.
+#: The state of what a shape shows, according to the report.
 State = Literal["plain", "moving", "redundant", "conflicting"]
 #: The corners of a square about the origin.
 SQUARE = ((-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0))
 
 
 class Vertex(NamedTuple):
-    """A point that a body, a particle or the ground carries, given where it is in the reference configuration."""
+    """A point that moves with a carrier (body, particle, ground), by its position in the reference configuration."""
 
     carrier: str
     at: Place
@@ -71,11 +71,11 @@ Poses = Mapping[str, Displacement]
 
 
 class Clip(NamedTuple):
-    """A motion: the poses of everything, frame by frame, and the ``path`` of the symbols.
+    """A motion: the poses of all carriers, frame by frame, and the ``path`` of the symbols.
 
-    ``closed``: the first frame follows the last. Clips of the same name differ by their ``size``. ``text`` says what is
-    to be seen; ``loop``: the motion is a loop of some coordinates, at whose end the others may be displaced. ``arrows``
-    show velocities; ``dropped`` is the constraint that is left out.
+    ``closed``: the first frame follows the last. Clips of the same name differ by their ``size``. ``text``: a
+    description; ``loop``: two coordinates move around a loop, and the others may end displaced. ``arrows`` show
+    velocities; ``dropped``: the constraint that is left out.
     """
 
     name: str
@@ -90,7 +90,7 @@ class Clip(NamedTuple):
 
 
 class Switch(NamedTuple):
-    """A constraint that can be left out, and what that changes; ``free``: all such together, without a change."""
+    """A constraint that can be left out, and the effect; ``free``: all such constraints together change nothing."""
 
     name: str
     text: str
@@ -99,12 +99,12 @@ class Switch(NamedTuple):
 
 @dataclass(frozen=True)
 class Sketch:
-    """All of a picture but its paper.
+    """A picture before it is projected to a page.
 
-    ``dimension`` of the world drawn; ``poses`` of what carries its shapes; ``size``: its extent; ``notes`` stand below
-    it; ``alternative`` describes it in words. ``axes``: names of the three directions; ``measurable``: whether lengths
-    mean something. ``meanings``: what the legend says of states (None: there is no legend). ``traced``: the vertices
-    whose paths can be shown.
+    ``dimension`` of the world drawn; ``poses`` of the carriers; ``size``: its extent; ``notes``: texts below it;
+    ``alternative``: a description in words. ``axes``: names of the directions; ``measurable``: whether lengths mean
+    something. ``meanings``: the legend's text for each state (None: no legend). ``traced``: the vertices whose paths
+    can be shown.
     """
 
     title: str
@@ -121,7 +121,7 @@ class Sketch:
     traced: tuple[Vertex, ...] = ()
 
     def at(self, vertex: Vertex, poses: Poses | None = None) -> Array:
-        """Return where a vertex is."""
+        """Return the position of a vertex in ``poses``, by default those of the sketch."""
         return (self.poses if poses is None else poses).get(vertex.carrier, AT_REST).moved(vertex.at)
 
 
@@ -142,7 +142,7 @@ def fixed(*points: Iterable[float]) -> tuple[Vertex, ...]:
 
 
 def circle(count: int, closed: bool = False) -> Array:
-    """Return points of the unit circle as rows (x, y, 0); ``closed``: the first also stands at the end."""
+    """Return ``count`` points of the unit circle as rows (x, y, 0); ``closed``: the first is repeated at the end."""
     angles = 2 * np.pi * np.arange(count + closed) / count
     return np.column_stack([np.cos(angles), np.sin(angles), np.zeros(len(angles))])
 
@@ -164,7 +164,7 @@ SKY, BLUE, GREY, INK = "#56B4E9", "#0072B2", "#6E6E6E", "#222222"
 
 
 class Ink(NamedTuple):
-    """A line's colour, width and dashes in points; a fill, its opacity and its hatching; which layer lies above."""
+    """A line's colour, width and dashes in points; a fill, its opacity and hatching; higher layers cover lower ones."""
 
     line: str = INK
     width: float = 1.2
@@ -182,7 +182,7 @@ def _ink(row: Mapping[str, Any]) -> Ink:
 _LOOKS: Mapping[str, Any] = yaml.safe_load(files(__package__).joinpath("looks.yaml").read_bytes())
 _PLAIN: Mapping[Role, Ink] = {role: _ink(row) for role, row in _LOOKS["roles"].items()}
 _LOUD: Mapping[State, Ink] = {state: _ink(row) for state, row in _LOOKS["states"].items()}
-#: Each colour as it is on dark paper; on light paper it is as named.
+#: {colour on light paper: colour on dark paper}.
 ON_DARK: Mapping[str, str] = _LOOKS["dark"]
 #: The roles that show the state of a constraint, and those of them with thin lines.
 _OF_CONSTRAINTS = ("joint", "guide", "bar", "rope", "locus", "tie", "surface")
@@ -190,7 +190,7 @@ _THIN = ("guide", "joint", "surface")
 
 
 def ink_of(shape: Shape) -> Ink:
-    """Return how a shape is drawn."""
+    """Return the ink of a shape, by its role, kind and state."""
     plain = _PLAIN[shape.role]
     if shape.kind == "ball" and shape.role == "joint":
         plain = plain._replace(layer=7)

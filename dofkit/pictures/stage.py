@@ -1,4 +1,4 @@
-"""What is determined before a scene is drawn: where its joints are, how large its symbols, what moves, its states."""
+"""A scene prepared for drawing: places of its joints, sizes of symbols, what moves, states of constraints."""
 
 from __future__ import annotations
 
@@ -32,27 +32,27 @@ from dofkit.scene.scene import Scene
 from dofkit.scene.symbols import Symbol
 from dofkit.system import GROUND, Connection, System
 
-#: A symbol's size by that of the picture, by the least distance between points, and its least size.
+#: A symbol's size by the picture's size, by the least distance between points, and its least size.
 SYMBOL, CROWDED, LEAST = 0.032, 0.2, 0.014
-#: The distance in symbols between joints whose position is free.
+#: The distance, in symbols, between joints whose positions are free.
 APART = 7.0
-#: The particle whose place is the configuration of a scene of coordinates.
+#: The name of the particle whose position is the configuration of a scene of coordinates.
 POINT = "configuration"
-#: With more coordinates than this, it is not determined what moves.
+#: The most coordinates for which motions are computed.
 MOST_COLUMNS = 300
 TOO_MANY = f"More than {MOST_COLUMNS} coordinates: which parts move was not determined."
 NOT_LINEAR = "A constraint is nonlinear in the velocities: individual motions are not shown."
-#: Where a joint whose position is taken is put instead, to the side and upwards.
+#: Displacements (to the side, upwards) that are tried for a joint whose position is occupied.
 _ASIDE = ((0, 0), (0, 1), (1, 0), (1, 1), (0, -1), (-1, 0), (2, 0), (0, 2))
 
 
 @dataclass(frozen=True)
 class StagedScene:
-    """A scene with its positions.
+    """A scene with positions, sizes and motions.
 
-    ``places``: of each constraint's symbol in the reference configuration (None: it has none); ``unit``: the size of
-    symbols, ``size`` that of the system, ``schematic``: some positions are invented; ``measurable``: lengths mean
-    something; ``unseen``: why it was not determined what moves.
+    ``places``: the place of each constraint's symbol in the reference configuration (None: it has none); ``unit``: the
+    size of symbols; ``size``: that of the system; ``schematic``: whether some positions are invented; ``measurable``:
+    whether lengths mean something; ``unseen``: why motions were not computed, or None.
     """
 
     scene: Scene
@@ -85,11 +85,11 @@ class StagedScene:
         return self.scene.title or self.scene.name
 
     def symbol(self, number: int) -> Symbol:
-        """Return how the constraint of a number is drawn."""
+        """Return the symbol of the constraint of a number."""
         return self.scene.constraints[number].symbol
 
     def state(self, name: str) -> State:
-        """Return what the report says of a constraint."""
+        """Return the state of a constraint according to the report."""
         return state_of(self.report, name)
 
     def state_of_body(self, name: str) -> State:
@@ -98,11 +98,11 @@ class StagedScene:
 
     @property
     def meanings(self) -> Mapping[State, str]:
-        """What the legend says of states."""
+        """{state: text of the legend}."""
         return meanings(self.report, self.unseen is None and can_hold(self.report))
 
     def here(self, vertex: Vertex) -> Array:
-        """Return where a vertex is."""
+        """Return the position of a vertex."""
         return self.arrangement.poses.get(vertex.carrier, AT_REST).moved(vertex.at)
 
     def vertices(self, connection: Connection) -> Iterator[Vertex]:
@@ -115,7 +115,7 @@ class StagedScene:
         return Vertex(carrier, self.arrangement.point(starts[carrier]) if carrier in starts else (0.0, 0.0, 0.0))
 
     def position(self, number: int, member: str) -> Array:
-        """Return where a symbol stands in the frame of a member; the symbol of a slide moves along with the point."""
+        """Return the place of a symbol in the frame of a member; on a slide it is where the sliding point is."""
         connection, at = self.system.connections[number], np.array(self.places[number] or (0.0, 0.0, 0.0))
         if any(p.carrier == member and p.particle for p in connection.points):
             return np.zeros(3)
@@ -194,7 +194,7 @@ def stage_of(scene: Scene, report: Report) -> StagedScene:
 
 
 def has_set(system: System) -> bool:
-    """Return whether the constraints of coordinates alone describe a set that can be seen: curves, surfaces, lines."""
+    """Return whether a scene of two or three coordinates has a configuration set that can be drawn."""
     count = len(system.coordinates)
     return (count == 2 and bool(system.constraints)) or (count == 3 and bool(geometric_equations(system)))
 
@@ -212,7 +212,7 @@ def _motions(arrangement: Arrangement, report: Report) -> tuple[FreeMotion, ...]
 
 
 def _written_place(arrangement: Arrangement, connection: Connection) -> Place | None:
-    """Return where the scene puts a constraint's symbol, or None."""
+    """Return the place of a constraint's symbol that the scene gives, or None."""
     for at in connection.places:
         if at is not None:
             return arrangement.point(at)
@@ -220,7 +220,7 @@ def _written_place(arrangement: Arrangement, connection: Connection) -> Place | 
 
 
 def _points(scene: Scene, arrangement: Arrangement, written: Sequence[Place | None]) -> list[Array]:
-    """Return the points of the scene where they are now, with the rims of wheels."""
+    """Return the positions of all points of the scene, with the rims of wheels."""
     poses = arrangement.poses
     points = [poses[p].moved((0.0, 0.0, 0.0)) for p in arrangement.system.particles]
     points += [poses[v.carrier].moved(v.at) for force in scene.forces for v in force_ends(arrangement, force)]
@@ -237,7 +237,7 @@ def _points(scene: Scene, arrangement: Arrangement, written: Sequence[Place | No
 
 
 def radius_of(scene: Scene, arrangement: Arrangement, number: int) -> float:
-    """Return the radius of a wheel that rolls, as its first relation (height less radius) has it; else 0."""
+    """Return the radius of a rolling wheel, from its first relation height - radius = 0; 0 for other constraints."""
     if not scene.constraints[number].symbol.size:
         return 0.0
     contact = arrangement.system.constraints[number].relations[0].expr
@@ -247,7 +247,7 @@ def radius_of(scene: Scene, arrangement: Arrangement, number: int) -> float:
 
 
 def _extent(points: Sequence[Array | Place]) -> tuple[float, Place]:
-    """Return the largest side of the box around points, and its middle."""
+    """Return (largest side, centre) of the bounding box of points."""
     if not points:
         return 1.0, (0.0, 0.0, 0.0)
     low, high = np.min(np.array(points), axis=0), np.max(np.array(points), axis=0)
@@ -268,7 +268,7 @@ def _unit(points: Sequence[Array], size: float) -> float:
 def _all_places(
     scene: Scene, arrangement: Arrangement, written: Sequence[Place | None], unit: float
 ) -> tuple[list[Place | None], bool]:
-    """Return the place of every symbol, and whether they are schematic; a free one is put near what it joins."""
+    """Return (place of every symbol, whether they are schematic); free ones are put near the bodies that they join."""
     places = list(written)
     system = arrangement.system
     symbols = [constraint.symbol for constraint in scene.constraints]
@@ -287,7 +287,7 @@ def _all_places(
 
 
 def _layout(system: System, free: Sequence[int], unit: float) -> dict[int, Place]:
-    """Return places of joints if none is given: bodies and joints as a graph, spread by springs."""
+    """Return {number: place} of free joints: the graph of bodies and joints spread by springs; {} if too many."""
     graph = nx.Graph()
     for k in free:
         graph.add_edges_from((k, m) for m in system.connections[k].members)
@@ -300,7 +300,7 @@ def _layout(system: System, free: Sequence[int], unit: float) -> dict[int, Place
 def _neighbour(
     arrangement: Arrangement, connection: Connection, places: Sequence[Place | None], number: int
 ) -> tuple[Place | None, bool]:
-    """Return a place of the moved body, and whether a pin is there."""
+    """Return (a place on a body of the joint or None, whether a pin is there)."""
     for member in reversed([m for m in connection.members if m != GROUND]):
         for k, other in enumerate(arrangement.system.connections):
             if k != number and places[k] is not None and member in other.members:
@@ -310,7 +310,7 @@ def _neighbour(
 
 
 def _clear(wanted: Place, taken: Sequence[Place], gap: float, dimension: int) -> Place:
-    """Return the place nearest to what is wanted that keeps clear of others."""
+    """Return a place near ``wanted`` at a distance of about ``gap`` from the places ``taken``."""
     up = np.array([0.0, 1.0, 0.0]) if dimension == 2 else np.array([0.0, 0.0, 1.0])
     side = np.array([1.0, 0.0, 0.0])
     for scale in (1.0, 2.0, 3.0, 4.0):
@@ -322,7 +322,7 @@ def _clear(wanted: Place, taken: Sequence[Place], gap: float, dimension: int) ->
 
 
 def axis_of(arrangement: Arrangement, connection: Connection, number: int) -> Array:
-    """Return a direction of a joint in the reference configuration, of length 1; a usual one if none is given."""
+    """Return a unit direction of a joint in the reference configuration; a default one if none is given."""
     direction = connection.directions[number] if number < len(connection.directions) else None
     usual = (
         [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0)] if arrangement.system.dimension < 3 else [(0.0, 0.0, 1.0), (1.0, 0.0, 0.0)]
@@ -333,7 +333,7 @@ def axis_of(arrangement: Arrangement, connection: Connection, number: int) -> Ar
 
 
 def carriers(connection: Connection) -> Mapping[int, str]:
-    """Return the members by number, with the ground first if it is second: rails and sockets are the ground's."""
+    """Return {number: member}, with the ground first, because rails and sockets of a symbol belong to it."""
     members = list(connection.members)
     if len(members) > 1 and members[1] == GROUND and not connection.points:
         members[:2] = members[1::-1]

@@ -1,4 +1,4 @@
-"""Still pictures of scenes: `draw`, `graph`, `phase`, `svg` for other pages, and one that gives no answer away."""
+"""Still pictures of scenes: `draw`, `graph`, `phase`, `svg` for other pages, and `unanswered` for assignments."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ from dofkit.report import Report
 from dofkit.scene.reading import SceneLike, load
 from dofkit.scene.scene import Scene
 
-#: Pixels around a still picture on a page of its own.
+#: The margin around a still picture on a page, in pixels.
 BESIDE = 20.0
-#: A picture that extends this much further than its points has larger symbols.
+#: Symbols are enlarged if the shapes extend this much further than the points.
 WIDER = 1.6
 NOTHING = "The scene declares nothing that could move."
 NO_AXES = "No geometry to draw: constraint graph. Shapes under `picture` in the scene would be drawn instead."
@@ -76,7 +76,7 @@ class Picture(DrawnSketch):
 
 
 def draw(scene: SceneLike, report: Report | None = None) -> Picture:
-    """Return a picture of a scene: bodies, joints by their textbook symbols, what is redundant or contradictory.
+    """Return a picture of a scene: bodies, joints by their textbook symbols, redundant or conflicting constraints.
 
     Positions that the scene does not give are chosen, and the picture says so. A scene of coordinates
     only shows the set that they can reach, or its constraint graph.
@@ -110,13 +110,13 @@ def draw(scene: SceneLike, report: Report | None = None) -> Picture:
 
 
 def with_report(scene: SceneLike, report: Report | None) -> tuple[Scene, Report]:
-    """Return a scene and its report, which is computed if it is not known."""
+    """Return (scene, report), reading the scene and computing the report if necessary."""
     loaded = load(scene)
     return loaded, classify(loaded) if report is None else report
 
 
 def staged(scene: Scene, report: Report) -> StagedScene:
-    """Return a scene with its positions, and symbols as large as the whole picture needs them."""
+    """Return a staged scene, with larger symbols if the shapes extend far beyond the points."""
     stage = stage_of(scene, report)
     if is_bare(stage.system):
         return stage
@@ -127,7 +127,7 @@ def staged(scene: Scene, report: Report) -> StagedScene:
 
 
 def whole_sketch(stage: StagedScene) -> tuple[Sketch, str]:
-    """Return the sketch of a scene of any kind, and the script that goes with it."""
+    """Return (sketch of a scene of any kind, script for its SVG or an empty text)."""
     if stage.system.particles == (POINT,):
         return coordinate_sketch(stage), ""
     if not is_bare(stage.system) or stage.picture.shapes:
@@ -139,7 +139,7 @@ def whole_sketch(stage: StagedScene) -> tuple[Sketch, str]:
 def graph(scene: SceneLike, report: Report | None = None) -> Picture:
     """Return the constraint graph of a scene, with redundant constraints marked.
 
-    Pointing at a constraint highlights the circuit that it belongs to (svg, html, notebooks).
+    Pointing at a constraint highlights its circuit, the constraints on which it depends (svg, html, notebooks).
 
     Parameters
     ----------
@@ -169,8 +169,8 @@ def graph(scene: SceneLike, report: Report | None = None) -> Picture:
 def phase(scene: SceneLike, report: Report | None = None) -> Picture:
     """Return a picture of the directions that differential constraints allow, and of those that brackets add.
 
-    A small disc or line at each point is the distribution D; the arrows are brackets [X1, X2] of its vector fields. At
-    most three coordinates are shown.
+    A disc or line shows the distribution D of admissible directions (with two coordinates over a grid); the arrows are
+    brackets [X1, X2] of its vector fields. At most three coordinates are shown.
 
     Parameters
     ----------
@@ -206,8 +206,7 @@ def svg(scene: SceneLike, report: Report | None = None, width: float = WIDTH) ->
 def unanswered(scene: Scene, report: Report, title: str) -> Picture | None:
     """Return the picture for an assignment, or None for coordinates without a `picture`. Raises as `draw`.
 
-    It shows nothing that the report says, neither equations nor what moves, is redundant or contradicts others, and no
-    ruler.
+    It does not show the answers: no equations, motions, redundant or conflicting constraints, and no ruler.
     """
     if not (scene.particles or scene.bodies or scene.picture):
         return None

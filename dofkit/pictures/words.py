@@ -1,4 +1,4 @@
-"""What a report says, in the words of pictures: the answer, the states of constraints, and the legend."""
+"""Texts of pictures about a report: the answer, the states of constraints, and the legend."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from dofkit.scene.scene import Scene
 
 INFINITESIMAL = "infinitesimally mobile"
 UNDECIDED = "number of degrees of freedom undecided"
-#: The number of names that are listed.
+#: The most names that are listed.
 MOST = 8
 
 
 def state_of(report: Report, name: str) -> State:
-    """Return whether a constraint contradicts others, is redundant (wholly or in part), or neither."""
+    """Return the state of a constraint: conflicting, redundant (wholly or in part), or plain."""
     if name in report.conflicting or name in report.infeasible:
         return "conflicting"
     in_part = any(entry.redundant_equations for entry in report.constraints if entry.name == name)
@@ -24,20 +24,20 @@ def state_of(report: Report, name: str) -> State:
 
 
 def sure(report: Report, field: str) -> str:
-    """Return `` (probable)`` or the like to stand after what a field says; nothing if it is proved."""
+    """Return `` (probable)`` or similar for the verdict of a field; empty if it is proved."""
     entry = report.verdicts.get(field)
     return "" if entry is None or entry.verdict == "proved" else f" ({entry.verdict})"
 
 
 def can_hold(report: Report) -> bool:
-    """Return whether it is not excluded that all constraints are satisfied together."""
+    """Return whether the report does not exclude that all constraints are satisfied together."""
     return report.consistent is not False and report.feasible is not False
 
 
 def meanings(report: Report, looked: bool) -> Mapping[State, str]:
-    """Return what the legend says of each state. ``looked``: whether it was determined what moves.
+    """Return {state: text of the legend}. ``looked``: whether motions were computed.
 
-    Infinitesimal motions are drawn: they are finite motions only if the report says so.
+    The motions are infinitesimal; they are called mobility only if the report says that they are finite.
     """
     words: dict[State, str] = {
         "redundant": f"redundant or partly redundant{sure(report, 'redundant')}",
@@ -68,7 +68,7 @@ def answer(report: Report) -> str:
 
 
 def _freedom(report: Report) -> Iterator[str]:
-    """Yield the freedom, the velocity freedom where it differs, and what is undecided."""
+    """Yield texts on the freedom, the velocity freedom if it differs, and what is undecided."""
     dof, velocities = report.dof, report.velocity_dof
     yield UNDECIDED if dof is None else f"{dof} {verb(dof, 'degree', 'degrees')} of freedom"
     if velocities is not None and velocities != dof:
@@ -82,7 +82,7 @@ def _freedom(report: Report) -> Iterator[str]:
 
 
 def alternative(scene: Scene, report: Report) -> str:
-    """Return what is drawn, and the answer, in a few sentences."""
+    """Return a description of the picture and the answer, in a few sentences."""
     sentences = [f"{contents(scene, scene.title or scene.name)}.", f"{answer(report)}."]
     how = sure(report, "redundant")
     wholly = report.redundant or []
@@ -98,7 +98,7 @@ def alternative(scene: Scene, report: Report) -> str:
 
 
 def contents(scene: Scene, title: str) -> str:
-    """Return a title, and how many bodies, particles, coordinates and constraints a scene has."""
+    """Return a title with the numbers of bodies, particles, coordinates and constraints of a scene."""
     further = "further " if scene.bodies or scene.particles else ""
     counts = [(scene.bodies, "body"), (scene.particles, "particle"), (scene.coordinates, f"{further}coordinate")]
     listed = [many(len(items), what) for items, what in (*counts, (scene.constraints, "constraint")) if items]

@@ -1,4 +1,4 @@
-"""A student's equations read with the names of a scene, and put beside its constraints."""
+"""Equations of a student's answer: read with the names of a scene, and added to its constraints."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from dofkit.expressions.tree import parameter
 from dofkit.scene.constraints.base import Equation
 from dofkit.scene.scene import Scene
 
-#: Names that an answer may bring with it as constants of integration.
+#: Undeclared names that an answer may use as constants of integration.
 _CONSTANT = re.compile(r"(?!d\b)[^\W\d_](?:_?\w{1,5})?|const|constant", re.UNICODE)
 MAX_CONSTANTS = 4
 #: Equations in one answer.
@@ -22,9 +22,9 @@ _SEPARATED = re.compile(r"[;\n]")
 
 @dataclass(frozen=True)
 class Read:
-    """An answer as it was understood: its ``texts``, one a relation, and the ``constants`` that it brought with it.
+    """An answer as it was understood: its ``texts``, one for each equation, and the ``constants`` that it introduces.
 
-    ``text``: in the grammar of scenes; ``moving``: does it hold velocities or differentials?
+    ``text``: all equations in the grammar of scenes; ``moving``: whether velocities or differentials occur.
     """
 
     texts: tuple[str, ...]
@@ -34,9 +34,9 @@ class Read:
 
 
 def read_equations(answer: str | Sequence[str], names: Names, constants: bool) -> Read:
-    """Return the equations of an answer, one text each; ``constants``: undeclared names may be constants.
+    """Return the equations of an answer; with ``constants``, undeclared names may be constants of integration.
 
-    Raises TextError, its column counted within the answer (of several, within the one at fault).
+    Raises TextError; its column is counted within the answer, or within the answer at fault if there are several.
     """
     texts = [t for text in ((answer,) if isinstance(answer, str) else answer) for t in _equations_in(text)]
     if not any(text.strip() for _, text in texts):
@@ -52,7 +52,7 @@ def read_equations(answer: str | Sequence[str], names: Names, constants: bool) -
 
 
 def _equations_in(text: str) -> Iterator[tuple[int, str]]:
-    """(characters before it, text) of every equation in a text."""
+    """Yield (number of characters before the equation, its text) for every equation in a text."""
     start = 0
     for cut in _SEPARATED.finditer(text):
         yield start, text[start : cut.start()]
@@ -63,6 +63,7 @@ def _equations_in(text: str) -> Iterator[tuple[int, str]]:
 def _read(
     text: str, before: int, names: Names, constants_found: dict[str, None], constants: bool
 ) -> tuple[Comparison, ...]:
+    """Return the relations in ``text``; unknown names that may be constants are added to ``constants_found``."""
     while True:
         extended = Names(
             names.coordinates,
@@ -74,31 +75,31 @@ def _read(
             return parse_relations(text, extended if constants_found else names)
         except UnknownNameError as error:
             if not constants or len(constants_found) == MAX_CONSTANTS or not _may_be_constant(error.name, names):
-                raise _moved(error, before) from None
+                raise _shifted(error, before) from None
             constants_found[error.name] = None
         except TextError as error:
-            raise _moved(error, before) from None
+            raise _shifted(error, before) from None
 
 
 def _may_be_constant(name: str, names: Names) -> bool:
-    """Return whether it is a short name of the student's own: ``x_A`` is none where x is declared."""
+    """Return whether ``name`` is short and not an index of a declared name, as ``x_A`` is if x is declared."""
     stem, _, index = name.partition("_")
     declared = stem in names.coordinates or stem in names.parameters
     return bool(_CONSTANT.fullmatch(name)) and not (declared and index and not index.isdigit())
 
 
-def _moved(error: TextError, before: int) -> TextError:
+def _shifted(error: TextError, before: int) -> TextError:
     column = None if error.column is None else error.column + before
     return TextError(error.message, column, error.hint)
 
 
 def as_text(c: Comparison) -> str:
-    """Return a relation in the grammar of scenes."""
+    """Return the relation ``c`` in the grammar of scenes."""
     return f"{to_text(c.left)} {c.relation} {to_text(c.right)}"
 
 
 def with_equations(scene: Scene, read: Read, called: str) -> Scene:
-    """Return the scene with the equations after its constraints; their names are ``called`` and a number from 1 on."""
+    """Return the scene with the equations of ``read`` added to its constraints, named ``called`` 1, 2, ..."""
     more = tuple(Equation(name=f"{called} {i + 1}", text=text) for i, text in enumerate(read.texts))
     parameters = {**scene.parameters, **dict.fromkeys(read.constants, "real")}
     changes = {"constraints": (*scene.constraints, *more), "parameters": parameters, "expect": {}}

@@ -1,6 +1,6 @@
-"""The files of scenes: the bytes at a path or of a catalog name, and what is near where there is none.
+"""The files of scenes: the content at a path or of a catalog name, and the nearest name if there is neither.
 
-The catalog has one scene in each file, named by its stem, in an installed package as in a checkout.
+The catalog has one scene in each file, named by the file's stem, in an installed package and in a checkout.
 """
 
 from __future__ import annotations
@@ -64,14 +64,14 @@ def catalog_text(name: str) -> str:
 
 
 def catalog_titles() -> dict[str, str]:
-    """Return the title of every scene, by name."""
+    """Return {name: title} of every scene in the catalog."""
     return {name: _title(file.read_text(encoding="utf-8")) for name, file in catalog_files().items()}
 
 
 def catalog_search(words: Sequence[str]) -> dict[str, str]:
-    """Return the titles of the scenes in which all words occur, by name: those with them in name or title first.
+    """Return {name: title} of the scenes that contain all words: first those with the words in name or title.
 
-    Raises SceneError where there is none.
+    Raises SceneError if no scene contains them.
 
     >>> "disc-rolling-on-plane" in catalog_search(["rolling", "disc"])
     True
@@ -87,14 +87,14 @@ def catalog_search(words: Sequence[str]) -> dict[str, str]:
 
 
 def nearest_hint(name: str) -> str:
-    """Return a hint with the catalog's name that looks most like ``name``."""
+    """Return a hint with the catalog's name that is most similar to ``name``."""
     near = nearest_title(name, catalog_names())
     return f"did you mean '{near}'?" if near else "'dofkit catalog' lists the names"
 
 
 @cache
 def catalog_files() -> dict[str, Traversable]:
-    """Return the file of every scene by its name, folder by folder."""
+    """Return {name: file} of every scene, folder by folder."""
     files: dict[str, Traversable] = {}
     root = catalog_folder()
     folders = sorted((entry for entry in root.iterdir() if entry.is_dir()), key=lambda entry: entry.name)
@@ -106,7 +106,7 @@ def catalog_files() -> dict[str, Traversable]:
 
 
 def catalog_folder() -> Traversable:
-    """Return the folder of the catalog's scenes. Raises SceneError where they are not installed."""
+    """Return the folder of the catalog's scenes. Raises SceneError if the catalog is not installed."""
     package = resources.files("dofkit")
     packaged = package / "_catalog"
     if packaged.is_dir():
@@ -123,7 +123,7 @@ def _title(text: str) -> str:
 
 
 class FoundFile(NamedTuple):
-    """The bytes at a path or of a catalog name; ``path`` is None for a scene of the catalog."""
+    """The content of a scene's file; ``path`` is None for a scene of the catalog."""
 
     name: str
     data: bytes | str
@@ -131,7 +131,7 @@ class FoundFile(NamedTuple):
 
 
 def find(source: str | os.PathLike[str]) -> FoundFile:
-    """Return the bytes of the file at a path, or of the catalog scene of that name. Raises SceneError for neither."""
+    """Return the file at a path, or of the catalog scene of that name. Raises SceneError if there is neither."""
     name = os.fsdecode(source)
     path = Path(name)
     try:
@@ -152,6 +152,7 @@ def find(source: str | os.PathLike[str]) -> FoundFile:
 
 
 def _missing(name: str, path: Path) -> Fault:
+    """Return the fault that there is no file or catalog scene ``name``, with a hint to the nearest name."""
     if "\n" in name:
         message = "this is the text of a scene, not a path or a name"
         return Fault(message, hint="read a text with dofkit.loads(text)")
@@ -169,6 +170,7 @@ def _missing(name: str, path: Path) -> Fault:
 
 
 def _files_beside(path: Path) -> list[str]:
+    """Return the names of at most 2000 files in the folder of ``path``."""
     try:
         with os.scandir(path.parent) as entries:
             return [entry.name for entry, _ in zip(entries, range(2000), strict=False) if entry.is_file()]
@@ -177,7 +179,7 @@ def _files_beside(path: Path) -> list[str]:
 
 
 def _printable(name: str) -> str:
-    """Return a file's name without the half characters that stand for bytes of another encoding."""
+    """Return a file's name with `?` for lone surrogates, which stand for bytes of another encoding."""
     return name.encode("utf-8", "replace").decode("utf-8")
 
 

@@ -1,4 +1,4 @@
-"""Where a scene places its frames and points before any constraint is read; its size, its reference configuration."""
+"""The frames and points of a scene before any constraint is read; its size, its reference configuration."""
 
 from __future__ import annotations
 
@@ -20,16 +20,16 @@ from dofkit.scene.names import Vocabulary
 from dofkit.scene.parts import Declarations, Particle
 from dofkit.system import GROUND
 
-#: Up to this many points the distance of every pair is measured.
+#: Up to this many points the distance of every pair is computed.
 EVERY_PAIR = 1000
 
 
 @dataclass(frozen=True)
 class Drawing:
-    """The particles and bodies of a scene in its coordinates, and their positions in the reference configuration.
+    """The particles and bodies of a scene, in its coordinates and in the reference configuration.
 
-    ``configuration``: the values given of coordinates; ``points``: positions given as numbers or texts; ``drawn``: the
-    bodies that the configuration places.
+    ``configuration``: the given values of coordinates; ``points``: the given positions of particles; ``drawn``: the
+    bodies whose position is given (at least in part) in ``configuration``.
     """
 
     vocabulary: Vocabulary
@@ -44,7 +44,7 @@ class Drawing:
 
 
 def drawing_of(scene: Declarations, vocabulary: Vocabulary, mentioned: frozenset[str], faults: list[Fault]) -> Drawing:
-    """Return the places of a scene; a spatial body of whose angles one is ``mentioned`` keeps its Euler angles.
+    """Return the `Drawing` of a scene; a spatial body has Euler angles if one is ``mentioned``, else a Gibbs vector.
 
     The faults of the configuration and of the particles' positions are added to ``faults``.
     """
@@ -80,7 +80,7 @@ def drawing_of(scene: Declarations, vocabulary: Vocabulary, mentioned: frozenset
 
 
 def _place(texts: Texts, particle: Particle, names: tuple[str, ...], configuration: Mapping[str, Expr]) -> Vec | None:
-    """Return the reference position of a particle."""
+    """Return the reference position of a particle, None if it is not given. Two different positions are a fault."""
     place = None if particle.at is None else texts.vector(particle.at, len(names), "at")
     configured = [name for name in names if name in configuration]
     if place is not None and configured:
@@ -96,6 +96,7 @@ def _place(texts: Texts, particle: Particle, names: tuple[str, ...], configurati
 def _frames(
     d: int, vocabulary: Vocabulary, configuration: Mapping[str, Expr], mentioned: frozenset[str]
 ) -> dict[str, Frame]:
+    """Return {body: frame}, with the coordinates and the reference values of position and angles."""
     frames: dict[str, Frame] = {}
     for body, names in vocabulary.table.bodies.items():
         values = [configuration.get(name, ZERO) for name in names]
@@ -108,12 +109,12 @@ def _frames(
 
 
 def size_of(points: Sequence[Vec]) -> float:
-    """Return the largest distance between points whose positions are numbers; 1 if there are none."""
+    """Return the largest distance between points whose positions are numbers; 1.0 if it is 0 or there are none."""
     return _diameter(sorted({numbers for numbers in map(_numbers, points) if numbers is not None})) or 1.0
 
 
 def centre_of(points: Sequence[Vec]) -> Vec | None:
-    """Return the middle of the points whose positions are numbers, rounded to binary; None if there are none."""
+    """Return the centre of the bounding box of the points whose positions are numbers; None if there are none."""
     numbers = [place for place in map(_numbers, points) if place is not None]
     return tuple(num(Fraction((min(xs) + max(xs)) / 2)) for xs in zip(*numbers, strict=True)) or None
 
@@ -124,13 +125,13 @@ def _numbers(point: Vec) -> tuple[float, ...] | None:
 
 
 def _diameter(points: list[tuple[float, ...]]) -> float:
-    """Return the largest distance of two points; of many points, of those that reach furthest in some directions."""
+    """Return the largest distance of two points; with more than `EVERY_PAIR` points, between extreme points only."""
     few = points if len(points) <= EVERY_PAIR else _extremes(points)
     return max((dist(p, q) for p, q in combinations(few, 2)), default=0.0)
 
 
 def _extremes(points: list[tuple[float, ...]]) -> list[tuple[float, ...]]:
-    """Return the points that reach furthest along axes and diagonals, enough to measure the size of the scene."""
+    """Return the points that are extreme along axes and diagonals: their distances give the size of the scene."""
     extremes = set()
     for direction in every_product((-1, 0, 1), repeat=len(points[0])):
         if direction > (0,) * len(direction):
@@ -140,7 +141,7 @@ def _extremes(points: list[tuple[float, ...]]) -> list[tuple[float, ...]]:
 
 
 def drawn_bodies(placed: Iterable[str], welds: Iterable[Sequence[str]]) -> frozenset[str]:
-    """Return the bodies that are ``placed``, and those welded to the ground or to one that is placed."""
+    """Return the bodies that are ``placed``, and those that pairs of ``welds`` connect to them or to the ground."""
     drawn = set(placed) - {GROUND}
     welded: dict[str, list[str]] = {}
     for first, second in welds:
@@ -159,7 +160,7 @@ def drawn_bodies(placed: Iterable[str], welds: Iterable[Sequence[str]]) -> froze
 
 
 def pose_of(drawing: Drawing) -> dict[Expr, Expr]:
-    """Return values at which the joints close: bodies at their reference, particles and coordinates where given."""
+    """Return {coordinate: value} at which the joints close: the bodies' reference and all given values."""
     pose: dict[Expr, Expr] = {}
     for particle in drawing.particles.values():
         if particle.reference is not None:
@@ -176,10 +177,10 @@ def pose_of(drawing: Drawing) -> dict[Expr, Expr]:
 def reference_of(
     drawing: Drawing, drawn: Set[str], pose: Mapping[Expr, Expr], touched: Callable[[], Set[str]]
 ) -> dict[Expr, Expr] | None:
-    """Return the pose if it has a value for every coordinate that a constraint has ``touched`` (for all if none has).
+    """Return ``pose``, with 0 elsewhere, if it places all coordinates that constraints mention, else None.
 
-    Its bodies are ``drawn``. What nothing constrains may be anywhere; what is touched is asked for only where something
-    is not drawn.
+    ``drawn``: the bodies that it places; ``touched`` returns the mentioned coordinates (if empty, all count), and is
+    called only if something is not placed, because it takes time.
     """
     names = [q.name for q in drawing.vocabulary.table.coordinates]
     every = frozenset(names)
@@ -189,7 +190,7 @@ def reference_of(
 
 
 def undrawn(drawing: Drawing, drawn: Set[str], pose: Mapping[Expr, Expr], touched: Set[str]) -> tuple[str, ...]:
-    """Return the bodies, particles and coordinates that a constraint has ``touched`` and that are not drawn."""
+    """Return the bodies, particles and coordinates in ``touched`` that are not in ``drawn`` or ``pose``."""
     table, posed = drawing.vocabulary.table, frozenset(str(s.args[1]) for s in pose)
     bodies = [b for b, names in table.bodies.items() if b not in drawn and not touched.isdisjoint(names)]
     others = (q for q in table.coordinates if q.name in touched and q.name not in posed)

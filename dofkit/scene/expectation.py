@@ -1,4 +1,4 @@
-"""What a scene expects of its report, compared with the report."""
+"""The values that a scene expects (`expect`), compared with those of a report."""
 
 from __future__ import annotations
 
@@ -20,10 +20,7 @@ _SETS = frozenset({"redundant", "conflicting", "infeasible", "generalized_coordi
 
 
 def unmet(scene: Scene, report: Mapping[str, Any]) -> list[str]:
-    """Return every field that the scene expects and a report does not have, as ``KEY: ... expected, but ...``.
-
-    ``report``: as it is written in JSON.
-    """
+    """Return ``KEY: ... expected, but ...`` for every expected field that differs in ``report``, written as JSON."""
     entries = {entry["name"]: entry for entry in report["constraints"]}
     return [
         f"{key}: {wanted} expected, but the report has {value}"
@@ -35,7 +32,7 @@ def unmet(scene: Scene, report: Mapping[str, Any]) -> list[str]:
 def _pairs(
     expect: Mapping[str, Any], report: Mapping[str, Any], entries: Mapping[str, Any]
 ) -> Iterator[tuple[str, Any, Any]]:
-    """Yield the name of each field, what is expected and what the report has; of a constraint ``NAME.FIELD``."""
+    """Yield (name, expected value, reported value) of every expected field; a constraint's is named ``NAME.FIELD``."""
     for key, wanted in expect.items():
         if key != "constraints" or not isinstance(wanted, Mapping):
             yield key, wanted, report.get(key)
@@ -48,6 +45,7 @@ def _pairs(
 
 
 def _agrees(scene: Scene, key: str, wanted: Any, value: Any) -> bool:
+    """Return whether a report's value is the expected one; order, and equivalent integrals, do not matter."""
     if wanted is None or value is None:
         return wanted is value
     if key in _SETS and isinstance(wanted, Sequence):
@@ -68,7 +66,7 @@ def _groups(groups: Sequence[Any]) -> list[Any]:
 
 
 def _members(groups: Sequence[Any]) -> set[frozenset[str]]:
-    """Return the members of the groups that name them."""
+    """Return the set of members of every group that lists its members."""
     return {frozenset(map(str, g["members"])) for g in groups if isinstance(g, Mapping) and g.get("members")}
 
 
@@ -77,7 +75,7 @@ def _force_names(forces: Sequence[Any]) -> list[str]:
 
 
 def _one_family(scene: Scene, first: str, second: str) -> bool:
-    """Return whether f = C and g = C are the same surfaces: df and dg are proportional."""
+    """Return whether f = C and g = C have the same level surfaces, because df and dg are proportional."""
     vocabulary = vocabulary_of(scene)
     try:
         f, g = (_level(text, vocabulary.names) for text in (first, second))
@@ -90,5 +88,5 @@ def _one_family(scene: Scene, first: str, second: str) -> bool:
 
 
 def _level(text: str, names: Names) -> Expr:
-    """Return f of ``f = C``."""
+    """Return f of the text ``f = C``."""
     return parse_expression(text.partition("=")[0], names)

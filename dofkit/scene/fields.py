@@ -1,8 +1,8 @@
-"""What a person writes, at the border: exact numbers, texts, and faults that say what to write instead.
+"""Fields of a scene as a person writes them: exact numbers, texts, and faults that say what to write instead.
 
-Every model of a scene derives from `WrittenModel`: frozen, closed to unknown keys, and with faults retold
-for the person who reads them. A fault of a `pydantic.ValidationError` carries ``ctx["hint"]`` where
-there is something to suggest, and its ``loc`` is the path of keys and positions as written.
+Every model of a scene derives from `WrittenModel`: frozen, closed to unknown keys, with Pydantic's messages reworded.
+An error of a `pydantic.ValidationError` has ``ctx["hint"]`` if there is a suggestion, and ``loc``, the path of keys and
+positions as written.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ _OURS = "dofkit"
 
 @lru_cache(maxsize=4096)
 def meant_key(word: object, keys: tuple[str, ...]) -> str | None:
-    """Return the key of ``keys`` that a word most likely stands for, or None.
+    """Return the one of ``keys`` that ``word`` most likely means, or None.
 
     >>> meant_key("members", ("type", "between")), meant_key("lenght", ("between", "length"))
     ('between', 'length')
@@ -52,7 +52,7 @@ def meant_key(word: object, keys: tuple[str, ...]) -> str | None:
 
 
 def suggestion(word: object, candidates: Sequence[str], what: str) -> str:
-    """Return a sentence that names the nearest of ``candidates``, or lists them."""
+    """Return a hint that names the one of ``candidates`` nearest to ``word``, or else lists the ``what``."""
     near = meant_key(word, tuple(candidates)) if what == "keys" else nearest(word, candidates)
     if near is not None:
         return f"did you mean '{near}'?"
@@ -63,13 +63,13 @@ def suggestion(word: object, candidates: Sequence[str], what: str) -> str:
 
 
 def fault_error(message: str, hint: str | None = None, **context: Any) -> PydanticCustomError:
-    """Return an error for a validator to raise; ``hint`` travels in its context."""
+    """Return an error for a validator to raise, with ``hint`` and ``context`` in its context."""
     details = {"message": message, **({"hint": hint} if hint else {}), **context}
     return PydanticCustomError(_OURS, "{message}", details)
 
 
 def faults_of(error: ValidationError) -> tuple[Fault, ...]:
-    """Return the faults of a validation error, each with its path as written."""
+    """Return the faults of a validation error, each with its path as written, column and hint."""
     return tuple(
         Fault(
             detail["msg"],
@@ -82,7 +82,7 @@ def faults_of(error: ValidationError) -> tuple[Fault, ...]:
 
 
 def exact(value: object) -> Fraction:
-    """``value`` as an exact number; a float is taken by its shortest decimal form.
+    """Return ``value`` as an exact number; a float by its shortest decimal form. Raises `fault_error` for other values.
 
     >>> exact(0.1), exact("1e-2"), exact("2/3")
     (Fraction(1, 10), Fraction(1, 100), Fraction(2, 3))
@@ -144,7 +144,7 @@ def _text(value: object) -> str:
 
 
 def as_written(value: Fraction | str) -> str:
-    """Return a value as text: ``1/3``, but ``0.25`` where the decimals end.
+    """Return a value as text: a number with finite decimals as decimals, another as a fraction.
 
     >>> as_written(Fraction(-1, 4)), as_written(Fraction(1, 3))
     ('-0.25', '1/3')
@@ -164,7 +164,7 @@ def as_written(value: Fraction | str) -> str:
 
 
 def _number_out(value: Fraction | str) -> int | str:
-    """Return an integer as it is, and any other number as a text such as ``1/2``, which reads back exactly."""
+    """Return an integer as int and any other number as a text such as ``1/2``, which reads back exactly."""
     if isinstance(value, str):
         return value
     return int(value) if value.denominator == 1 else str(value)
@@ -193,12 +193,12 @@ Vector = tuple[Value, ...]
 
 
 def listed(value: object) -> object:
-    """Return an empty YAML value (``particles:`` and nothing after it) as an empty list."""
+    """Return an empty YAML value (``particles:`` with nothing after it) as an empty list, any other value unchanged."""
     return () if value is None else value
 
 
 def named(value: object) -> object:
-    """Return a plain name as ``{name: ...}``."""
+    """Return a plain name as ``{name: ...}``, any other value unchanged."""
     return {"name": value} if isinstance(value, str) else value
 
 
@@ -206,7 +206,7 @@ Listed = BeforeValidator(listed)
 
 
 def in_words(value: object) -> str:
-    """Return a short description of a value that was given: ``'x'``, ``a list``, ``nothing``."""
+    """Return a short description of a value for messages: ``'x'``, ``a list``, ``nothing``."""
     if value is None:
         return "nothing"
     if isinstance(value, bool):
@@ -234,7 +234,7 @@ _AS = {"a particle": "a name or a mapping", "a body": "a name or a mapping"}
 
 
 def _message(detail: Mapping[str, Any], owner: str, keys: Sequence[str]) -> tuple[str, str | None]:
-    """Return one fault of Pydantic's in words for the person who wrote the scene, with a hint."""
+    """Return (message, hint) for an error of Pydantic's in the entry ``owner``, whose allowed keys are ``keys``."""
     kind, place = detail["type"], detail["loc"]
     context = detail.get("ctx") or {}
     if kind == "extra_forbidden":
@@ -263,7 +263,7 @@ def _message(detail: Mapping[str, Any], owner: str, keys: Sequence[str]) -> tupl
 
 
 def fault_at(place: tuple[int | str, ...], message: str, hint: str | None = None) -> ValidationError:
-    """Return an error for a validator to raise about something inside what it was given."""
+    """Return an error with one fault at the path ``place`` in the validated value, for a validator to raise."""
     detail = InitErrorDetails(type=fault_error(message, hint), loc=place, input=None)
     return ValidationError.from_exception_data("scene", [detail])
 
@@ -274,7 +274,7 @@ def retold(
     keys: Sequence[str],
     place: Callable[[tuple[int | str, ...]], tuple[int | str, ...]] = lambda loc: loc,
 ) -> ValidationError:
-    """Return the same faults in our words, those that are already ours left as they are; ``place`` maps each path."""
+    """Return the error with Pydantic's messages in dofkit's words; ``place`` maps the path of each fault."""
     details = []
     for detail in error.errors(include_url=False):
         context = dict(detail.get("ctx") or {})
@@ -288,7 +288,7 @@ def retold(
 
 
 def untagged(value: object, handler: ValidatorFunctionWrapHandler) -> Any:
-    """Validate a member of a tagged union, with paths free of the tag."""
+    """Validate a member of a tagged union and return it; the paths of its faults do not contain the tag."""
     try:
         return handler(value)
     except ValidationError as error:
@@ -296,13 +296,14 @@ def untagged(value: object, handler: ValidatorFunctionWrapHandler) -> Any:
 
 
 class WrittenModel(BaseModel):
-    """The base of what a person writes: frozen, no unknown keys, an empty value the same as none."""
+    """The base class of a scene's entries: frozen, no unknown keys; a key without a value counts as absent."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, defer_build=True)
 
     @model_validator(mode="wrap")
     @classmethod
     def _retell(cls, data: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
+        """Validate without keys of empty value; Pydantic's messages are reworded."""
         if isinstance(data, (dict, Mapping)) and None in data.values():
             data = {key: value for key, value in data.items() if value is not None or key not in cls.model_fields}
         try:
@@ -312,17 +313,17 @@ class WrittenModel(BaseModel):
 
     @classmethod
     def called(cls) -> str:
-        """Return what a message calls it: ``a particle``."""
+        """Return the name of such an entry in messages: ``a particle``."""
         name = cls.__name__.lower()
         return f"{'an' if name[0] in 'aeiou' else 'a'} {name}"
 
 
 @dataclass(frozen=True)
 class TaggedUnion:
-    """Members of class ``base``, of which one is ``called`` so, by their ``key``.
+    """Entries of class ``base`` that are distinguished by their ``key``, with the words of messages about them.
 
-    ``allowed``: what the key may say, and ``names`` what that is called; ``listing`` stands before a list of it,
-    ``unknown`` says that {} is none of it; ``otherwise``: what is said, and hinted, of what is no mapping.
+    ``called``: an entry, as `a constraint`; ``allowed``: the key's values, ``names`` their plural, ``listing`` the head
+    of their list; ``unknown``: the message for another value {}; ``otherwise``: (message, hint) for no mapping.
     """
 
     base: type
@@ -333,11 +334,11 @@ class TaggedUnion:
     listing: str
     unknown: str
     otherwise: tuple[str, str | None]
-    #: The hint for a word that is none of ``allowed`` (None: it is missing), by the word and the mapping that holds it.
+    #: Returns a hint from a value of the key that is not ``allowed`` (None: missing) and the entry, or None.
     advise: Callable[[object, Mapping[str, Any]], str | None] = lambda word, entry: None
 
     def validated(self, value: object, handler: ValidatorFunctionWrapHandler) -> Any:
-        """Return a member, its faults at paths free of the key. Raises as Pydantic's validators do."""
+        """Return the validated entry. Raises as Pydantic's validators do, with paths that do not contain the key."""
         if isinstance(value, (dict, Mapping)):
             word = value.get(self.key)
             if word is not None and not isinstance(word, str):

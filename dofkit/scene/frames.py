@@ -1,8 +1,8 @@
-"""Frames of bodies and of the ground: points that they carry, their rotations and angular velocities.
+"""Frames of bodies and of the ground: their material points, rotations and angular velocities.
 
-Vectors are exact and cleared of denominators. A spatial body in the Gibbs chart turns by R = N / w with
-N = (1 - g.g) I + 2 g g^T + 2 g~ and w = 1 + g.g, the factor that never vanishes; points are kept as numerator over w,
-so that relations between them are polynomial. For every other frame w is 1.
+Vectors are exact and free of denominators. In the Gibbs chart, with the Gibbs vector g and its cross product matrix g~,
+a spatial body has the rotation R = N / w with N = (1 - g.g) I + 2 g g^T + 2 g~ and w = 1 + g.g, which never vanishes;
+points are kept as numerator and denominator w, so that relations between them are polynomial. In other charts w is 1.
 """
 
 from __future__ import annotations
@@ -56,7 +56,7 @@ def euler(phi: Expr, theta: Expr, psi: Expr) -> Matrix:
 
 
 def gibbs_numerator(g: Vec) -> Matrix:
-    """N = (1 - g.g) I + 2 g g^T + 2 g~, so that R = N / (1 + g.g)."""
+    """Return the matrix N = (1 - g.g) I + 2 g g^T + 2 g~, for the rotation R = N / (1 + g.g)."""
     x, y, z = g
     diagonal = difference(ONE, square(g))
     twice = [mul(TWO, part) for part in g]
@@ -68,10 +68,9 @@ def gibbs_numerator(g: Vec) -> Matrix:
 
 
 class Placed(NamedTuple):
-    """A point X = over / under; ``reference`` is where it stands in the reference configuration, if known.
+    """A point X = over / under; ``reference`` is its position in the reference configuration, if known.
 
-    ``frame`` names the body that carries it (``ground`` too), None for a particle; ``label`` tells
-    points apart.
+    ``frame`` is the name of its body (or ``ground``), None for a particle; ``label`` is unique for each point.
     """
 
     over: Vec
@@ -83,7 +82,7 @@ class Placed(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Frame:
-    """A body's pose, or the ground's: a material point at ``a`` in the reference is X = p + R (a - start).
+    """The frame of a body or the ground: the material point at ``a`` in the reference is X = p + R (a - start).
 
     ``position`` is p, ``start`` its reference value, ``angles`` the names of the angle coordinates
     and ``initial`` their reference values. ``chart`` is ``fixed`` for the ground, ``line`` in one
@@ -99,24 +98,24 @@ class Frame:
 
     @property
     def dimension(self) -> int:
-        """d."""
+        """The dimension d of the world."""
         return len(self.position)
 
     @property
     def fixed(self) -> bool:
-        """True for the ground."""
+        """Whether this is the ground."""
         return self.chart == "fixed"
 
     @cached_property
     def gibbs(self) -> Vec | None:
-        """The Gibbs vector of the rotation from the reference, where the chart has one."""
+        """The Gibbs vector of the rotation from the reference; None in other charts than ``fixed`` and ``gibbs``."""
         if self.fixed:
             return (ZERO, ZERO, ZERO)
         return tuple(coordinate(name) for name in self.angles) if self.chart == "gibbs" else None
 
     @cached_property
     def angle(self) -> Expr:
-        """In the plane, the angle from the reference."""
+        """In the plane, the angle of rotation from the reference; 0 for the ground."""
         return difference(coordinate(self.angles[0]), self.initial[0]) if self.angles else ZERO
 
     @cached_property
@@ -126,7 +125,7 @@ class Frame:
 
     @cached_property
     def turn(self) -> Matrix | None:
-        """w R; None for the identity."""
+        """The matrix w R of the rotation from the reference; None for the identity."""
         if self.chart == "plane":
             return turn(self.angle)
         if self.chart == "gibbs" and self.gibbs:
@@ -137,11 +136,11 @@ class Frame:
         return None
 
     def carry(self, a: Vec) -> Vec:
-        """w R a: where a direction of the reference points now, times w."""
+        """Return w R a: the direction ``a`` of the reference, rotated with the body, times w."""
         return a if self.turn is None else apply(self.turn, a)
 
     def point(self, a: Vec, label: str = "") -> Placed:
-        """Return X = (w p + w R (a - start)) / w, now, of the point that is at ``a`` in the reference."""
+        """Return the material point X = (w p + w R (a - start)) / w that is at ``a`` in the reference."""
         if self.fixed:
             return Placed(a, ONE, a, self.name, label)
         arm = minus(a, self.start)
@@ -150,7 +149,7 @@ class Frame:
         return Placed(plus(scaled(self.under, self.position), self.carry(arm)), self.under, a, self.name, label)
 
     def spin(self) -> tuple[Vec, Expr]:
-        """Return the angular velocity in world axes as numerator and denominator, velocities as symbols.
+        """Return (numerator, denominator) of the angular velocity in world axes.
 
         Gibbs: 2 (gdot + g x gdot) / (1 + g.g). Euler: phidot e_z + thetadot (cos phi, sin phi, 0)
         + psidot (sin phi sin theta, -cos phi sin theta, cos theta).
@@ -166,7 +165,7 @@ class Frame:
 
 
 def relative(first: Frame, second: Frame) -> tuple[Expr, Vec] | None:
-    """Return the rotation R1^T R2 as a quaternion (scalar, vector), up to a positive factor; None outside Gibbs charts.
+    """Return R1^T R2 as a quaternion (scalar, vector), up to a positive factor; None without two Gibbs vectors.
 
     (1, -g1)(1, g2) = (1 + g1.g2, g2 - g1 - g1 x g2).
     """
@@ -177,7 +176,7 @@ def relative(first: Frame, second: Frame) -> tuple[Expr, Vec] | None:
 
 
 def between(first: Placed, second: Placed) -> tuple[Vec, Expr]:
-    """second - first as numerator and denominator."""
+    """Return second - first as (numerator, denominator)."""
     if first.under == second.under:
         return minus(second.over, first.over), first.under
     first_over, second_over = scaled(second.under, first.over), scaled(first.under, second.over)

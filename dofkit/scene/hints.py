@@ -1,4 +1,4 @@
-"""What to do about a fault of a scene: the type and the keys that were meant, and a line that would work."""
+"""Hints for the faults of a scene: the type and the keys that were meant, and an example line."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from dofkit.scene.synonyms import Path, dimension_of, other_keys
 
 UNKNOWN_KEY = "unknown key"
 UNKNOWN_TYPE = "there is no constraint type"
-#: Hints that show what to write already, or need no line.
+#: Hints that need no example line.
 _ENOUGH = re.compile(
     r"`|'[^']*[:=]|column|"
     r"^(?:the (?:particles|bodies|joints) are|give each|declared|rename|leave|choose|check|delete|keep|move)"
@@ -28,25 +28,25 @@ _RATE = re.compile(rf"d((?:[a-zA-Z]|{'|'.join(LETTERS_OF_NAMES)})(?:_\w+)?)|(\w+
 SUGGESTED = re.compile(r"did you mean '(\w+)'\?")
 _MEANT_NAME = re.compile(r"did you mean `(.+)`\?")
 _FORCES = ("spring", "damper", "force", "gravity")
-#: So many names are listed in a line that declares them.
+#: The largest number of names in a hint that declares them.
 MOST_DECLARED = 12
 
 
 def section_lines() -> dict[str, str]:
-    """Return a line of a scene by its section, in the order in which `dofkit explain` lists them."""
+    """Return {section: example line} in the order in which `dofkit explain` lists the sections."""
     lines: dict[str, str] = package_table(__package__, "hints.yaml")["sections"]
     return lines
 
 
 def lines() -> dict[str, str]:
-    """Return a line of a scene by the section, or the key of what is declared in one, that it gives."""
+    """Return {section or key within a section: example line}."""
     return {**section_lines(), **package_table(__package__, "hints.yaml")["keys"]}
 
 
 def without_echoes(faults: Iterable[Fault], value: Mapping[str, Any]) -> list[Fault]:
-    """Return the faults without those that another one explains.
+    """Return ``faults`` without those that another fault explains.
 
-    A misspelt key explains that the right one is missing.
+    A misspelt key explains a missing key; a refused name explains that the name is not declared.
     """
     faults = list(faults)
     meant = {
@@ -67,7 +67,7 @@ def without_echoes(faults: Iterable[Fault], value: Mapping[str, Any]) -> list[Fa
 
 
 def _name_at(value: Any, where: Path) -> str:
-    """Return the name that a path leads to, which is a key or a text; a name stands for its owner."""
+    """Return the name at the path ``where`` in a document: a key, or a text; a key `name` stands for its value."""
     owner: Any = value
     for key in where:
         if isinstance(owner, Mapping):
@@ -79,25 +79,21 @@ def _name_at(value: Any, where: Path) -> str:
 
 
 def _undeclared_at_once(faults: list[Fault], value: Mapping[str, Any]) -> list[Fault]:
-    """Return the faults with one for all bodies of a scene that declares none, and one for all particles."""
+    """Return ``faults``; undeclared bodies of a scene without bodies become one fault, and particles too."""
     for section, what in (("bodies", "body"), ("particles", "particle")):
-        missing = {
-            fault: match[1] for fault in faults if (match := re.match(f"there is no {what} '(.+)'$", fault.message))
-        }
+        missing = {f: match[1] for f in faults if (match := re.match(f"there is no {what} '(.+)'$", f.message))}
         if not missing or value.get(section) or any((fault.hint or "").startswith("did") for fault in missing):
             continue
         first, names = next(iter(missing)), list(dict.fromkeys(missing.values()))
         listed = ", ".join(names[:MOST_DECLARED]) + (", ..." if len(names) > MOST_DECLARED else "")
         message = first.message if len(names) == 1 else f"the {section} {listed} are not declared"
         joint_fault = replace(first, message=message, hint=f"declare `{section}: [{listed}]`")
-        faults = [
-            joint_fault if fault is first else fault for fault in faults if fault is first or fault not in missing
-        ]
+        faults = [joint_fault if f is first else f for f in faults if f is first or f not in missing]
     return faults
 
 
 def type_advice(word: object, entry: Mapping[str, Any]) -> str | None:
-    """Return what to write instead of a word that is no constraint type, or of none, where that is known."""
+    """Return the hint for a constraint ``entry`` whose type ``word`` is unknown (None: missing), or None."""
     if isinstance(word, str) and word in _FORCES:
         return f"write it under `forces`: `forces: [{{type: {word}, between: [A, B]}}]`; a force is not a constraint"
     kinds = likely_types(word, entry)
@@ -107,9 +103,9 @@ def type_advice(word: object, entry: Mapping[str, Any]) -> str | None:
 
 
 def likely_types(word: object, entry: Mapping[str, Any]) -> list[str]:
-    """Return the type that a word means, or else the types with the keys of an entry, misspelt ones only if need be.
+    """Return the type that ``word`` means, or else all types that have the keys of ``entry``, perhaps misspelt.
 
-    Without a type the word is a key that is the name of one: `{equation: x = y}`.
+    Without a word, a key may be the name of a type: `{equation: x = y}`.
     """
     if word is None:
         types_as_keys = (key for key in entry if key not in _ALL_FIELDS and meant_type(key, {}))
@@ -131,7 +127,7 @@ def _required(cls: type[ConstraintBase]) -> set[str]:
 
 
 def meant_type(word: object, entry: Mapping[str, Any]) -> str | None:
-    """Return the constraint type that a word most likely means, by the keys with it; None if there is none."""
+    """Return the constraint type that ``word`` most likely means, by the keys of ``entry``; None if there is none."""
     words = {kind: (kind, *cls.words().synonyms, *cls.words().understood) for kind, cls in TYPES.items()}
     every_word = {name for names in words.values() for name in names}
     text = word.lower() if isinstance(word, str) else ""
@@ -141,7 +137,7 @@ def meant_type(word: object, entry: Mapping[str, Any]) -> str | None:
 
 
 def with_hint(fault: Fault, value: Mapping[str, Any] | None = None) -> Fault:
-    """Return a fault that says which field it is about, and what to do; ``value``: the document that it is about."""
+    """Return ``fault`` with its field in the message, a hint and a reference; ``value`` is the scene's document."""
     message, keys = (
         re.sub(r"^Input should be (.*)", r"\1 is needed", fault.message),
         [key for key in fault.where if isinstance(key, str)],
@@ -153,7 +149,7 @@ def with_hint(fault: Fault, value: Mapping[str, Any] | None = None) -> Fault:
 
 
 def _see(fault: Fault, value: Mapping[str, Any]) -> str | None:
-    """Return the type of constraint or the section of a scene that a fault is about, where there is one."""
+    """Return the constraint type or the section of a scene that a fault is about, None if there is none."""
     where = fault.where
     suggested = SUGGESTED.match(fault.hint or "")
     if where[:1] == ("constraints",) and len(where) > 1:
@@ -171,6 +167,7 @@ def _see(fault: Fault, value: Mapping[str, Any]) -> str | None:
 
 
 def _hint(fault: Fault, value: Mapping[str, Any]) -> str:
+    """Return the hint of a fault: its own or one of hints.yaml, with a declaration or an example line if useful."""
     hints = package_table(__package__, "hints.yaml")["hints"].items()
     hint = _said_twice(fault, value) or _direction(fault, value) or fault.hint
     hint = hint or next((hint for pattern, hint in hints if re.search(pattern, fault.message)), None)
@@ -194,7 +191,7 @@ def _hint(fault: Fault, value: Mapping[str, Any]) -> str:
 
 
 def _said_twice(fault: Fault, value: Mapping[str, Any]) -> str | None:
-    """Return what to do about a key of a constraint that is a synonym of one which is given too."""
+    """Return the hint for a constraint's key that is a synonym of a key which is given too, or None."""
     key = fault.where[-1] if fault.where and fault.message.startswith(UNKNOWN_KEY) else ""
     kind = _type_at(value, fault.where[1]) if fault.where[:1] == ("constraints",) and len(fault.where) == 3 else None
     meant = other_keys(kind).get(str(key)) if kind is not None else None
@@ -202,7 +199,7 @@ def _said_twice(fault: Fault, value: Mapping[str, Any]) -> str | None:
 
 
 def _direction(fault: Fault, value: Mapping[str, Any]) -> str | None:
-    """Return what a direction is, where something else is given for one."""
+    """Return the hint for an ``axis`` that is not a direction, or None."""
     if fault.where[-1:] != ("axis",) or "a list is needed" not in fault.message:
         return None
     letters = ("x", "x or y", "x, y or z")[dimension_of(value) - 1]
@@ -210,7 +207,7 @@ def _direction(fault: Fault, value: Mapping[str, Any]) -> str | None:
 
 
 def _line(fault: Fault, hint: str, value: Mapping[str, Any]) -> str | None:
-    """Return a line that would work in the place of a fault: of a constraint, or of a key."""
+    """Return an example line for the constraint or the key of a fault, or None."""
     where, d = fault.where, dimension_of(value)
     suggested = SUGGESTED.fullmatch(hint)
     if "a point of a body" in fault.message:
@@ -229,12 +226,13 @@ def _line(fault: Fault, hint: str, value: Mapping[str, Any]) -> str | None:
 
 def _entry_at(value: Mapping[str, Any], index: object) -> Any:
     entries = value.get("constraints")
-    is_there = isinstance(entries, (list, tuple)) and isinstance(index, int) and index < len(entries)
-    return entries[index] if is_there and isinstance(entries, (list, tuple)) and isinstance(index, int) else None
+    if not isinstance(entries, (list, tuple)) or not isinstance(index, int):
+        return None
+    return entries[index] if index < len(entries) else None
 
 
 def _type_at(value: Mapping[str, Any], index: object) -> str | None:
-    """Return the type of a constraint of a document, where it is one."""
+    """Return the type of the constraint at ``index`` in a document, None if it is not a constraint type."""
     entry = _entry_at(value, index)
     kind = entry.get("type") if isinstance(entry, Mapping) else None
     return kind if isinstance(kind, str) and kind in TYPES else None

@@ -1,4 +1,4 @@
-"""Texts of a scene read with its names: what cannot be read is a fault with its path and column."""
+"""Formulas of a scene, parsed with its names; errors are recorded as faults with path and column."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ from dofkit.expressions.vectors import Vec
 from dofkit.scene.fields import Vector, as_written, suggestion
 from dofkit.system import Relation, Sense
 
-#: The nearest name is searched while there are fewer faults than this.
+#: Hints with the nearest name are given to this many faults only, because the search takes time.
 MOST_HINTS = 100
 
-#: What may be mentioned: in a fixed value, in a law of positions, in an equation.
+#: The kinds of symbols that are allowed in a fixed value, in a law of time, in an equation of positions, and so on.
 FIXED = frozenset({"parameter"})
 LAW = frozenset({"parameter", "time"})
 FINITE = frozenset({"parameter", "coordinate", "time"})
@@ -42,7 +42,7 @@ _NAMES_OF_KINDS = {
 
 
 class Ledger:
-    """The faults of a scene; those that are recorded next belong to the entry at the path ``here``."""
+    """Collects the faults of a scene; ``here`` is the path of the entry that is being read."""
 
     def __init__(self, here: tuple[str | int, ...] = (), faults: list[Fault] | None = None) -> None:
         self.here = here
@@ -53,16 +53,16 @@ class Ledger:
         self.faults.append(Fault(message, (*self.here, *where), column=column, hint=hint))
 
     def unknown(self, what: str, name: str, declared: Iterable[str], *where: str | int, plural: str = "") -> None:
-        """Record that ``name`` is not declared, with the nearest name that is (of the first faults: it takes time)."""
+        """Record that no ``what`` called ``name`` is declared, with the nearest of the names ``declared`` as a hint."""
         hint = suggestion(name, tuple(declared), plural or f"{what}s") if len(self.faults) < MOST_HINTS else None
         self.fault(f"there is no {what} '{name}'", *where, hint=hint)
 
 
 class ParsedTexts:
-    """Expressions of texts that are read with the same names, each parsed once however often it occurs.
+    """Parses texts with the given names, each different text once.
 
-    A text that is an earlier one up to the names of coordinates is not parsed either: 20 000 equations of seven forms
-    are read three times as fast.
+    A text that equals an earlier one up to the names of coordinates is not parsed either, which is three times as fast
+    for 20 000 equations of seven forms.
     """
 
     def __init__(self, names: Names) -> None:
@@ -71,9 +71,9 @@ class ParsedTexts:
         self._patterns: dict[Hashable, tuple[tuple[str, ...], list[Relation]]] = {}
 
     def equations(self, text: str) -> list[Relation]:
-        """Return the relations of a text that may mention anything.
+        """Return the relations in a text, which may mention symbols of every kind.
 
-        Raises TextError for what cannot be read, for second derivatives, and for differentials without a meaning.
+        Raises TextError for a text that cannot be read, for second derivatives, and for inhomogeneous differentials.
         """
         pattern = pattern_of(text, self.names.lookup)
         earlier = None if pattern is None else self._patterns.get(pattern.key)
@@ -94,7 +94,7 @@ class ParsedTexts:
         return relations
 
     def expression(self, text: str) -> Expr | TextError:
-        """Return the expression of a text, or why it is none."""
+        """Return the expression in a text, or the TextError if it cannot be read."""
         if text not in self._parsed:
             try:
                 self._parsed[text] = parse_expression(text, self.names)
@@ -104,7 +104,7 @@ class ParsedTexts:
 
 
 def symbols_of(text: str, names: Names) -> frozenset[Expr]:
-    """Return what a text mentions; nothing if it cannot be read, which is a fault elsewhere."""
+    """Return the symbols that a text mentions; none if it cannot be read, which is recorded as a fault elsewhere."""
     try:
         comparisons = parse_relations(text, names)
     except TextError:
@@ -113,7 +113,7 @@ def symbols_of(text: str, names: Names) -> frozenset[Expr]:
 
 
 class Texts(Ledger):
-    """A ledger that reads texts with the scene's names."""
+    """A ledger that parses texts with the scene's names, and records the errors as faults."""
 
     def __init__(
         self, reader: ParsedTexts, here: tuple[str | int, ...] = (), faults: list[Fault] | None = None
@@ -123,7 +123,7 @@ class Texts(Ledger):
         self.names = reader.names
 
     def expression(self, value: Fraction | str, *where: str | int, allow: frozenset[str] = FINITE) -> Expr:
-        """Return a number or text as an expression; a fault where it mentions what ``allow`` does not name."""
+        """Return a number or text as an expression, a parameter after a fault. Only kinds in ``allow`` may occur."""
         if isinstance(value, Fraction):
             return num(value)
         expression = self._reader.expression(value)
@@ -134,7 +134,7 @@ class Texts(Ledger):
         return expression
 
     def _unread(self, error: TextError, text: str, *where: str | int, names: Names | None = None) -> None:
-        """Record why a text cannot be read, and what else is wrong with it once its unknown names are declared."""
+        """Record the error of a text, and the errors that remain once its unknown names are declared."""
         declared = names = names or self.names
         while True:
             self.fault(error.message, *where, hint=self.advice(error, text), column=error.column)
@@ -154,16 +154,16 @@ class Texts(Ledger):
                 return
 
     def advice(self, error: TextError, text: str) -> str | None:
-        """Return what to do about a text that cannot be read; a class that knows more than names may say more."""
+        """Return the hint for a text that cannot be read; subclasses may give a better one than the error's."""
         del text
         return error.hint
 
     def fixed(self, value: Fraction | str, *where: str | int) -> Expr:
-        """Return a number or text that holds numbers and parameters only."""
+        """Return a number or text as an expression; only numbers and parameters may occur."""
         return self.expression(value, *where, allow=FIXED)
 
     def vector(self, values: Vector, dimension: int, *where: str | int) -> Vec | None:
-        """Return the components as expressions; None after a fault in their number."""
+        """Return the components as expressions; None, with a fault, if there are not ``dimension`` of them."""
         if len(values) != dimension:
             message = f"{len(values)} component{'s' * (len(values) != 1)} given where the dimension is {dimension}"
             line = "[" + ", ".join([*map(as_written, values), *["0"] * dimension][:dimension]) + "]"
@@ -174,7 +174,7 @@ class Texts(Ledger):
         return tuple(self.fixed(value, *where, i) for i, value in enumerate(values))
 
     def only(self, e: Expr, allow: frozenset[str], *where: str | int) -> None:
-        """Record a fault if ``e`` mentions anything that ``allow`` does not name."""
+        """Record a fault if a symbol occurs in ``e`` whose kind is not in ``allow``."""
         if allow is ANYTHING:
             return
         for kind, name in sorted(symbol.args for symbol in e.symbols):
@@ -187,7 +187,7 @@ class Texts(Ledger):
                 return
 
     def equations(self, text: str, *where: str | int) -> list[Relation]:
-        """Return the relations of a text that may mention anything; see `ParsedTexts`."""
+        """Return the relations in a text, which may mention symbols of every kind; none after a fault."""
         try:
             return self._reader.equations(text)
         except TextError as error:
@@ -195,7 +195,7 @@ class Texts(Ledger):
             return []
 
     def relations(self, text: str, *where: str | int, names: Names, allow: frozenset[str]) -> list[Relation]:
-        """Return the relations of a text in other names."""
+        """Return the relations in a text with other ``names`` than the scene's; none after a fault."""
         try:
             relations = _equations(text, names)
         except TextError as error:
@@ -207,6 +207,7 @@ class Texts(Ledger):
 
 
 def _equations(text: str, names: Names) -> list[Relation]:
+    """Return the relations in a text, with `<=` and `<` turned into `>=` and `>`."""
     relations: list[Relation] = []
     for comparison in parse_relations(text, names):
         sense, swap = _SENSES[comparison.relation]

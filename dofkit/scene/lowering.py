@@ -1,6 +1,6 @@
-"""From what a person wrote to the mathematics: names, frames and constraints with their faults, then a `System`.
+"""From a scene to its `System`: names, frames and constraints, with their faults.
 
-Faults are collected on the way, in the order of the scene's keys; those that need the size of the scene last.
+Faults are collected in the order of the scene's keys; those that depend on the size of the scene come last.
 """
 
 from __future__ import annotations
@@ -36,21 +36,21 @@ from dofkit.system import GROUND, Connection, Constraint, ListedForce, Rotation,
 
 #: Values of coordinates.
 Pose: TypeAlias = dict[Expr, Expr]
-#: Types to use instead of one that is not defined in a dimension.
+#: Hint, by dimension, for a type that is not defined in this dimension.
 _INSTEAD = {
     1: "on a line use coincident, fixed, link or an equation",
     2: "in the plane use revolute, prismatic, weld or slot",
     3: "in space use cylindrical, screw or an equation",
 }
 
-#: The warning where the given geometry is not used.
+#: The warning if the given geometry is not used because lengths are parameters.
 SPECIAL = (
     "The given geometry has numbers where lengths are parameters: it is compatible with special values of them only, "
     "so it is not used as a reference configuration."
 )
-#: A smaller sine is taken for 0.
+#: A sine below this bound is treated as 0.
 SINGULAR = 1e-9
-#: The warning where the reference configuration shows no velocities.
+#: The warning if the reference configuration is singular for Euler angles.
 LEVEL = (
     "The given geometry is not used as a reference configuration: texts contain Euler angles, which are singular for "
     "{} there (theta = 0: the other two angles turn alike). Give another theta in `configuration`."
@@ -59,9 +59,9 @@ LEVEL = (
 
 @dataclass(frozen=True)
 class Survey:
-    """All that is known of a scene: the world of its constraints, their relations, what they connect, and its faults.
+    """The result of reading a whole scene: the world of its constraints, their relations, connections and the faults.
 
-    ``drawn``: the bodies that the scene places; ``size``: that of the reference.
+    ``drawn``: the bodies placed in the reference configuration; ``size``: the largest distance in that configuration.
     """
 
     world: World
@@ -78,17 +78,17 @@ class Survey:
 
     @property
     def names(self) -> Names:
-        """What texts may mention."""
+        """The names that texts may mention."""
         return self.drawing.vocabulary.names
 
 
 def check(scene: Scene) -> tuple[Fault, ...]:
-    """Return every fault of a scene across its fields and in its texts, each with its path; none if it is sound."""
+    """Return every fault of a scene in its texts and between its fields, each with its path; empty if it is correct."""
     return survey_of(scene).faults
 
 
 def survey_of(scene: Scene) -> Survey:
-    """Return the survey of a scene, which is kept while the scene's mappings hold what they held."""
+    """Return the survey of a scene, which is kept with the scene as long as its mappings do not change."""
     mappings = [dict(part) for part in (scene.parameters, scene.functions, scene.configuration, scene.expect)]
     survey_kept: Survey
     if scene._kept.about is not None:
@@ -102,9 +102,9 @@ def survey_of(scene: Scene) -> Survey:
 
 @gc_rarely()
 def survey(scene: Scene, euler: bool = False) -> Survey:
-    """Lower a scene: return all that is known of it, with every fault; none is raised.
+    """Read all of a scene and return the result, with every fault; none is raised.
 
-    ``euler``: every spatial body is turned by its Euler angles, also where no text mentions them.
+    ``euler``: every spatial body has Euler angles, even if no text mentions them.
     """
     vocabulary = vocabulary_of(scene)
     every = frozenset(q.name for q in vocabulary.table.coordinates)
@@ -128,7 +128,7 @@ def survey(scene: Scene, euler: bool = False) -> Survey:
 
 
 def _check_other_sections(scene: Scene, world: World, vocabulary: Vocabulary) -> None:
-    """Record the faults of all sections after the constraints."""
+    """Record the faults of forces, masses, energies, picture and expectations in ``world.faults``."""
     world.faults += _repeat_faults("forces", "f", [f.name for f in scene.forces])
     for index, force in enumerate(scene.forces):
         world.enter("forces", index)
@@ -142,7 +142,7 @@ def _check_other_sections(scene: Scene, world: World, vocabulary: Vocabulary) ->
 
 
 def _repeat_faults(key: str, letter: str, written_names: Sequence[str | None]) -> Iterator[Fault]:
-    """Yield a fault for each entry of ``key`` whose name, given or by position, is that of an entry before it."""
+    """Yield a fault for each entry of the section ``key`` whose name, given or by position, an earlier entry has."""
     names = names_by_position(letter, written_names)
     repeated = {name for name, times in Counter(names).items() if times > 1}
     first: dict[str, int] = {}
@@ -156,6 +156,7 @@ def _repeat_faults(key: str, letter: str, written_names: Sequence[str | None]) -
 
 
 def _constraint_of(world: World, constraint: ConstraintBase, name: str) -> Constraint:
+    """Return the constraint with its relations, without any (and a fault) in a dimension where it is not defined."""
     kind = constraint.kind()
     if world.dimension not in constraint.dimensions:
         allowed = " or ".join(str(d) for d in constraint.dimensions)
@@ -168,7 +169,7 @@ def _constraint_of(world: World, constraint: ConstraintBase, name: str) -> Const
 
 
 def _connection(world: World, constraint: Constraint) -> Connection:
-    """Return what the constraint that was read last connects."""
+    """Return which bodies, points and directions the constraint that was read last connects."""
     mentioned, relations = world.mentioned, constraint.relations
     return Connection(
         world.index,
@@ -184,7 +185,7 @@ def _connection(world: World, constraint: Constraint) -> Connection:
 
 
 def _mentioned_names(scene: Scene, vocabulary: Vocabulary) -> frozenset[str]:
-    """Return the coordinates that some text names, where the chart of a spatial body depends on it."""
+    """Return the coordinates in the texts of a spatial scene: bodies with these have Euler angles."""
     if scene.dimension != 3 or not scene.bodies:
         return frozenset()
     member = within_member(vocabulary.names, LETTERS)
@@ -249,7 +250,7 @@ def _expect_faults(scene: Scene) -> Iterator[Fault]:
 
 
 def lower(scene: Scene) -> System:
-    """Return the coordinates and exact relations of a scene. Raises SceneError with all its faults if it has any."""
+    """Return the system of a scene. Raises SceneError with all faults if there are any."""
     surveyed = survey_of(scene)
     if surveyed.faults:
         raise SceneError(surveyed.faults)
@@ -257,7 +258,7 @@ def lower(scene: Scene) -> System:
 
 
 def system_of(scene: Scene, surveyed: Survey) -> System:
-    """Return the mathematics of a scene that was surveyed without faults."""
+    """Return the system of a scene that `survey_of` has read without faults."""
     drawing, world = surveyed.drawing, surveyed.world
     vocabulary, pose = drawing.vocabulary, pose_of(drawing)
     reference, singular, warning = _reference(surveyed, pose)
@@ -285,12 +286,12 @@ def system_of(scene: Scene, surveyed: Survey) -> System:
         size=surveyed.size,
         warnings=(*world.warnings, *_joint_warnings(surveyed.constraints, surveyed.connections), *warning),
         left_out=scene.left_out,
-        drawn=singular,
+        drawn=singular,  # the given configuration, where Euler angles are singular
     )
 
 
 def _reference(surveyed: Survey, pose: Pose) -> tuple[Pose | None, Pose | None, list[str]]:
-    """Return the reference configuration, one that is singular for Euler angles in texts, and why there is none."""
+    """Return (reference or None, a reference that is singular for Euler angles or None, warnings)."""
     special = surveyed.world.special or not surveyed.drawn.isdisjoint(surveyed.world.special_of)
     if special or surveyed.world.generic:
         return None, None, [SPECIAL] if special else []
@@ -308,7 +309,7 @@ def _reference(surveyed: Survey, pose: Pose) -> tuple[Pose | None, Pose | None, 
 
 
 def _level(drawing: Drawing, touched: Callable[[], frozenset[str]]) -> list[str]:
-    """Return the bodies with Euler angles in texts that are drawn where these are singular: sin(theta) = 0."""
+    """Return the bodies with Euler angles in texts whose reference is singular for these: sin(theta) = 0."""
     bodies = []
     for frame in drawing.frames.values():
         if frame.chart == "euler" and not touched().isdisjoint(frame.angles):
@@ -338,10 +339,10 @@ def _rotations(drawing: Drawing) -> tuple[Rotation, ...]:
 
 
 def _joint_warnings(constraints: Sequence[Constraint], connections: Sequence[Connection]) -> Iterator[str]:
-    """Yield warnings about joints that mean something else than they seem to.
+    """Yield warnings about two likely mistakes with joints.
 
-    Gears whose wheel turns on a moving arm: without ``carrier`` their ratio is one of angles against the ground. A
-    driven joint that repeats another joint of the same bodies at the same place: a motor that is written as a joint.
+    Gears whose wheel turns on a moving arm: without ``carrier`` the ratio is that of angles relative to the ground. A
+    driven joint at the same place as another joint of the same bodies: the motor of that joint, written as a joint.
     """
     joints = [c for c in connections if (c.facts.joint or c.facts.geared) and len(c.members) == 2]
     hinges = [c.members for c in joints if c.facts.axial and c.facts.planar_pair]
@@ -369,14 +370,14 @@ def _joint_warnings(constraints: Sequence[Constraint], connections: Sequence[Con
 
 
 def _repeats(motor: Connection, joint: Connection) -> bool:
-    """Return whether two joints of one type connect the same bodies in the same geometry, which is given."""
+    """Return whether two joints of one type connect the same bodies with the same given geometry."""
     is_given = None not in (*motor.places, *motor.directions) and bool(motor.places)
     geometry = (motor.facts, {*motor.members}, motor.places, motor.directions)
     return is_given and geometry == (joint.facts, {*joint.members}, joint.places, joint.directions)
 
 
 def _at_rest(connections: Sequence[Connection]) -> set[str]:
-    """Return the ground, and the bodies that are fixed or welded to it."""
+    """Return the ground, the fixed bodies and all bodies welded to these."""
     still = {GROUND} | {c.members[0] for c in connections if c.facts.held and len(c.members) == 1 and not c.points}
     return {
         *drawn_bodies(still, [c.members[:2] for c in connections if c.facts.welded and len(c.members) == 2]),

@@ -1,4 +1,4 @@
-"""The names of a scene: the coordinates that particles and bodies bring, and names that clash."""
+"""The names of a scene: the coordinates of its particles and bodies, its parameters, and faults of names."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ from dofkit.scene.parts import Body, Declarations, Particle
 from dofkit.system import BODY_ROLES, GROUND, PARTICLE_ROLES, Coordinate, Sign
 
 SIGNS: tuple[Sign, ...] = ("real", "positive", "nonzero")
-_KINDS = "write real, positive or nonzero, or a value in numbers and the parameters before it"
+_KINDS_HINT = "write real, positive or nonzero, or a value in numbers and the parameters before it"
 RESERVED = frozenset({"t", GROUND})
 
 
 class OwnerKind(NamedTuple):
-    """The particles or the bodies of a scene: their section, what one is called, and the roles of its coordinates."""
+    """The particles or the bodies of a scene: section, what one is ``called``, the ``roles`` of its coordinates."""
 
     section: str
     called: str
@@ -31,14 +31,14 @@ class OwnerKind(NamedTuple):
 
 
 def owner_kinds(scene: Declarations) -> tuple[OwnerKind, OwnerKind]:
-    """Return the particles, then the bodies."""
+    """Return the particles of a scene, then its bodies."""
     d = scene.dimension
     particles = OwnerKind("particles", "particle", scene.particles, PARTICLE_ROLES[d])
     return particles, OwnerKind("bodies", "body", scene.bodies, BODY_ROLES[d])
 
 
 class NameTable(NamedTuple):
-    """The coordinates in order, and the names that each particle and each body owns."""
+    """All coordinates in order, and the names of the coordinates of each particle and each body."""
 
     coordinates: tuple[Coordinate, ...]
     particles: dict[str, tuple[str, ...]]
@@ -46,10 +46,10 @@ class NameTable(NamedTuple):
 
 
 def coordinate_table(scene: Declarations) -> NameTable:
-    """Particles, then bodies, then the further coordinates, in the order declared."""
+    """Return the coordinates of particles, then of bodies, then the further ones, in the order declared."""
     coordinates: list[Coordinate] = []
-    owned: tuple[dict[str, tuple[str, ...]], dict[str, tuple[str, ...]]] = {}, {}
-    for kind, names_of_owners in zip(owner_kinds(scene), owned, strict=True):
+    names_by_owner: tuple[dict[str, tuple[str, ...]], dict[str, tuple[str, ...]]] = {}, {}
+    for kind, names_of_owners in zip(owner_kinds(scene), names_by_owner, strict=True):
         roles = kind.roles
         kinds = ("x", "y", "angle") if scene.dimension == 2 and len(roles) == 3 else roles
         for owner in kind.owners:
@@ -59,7 +59,7 @@ def coordinate_table(scene: Declarations) -> NameTable:
             names_of_owners[name] = names
             coordinates += [Coordinate(q, name, role) for q, role in zip(names, kinds, strict=True)]
     coordinates += [Coordinate(name) for name in scene.coordinates]
-    return NameTable(tuple(coordinates), *owned)
+    return NameTable(tuple(coordinates), *names_by_owner)
 
 
 def names_by_position(letter: str, written_names: Sequence[str | None]) -> tuple[str, ...]:
@@ -68,7 +68,7 @@ def names_by_position(letter: str, written_names: Sequence[str | None]) -> tuple
 
 
 def subscript(name: str) -> str:
-    """Return the name of a particle or body as it stands in the names of its coordinates: `_` for each hyphen.
+    """Return the name of a particle or body as part of its coordinates' names: with `_` for each hyphen.
 
     >>> subscript("k-1_0")
     'k_1_0'
@@ -77,7 +77,7 @@ def subscript(name: str) -> str:
 
 
 def readable_name(name: str) -> str:
-    """Return the nearest name that a text can mention: `_` for what is no letter, digit or `_`.
+    """Return a name that a text can mention, similar to ``name``: `_` replaces all but letters and digits.
 
     >>> readable_name("k-1_0"), readable_name("left link"), readable_name("9 mm")
     ('k_1_0', 'left_link', 'n9_mm')
@@ -93,9 +93,9 @@ def _renaming_hint(name: str) -> str:
 
 @dataclass(frozen=True)
 class Vocabulary:
-    """The names of a scene: who owns which coordinates, what parameters stand for, and how texts are read with them.
+    """The names of a scene: coordinates (``table``), values of ``parameters``, and a parser of texts with these names.
 
-    ``signs``: what is known of the parameters that stay symbols. ``faults``: those of the parameters' values.
+    ``signs``: real, positive or nonzero, of the parameters without a value; ``faults``: those of parameters' values.
     """
 
     table: NameTable
@@ -106,19 +106,19 @@ class Vocabulary:
 
     @property
     def names(self) -> Names:
-        """What texts may mention."""
+        """The names that texts may mention."""
         return self.texts.names
 
 
 def vocabulary_of(scene: Declarations) -> Vocabulary:
-    """Return the names of a scene, read from what it declares."""
+    """Return the vocabulary of a scene from its declarations."""
     table = coordinate_table(scene)
     parameters, signs, faults = _parameters(scene)
     return Vocabulary(table, parameters, signs, ParsedTexts(_declared_names(scene, table, parameters)), faults)
 
 
 def _parameters(scene: Declarations) -> tuple[dict[str, Expr], dict[str, Sign], tuple[Fault, ...]]:
-    """Return what every parameter stands for, the signs of those that stay symbols, and the faults of their values.
+    """Return {parameter: symbol or value}, {parameter without a value: sign}, and the faults of the values.
 
     A value may mention the parameters declared before it.
     """
@@ -138,10 +138,11 @@ def _parameters(scene: Declarations) -> tuple[dict[str, Expr], dict[str, Sign], 
 
 
 def _parameter_value(texts: Texts, name: str, value: str) -> Expr:
+    """Return the value of the parameter ``name``; after a fault, such as a misspelt sign, the symbol of that name."""
     if value.isalpha() and value not in (*texts.names.parameters, "pi", "E"):
         near = nearest(value, SIGNS)
-        hint = f"did you mean '{near}'?" if near else _KINDS
-        texts.fault(f"there is no kind of parameter '{value}'", name, hint=hint)
+        hint = f"did you mean '{near}'?" if near else _KINDS_HINT
+        texts.fault(f"'{value}' is not a kind of parameter", name, hint=hint)
         return parameter(name)
     return texts.fixed(value, name)
 
@@ -157,7 +158,7 @@ def _declared_names(scene: Declarations, table: NameTable, parameters: Mapping[s
 
 
 def within_member(names: Names, letters: tuple[str, ...]) -> Names:
-    """Return the same names with ``letters`` standing for a member's coordinates, whatever else they may be."""
+    """Return the names with ``letters`` as a member's coordinates instead of their other meanings."""
     letter_names = frozenset(letters)
     return Names(
         coordinates=names.coordinates | letter_names,
@@ -168,6 +169,7 @@ def within_member(names: Names, letters: tuple[str, ...]) -> Names:
     )
 
 
+#: A declared name: (name, what it names, path in the scene).
 Entry = tuple[str, str, tuple[str | int, ...]]
 
 
@@ -203,6 +205,7 @@ def name_faults(scene: Declarations, table: NameTable) -> tuple[Fault, ...]:
 
 
 def _check_owners(scene: Declarations, ledger: Ledger) -> None:
+    """Record the faults of the names of particles and bodies, and of the number of their coordinates."""
     seen: dict[str, str] = {}
     for section, called, owners, roles in owner_kinds(scene):
         for i, owner in enumerate(owners):
@@ -224,11 +227,12 @@ def _check_owners(scene: Declarations, ledger: Ledger) -> None:
 
 
 def _is_owner_name(name: str) -> bool:
-    """Return whether the coordinates of a particle or body of this name have names that texts can mention."""
+    """Return whether texts can mention the coordinates of a particle or body of this name."""
     return valid_name(f"x_{subscript(name)}") is None
 
 
 def _owned(scene: Declarations, table: NameTable) -> Iterator[Entry]:
+    """Yield the coordinates of particles and bodies, without repeated owners, whose names are faults already."""
     seen: set[str] = set()
     for kind, owned in zip(owner_kinds(scene), (table.particles, table.bodies), strict=True):
         for i, owner in enumerate(kind.owners):
@@ -253,7 +257,7 @@ def _further(scene: Declarations) -> Iterator[Entry]:
 
 
 def _check_derived(entries: list[Entry], seen: Mapping[str, str], ledger: Ledger) -> None:
-    """A fault for every name that means a rate of a coordinate; where it means those of two, that of the last."""
+    """Record a fault for every name that already means a differential, velocity or acceleration of a coordinate."""
     places = {name: k for k, (name, what, _) in enumerate(entries) if "coordinate" in what}
     for name, what, where in entries:
         if name[:1] != "d" and name[-3:] != "dot":
@@ -265,7 +269,7 @@ def _check_derived(entries: list[Entry], seen: Mapping[str, str], ledger: Ledger
 
 
 def _rates(name: str) -> Iterator[tuple[str, str]]:
-    """Yield what a name is the differential, the velocity or the acceleration of."""
+    """Yield (base, kind) for each way to read a name as the differential, velocity or acceleration of a base."""
     if name.startswith("d"):
         yield name[1:], "differential"
     if name.endswith("dot"):

@@ -1,4 +1,4 @@
-"""What a scene is made of besides its constraints: points, particles, bodies, forces, energies."""
+"""The parts of a scene other than constraints: points, particles, bodies, forces, energies."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from dofkit.scene.fields import (
 
 
 class BodyPoint(WrittenModel):
-    """The material point of a body that stands at a world position in the reference configuration."""
+    """The material point of a body that is at a given world position in the reference configuration."""
 
     on: str = Field(description="the body's name")
     at: Vector = Field(description="the world position of the point in the reference configuration")
@@ -72,12 +72,12 @@ def show_point(point: str | Vector | BodyPoint) -> str:
 
 
 def show_vector(vector: Vector) -> str:
-    """``(2, 1/2)``; a longer decimal with six significant digits."""
+    """Return a vector as text, ``(2, 1/2)``; a longer decimal with six significant digits."""
     return "(" + ", ".join(_shortened(as_written(value)) for value in vector) + ")"
 
 
 def _shortened(number: str) -> str:
-    """Return a decimal of a model or a measurement with six significant digits, and any other text as it is.
+    """Return a decimal of more than six decimals with six significant digits, and any other text as it is.
 
     >>> _shortened("-0.999999999996"), _shortened("0.70710678"), _shortened("123456789"), _shortened("sqrt(2)/2")
     ('-1', '0.707107', '123456789', 'sqrt(2)/2')
@@ -131,7 +131,7 @@ class Force(WrittenModel):
 
     @property
     def reason(self) -> str:
-        """Why it is no constraint."""
+        """The reason why the force is not a constraint."""
         return (
             _REASONS[self.type]
             + " It enters the equations of motion and does not reduce the number of degrees of freedom."
@@ -162,7 +162,7 @@ class Energies(WrittenModel):
 
 
 def texts_of(value: Any) -> list[str]:
-    """Return every text inside a value, a tuple of values, a point or a model's dump."""
+    """Return every text inside a value, which may be nested in tuples, mappings and points."""
     if isinstance(value, str):
         return [value]
     if isinstance(value, BodyPoint):
@@ -175,7 +175,7 @@ def texts_of(value: Any) -> list[str]:
 
 
 def _parameters(value: object) -> object:
-    """Return a list of names, or a mapping whose empty values mean `real`."""
+    """Return {name: value}, with `real` for names without a value."""
     if value is None:
         return {}
     if isinstance(value, str):
@@ -185,7 +185,7 @@ def _parameters(value: object) -> object:
         for i, name in enumerate(value):
             if not isinstance(name, str):
                 hint = "write `parameters: {NAME: VALUE}` to give values"
-                raise fault_at((i,), "a list of parameters holds names only", hint)
+                raise fault_at((i,), "a list of parameters contains names only", hint)
             if name in seen:
                 raise fault_at((i,), f"the parameter '{name}' is given twice", "leave one of them out")
             seen.add(name)
@@ -196,7 +196,7 @@ def _parameters(value: object) -> object:
 
 
 def _functions(value: object) -> object:
-    """Return a mapping; a single argument needs no list."""
+    """Return the mapping {name: arguments}; a single argument may be written without a list."""
     if value is None:
         return {}
     if isinstance(value, Mapping):

@@ -1,7 +1,7 @@
-"""What a scene's `picture` draws: shapes placed by expressions in coordinates, parameters and time.
+"""The `picture` of a scene: shapes whose places are expressions in coordinates, parameters and time.
 
-A shape says nothing of the mechanics: no answer depends on it. One that has the name of a constraint, a particle or a
-body stands in the place of what would be drawn for it; with ``show: false`` nothing does.
+No answer depends on a shape. A shape with the name of a constraint, a particle or a body is drawn instead of that
+entry's symbol; with ``show: false`` nothing is drawn for the entry.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from dofkit.scene.parts import Declarations, Values
 
 
 class ShapeKeys(NamedTuple):
-    """The keys that a shape needs, and those that it may have; an example of it, and what it is."""
+    """A kind of shape: its required keys (``needs``), its optional keys (``may``), an example, a description."""
 
     needs: tuple[str, ...]
     may: tuple[str, ...]
@@ -35,7 +35,7 @@ class ShapeKeys(NamedTuple):
 
 @cache
 def shape_kinds() -> Mapping[str, ShapeKeys]:
-    """Return the shapes that a picture may have, by their names."""
+    """Return {kind of shape: its keys}, in the order of shapes.yaml."""
     return {
         kind: ShapeKeys(tuple(row["needs"]), tuple(row.get("may", ())), row["example"], row["meaning"])
         for kind, row in package_table(__package__, "shapes.yaml").items()
@@ -49,12 +49,12 @@ UP_IN_PLANE, UP = (ZERO, ONE), (ZERO, ZERO, ONE)
 
 
 def _axis(value: object) -> object:
-    """Return a direction of space that may be written as its letter."""
+    """Return ``x``, ``y`` or ``z`` as a direction in space, any other value unchanged."""
     return _LETTERS.get(value, value) if isinstance(value, str) else value
 
 
 class PictureShape(WrittenModel):
-    """A shape of a picture, ``{SHAPE: NAME, ...}``; its name stands beside it."""
+    """A shape of a picture, ``{SHAPE: NAME, ...}``; the name is printed next to the shape."""
 
     model_config = ConfigDict(populate_by_name=True)
 
@@ -81,7 +81,7 @@ class PictureShape(WrittenModel):
     @model_validator(mode="before")
     @classmethod
     def _with_kind(cls, value: Any) -> Any:
-        """Return ``{SHAPE: NAME, ...}`` with its shape and name under keys of their own."""
+        """Return ``{SHAPE: NAME, ...}`` as ``{shape: SHAPE, name: NAME, ...}``. Raises a fault for wrong keys."""
         if not isinstance(value, Mapping):
             raise fault_error("a shape is a mapping such as " + shape_kinds()["point"].example)
         kinds = [key for key in value if key in shape_kinds()]
@@ -119,7 +119,7 @@ def _plain(value: Any) -> Any:
 
 
 def _key_faults(kind: str, keys: Sequence[str], hidden: bool) -> list[InitErrorDetails]:
-    """Return a fault for each key that a shape does not have, and for each that it needs and lacks."""
+    """Return a fault for each of ``keys`` that the kind does not allow, and for each required key that is missing."""
     row = shape_kinds()[kind]
     allowed = [*row.needs, *row.may, "show"]
     faults = [
@@ -133,7 +133,7 @@ def _key_faults(kind: str, keys: Sequence[str], hidden: bool) -> list[InitErrorD
 
 
 class Pictured(Declarations):
-    """What a scene declares, with its picture."""
+    """The declarations of a scene, with its picture."""
 
     picture: Annotated[tuple[PictureShape, ...], Listed] = Field(
         (), description="shapes that are drawn; they change no answer"
@@ -141,7 +141,7 @@ class Pictured(Declarations):
 
 
 class PlacedShape(NamedTuple):
-    """A shape whose places are expressions; ``range``: its own parameters, each with its two ends."""
+    """A shape with expressions as places; ``range``: its own parameters, each as (symbol, lower end, upper end)."""
 
     kind: str
     name: str
@@ -155,7 +155,7 @@ class PlacedShape(NamedTuple):
 
 
 class PlacedPicture(NamedTuple):
-    """The shapes of a scene, the dimension in which they are drawn, and the names for which nothing else is drawn."""
+    """The shapes of a scene, the dimension of the picture, and the names of entries whose symbols are replaced."""
 
     shapes: tuple[PlacedShape, ...]
     dimension: int
@@ -163,7 +163,7 @@ class PlacedPicture(NamedTuple):
 
 
 def picture_of(scene: Pictured, vocabulary: Vocabulary, faults: list[Fault]) -> PlacedPicture:
-    """Return a picture with its texts read; what cannot be read is added to ``faults``."""
+    """Return the picture of a scene with its texts parsed; errors are added to ``faults``."""
     placed: list[PlacedShape] = []
     dimension: int = scene.dimension if scene.dimension > 1 and (scene.bodies or scene.particles) else 0
     for index, shape in enumerate(scene.picture):
@@ -176,7 +176,7 @@ def picture_of(scene: Pictured, vocabulary: Vocabulary, faults: list[Fault]) -> 
 
 
 class _ShapeReader(Texts):
-    """The texts of one shape, read with the scene's names and with those of its own range."""
+    """Reads the texts of one shape with the scene's names and the parameters of the shape's range."""
 
     def __init__(
         self, shape: PictureShape, vocabulary: Vocabulary, index: int, faults: list[Fault], dimension: int
@@ -198,7 +198,7 @@ class _ShapeReader(Texts):
             self._reader = ParsedTexts(extended)
 
     def placed(self) -> PlacedShape:
-        """Return the shape with its texts read."""
+        """Return the shape with its texts parsed."""
         shape = self.shape
         ends = [(key, place) for key, place in (("from", shape.start), ("to", shape.to), ("at", shape.at)) if place]
         places = [self._place(place, key) for key, place in ends]
@@ -221,7 +221,7 @@ class _ShapeReader(Texts):
         return None if value is None else self.expression(value, key)
 
     def _place(self, values: Vector, *where: str | int) -> Vec:
-        """Return a place or direction with as many components as those before it: two or three."""
+        """Return a place or direction; a fault if its dimension, 2 or 3, differs from that of the places before."""
         texts = [value for value in values if isinstance(value, str)]
         if any(text.count("(") > text.count(")") for text in texts):
             self.fault("a comma ends an entry of a place", *where, hint=f"quote a text that has one: {QUOTED}")

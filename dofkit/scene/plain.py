@@ -1,4 +1,4 @@
-"""A scene in plain notation: standard words, and each text that a simpler grammar does not read written out for it."""
+"""A scene in plain notation: standard words, and texts rewritten for a simpler grammar if that cannot read them."""
 
 from __future__ import annotations
 
@@ -20,19 +20,19 @@ from dofkit.scene.synonyms import SAID
 
 #: A derivative of a declared function of one name, as `to_text` prints it.
 _DERIVATIVE = re.compile(r"diff\((\w+)(\(\w+\)), \w+(?:, (\d+))?\)")
-#: Whether a text with these names is read as it is.
+#: Returns whether the simpler grammar reads a text with these names.
 Reads = Callable[[str, Names], bool]
 
 
 class PlainScene(NamedTuple):
-    """A scene's document; ``readings``: the texts that were rewritten -> what stands in their place."""
+    """A scene's ``document``; ``readings``: {text that was rewritten: its plain form}."""
 
     document: dict[str, Any]
     readings: dict[str, str]
 
 
 def plain_scene(scene: Scene, reads: Reads) -> PlainScene:
-    """Return the document of a scene in standard words, texts that ``reads`` does not read in plain notation."""
+    """Return a scene in standard words, with plain notation for the texts that ``reads`` does not accept."""
     names, readings = survey_of(scene).names, dict[str, str]()
     owners = {"ground", *SIGNS, *(named.name for named in (*scene.particles, *scene.bodies, *scene.constraints))}
 
@@ -52,18 +52,18 @@ def plain_scene(scene: Scene, reads: Reads) -> PlainScene:
     return PlainScene({"name": scene.name, **rewritten(document, names)}, readings)
 
 
-#: Keys under which no text of mathematics stands.
+#: Keys whose values contain no formulas.
 _REFERENCES = SAID | {"name", "type", "functions", "expect", "picture"}
 
 
 def _within(entry: Mapping[str, Any], names: Names) -> Names:
-    """The names in the texts of a mapping: a curve's coordinates and the letters of joints among them."""
+    """Return the names for the texts of a mapping: with x, y, z for a surface or curve, and the letters of joints."""
     letters = {"x", "y", "z"} if entry.keys() & {"surface", "curve"} else set(entry.get("joints", ()))
     return replace(names, coordinates=names.coordinates.union(letters)) if letters else names
 
 
 def plain_text(text: str, names: Names) -> str | None:
-    """Return a text as `to_text` prints it, with primes for `diff`; None where it is not read or has another domain."""
+    """Return a text as `to_text` prints it, with primes for `diff`; None if unreadable or if its domain changes."""
     try:
         relations = parse_relations(text, names)
         signs = [f" {relation.relation} " for relation in relations]
@@ -80,7 +80,7 @@ def plain_text(text: str, names: Names) -> str | None:
 
 
 def _bases(e: Expr, sense: DomainSense) -> Iterator[Requirement]:
-    """What an expression requires, of a product that is not 0 each factor, of a power its base; of a number nothing."""
+    """Yield (e, sense) against 0, and for a product or power that is not 0 the same of its factors or base."""
     factors = e.args if e.op == "mul" else e.args[:1] if e.op == "pow" else ()
     if (sense != "!=" or not factors) and not (e.op == "num" and e.args[0] > 0):
         yield e, sense
@@ -89,7 +89,7 @@ def _bases(e: Expr, sense: DomainSense) -> Iterator[Requirement]:
 
 
 def _required(e: Expr) -> Iterator[Requirement]:
-    """What a printed expression requires to have a value."""
+    """Yield the requirements under which an expression, as printed, has a real value."""
     for node in nodes(e):
         if node.op == "pow":
             yield from of_power(*node.args)

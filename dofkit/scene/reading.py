@@ -1,4 +1,4 @@
-"""From a file, a catalog name, a text or a mapping to a `Scene`, with the location of every fault."""
+"""Reading a `Scene` from a file, a catalog name, a text or a mapping, with the location of every fault."""
 
 from __future__ import annotations
 
@@ -29,12 +29,12 @@ from dofkit.system import System
 
 __all__ = ["SceneFile", "SceneLike", "load", "loads", "scene_or_system"]
 
-#: More faults than this are counted, not listed.
+#: Further faults are counted, not listed.
 MOST_FAULTS = 200
 _TAKEN = "a Scene, a path, a catalog name or a mapping"
 
 
-#: What stands for a scene wherever one is asked for: a path or a catalog name as text among them.
+#: What functions accept as a scene: a Scene, a path, a catalog name or a mapping.
 SceneLike = Scene | str | os.PathLike[str] | Mapping[str, Any]
 
 
@@ -60,7 +60,7 @@ def load(source: SceneLike, *, name: str | None = None, limits: bool = False) ->
     Raises
     ------
     SceneError
-        If it is not a scene: with every fault at once, each with its location.
+        If ``source`` is not a valid scene: with every fault at once, each with its location.
     ArgumentError
         If ``source`` is of another kind.
 
@@ -107,7 +107,7 @@ def loads(data: bytes | str, name: str = "scene") -> Scene:
     Raises
     ------
     SceneError
-        If it is not a scene: with every fault at once, each with line and column.
+        If the text is not a valid scene: with every fault at once, each with line and column.
     ArgumentError
         If ``data`` is no text.
 
@@ -125,20 +125,20 @@ def loads(data: bytes | str, name: str = "scene") -> Scene:
 
 
 def scene_or_system(source: SceneLike | System) -> Scene | System:
-    """Return a System unchanged, and the Scene that anything else stands for. Raises as `load` does."""
+    """Return a System unchanged, and the Scene that any other source stands for. Raises as `load` does."""
     return source if isinstance(source, System) else load(source)
 
 
 @dataclass(frozen=True)
 class SceneFile:
-    """A document that should be a scene, with the line and column of its faults where it is ``located`` in a text."""
+    """A document to be read as a scene; its faults have line and column if it is ``located`` in a text."""
 
     document: Document
     located: bool = True
 
     @classmethod
     def read(cls, data: bytes | str, name: str, path: Path | None = None, limits: bool = False) -> SceneFile:
-        """Return the document of a scene or a model; nothing is raised yet.
+        """Return the document of a scene or a model; its faults are raised later, by `scene`.
 
         ``path``: the file, for what a model includes; ``limits``: ranges of a model's joints become inequalities.
         """
@@ -174,7 +174,7 @@ class SceneFile:
         return standard_words(value if isinstance(value, Mapping) else {})
 
     def error(self, faults: Iterable[Fault]) -> SceneError:
-        """Return the error with these faults, located, with their hints, and without those that another explains."""
+        """Return the error with these faults, located and with hints, without faults that another one explains."""
         taken = {(fault.line, fault.column) for fault in self.document.faults}
         located = []
         for fault in without_echoes(faults, self._words.value):
@@ -188,7 +188,7 @@ class SceneFile:
         return SceneError(tuple(located), self.document.name or None)
 
     def _order_in_document(self, fault: Fault) -> tuple[int, ...]:
-        """Return line and column of a fault, or else its section, the entry there, and the column in its text."""
+        """Return the sort key (line, column) of a located fault, else (0, section, entry, column in the text)."""
         if fault.line is not None:
             return (fault.line, fault.column or 0)
         sections = list(self.document.value) if isinstance(self.document.value, Mapping) else []
@@ -197,6 +197,7 @@ class SceneFile:
         return (0, section, entry, fault.column or 0)
 
     def _with_place(self, fault: Fault) -> Fault:
+        """Return the fault with its hint, and with its line and column if the document is located."""
         if fault.line is not None:
             return fault
         hinted = replace(with_hint(fault, self._words.value), where=self._words.written(fault.where))
@@ -209,7 +210,7 @@ class SceneFile:
 
 
 def _model_document(file: ModelFile) -> Document:
-    """Return the document that a model stands for, its parts located by the lines of the model."""
+    """Return the scene's document that a model describes; its parts have the lines of the model as locations."""
     starts = [0, *(match.end() for match in re.finditer("\n", file.text))]
     try:
         model = read_model(file)
@@ -220,7 +221,7 @@ def _model_document(file: ModelFile) -> Document:
 
 
 def _too_deep(source: object) -> tuple[str | int, ...] | None:
-    """Return the path of a value that is nested too deep (or within itself), or None."""
+    """Return the path of a value that is nested deeper than `DEEPEST` levels (or contains itself), or None."""
     level: list[tuple[tuple[str | int, ...], object]] = [((), source)]
     for _ in range(DEEPEST):
         below: list[tuple[tuple[str | int, ...], object]] = []

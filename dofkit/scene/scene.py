@@ -72,10 +72,9 @@ class Scene(Displayed, Pictured):
 
 
 def without(scene: Scene, names: Sequence[str]) -> Scene:
-    """Return the scene without the constraints of these names; the others keep theirs, those given by position too.
+    """Return the scene without the constraints ``names``; the others keep their names, also those by position.
 
-    What the scene expects is dropped as well. Raises ArgumentError, with the nearest name, for one that is no
-    constraint's.
+    The result expects nothing. Raises ArgumentError, with the nearest name, if a name is not a constraint's.
 
     >>> import dofkit
     >>> scene = dofkit.load({"coordinates": ["x", "y"], "constraints": ["x = 1", "y = 2", "x = y"]})

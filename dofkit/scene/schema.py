@@ -1,4 +1,4 @@
-"""The JSON Schema of a scene, for editors: that of Pydantic, with the other words that are read."""
+"""The JSON Schema of a scene, for editors: that of Pydantic, with the synonyms of types and keys added."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ _AXIS = {**_TEXT, "pattern": "^[-+]?[xyz]$"}
 
 
 def identified(schema: Mapping[str, Any], name: str) -> dict[str, Any]:
-    """Return a schema that says which dialect of JSON Schema it is in, and which schema it is."""
+    """Return ``schema`` with the dialect of JSON Schema, and with an identifier for ``name``."""
     return {"$schema": DIALECT, "$id": f"urn:dofkit:schema:{name}", **schema}
 
 
 def scene_schema() -> dict[str, Any]:
-    """Return the schema of a scene's file, with the other words that are read."""
+    """Return the JSON Schema of a scene's file, with synonyms."""
     schema = Scene.model_json_schema()
     definitions = schema["$defs"]
     for cls in TYPES.values():
@@ -36,7 +36,7 @@ def scene_schema() -> dict[str, Any]:
 
 
 def _any_shape(schema: Mapping[str, Any]) -> dict[str, Any]:
-    """Return a mapping with one of the shapes as a key, which says the others."""
+    """Return the schema of a shape: a mapping with one kind of shape as a key, which determines the other keys."""
     properties = {key: part for key, part in schema["properties"].items() if key not in ("shape", "name")}
     properties["axis"] = _with_letters(properties["axis"])
     by_shape: list[dict[str, Any]] = []
@@ -51,7 +51,7 @@ def _any_shape(schema: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _with_other_words(schema: dict[str, Any], kind: str) -> dict[str, Any]:
-    """Return the schema of a type with the other words for it and for its keys."""
+    """Return the schema of the constraint type ``kind`` with the synonyms of the type and of its keys."""
     properties = dict(schema["properties"])
     words = [kind, *(word for word, meant in synonyms().items() if meant == kind)]
     properties["type"] = {key: part for key, part in properties["type"].items() if key != "const"} | {"enum": words}
@@ -71,12 +71,12 @@ def _with_other_words(schema: dict[str, Any], kind: str) -> dict[str, Any]:
 
 
 def _moved(schema: Mapping[str, Any], others: Mapping[str, str]) -> Iterator[tuple[str, str]]:
-    """Other words for keys that are required."""
+    """Yield (synonym, key) for the synonyms of required keys."""
     for other, key in others.items():
         if key in schema.get("required", ()):
             yield other, key
 
 
 def _with_letters(vector: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the schema of a direction that may also be a letter, such as ``-z``."""
+    """Return the schema of a direction that may also be a letter with a sign, such as ``-z``."""
     return {**vector, "anyOf": [*vector["anyOf"], _AXIS]}

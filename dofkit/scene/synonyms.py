@@ -1,4 +1,4 @@
-"""Other words that people use: a scene in them is rewritten into the standard words, where they mean one thing only.
+"""Synonyms: a scene in other words is rewritten into the standard words if those have one meaning only.
 
 ``joints`` is a section like ``constraints``; a hinge is a ``revolute`` joint; ``direction`` may stand for ``axis``, and
 ``axis: x`` for its vector; a mapping with a ``text`` and no ``type`` is an equation; ``x₁`` is the name ``x_1``.
@@ -18,29 +18,29 @@ from dofkit.scene.constraints.base import Equation
 
 Path = tuple[str | int, ...]
 
-#: Keys that tell types apart: a word means a type only where these are its own.
+#: Keys that distinguish types: a synonym of a type is not replaced if such a key occurs that the type does not have.
 _TELLING = ("point", "body", "members")
 _SECTIONS = ("constraints", "joints")
 _AXIS = re.compile(r"\s*([-+−]?)\s*([xyz])\s*")
-#: What is said of a scene: prose, in which nothing is replaced.
+#: Keys with prose about a scene, in which nothing is replaced.
 SAID = frozenset({"title", "source", "notes", "left_out"})
 _NAME = re.compile(
     rf"[A-Za-z{GREEK_LETTERS}][A-Za-z0-9_{GREEK_LETTERS}]*[{''.join(SUBSCRIPTS)}][A-Za-z0-9_{GREEK_LETTERS}{''.join(SUBSCRIPTS)}]*"
 )
 _PLAIN_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*", re.ASCII)
-#: Signs without which a name is as it should be.
+#: Characters by which a name may need rewriting.
 _DECORATION = re.compile(rf"[\\{{$\x00-\x1f{''.join(SUBSCRIPTS)}]")
 _BELOW = re.compile(f"_?([{''.join(SUBSCRIPTS)}]+)")
 
 
 class StandardWords(NamedTuple):
-    """A scene's document in the standard words; ``places``: paths in it -> where that was written."""
+    """A scene's document in standard words; ``places``: {path in this document: path as written}, if different."""
 
     value: dict[str, Any]
     places: Mapping[Path, Path]
 
     def written(self, where: Path) -> Path:
-        """Return a path in the standard words as a path of what was written."""
+        """Return a path in the standard words as a path of the document as it was written."""
         for size in range(len(where), 0, -1) if self.places else ():
             origin = self.places.get(where[:size])
             if origin is not None:
@@ -49,7 +49,7 @@ class StandardWords(NamedTuple):
 
 
 def standard_words(value: Mapping[str, Any]) -> StandardWords:
-    """Return a scene's document with the words that people use replaced by the standard ones; nothing given is changed.
+    """Return a copy of a scene's document with synonyms replaced by the standard words.
 
     >>> standard_words({"joints": [{"type": "pin", "between": ["ground", "a"], "axis": "z"}]}).value
     {'constraints': [{'type': 'revolute', 'between': ['ground', 'a'], 'axis': [0, 0, 1]}]}
@@ -69,13 +69,13 @@ def standard_words(value: Mapping[str, Any]) -> StandardWords:
 
 
 def dimension_of(value: Mapping[str, Any]) -> int:
-    """Return the dimension that a document gives, 3 where it gives none that is one."""
+    """Return the dimension in a scene's document; 3 if it is missing or invalid."""
     dimension = value.get("dimension", 3)
     return int(dimension) if not isinstance(dimension, str) and dimension in (1, 2, 3) else 3
 
 
 def _one_section(value: dict[str, Any], places: dict[Path, Path]) -> dict[str, Any]:
-    """`constraints` and `joints` as one list, in the order in which they stand."""
+    """Return the document with `constraints` and `joints` as one list, in the order in which they are written."""
     sections = [key for key in value if key in _SECTIONS and value[key] is not None]
     odd = [key for key in sections if not isinstance(value[key], (list, tuple))]
     if odd:
@@ -83,13 +83,11 @@ def _one_section(value: dict[str, Any], places: dict[Path, Path]) -> dict[str, A
         merged: Any = value[odd[0]]
     else:
         written = [(key, i) for key in sections for i in range(len(value[key]))]
-        moved: dict[Path, Path] = {
-            ("constraints", n): path for n, path in enumerate(written) if ("constraints", n) != path
-        }
+        moved: dict[Path, Path] = {("constraints", n): p for n, p in enumerate(written) if p != ("constraints", n)}
         names = [(path, places.pop(path)) for path in list(places) if path[0] in _SECTIONS]
-        stands: dict[Path, Path] = {path: ("constraints", n) for n, path in enumerate(written)}
+        moved_to: dict[Path, Path] = {path: ("constraints", n) for n, path in enumerate(written)}
         places.update(moved)
-        places.update({(*stands[path[:2]], *path[2:]): origin for path, origin in names if path[:2] in stands})
+        places.update({(*moved_to[path[:2]], *path[2:]): origin for path, origin in names if path[:2] in moved_to})
         merged = [value[key][i] for key, i in written]
     first = next(key for key in value if key in _SECTIONS)
     kept = {
@@ -101,6 +99,7 @@ def _one_section(value: dict[str, Any], places: dict[Path, Path]) -> dict[str, A
 
 
 def _constraint(entry: Mapping[str, Any], here: Path, dimension: int, places: dict[Path, Path]) -> Mapping[str, Any]:
+    """Return a constraint with standard words for its type, keys and axes; changed paths are added to ``places``."""
     kind = entry.get("type")
     if kind is None and isinstance(entry.get("text"), str):
         kind = Equation.kind()
@@ -125,13 +124,13 @@ def _constraint(entry: Mapping[str, Any], here: Path, dimension: int, places: di
 
 @cache
 def synonyms() -> Mapping[str, str]:
-    """A synonym of a type -> the type; no synonym is itself a type."""
+    """Return {synonym: constraint type}; no synonym is itself a type."""
     return {word: kind for kind, cls in TYPES.items() for word in cls.words().synonyms}
 
 
 @cache
 def other_keys(kind: str) -> Mapping[str, str]:
-    """Other words for the fields of a type: other word -> field."""
+    """Return {synonym: field} for the fields of the constraint type ``kind``."""
     cls = TYPES.get(kind)
     if cls is None:
         return {}
@@ -146,7 +145,7 @@ def _force(entry: Mapping[str, Any], here: Path, dimension: int, places: dict[Pa
 
 
 def _vector(axis: Any, dimension: int) -> Any:
-    """``x``, ``-z`` as a vector; anything else as it is."""
+    """Return ``x``, ``-z`` and the like as a vector, any other value unchanged."""
     match = _AXIS.fullmatch(axis) if isinstance(axis, str) else None
     if match is None or match[2] not in "xyz"[:dimension]:
         return axis
@@ -155,9 +154,9 @@ def _vector(axis: Any, dimension: int) -> Any:
 
 
 def _named(value: Any, here: Path, places: dict[Path, Path]) -> Any:
-    """Return the value with ``x₁`` and ``\\theta`` as whole names, keys among them, in plain letters.
+    """Return the value with texts and keys that are just a name, such as ``x₁`` or ``\\theta``, in plain letters.
 
-    The very value is returned where nothing changes.
+    If nothing changes, the same object is returned; changed paths are added to ``places``.
     """
     if isinstance(value, str):
         return standard_name(value)

@@ -1,8 +1,8 @@
-"""The world that constraints are written in: the frames, points and directions of a scene.
+"""The world of a scene's constraints: its frames, points and directions.
 
-A constraint type asks `World` for what it mentions (``world.frame("crank", "between", 0)``); what is not there is a
-fault at that path and is replaced by a stand-in, so that all faults come to light at once. Geometry that is left out
-becomes a generic parameter.
+A constraint type asks `World` for what it mentions (``world.frame("crank", "between", 0)``). An unknown name is a fault
+at that path, and another object is returned, so that all faults are reported at once. Geometry that is not given is
+replaced by generic parameters.
 """
 
 from __future__ import annotations
@@ -33,16 +33,16 @@ _APART = re.compile(r"\s*\|\s*(\w+)\s*-\s*(\w+)\s*\|\s*=\s*([\w./()*]+)\s*")
 
 
 class Direction(NamedTuple):
-    """A direction in the reference, and d - 1 independent vectors across it."""
+    """A direction in the reference configuration, and d - 1 independent vectors perpendicular to it (``across``)."""
 
     vector: Vec
     across: tuple[Vec, ...]
 
 
 class Misfit(NamedTuple):
-    """A fault, unless ``distance`` (None: no number) is within the tolerance once the size of the scene is known.
+    """A fault unless ``distance`` (None: unknown) is within the tolerance, which needs the size of the scene.
 
-    With a ``body``: a fault only where the reference configuration turns out to place that one.
+    With a ``body``: a fault only if the reference configuration places that body.
     """
 
     distance: float | None
@@ -52,7 +52,7 @@ class Misfit(NamedTuple):
 
 @dataclass(slots=True)
 class Mentioned:
-    """What one entry mentions, in order."""
+    """The names and geometry that one entry of the scene mentions, in order."""
 
     members: list[str] = field(default_factory=list)
     points: list[DrawnPoint] = field(default_factory=list)
@@ -63,13 +63,13 @@ class Mentioned:
 
 
 class World(Texts):
-    """The frames, points and directions of a scene, and what its entries bring while they are read one after another.
+    """The frames, points and directions of a scene, and what is collected while its entries are read one by one.
 
     ``mentioned``: what the current entry mentions, the constraint number ``index``; ``entries``: the constraints of the
-    scene by their names. Of all entries that were read so far: ``generic`` parameters; ``points`` that are given;
-    ``drawn``, the bodies that these place; ``welds`` by their two ends; ``links`` and ``distances`` by the number of
-    their constraint; ``misfits`` and ``warnings``. ``special``: symbolic lengths meet a drawing with numbers;
-    ``special_of``: they do where the reference turns out to place one of these bodies.
+    scene by name. Collected from the entries so far: ``generic`` parameters; given ``points``; ``drawn``, the bodies
+    that these place; ``welds`` as pairs of bodies; ``links`` and ``distances`` with the number of their constraint;
+    ``misfits`` and ``warnings``. ``special``: the given geometry fits special values of parameters only;
+    ``special_of``: bodies for which this is so if the reference places them.
     """
 
     def __init__(
@@ -99,11 +99,11 @@ class World(Texts):
         self.special_of: set[str] = set()
 
     def enter(self, section: str, index: int) -> None:
-        """Go on to the next entry of the scene."""
+        """Begin to read the entry number ``index`` of a section."""
         self.here, self.index, self.mentioned = (section, index), index, Mentioned()
 
     def place(self, values: Vector | None, *where: str | int) -> Vec:
-        """Return a given point of the reference configuration, or a generic one."""
+        """Return a point given in the reference configuration, or a generic one for None, and note it."""
         place = self._place(values, *where)
         self.mentioned.places.append(None if values is None else place)
         return place
@@ -118,7 +118,7 @@ class World(Texts):
         return place
 
     def direction(self, values: Vector | None, *where: str | int) -> Direction:
-        """Return a given direction, or a generic one."""
+        """Return a given direction, or a generic one for None, and note it."""
         direction = self._direction(values, *where)
         self.mentioned.directions.append(None if values is None else direction.vector)
         return direction
@@ -135,13 +135,13 @@ class World(Texts):
         return direction or Direction(first_axis, across(first_axis, 0))
 
     def drawn_vector(self, values: Vector | None) -> Vec | None:
-        """Return a place or direction that another entry gives, which also reports its faults."""
+        """Return a place or direction of another entry, which also records its faults; None after a fault."""
         texts = Texts(self._reader, self.here)
         vector = None if values is None else texts.vector(values, self.dimension)
         return None if texts.faults else vector
 
     def drawn_direction(self, values: Vector | None) -> Direction | None:
-        """Return a direction that another entry gives; None where it is none."""
+        """Return a direction of another entry; None if it is missing or faulty."""
         return _direction_along(self.drawn_vector(values))
 
     def fresh(self, stem: str = "a") -> Expr:
@@ -151,7 +151,7 @@ class World(Texts):
         return parameter(name)
 
     def frame(self, name: str, *where: str | int) -> Frame:
-        """Return the frame of a body, or of the ground."""
+        """Return the frame of a body or the ground, noted as a member; after a fault return the ground."""
         frame = self.ground if name == GROUND else self.frames.get(name)
         if frame is not None:
             self.mentioned.members.append(name)
@@ -164,7 +164,7 @@ class World(Texts):
         return self.ground
 
     def advice(self, error: TextError, text: str) -> str | None:
-        """Return what to write for a name that is that of a particle or a body."""
+        """Return the hint for an unreadable text: for the name of a particle or body, its coordinates; else its own."""
         name = error.name if isinstance(error, UnknownNameError) else ""
         owned = self.table.particles.get(name) or self.table.bodies.get(name)
         if owned is None:
@@ -175,7 +175,7 @@ class World(Texts):
         return f"write its coordinates, {', '.join(f'`{q}`' for q in owned)}"
 
     def particle(self, name: str, *where: str | int) -> Placed:
-        """Return the position of a particle."""
+        """Return the position of a particle, noted as a member; after a fault return the origin."""
         placed = self.particles.get(name)
         if placed is not None:
             self.mentioned.members.append(name)
@@ -196,7 +196,7 @@ class World(Texts):
         return Placed((ZERO,) * self.dimension, ONE, None, None, f"({name})")
 
     def point(self, point: str | Vector | BodyPoint, *where: str | int) -> Placed:
-        """Return the position of a particle, of a point fixed in the world, or of a material point of a body."""
+        """Return the position of a particle, a point fixed in the world or a material point of a body, and note it."""
         if isinstance(point, str):
             return self.particle(point, *where)
         if isinstance(point, BodyPoint):
@@ -211,23 +211,23 @@ class World(Texts):
         return self.ground.point(at, show_point(point))
 
     def is_apart(self, point: Placed, frame: Frame, *where: str | int) -> bool:
-        """Return whether a point is none of the body itself; else record a fault."""
+        """Return whether a point is not a point of the body itself; if it is, record a fault."""
         if point.frame == frame.name:
             self.fault(f"the point is a point of {frame.name} itself", *where, hint="name a point of something else")
         return point.frame != frame.name
 
     def apart(self, first: Placed, second: Placed, squared: Expr, at_most: bool = False) -> None:
-        """Note that two points have a squared distance, or at most that; one that moves or is generic is not noted."""
+        """Note that two points have the squared distance ``squared`` (or at most that), if it is constant and given."""
         if any(s.args[0] != "parameter" or s.args[1].startswith("_") for s in squared.symbols):
             return
-        a, b = (Place(p.frame, p.label, p.reference if p.frame else None) for p in (first, second))
-        self.distances.setdefault(self.index, []).append(Distance(a, b, squared, at_most))
+        first_place, second_place = (Place(p.frame, p.label, p.reference if p.frame else None) for p in (first, second))
+        self.distances.setdefault(self.index, []).append(Distance(first_place, second_place, squared, at_most))
 
     def differs(self, gap: Expr, body: str | None = None) -> bool:
-        """Return whether what should vanish in the reference configuration certainly does not.
+        """Return whether ``gap``, which should be 0 in the reference configuration, certainly differs from 0.
 
-        A gap that holds parameters vanishes only at special values of them: it is no contradiction, but what is given
-        is no reference configuration then. With a ``body``: only where the reference turns out to place that one.
+        A nonzero gap that contains parameters is no contradiction, because it vanishes for special values of them, but
+        then the given geometry is not the reference configuration; this is noted, with ``body`` for that body only.
         """
         gap = substitute(gap, {TIME: ZERO})
         if gap.is_zero or any(symbol.args[0] != "parameter" for symbol in gap.symbols) or not differs_from_zero(gap):
@@ -239,34 +239,34 @@ class World(Texts):
         return not gap.symbols
 
     def any_differs(self, gaps: Sequence[Expr]) -> bool:
-        """Return whether any of several gaps differs; each of them is examined."""
+        """Return whether any of ``gaps`` differs from 0; each is examined, because `differs` takes notes."""
         return sum(self.differs(gap) for gap in gaps) > 0
 
     def is_drawn(self, frame: Frame) -> bool:
-        """Return whether the configuration, or an entry that was read, places a body."""
+        """Return whether the configuration, or an entry that was read so far, places the body of ``frame``."""
         return frame.name in self.drawn
 
     def misfit(
         self, distance: float | None, message: str, *where: str | int, hint: str, body: str | None = None
     ) -> None:
-        """Record a fault, unless the distance turns out to be within the tolerance, or ``body`` not to be drawn."""
+        """Record a fault that holds unless ``distance`` is within the tolerance, or ``body`` is not placed."""
         self.misfits.append(Misfit(distance, Fault(message, (*self.here, *where), hint=hint), body))
 
 
 def within(distance: float | None, tolerance: Fraction | None, size: float) -> bool:
-    """Return whether a distance is inside a tolerance, which is a fraction of the size."""
+    """Return whether a distance is at most the tolerance, a fraction of ``size``; False without a tolerance."""
     return distance is not None and bool(tolerance) and abs(distance) <= float(tolerance or 0) * size
 
 
 def _direction_along(n: Vec | None) -> Direction | None:
-    """Return the direction of a vector; None where there is none, or where it is zero."""
+    """Return the direction of a vector; None if there is no vector or it is zero."""
     sizes = [_size(part) for part in n or ()]
     pivot = max(range(len(sizes)), key=sizes.__getitem__, default=0)
     return Direction(n, across(n, pivot)) if n is not None and sizes[pivot] > 0 else None
 
 
 def _size(component: Expr) -> float:
-    """Return how far a component is from 0: its size if it is a number, 1 for what holds parameters."""
+    """Return the absolute value of a component as a float: 0 if not certainly nonzero, 1 if it contains parameters."""
     if component.is_zero:
         return 0.0
     size = approximate(component)

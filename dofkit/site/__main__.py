@@ -10,7 +10,7 @@ from dofkit.site.building import ROOT, SiteError, build
 
 
 def main() -> int:
-    """Build the site, and say where it is."""
+    """Build the site and print its first page; return the exit status."""
     parser = argparse.ArgumentParser(prog="python -m dofkit.site", description="Build the documentation as a site.")
     parser.add_argument("--out", type=Path, default=ROOT / "build" / "site", help="the folder of its pages")
     out: Path = parser.parse_args().out

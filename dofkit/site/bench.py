@@ -1,7 +1,7 @@
 """The bench: a page that classifies a scene as one types, as a folder of static files.
 
-``bench/`` has the page, its scripts and their style; `runtime` builds the folder in which dofkit runs. Nothing of
-either is part of the wheel.
+The folder ``bench/`` contains the page, its scripts and their style; `runtime` builds the folder that runs dofkit. The
+wheel contains neither.
 """
 
 from __future__ import annotations
@@ -21,17 +21,17 @@ from dofkit.site.browser.reports import report
 from dofkit.site.gallery import ShownScene, folders
 from dofkit.site.runtime import SOURCES, build_runtime, run
 
-#: Files that are kept for a visit without a network only once they were used.
+#: Files that the service worker keeps for offline visits only after their first use.
 SELDOM = ("runtime/symbols.zst", "runtime/sheets.zst")
-#: All that reads answers in one script, for the pages of sheets; the files in it beside its worker.
+#: One script with everything that reads answers, for practice sheets: its name, its worker, the files that it contains.
 ONE_SCRIPT, WORKER = "runtime.js", "runtime-worker.js"
 IN_ONE_SCRIPT = ("pyodide-lock.json", "core.bin", "extras.zst", "sheets.zst")
-#: What a scene of the catalog expects of its report: the bench is not for reading that.
+#: The `expect` section of a catalog scene, which the bench does not show.
 _EXPECTED = re.compile(r"^expect:.*\n(?:[ \t#].*\n|\n)*", re.MULTILINE)
 
 
 def build_bench(out: Path, catalog: Sequence[ShownScene]) -> None:
-    """Build the bench anew into ``out``. Raises BenchError where node, npm or a package cannot be had."""
+    """Build the bench into ``out``, which is emptied first. Raises BenchError if node, npm or a package is missing."""
     shutil.rmtree(out, ignore_errors=True)
     build_runtime(out / "runtime")
     run(["node", "bundle.mjs", str(out.resolve())], "the bundle")
@@ -46,6 +46,7 @@ def build_bench(out: Path, catalog: Sequence[ShownScene]) -> None:
 
 
 def _write_catalog(out: Path, catalog: Sequence[ShownScene]) -> None:
+    """Write the pictures of the catalog's scenes, and ``catalog.json`` with their texts and reports."""
     (out / "pictures").mkdir()
     for scene in catalog:
         (out / "pictures" / f"{scene.name}.svg").write_text(scene.svg, encoding="utf-8")
@@ -66,7 +67,7 @@ def _write_catalog(out: Path, catalog: Sequence[ShownScene]) -> None:
 
 
 def _fill_script(out: Path) -> None:
-    """Put the worker and its files into the script that needs no web server, compressed and in base64."""
+    """Append the worker and its files, compressed and in base64, to the script that needs no web server."""
     sources = {"worker": out / WORKER} | {name: out / "runtime" / name for name in IN_ONE_SCRIPT}
     packed = {
         name: base64.b64encode(gzip.compress(path.read_bytes(), 9, mtime=0)).decode() for name, path in sources.items()
@@ -77,7 +78,7 @@ def _fill_script(out: Path) -> None:
 
 
 def _write_version(out: Path) -> None:
-    """Write what the service worker keeps: the files of an ordinary visit, and a digest of all."""
+    """Write the service worker ``offline.js`` with the list of files to keep, and a digest of all as its version."""
     files = sorted(path for path in out.rglob("*") if path.is_file() and path.name != ONE_SCRIPT)
     digest = hashlib.sha256()
     for path in files:

@@ -1,4 +1,4 @@
-"""The build: written and generated pages side by side, the charts, and MkDocs over all of it."""
+"""The build of the site: hand-written and generated pages and the charts in one folder, from which MkDocs makes it."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ ROOT = Path(__file__).parents[2]
 WRITTEN = Path(__file__).parent / "pages"
 SETTINGS = Path(__file__).parent / "mkdocs.yml"
 CHARTS = ROOT / "tests" / "charts"
-#: In the settings: where the constraint types, the pages of the gallery and the folder of the package are filled in.
+#: Placeholders in the settings for the constraint types, the pages of the gallery and the folder of the package.
 TYPES_HERE, GALLERY_HERE, PACKAGE_HERE = "every constraint type", "every folder of the catalog", "PACKAGE"
 
 
@@ -36,9 +36,9 @@ class SiteError(DofkitError):
 
 
 def build(out: Path) -> str | None:
-    """Build the site into ``out``; return why it has no bench, or None.
+    """Build the site into ``out``; return why it has no bench, or None if it has one.
 
-    Raises SiteError where MkDocs is missing, or finds a broken link.
+    Raises SiteError if MkDocs is missing, or finds a broken link.
     """
     if not all(map(importlib.util.find_spec, ("material", "mkdocstrings"))):
         raise SiteError("mkdocs-material or mkdocstrings is missing: run pip install '.[docs]' in a clone")
@@ -57,7 +57,7 @@ def build(out: Path) -> str | None:
 
 
 def _without_bench(out: Path, catalog: Sequence[ShownScene]) -> str | None:
-    """Build the bench, and return None; else why it cannot be built."""
+    """Build the bench; return None, or the reason why it cannot be built."""
     try:
         build_bench(out, catalog)
     except BenchError as error:
@@ -66,7 +66,7 @@ def _without_bench(out: Path, catalog: Sequence[ShownScene]) -> str | None:
 
 
 def sources(folder: Path, catalog: Sequence[ShownScene], has_bench: bool = False) -> None:
-    """Write all that MkDocs reads into ``folder``: its settings, the pages, their pictures."""
+    """Write the input of MkDocs into ``folder``: its settings, the pages, their pictures."""
     shutil.rmtree(folder, ignore_errors=True)
     shutil.copytree(WRITTEN, folder / "pages")
     shutil.copytree(CHARTS, folder / "pages" / "charts", ignore=shutil.ignore_patterns("*.csv", "*.json"))
@@ -78,12 +78,12 @@ def sources(folder: Path, catalog: Sequence[ShownScene], has_bench: bool = False
         for path in (folder / "pages").rglob("*.md"):
             bench = f"{'../' * (len(path.relative_to(folder).parts) - 2)}bench"
             path.write_text(with_bench_links(path.read_text(encoding="utf-8"), bench), encoding="utf-8")
-    # JSON is YAML in which nothing is taken for a truth value: there is a type `on`
+    # JSON, because in YAML the type `on` would be read as the value true
     (folder / "mkdocs.yml").write_text(json.dumps(settings(catalog)), encoding="utf-8")
 
 
 def generated(catalog: Sequence[ShownScene], has_bench: bool = False) -> Iterator[SitePage]:
-    """Return every page and picture that is generated from the package; ``has_bench``: with links to the bench."""
+    """Yield every page and picture that is generated from the package; ``has_bench``: with links to the bench."""
     yield readme_page((ROOT / "README.md").read_text(encoding="utf-8"), has_bench)
     yield rooms_page()
     yield from constraint_pages(catalog)
@@ -93,7 +93,7 @@ def generated(catalog: Sequence[ShownScene], has_bench: bool = False) -> Iterato
 
 
 def settings(catalog: Sequence[ShownScene]) -> Any:
-    """The settings with a line of the navigation for every type and every page of the gallery."""
+    """Return the settings of MkDocs, with every constraint type and every page of the gallery in the navigation."""
     table = yaml.safe_load(SETTINGS.read_text(encoding="utf-8"))
     names = folders()
     types = [f"{TYPE_FOLDER}/index.md", *({kind: f"{TYPE_FOLDER}/{kind}.md"} for kind in TYPES)]
@@ -104,7 +104,7 @@ def settings(catalog: Sequence[ShownScene]) -> Any:
 
 
 def _filled(entry: Any, lists: dict[str, Any]) -> Any:
-    """Return the navigation with lists of generated pages in place of their names."""
+    """Return ``entry`` with the values of ``lists`` in place of its placeholders."""
     if isinstance(entry, str):
         return lists.get(entry, entry)
     if isinstance(entry, dict):

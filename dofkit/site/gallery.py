@@ -1,4 +1,4 @@
-"""The catalog as a gallery: scenes with their pictures and answers."""
+"""The gallery: pages of the catalog's scenes with their pictures and reports."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ from dofkit.scene.scene import Scene
 from dofkit.site.markdown import SitePage, rendered
 
 FOLDER = "gallery"
-#: The width of a picture and of a report: pixels, columns.
+#: The width of a picture in pixels, and of a report in columns.
 PIXELS, COLUMNS = 440.0, 88
 
 
 class ShownScene(NamedTuple):
-    """A scene with its text, its picture in two sizes, and its answer in one line and in full."""
+    """A scene with its text (``written``), its picture in two sizes, its report in a line (``answer``) and in full."""
 
     name: str
     folder: str
@@ -44,7 +44,7 @@ class ShownScene(NamedTuple):
 
 
 def folders() -> dict[str, str]:
-    """Return the source of each folder of the catalog, from the catalog's own table."""
+    """Return {folder: source of its scenes}, from the table in the catalog's README."""
     text = (catalog_folder() / "README.md").read_text(encoding="utf-8")
     rows = re.findall(r"\| `(\w+)` \| ([^|]+)\|", text)
     return {name: source.strip()[:1].upper() + source.strip()[1:] for name, source in rows}
@@ -57,7 +57,7 @@ def catalog_scenes() -> Iterator[ShownScene]:
 
 
 def shown_scene(name: str, folder: str, written: str) -> ShownScene:
-    """Return a scene with its picture and its answers. Raises SceneError if it cannot be read."""
+    """Return a scene with its picture and its report. Raises SceneError if ``written`` cannot be read."""
     scene = loads(written, name)
     report = classify(scene)
     drawn = draw(scene, report)
@@ -77,7 +77,7 @@ def shown_scene(name: str, folder: str, written: str) -> ShownScene:
 
 
 def _formulas(scene: Scene, report: Report) -> Iterator[str]:
-    """Yield the equations of a scene, set as mathematics."""
+    """Yield, as HTML list items with MathML, the constraints that are equations and can be typeset."""
     for constraint, entry in zip(scene.constraints, report.constraints, strict=True):
         latex = typeset(entry.text) if isinstance(constraint, Equation) else None
         if latex is not None:
@@ -106,7 +106,7 @@ def in_a_line(report: Report) -> str:
 def gallery_pages(
     catalog: Sequence[ShownScene], sources: dict[str, str], has_bench: bool = False
 ) -> Iterator[SitePage]:
-    """Yield the pages and pictures; ``sources``: what each folder of the catalog was taken from."""
+    """Yield the pages and pictures of the gallery; ``sources``: {folder of the catalog: where its scenes come from}."""
     shelves = [
         (folder, sources.get(folder, folder), list(scenes))
         for folder, scenes in groupby(catalog, key=attrgetter("folder"))

@@ -1,4 +1,4 @@
-"""Pieces of Markdown: prose with nothing in it taken for markup, tables, code, folds; and the templates of pages."""
+"""Pieces of Markdown: escaped prose, tables, code, collapsible blocks; and the templates of pages."""
 
 from __future__ import annotations
 
@@ -15,19 +15,19 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
 _SPECIAL = re.compile(r"([\\*_\[\]|#])")
 _CODE = re.compile(r"(`+[^`]+`+)")
-#: A block of YAML that is a scene.
+#: A code block in YAML that contains constraints, and so is a scene.
 _SCENE = re.compile(r"^```yaml[^\n]*\n((?:(?!```)[^\n]*\n)*?constraints:(?:(?!```)[^\n]*\n)*)```$", re.MULTILINE)
 
 
 class SitePage(NamedTuple):
-    """A generated page or picture: its place below the site's pages, and its text."""
+    """A generated page or picture: its path in the folder of pages, and its text."""
 
     path: str
     text: str
 
 
 def prose(text: str) -> str:
-    """A text on one line whose words mean themselves; what stands in backticks is code.
+    """Return a text on one line, escaped for Markdown; text in backticks becomes code.
 
     >>> prose("``x_1`` is |a_1|")
     '`x_1` is \\\\|a\\\\_1\\\\|'
@@ -41,7 +41,7 @@ def _escaped(text: str) -> str:
 
 
 def code(text: str) -> str:
-    """A text as code within a line.
+    """Return a text as code within a line.
 
     >>> code("|A - B|")
     '`|A - B|`'
@@ -50,13 +50,13 @@ def code(text: str) -> str:
 
 
 def fence(kind: str, text: str, title: str = "") -> str:
-    """Lines of code as a block."""
+    """Return lines of code of a language ``kind`` as a block."""
     named = f' title="{title}"' if title else ""
     return f"```{kind}{named}\n{text.strip()}\n```"
 
 
 def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """A table whose cells are prose already; a bar within code is kept from ending its cell."""
+    """Return a table of cells in Markdown; a bar within code is escaped, so that it does not end the cell."""
     lines = [head, ["---"] * len(head), *rows]
     return "\n".join("| " + " | ".join(_cell(cell) for cell in line) + " |" for line in lines)
 
@@ -67,18 +67,18 @@ def _cell(text: str) -> str:
 
 
 def folded(title: str, text: str) -> str:
-    """What is opened by a click."""
+    """Return a block that is collapsed until its title is clicked."""
     inner = "\n".join(f"    {line}" if line else "" for line in text.splitlines())
     return f'??? note "{title}"\n\n{inner}'
 
 
 def picture(path: str, alternative: str) -> str:
-    """A picture on paper, as an element that loads when it is reached."""
+    """Return the HTML of a picture, which is loaded when the reader scrolls to it."""
     return f'<img class="paper" src="{escape(path)}" alt="{escape(alternative)}" loading="lazy">'
 
 
 def fragment(scene: str) -> str:
-    """Return the address of a scene within the bench: its text, deflated.
+    """Return the URL fragment of a scene for the bench: its text, compressed.
 
     >>> fragment("coordinates: [x]")
     '#scene=S87PL0rJzEssSS22UoiuiAUA'
@@ -88,17 +88,17 @@ def fragment(scene: str) -> str:
 
 
 def bench_link(bench: str, address: str) -> str:
-    """Return a link to a scene in the bench; ``bench``: the folder of the bench, as seen from the page."""
+    """Return a link to a scene in the bench; ``bench``: its folder's relative path; ``address``: see `fragment`."""
     return f'<p><a href="{bench}/index.html{address}">Open in the bench</a></p>'
 
 
 def with_bench_links(text: str, bench: str) -> str:
-    """Return a page with a link below each of its scenes."""
+    """Return a page with a link to the bench below each of its scenes."""
     return _SCENE.sub(lambda block: f"{block[0]}\n\n{bench_link(bench, fragment(block[1]))}", text)
 
 
 def anchor(text: str) -> str:
-    """The name of a place in a page.
+    """Return a title as the name of an anchor in a page.
 
     >>> anchor("Points over GF(p)")
     'points-over-gf-p'
@@ -118,5 +118,5 @@ def _environment() -> Environment:
 
 
 def rendered(template: str, **values: Any) -> str:
-    """Return a page or a part of one, as its template has it."""
+    """Return the text of a template, filled in with ``values``."""
     return _environment().get_template(template).render(**values)

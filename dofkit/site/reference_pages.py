@@ -1,4 +1,4 @@
-"""The pages that the package itself generates: constraint types, the first page, glossary, theorems and commands."""
+"""Pages generated from the package: constraint types, the first page, glossary, theorems and commands."""
 
 from __future__ import annotations
 
@@ -27,20 +27,21 @@ from dofkit.site.gallery import ShownScene, shown_scene
 from dofkit.site.markdown import SitePage, anchor, code, prose, rendered
 
 FOLDER = "reference/types"
-#: The names that an example may mention, by the section that declares them.
+#: {section: names that an example may mention and that this section then declares}.
 DECLARED = {"particles": ("A", "B", "C"), "bodies": ("crank", "rod", "wheel"), "coordinates": ("x", "y")}
-#: A longer equation is counted and not shown.
+#: The most characters of an equation that is shown; longer ones are only counted.
 LONGEST = 240
-#: Scenes of the catalog that are named.
+#: The most scenes of the catalog that a page names.
 MOST_NAMED = 12
+#: The words for each dimension.
 SPACES = {1: "on a line", 2: "in the plane", 3: "in space"}
 
 
 def constraint_pages(catalog: Sequence[ShownScene]) -> Iterator[SitePage]:
-    """A page for every type, with its pictures, and one that lists them."""
+    """Yield the page and the picture of every constraint type, and the index of all types."""
     for kind, cls in TYPES.items():
         yield from _pages_of(kind, cls, [scene for scene in catalog if kind in scene.types])
-    rows = [(f"[{code(kind)}]({kind}.md)", prose(_meaning(cls)), _spaces(cls)) for kind, cls in TYPES.items()]
+    rows = [(f"[{code(kind)}]({kind}.md)", prose(_meaning(cls)), _dimensions_of(cls)) for kind, cls in TYPES.items()]
     yield SitePage(f"{FOLDER}/index.md", rendered("types.md", rows=rows))
 
 
@@ -52,7 +53,7 @@ def _pages_of(kind: str, cls: type[ConstraintBase], scenes: Sequence[ShownScene]
         "type.md",
         kind=kind,
         meaning=_sentence(_meaning(cls)),
-        spaces=_spaces(cls),
+        spaces=_dimensions_of(cls),
         paragraphs=re.split(r"\n\s*\n", cleandoc(cls.__doc__ or "")),
         scene=scene,
         equations=equations_of(scene.written),
@@ -64,7 +65,7 @@ def _pages_of(kind: str, cls: type[ConstraintBase], scenes: Sequence[ShownScene]
 
 
 def scene_of(cls: type[ConstraintBase]) -> str:
-    """A whole scene around the type's example, in the plane where it has one; only names that occur are declared.
+    """Return a whole scene with the type's example, in the plane if possible; only names that occur are declared.
 
     >>> print(scene_of(TYPES["coincident"]))
     dimension: 2
@@ -84,7 +85,7 @@ def scene_of(cls: type[ConstraintBase]) -> str:
 
 
 def equations_of(written: str) -> Iterator[str]:
-    """The scalar equations of a scene, as text; those that are too long to read are counted."""
+    """Yield the scalar equations of a scene as text, then the number of those longer than `LONGEST`."""
     system = lower(loads(written))
     relations = [relation for constraint in system.constraints for relation in constraint.relations]
     texts = [f"{to_text(relation.expr)} {relation.sense} 0" for relation in relations]
@@ -102,7 +103,7 @@ def _meaning(cls: type[ConstraintBase]) -> str:
     return cls.model_fields["type"].description or ""
 
 
-def _spaces(cls: type[ConstraintBase]) -> str:
+def _dimensions_of(cls: type[ConstraintBase]) -> str:
     return series([SPACES[d] for d in cls.dimensions])
 
 
@@ -126,9 +127,9 @@ def _other_words(cls: type[ConstraintBase]) -> Iterator[str]:
 
 THEOREMS, GLOSSARY, ROOMS = "about/theorems.md", "reference/glossary.md", "about/rooms.md"
 PACKAGE = Path(__file__).parents[1]
-#: Where the written part of the glossary has the tables of the package.
+#: The placeholder for the generated tables in the hand-written glossary.
 TABLES_HERE = "<!-- the tables of the package -->"
-#: The lines of its tables: the two of its head, and one for each theorem.
+#: The lines of the tables in THEOREMS.md: the two lines of a head, and the line of a theorem.
 _HEAD = re.compile(r"^\| key .*\n\|[-| ]+\|\n", re.MULTILINE)
 _ROW = re.compile(r"^\| `(\w+)` \|([^|]+)\|([^|]+)\|(.+)\|([^|]+)\|$", re.MULTILINE)
 
@@ -137,7 +138,7 @@ _PICTURE_OF_BENCH = re.compile(r"!\[[^\]]*\]\(dofkit/site/pages/bench\.png\)\n\n
 
 
 def readme_page(readme: str, has_bench: bool = False) -> SitePage:
-    """Return the first page: the README, with its links as the site has them; below its lead a small bench, if any.
+    """Return the first page: the README with the site's links, and with an embedded bench if ``has_bench``.
 
     >>> readme_page("[how](dofkit/site/pages/tutorial.md) and [why](dofkit/THEOREMS.md)").text
     '[how](tutorial.md) and [why](about/theorems.md)'
@@ -151,7 +152,7 @@ def readme_page(readme: str, has_bench: bool = False) -> SitePage:
 
 
 def rooms_page() -> SitePage:
-    """Return the page of the packages: the question of each, its types and its mechanisms, from its docstring."""
+    """Return the page of the packages, made of the docstrings of their ``__init__`` modules."""
     rooms = []
     for path in sorted(PACKAGE.glob("*/__init__.py")):
         docstring = ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))) or ""
@@ -160,7 +161,7 @@ def rooms_page() -> SitePage:
 
 
 def report_pages(written: str) -> Iterator[SitePage]:
-    """Return the glossary, which completes its ``written`` part by the package's own tables, and the theorems."""
+    """Yield the glossary, which is ``written`` with generated tables filled in, and the page of theorems."""
     before, after = written.split(TABLES_HERE)
     yield SitePage(GLOSSARY, before + _tables() + after)
     yield SitePage(THEOREMS, theorems((resources.files("dofkit") / "THEOREMS.md").read_text(encoding="utf-8")))
@@ -190,7 +191,7 @@ def _arguments() -> Iterator[tuple[str, ...]]:
 
 
 def theorems(text: str) -> str:
-    """Return `THEOREMS.md` with its tables as entries, each with an anchor.
+    """Return the text of `THEOREMS.md` with each row of its tables as an entry with an anchor.
 
     >>> print(theorems("| `Dini1878` | Dini | 1878 | A graph. | `a.py` |"))
     ### Dini1878 {#dini1878}
@@ -209,13 +210,13 @@ def _theorem(row: re.Match[str]) -> str:
 
 
 def command_pages() -> Iterator[SitePage]:
-    """Yield one page with every command, its arguments and its options."""
+    """Yield the page of all commands, with their arguments and options."""
     blocks = [_command(path, command) for path, command in commands()]
     yield SitePage("reference/commands.md", rendered("commands.md", commands=blocks))
 
 
 def commands() -> Iterator[tuple[str, Any]]:
-    """Yield every command by its words."""
+    """Yield (words, command) for every command, such as ``dofkit assignment vary``."""
     yield from _below("dofkit", typer.main.get_command(app))
 
 
@@ -227,7 +228,7 @@ def _below(path: str, command: Any) -> Iterator[tuple[str, Any]]:
 
 
 def _command(path: str, command: Any) -> tuple[str, str, str, list[tuple[str, str]]]:
-    """Return the words of a command, its help, a line that shows its usage, and a row for each argument and option."""
+    """Return (words, help, usage line, rows of arguments and options) of a command."""
     arguments = [p for p in command.params if p.param_type_name == "argument"]
     choices = [p for p in command.params if p.param_type_name == "option"]
     usage = " ".join([path, *(metavar_of(p) for p in arguments), *(["[OPTIONS]"] if choices else [])])

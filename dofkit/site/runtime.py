@@ -1,4 +1,4 @@
-"""The runtime: dofkit in the browser, as a folder of static files that a page starts as a worker.
+"""The runtime: a folder of static files with which a page runs dofkit in a worker of the browser.
 
 ```javascript
 const worker = new Worker(new URL("./runtime/worker.js", import.meta.url), { type: "module" });
@@ -6,11 +6,11 @@ worker.postMessage({ id: 1, call: "report", args: [text, []] });   // answered b
 ```
 
 The calls are the functions of `dofkit.site.browser`: `check`, `report`, `as_json`, `picture`, `motion`, `equations`,
-`read`, `judge`. Beside `worker.js` the folder has the scripts of Pyodide (from npm, pinned by the lock file);
-`core.bin`, its compiled runtime, the standard library and the packages of a report in bytecode, and the compiled
-libraries (from PyPI, in the versions that are installed), without what of FLINT nothing calls; and archives that are
-loaded when a call needs them: `extras.zst` for linkages and pictures, with what of the standard library reports
-do without, `sheets.zst` for homework, `symbols.zst` for equations of motion.
+`read`, `judge`. The folder contains `worker.js`; the scripts of Pyodide (from npm, pinned by the lock file);
+`core.bin`: Pyodide's compiled runtime, the standard library and the packages for reports in bytecode, compiled
+libraries (from PyPI, in the installed versions; of FLINT only the used modules); and archives that are loaded when a
+call needs them: `extras.zst` for linkages and pictures, with rarely used modules of the standard library, `sheets.zst`
+for homework, and `symbols.zst` for equations of motion.
 """
 
 from __future__ import annotations
@@ -34,11 +34,11 @@ from dofkit.base.errors import DofkitError
 
 SOURCES = Path(__file__).parent / "bench"
 PACKAGE = Path(__file__).parents[1]
-#: What it is made of, and what is left out of it.
+#: The contents of the runtime: packages, files, and what is left out.
 CONTENTS: dict[str, Any] = yaml.safe_load((SOURCES / "contents.yaml").read_text(encoding="utf-8"))
-#: What Pyodide needs at run time, beside its compiled runtime and the standard library.
+#: The scripts of Pyodide that are needed in addition to its compiled runtime and the standard library.
 PYODIDE = ("pyodide.mjs", "pyodide.asm.mjs")
-#: Where the packages of Pyodide's distribution are, and the only one that is ever asked for.
+#: Pyodide's list of packages, and the only package of the list that is used.
 LOCK, DISTRIBUTED = "pyodide-lock.json", "numpy"
 
 
@@ -47,7 +47,7 @@ class BenchError(DofkitError):
 
 
 def build_runtime(out: Path) -> None:
-    """Build the runtime into ``out``. Raises BenchError where node, npm or a package cannot be had."""
+    """Build the runtime into ``out``. Raises BenchError if node, npm or a package is missing."""
     if shutil.which("node") is None or shutil.which("npm") is None:
         raise BenchError("node and npm are not installed")
     modules = SOURCES / "node_modules"
@@ -71,21 +71,21 @@ def build_runtime(out: Path) -> None:
 
 
 def run(command: list[str], what: str) -> None:
-    """Run a command in the folder of the sources. Raises BenchError if it fails; ``what``: what it does."""
+    """Run a command in the folder of the sources. Raises BenchError if it fails; ``what`` names it in the message."""
     ran = subprocess.run(command, cwd=SOURCES, capture_output=True, text=True, check=False)
     if ran.returncode:
         raise BenchError(f"{what} failed: {(ran.stderr or ran.stdout).strip()[-2000:]}")
 
 
 def _write_lock(source: Path, target: Path) -> None:
-    """Write what Pyodide has to know of its distribution: where numpy is, which needs no other package."""
+    """Write Pyodide's list of packages with numpy only, which depends on no other package."""
     lock = json.loads(source.read_text(encoding="utf-8"))
     lock["packages"] = {DISTRIBUTED: lock["packages"][DISTRIBUTED]}
     target.write_text(json.dumps(lock), encoding="utf-8")
 
 
 def _stage_library(file: Path, packages: Path) -> None:
-    """Unpack the standard library, and apart from it what is seldom used."""
+    """Unpack the standard library into ``library``, and its rarely used modules into ``extras``."""
     with zipfile.ZipFile(file) as archive:
         for name in archive.namelist():
             is_seldom = name.partition("/")[0].removesuffix(".py") in CONTENTS["seldom"]
@@ -119,7 +119,7 @@ def without_unused(text: str) -> str:
 
 
 def _stage_packages(names: Iterable[str], target: Path) -> None:
-    """Copy packages of this environment, without what is compiled for it."""
+    """Copy packages of this environment, without compiled extensions. Raises BenchError if one is not installed."""
     for name in names:
         spec = importlib.util.find_spec(name)
         if spec is None or spec.origin is None:
@@ -141,6 +141,7 @@ def _stage_dofkit(target: Path) -> None:
 
 
 def _stage_folder(source: Path, target: Path, left_out: Sequence[str] = ()) -> None:
+    """Copy the used files of a folder, without compiled extensions and without the paths ``left_out``."""
     for path in source.rglob("*"):
         inner = path.relative_to(source)
         is_left_out = ".so" in inner.suffixes or any(inner.is_relative_to(name) for name in left_out)

@@ -1,4 +1,4 @@
-"""Bodies with joints, and chains: overconstrained ones that move or are locked, trees and loops at random, rolling."""
+"""Bodies with joints: overconstrained mechanisms that move or are locked, random trees and loops, rolling, chains."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ Place = Sequence[Any]
 
 
 def _loop(hinges: Sequence[tuple[Place, Place]], bodies: int) -> dict[str, Any]:
+    """Return the scene of a loop of hinges (place, axis) through the ground and ``bodies`` moving bodies."""
     exact = [tuple(tuple(map(Fraction, vector)) for vector in hinge) for hinge in hinges]
     return hinged_loop([(at, axis) for at, axis in exact], bodies)
 
@@ -79,7 +80,7 @@ def loops() -> Iterator[KnownScene]:
 
 
 def named_loops() -> Iterator[KnownScene]:
-    """Loops with a name [Bennett1903]."""
+    """Overconstrained loops named after who found them [Bennett1903]; they move though the count denies it."""
     for row in tables("poses.yaml")["loops"]:
         n = len(row["hinges"])
         scene = _loop(row["hinges"], n - 1)
@@ -104,7 +105,7 @@ def trees() -> Iterator[KnownScene]:
 
 
 def random_loops() -> Iterator[KnownScene]:
-    """Closed loops of joints of every type, where their screws span all or are independent."""
+    """Closed loops of random joints, where their screws span all motions or are independent."""
     because = "rates whose screws cancel, by the exact rank: regular where they span all, none where independent"
     for d, n in ((d, n) for n in (1, 2, 3, 4, 5, 6) for d in (2, 3)):
         for seed in range(4):
@@ -115,7 +116,7 @@ def random_loops() -> Iterator[KnownScene]:
 
 
 def rolling() -> Iterator[KnownScene]:
-    """Balls that roll on a plane, where nothing integrates, and discs that roll on a line, where all does."""
+    """Balls that roll on a plane: no form is integrable; discs that roll on a line: all are."""
     because = "a ball reaches every place and every turn; a disc on a line is where its angle says"
     for n in (1, 2, 4, 8):
         bodies = [f"b{k}" for k in range(n)]

@@ -1,4 +1,4 @@
-"""Trials, scenes whose answers are known by construction, and the tables that they are made from."""
+"""Trials, scenes whose answers are known by construction, and the tables of such scenes."""
 
 from __future__ import annotations
 
@@ -12,19 +12,19 @@ import yaml
 
 from dofkit.methods.table import Question
 
-#: ``dof``: a number (-1: the constraints contradict each other); ``integrability``: whether each constraint is
-#: holonomic in the system, by name; ``redundancy``: the names of what is redundant, sorted; ``equivalence``: whether
-#: ``answer`` is the same constraint as the one that it names.
+#: The right answer to a question. ``dof``: a number (-1: the constraints contradict each other); ``integrability``:
+#: {constraint: whether it is holonomic in the system}; ``redundancy``: the names of redundant constraints, sorted;
+#: ``equivalence``: whether the text of ``answer`` is equivalent to the constraint that it names.
 Truth = int | bool | list[str] | dict[str, bool]
 
 
 @dataclass(frozen=True)
 class Trial:
-    """One question about one scene. Its truth is never asked of dofkit.
+    """One question about one scene, with the true answer, which was never computed by dofkit.
 
-    ``scene`` is a mapping as `dofkit.load` takes it; ``truth`` see `Truth`; ``because`` says in one line why it holds.
-    ``size`` counts what grows with the family.
-    ``answer``: for equivalence, ``{"constraint": name, "text": what was handed in}``.
+    ``scene`` is a mapping for `dofkit.load`; ``truth``: see `Truth`; ``because``: in one line why the truth is so.
+    ``size``: the number that grows within the family, such as of bodies. ``answer``: for equivalence,
+    ``{"constraint": name, "text": submitted text}``.
     """
 
     family: str
@@ -39,15 +39,14 @@ class Trial:
 
 @dataclass(frozen=True)
 class KnownScene:
-    """A scene with what is true of it by the way it is made. Nothing of dofkit is asked for it.
+    """A scene with its true answers, known by construction and not computed by dofkit.
 
-    ``truth``: values of fields of the report, and of its entries as ``CONSTRAINT.field``; of some fields only.
-    ``elsewhere``: further values of a field, those on smaller components of the configuration space, which are true
-    where the report says that it speaks of one component only. ``chart``: the coordinates in order as functions of
-    p0, p1, ..., of t and of coordinates before them, onto an open part of the configuration space that the truth
-    speaks of: as many parameters as ``dof``. By it the truth can be confirmed.
-    ``group``: scenes that belong together; ``equivalence``: a constraint, a text, and whether they are the same. For
-    ``because`` and ``size`` see `Trial`.
+    ``truth``: {field of the report, or CONSTRAINT.field of an entry: value}, for some fields only. ``elsewhere``: other
+    right values of a field, on smaller components of the configuration space, for reports about one component only.
+    ``chart``: a parametrization of an open part of the configuration space, by which the truth can be confirmed: the
+    coordinates in order as functions of p0, p1, ... (as many as ``dof``), of t and of earlier coordinates.
+    ``group``: the name of scenes that belong together; ``equivalence``: (constraint, text, are they equivalent?);
+    ``because`` and ``size``: see `Trial`.
     """
 
     scene: Mapping[str, Any]
@@ -62,12 +61,12 @@ class KnownScene:
 
     @property
     def dof(self) -> int | None:
-        """The degree of freedom, -1 where the constraints contradict each other; None where it is not known."""
+        """The number of degrees of freedom, -1 if the constraints contradict each other, None if it is not known."""
         return -1 if self.truth.get("consistent") is False else self.truth.get("dof")
 
     @property
     def integrability(self) -> dict[str, bool] | None:
-        """Whether every constraint is holonomic, where that is known of all."""
+        """{constraint: whether it is holonomic}; None unless this is known for all constraints."""
         labels = {name: self.truth.get(f"{name}.holonomic") for name in constraint_names(self.scene)}
         return None if None in labels.values() else {name: bool(value) for name, value in labels.items()}
 
@@ -93,10 +92,9 @@ class KnownScene:
 
 
 class Answers(TypedDict, total=False):
-    """Answers to the questions of a trial; those that are None, or left out, are not known.
+    """Answers to the questions of trials; an answer that is None or missing is not known.
 
-    ``dof`` -1: the constraints contradict each other; ``integrability``: whether each constraint is holonomic in the
-    system; ``redundancy``: what is redundant; ``equivalence``: see `KnownScene`.
+    See `Truth`; ``equivalence``: see `KnownScene`.
     """
 
     dof: int | None
@@ -112,7 +110,7 @@ def known_scene(
     size: int = 1,
     **answers: Unpack[Answers],
 ) -> KnownScene:
-    """Return a scene with the answers to the questions of a trial."""
+    """Return a known scene from the answers to the questions of its trials."""
     dof, redundant = answers.get("dof"), answers.get("redundancy")
     truth: dict[str, Any] = dict(IMPOSSIBLE) if dof == -1 else {} if dof is None else {"consistent": True, "dof": dof}
     truth |= {f"{constraint}.holonomic": value for constraint, value in (answers.get("integrability") or {}).items()}
@@ -125,12 +123,12 @@ IMPOSSIBLE: Mapping[str, Any] = {"consistent": False, "dof": None, "velocity_dof
 
 
 def truths(dof: int, velocity_dof: int | None = None, **more: Any) -> dict[str, Any]:
-    """Return the truth about a consistent system; its velocity freedom is ``dof`` unless stated."""
+    """Return the truth of a consistent system; its velocity freedom is ``dof`` unless given; ``more``: other fields."""
     return {"consistent": True, "dof": dof, "velocity_dof": dof if velocity_dof is None else velocity_dof, **more}
 
 
 def scene_of(coordinates: str | Sequence[str], *constraints: Any, **more: Any) -> dict[str, Any]:
-    """Return a scene in coordinates, a list or a text with spaces between them; sections that are None are left out."""
+    """Return a scene in coordinates only, a list or a text with spaces; ``more``: other sections, left out if None."""
     names = coordinates.split() if isinstance(coordinates, str) else [*coordinates]
     sections = {key: value for key, value in more.items() if value is not None}
     return {"coordinates": names, "constraints": [*constraints], **sections}
@@ -144,45 +142,45 @@ def constraint_names(scene: Mapping[str, Any]) -> list[str]:
 
 
 def numbered(number: int, first: int = 1) -> list[str]:
-    """Return the names of so many constraints without a name: c1, c2, ..."""
+    """Return the names of ``number`` constraints without a name, c1, c2, ..., beginning with ``first``."""
     return [f"c{i}" for i in range(first, first + number)]
 
 
 def labels(values: Sequence[bool] | None) -> dict[str, bool] | None:
-    """Return whether each of the constraints c1, c2, ... is holonomic."""
+    """Return {c1: first value, c2: second value, ...}; None for None."""
     return None if values is None else dict(zip(numbered(len(values)), values, strict=True))
 
 
 # Tables
 
 Row = Mapping[str, Any]
-#: libyaml's, where it is installed.
+#: The loader by libyaml if it is installed.
 LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 
 @cache
 def tables(file: str) -> Mapping[str, Sequence[Row]]:
-    """Return the tables of a YAML file of this folder, by name."""
+    """Return {name: rows} of the tables in a YAML file of this folder."""
     text = (resources.files(__package__) / file).read_text(encoding="utf-8")
     rows_by_table: Mapping[str, Sequence[Row]] = yaml.load(text, LOADER)
     return rows_by_table
 
 
 def tabled(row: Row) -> KnownScene:
-    """Return the scene of a table's row, in coordinates alone; its size is the number of its equations."""
+    """Return the known scene of a table's row, in coordinates only; its size is the number of its equations."""
     about = row["name"], scene_of(row["coordinates"], *row["rows"]), row["because"], len(row["rows"])
     holonomic = labels(row.get("holonomic"))
     return known_scene(*about, dof=row["dof"], integrability=holonomic, redundancy=row.get("redundant"))
 
 
-# A few for all
+# Quick runs
 
-#: How many trials of a question stand for a family.
+#: The number of trials of a family's first question in a quick run.
 FEW = 2
 
 
 def few(trials: Iterable[Trial]) -> Iterator[Trial]:
-    """Return trials that stand for a family: of the first question two small ones with different truths; then one."""
+    """Return a few small trials of a family: two of the first question, of different kind, and one of each other."""
     chosen: dict[str, list[Trial]] = {}
     for trial in sorted(trials, key=lambda trial: trial.size):
         same = chosen.setdefault(trial.question, [])
@@ -193,7 +191,7 @@ def few(trials: Iterable[Trial]) -> Iterator[Trial]:
 
 
 def kind(trial: Trial) -> Any:
-    """Return what must not be the same of all trials of a family and question, lest a constant answer be right."""
+    """Return the kind of a trial's truth; a constant answer is right for all trials of one question and kind."""
     truth = trial.truth
     if isinstance(truth, dict):
         return tuple(sorted(set(truth.values())))

@@ -13,7 +13,7 @@ TABLES = tables("equations.yaml")
 
 
 def hidden_relations() -> Iterator[KnownScene]:
-    """Relations whose functions depend on each other; with a row that does not, and one that contradicts them."""
+    """Functionally dependent relations; with an independent one, and with one that contradicts them."""
     for number, row in enumerate(TABLES["hidden"]):
         n, k = len(row["coordinates"].split()), len(row["rows"])
         members: list[tuple[str, str | None, int, list[str]]] = [
@@ -50,7 +50,7 @@ def rotations() -> Iterator[KnownScene]:
 
 
 def linear_rows() -> Iterator[KnownScene]:
-    """Rows of a linear system; the last a combination of the others, at a gap; scaled; with coefficients far apart."""
+    """Linear equations; the last is a combination of the others, exactly or up to a tiny gap, also scaled."""
     because = "the first rows are in echelon form; the last is a combination of them, but for the gap"
     sizes = (3, 6, 12)
     for n, digits in ((n, d) for n in sizes for d in (6, 12, 30, 60)):
@@ -95,7 +95,7 @@ def touching() -> Iterator[KnownScene]:
                 yield known_scene(*about, dof=dof, redundancy=over)
 
 
-#: The powers of ten by which configuration-level equations are moved away.
+#: The exponents of ten of the offsets of equations that are moved far away.
 FAR = (3, 6, 9)
 
 
@@ -121,10 +121,10 @@ def branches() -> Iterator[KnownScene]:
         yield known_scene(*about, dof=row["dof"], integrability=labels(row.get("holonomic")))
 
 
-# Equations that are not reduced: what counts is the real set of zeros
+# Equations with multiple zeros: only the real set of zeros counts
 
 POWERS = (1, 2, 3, 8, 16, 32, 64)
-#: The largest power of a sum that a scene may hold, as powers of powers are bounded.
+#: The largest power of a sum that a scene may contain, because nested powers are bounded.
 LARGEST = 32
 
 
@@ -149,7 +149,7 @@ def power_forms() -> Iterator[KnownScene]:
 
 
 def sums_of_squares() -> Iterator[KnownScene]:
-    """One equation that says n things: a sum of n squares; with a sign, or a constant, it does not."""
+    """A sum of n squares that is 0, which is n equations in one; with a sign or a constant it is not."""
     for n in (2, 3, 4, 6, 8, 12):
         total, mixed = _sum(n, "(x{k} - {k})^2"), _sum(n, "(x{k} + 2 x{next})^2")
         rows: list[tuple[str, str, int, str]] = [
@@ -188,7 +188,7 @@ def _sum(n: int, text: str, first: int = 0) -> str:
 
 
 def chained_equations() -> Iterator[KnownScene]:
-    """Relations each between neighbours: x_i+1 = f(x_i), and the ends tied once more, rightly or not."""
+    """Chains x_{i+1} = f(x_i), closed by a relation between the ends that is implied or not."""
     for n in (3, 6, 12, 24):
         names = [f"x{k}" for k in range(n)]
         sums = [f"x{k + 1} = 2 x{k} + 1" for k in range(n - 1)]

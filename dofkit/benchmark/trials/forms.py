@@ -1,4 +1,4 @@
-"""Differential constraints: forms that integrate, that do not, and that do so only together; time; blocks; chains."""
+"""Differential constraints: forms that are integrable, not integrable, or only together; time; blocks; chains."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from dofkit.benchmark.trials.construction import KnownScene, Row, known_scene, n
 
 
 def together() -> Iterator[KnownScene]:
-    """Forms with their system: each label is the one within the system.
+    """Forms that are integrable or not together with the others of their system.
 
     Among them are five variables of growth 2, 3, 5 [Cartan1910].
     """
@@ -46,11 +46,11 @@ def hidden_by_time() -> Iterator[KnownScene]:
             yield known_scene(*about, dof=dof, integrability=labels)
 
 
-# Many small parts that have nothing to do with each other, or share one coordinate
+# Many small independent parts
 
 
 def many_blocks() -> Iterator[KnownScene]:
-    """Copies of one part, each in its own coordinates: what is true of one holds of each."""
+    """Copies of one part, each in its own coordinates: the answers are those of one part."""
     blocks = tables("forms.yaml")["blocks"]
     for part in blocks:
         for n in (1, 4, 8, 16, 64):
@@ -77,26 +77,27 @@ def _blocks(name: str, blocks: Sequence[Row], because: str) -> KnownScene:
 
 
 def chained_forms() -> Iterator[KnownScene]:
-    """dq_i = q_i+1 dq_0: nothing integrates while the end is open, everything once it closes (Goursat's normal form).
+    """Chains dq_i = q_{i+1} dq_0, i < n (Goursat's normal form): no form is integrable if open, all are if closed.
 
-    Closed: the last form reads dq_n = q_0 dq_0, so that q_n, then q_n-1, and so on are functions of q_0.
+    Closed means a further form dq_n = q_0 dq_0 (or Riccati's equation), so that q_n, then q_{n-1}, ... depend on q_0.
+    If a form in the middle is closed instead, the forms before it are integrable, and those after it are not.
     """
     for n in (2, 3, 4, 6, 8):
         names = [f"q{k}" for k in range(n + 1)]
         forms = [f"dq{k} - q{k + 1} dq0 = 0" for k in range(1, n)]
         half = n // 2
-        broken = [*forms[: half - 1], f"dq{half} - q0^2 dq0 = 0", *forms[half:]] if half else forms
-        closing = "as many forms as coordinates but one leave one direction: all integrate together"
-        # name, the forms, dof, which integrate (None: not asked), because
+        closed_inside = [*forms[: half - 1], f"dq{half} - q0^2 dq0 = 0", *forms[half:]]
+        closing = "with one form fewer than coordinates one direction is left, so all are integrable together"
+        # name, the forms, dof, which are integrable (None: not asked), because
         members: list[tuple[str, list[str], int, dict[str, bool] | None, str]] = [
             (f"{n - 1} forms, open", forms, n + 1, dict.fromkeys(numbered(n - 1), False),
              "Goursat's normal form: each derived system loses one form, down to none"),
             (f"{n} forms, closed", [*forms, f"dq{n} - q0 dq0 = 0"], 1, dict.fromkeys(numbered(n), True), closing),
             (f"{n} forms, closed by a Riccati equation", [*forms, f"dq{n} - (q0 + q{n}^2) dq0 = 0"], 1,
              dict.fromkeys(numbered(n), True), closing),
-            (f"{n - 1} forms, one of them closed", broken, n + 1 - half,
-             {f"c{k}": k <= half for k in range(1, n)} if half < n - 1 or n > 2 else None,
-             "what comes before a form in q0 alone integrates with it; what comes after is a chain of its own"),
+            (f"{n - 1} forms, one of them closed", closed_inside, n + 1 - half,
+             {f"c{k}": k <= half for k in range(1, n)} if n > 2 else None,
+             "the forms before one in q0 alone are integrable with it; the forms after it are an open chain"),
         ]  # fmt: skip
         for name, rows, dof, labels, because in members:
             yield known_scene(name, scene_of(names, *rows), because, n, dof=dof, integrability=labels)
@@ -119,7 +120,7 @@ def trailers() -> Iterator[KnownScene]:
 
 
 def car(n: int) -> dict[str, Any]:
-    """Return n + 2 forms in n + 4 coordinates, the trailers hitched at the axles."""
+    """Return the scene of a car with n trailers hitched at the axles: n + 2 forms in n + 4 coordinates."""
     angles = [f"th{i}" for i in range(n + 1)]
     forms = ["sin(th0 + phi) dx - cos(th0 + phi) dy - l cos(phi) dth0 = 0"]
     for i, angle in enumerate(angles):

@@ -1,4 +1,4 @@
-"""Bars and joints with exact positions, and random frameworks, trees and loops of bodies, with their exact ranks."""
+"""Frameworks of bars and joints at exact positions, and random frameworks, trees and loops of bodies."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ End = str | int
 
 @dataclass(frozen=True)
 class Framework:
-    """Free joints by name, joints on the ground by number, and bars between them, all drawn."""
+    """Free joints by name, joints on the ground by number, all with exact positions, and bars between them."""
 
     joints: Mapping[str, Position]
     ground: tuple[Position, ...]
@@ -32,22 +32,22 @@ class Framework:
         return self.joints[end] if isinstance(end, str) else self.ground[end]
 
     def moved(self, to: Callable[[Position], Position]) -> Framework:
-        """Every position moved."""
+        """Return the framework with the map ``to`` applied to every position."""
         joints = {name: to(p) for name, p in self.joints.items()}
         return replace(self, joints=joints, ground=tuple(to(p) for p in self.ground))
 
     def rows(self) -> list[list[Fraction]]:
-        """The rigidity matrix: a row for every bar, d columns for every free joint."""
+        """Return the rigidity matrix: a row for every bar, d columns for every free joint."""
         d = self.dimension
-        place = {name: d * i for i, name in enumerate(self.joints)}
+        column = {name: d * i for i, name in enumerate(self.joints)}
         rows = []
         for a, b in self.bars:
-            row = [Fraction(0)] * (d * len(place))
+            row = [Fraction(0)] * (d * len(column))
             for k, (x, y) in enumerate(zip(self.at(a), self.at(b), strict=True)):
                 if isinstance(a, str):
-                    row[place[a] + k] += x - y
+                    row[column[a] + k] += x - y
                 if isinstance(b, str):
-                    row[place[b] + k] += y - x
+                    row[column[b] + k] += y - x
             rows.append(row)
         return rows
 
@@ -56,13 +56,11 @@ class Framework:
         return self.dimension * len(self.joints)
 
     def by_rank(self) -> int:
-        """Velocities allowed at the positions, exactly."""
+        """Return the instantaneous freedom at the positions, by the exact rank."""
         return self.coordinates - exact_rank(self.rows())
 
-    # scenes
-
     def scene(self, drawn: bool = True, **more: Any) -> dict[str, Any]:
-        """A scene with links; without positions all is in general position (a framework with ground needs them)."""
+        """Return the scene of links, with positions if ``drawn`` (needed with ground), else in general position."""
         particles: list[Any] = list(self.joints)
         if drawn:
             particles = [{"name": name, "at": written(p)} for name, p in self.joints.items()]
@@ -72,12 +70,12 @@ class Framework:
 
 
 def written(position: Position) -> list[str]:
-    """Coordinates as a person writes them: exact."""
+    """Return the exact coordinates of a position as texts."""
     return [str(x) for x in position]
 
 
 def bars(text: str) -> tuple[tuple[End, End], ...]:
-    """``AB B0``: letters are free joints, figures those on the ground."""
+    """Return the bars of a text such as ``AB B0``: letters are free joints, digits are joints on the ground."""
     return tuple((_end(pair[0]), _end(pair[1])) for pair in text.split())
 
 
@@ -86,13 +84,13 @@ def _end(letter: str) -> End:
 
 
 def framework(joints: dict[str, Sequence[Any]], ground: Sequence[Sequence[Any]], text: str) -> Framework:
-    """A framework from numbers."""
+    """Return the framework with these positions (numbers or texts) and the bars of ``text`` (see `bars`)."""
     placed = {name: tuple(map(Fraction, p)) for name, p in joints.items()}
     return Framework(placed, tuple(tuple(map(Fraction, p)) for p in ground), bars(text))
 
 
 def hinged_loop(hinges: Sequence[tuple[Position, Position]], bodies: int) -> dict[str, Any]:
-    """Return a loop of hinges (place, axis) between the ground and so many bodies; a single one is on all of them."""
+    """Return a scene: a loop of hinges (place, axis) through the ground and ``bodies``; one body has all hinges."""
     names = ["ground", *(f"link{i}" for i in range(bodies))]
     joints = []
     for i, (place, axis) in enumerate(hinges):
@@ -105,18 +103,18 @@ def hinged_loop(hinges: Sequence[tuple[Position, Position]], bodies: int) -> dic
 # Random frameworks, trees and loops of bodies
 
 Vector = tuple[Fraction, Fraction, Fraction]
-#: What a joint allows: freedoms in space.
+#: {joint type: its freedom in space}.
 FREEDOMS = {"revolute": 1, "prismatic": 1, "cylindrical": 2, "universal": 2, "spherical": 3, "planar": 3, "weld": 0}
 PLANE = ("revolute", "prismatic", "weld")
 ZERO = (Fraction(0),) * 3
 
 
 def graph(rng: random.Random, dimension: int, joints: int, twice: bool = False) -> Framework:
-    """Random bars between joints at random places in general position; ``twice``: now and then a pair has two bars."""
+    """Return random bars between joints at random places; ``twice``: at times one pair has two bars."""
     names = [f"J{i}" for i in range(joints)]
     pairs = list(combinations(names, 2))
-    few = dimension * joints - dimension * (dimension + 1) // 2
-    number = min(len(pairs), max(1, few + rng.randrange(-3, 4)))
+    rank = dimension * joints - dimension * (dimension + 1) // 2
+    number = min(len(pairs), max(1, rank + rng.randrange(-3, 4)))
     chosen = rng.sample(pairs, number)
     if twice and rng.random() < 1 / 4:
         chosen.insert(rng.randrange(number + 1), rng.choice(chosen))
@@ -125,12 +123,12 @@ def graph(rng: random.Random, dimension: int, joints: int, twice: bool = False) 
 
 
 def place(rng: random.Random, dimension: int, size: int = 10**6) -> Position:
-    """A random point: coordinates of three decimals."""
+    """Return a random point with coordinates of three decimals, up to ``size``/1000."""
     return tuple(Fraction(rng.randrange(-size, size + 1), 1000) for _ in range(dimension))
 
 
 def dependent(drawn: Framework) -> list[int]:
-    """The bars whose rows depend on those before them, by exact elimination at the positions."""
+    """Return the numbers of the bars whose rows depend on earlier rows, by exact elimination at the positions."""
     rows = drawn.rows()
     columns = [[fmpq(row[k].numerator, row[k].denominator) for row in rows] for k in range(drawn.coordinates)]
     reduced, rank = fmpq_mat(columns).rref()
@@ -140,7 +138,7 @@ def dependent(drawn: Framework) -> list[int]:
 
 @dataclass(frozen=True)
 class RandomBodies:
-    """A scene of bodies with its truth: the velocities at the reference, and the freedom where they imply it."""
+    """A scene of random bodies: ``first`` is its instantaneous freedom, ``dof`` the freedom if that implies it."""
 
     scene: dict[str, Any]
     equations: int
@@ -150,7 +148,7 @@ class RandomBodies:
 
 
 def tree(rng: random.Random, dimension: int, bodies: int) -> RandomBodies:
-    """Every body on one written before it: the joints' freedoms add up."""
+    """Return a random tree, each body joined to an earlier one or the ground; the freedoms of the joints add up."""
     kinds = list(FREEDOMS) if dimension == 3 else list(PLANE)
     chosen = [rng.choice(kinds) for _ in range(bodies)]
     joints = []
@@ -158,17 +156,17 @@ def tree(rng: random.Random, dimension: int, bodies: int) -> RandomBodies:
         onto = "ground" if i == 0 else rng.choice(["ground", *(f"b{j}" for j in range(i))])
         joints.append(_joint(rng, kind, dimension, f"j{i}", onto, f"b{i}")[0])
     freedom = sum(FREEDOMS[kind] for kind in chosen)
-    each = dimension * (dimension + 1) // 2
+    freedom_of_body = dimension * (dimension + 1) // 2
     names = [f"b{i}" for i in range(bodies)]
     rng.shuffle(joints)
     scene = {"dimension": dimension, "bodies": names, "constraints": joints}
-    return RandomBodies(scene, bodies * each - freedom, bodies * each, freedom, freedom)
+    return RandomBodies(scene, bodies * freedom_of_body - freedom, bodies * freedom_of_body, freedom, freedom)
 
 
 def loop(rng: random.Random, dimension: int, bodies: int) -> RandomBodies:
-    """Bodies in one closed loop with the ground: velocities are the joints' rates whose screws cancel.
+    """Return a random closed loop with the ground: its velocities are the joints' rates whose screws sum to 0.
 
-    Where the screws are independent nothing moves, and where they span all screws the loop's equations are regular.
+    If the screws are independent nothing moves; if they span all screws the loop's equations are independent.
     """
     kinds = [k for k in (FREEDOMS if dimension == 3 else PLANE) if k != "weld"]
     names = ["ground", *(f"b{i}" for i in range(bodies)), "ground"]
@@ -177,19 +175,19 @@ def loop(rng: random.Random, dimension: int, bodies: int) -> RandomBodies:
         joint, allowed = _joint(rng, rng.choice(kinds), dimension, f"j{i}", names[i], names[i + 1])
         joints.append(joint)
         screws += allowed
-    each = dimension * (dimension + 1) // 2
+    freedom_of_body = dimension * (dimension + 1) // 2
     rank = exact_rank(screws)
     first = len(screws) - rank
-    dof = first if first == 0 or rank == each else None
-    equations = (bodies + 1) * each - len(screws)
+    dof = first if first == 0 or rank == freedom_of_body else None
+    equations = (bodies + 1) * freedom_of_body - len(screws)
     scene = {"dimension": dimension, "bodies": names[1:-1], "constraints": joints}
-    return RandomBodies(scene, equations, bodies * each, first, dof)
+    return RandomBodies(scene, equations, bodies * freedom_of_body, first, dof)
 
 
 def _joint(
     rng: random.Random, kind: str, dimension: int, name: str, first: str, second: str
 ) -> tuple[dict[str, Any], list[list[Fraction]]]:
-    """A joint at a random place, and the screws (turn; velocity of the origin) that it allows."""
+    """Return a joint at a random place, and the screws (angular velocity, velocity of the origin) that it allows."""
     at, u = (_vector(rng, dimension) for _ in range(2))
     scene: dict[str, Any] = {"name": name, "type": kind, "between": [first, second]}
     if kind not in ("weld", "prismatic"):
@@ -226,7 +224,7 @@ def _across(u: Vector) -> Vector:
 
 
 def cross(a: Vector, b: Vector) -> Vector:
-    """a x b."""
+    """Return a x b."""
     return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
 
 

@@ -1,4 +1,4 @@
-"""Links between particles: the truth is that of the graph, by how it is put together, or the exact rank."""
+"""Links between particles: the truth is known from the construction of the graph, or by the exact rank."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ T = TypeVar("T", bound=Hashable)
 def _linked_scene(
     name: str, shape: tuple[int, int, Sequence[Link]], because: str, size: int, dof: int, over: Sequence[Link] | None
 ) -> KnownScene:
-    """Return links l0, l1, ... of any length: ``shape`` is (joints, dimension, links), ``over`` the redundant ones."""
+    """Return the scene of links l0, l1, ...; ``shape``: (joints, dimension, links), ``over``: redundant links."""
     joints, dimension, links = shape
     scene = {
         "dimension": dimension,
@@ -33,7 +33,7 @@ def _linked_scene(
 
 
 def cliques() -> Iterator[KnownScene]:
-    """All pairs, joint after joint: its first d links put a joint in its place, each further one is redundant."""
+    """All pairs of joints linked: the first d links of a joint fix it, each further one is redundant."""
     because = "d links fix a joint to a rigid framework; further links are redundant"
     sizes = {1: (4, 8, 16, 32), 2: (4, 8, 16, 32, 64), 3: (4, 5, 8, 16, 32)}
     for d, n in ((d, n) for d, ladder in sizes.items() for n in ladder):
@@ -41,12 +41,11 @@ def cliques() -> Iterator[KnownScene]:
         needed = [(i, j) for i, j in links if i < d]
         for name, chosen in (("all pairs", links), ("only the links that are needed", needed)):
             over = [(i, j) for i, j in chosen if i >= d]
-            yield _linked_scene(
-                f"{n} joints in dimension {d}, {name}", (n, d, chosen), because, n, d * (d + 1) // 2, over
-            )
+            rigid = d * (d + 1) // 2
+            yield _linked_scene(f"{n} joints in dimension {d}, {name}", (n, d, chosen), because, n, rigid, over)
 
 
-#: (dimension, m, n, dof, redundant: None where it was not derived) of m joints linked with n others.
+#: (dimension, m, n, dof, number of redundant links or None if not derived) for m joints linked with n others.
 BIPARTITE = (
     (2, 3, 3, 3, 0), (2, 2, 6, 2 * 8 - 12, 0), (2, 3, 4, 3, 1), (2, 4, 4, 3, None), (2, 3, 8, 3, None),
     (2, 6, 6, 3, None), (3, 4, 6, 6, 0), (3, 5, 5, 6, 1), (3, 4, 4, 24 - 16, 0), (3, 3, 8, 33 - 24, 0),
@@ -55,7 +54,7 @@ BIPARTITE = (
 
 
 def complete_bipartite() -> Iterator[KnownScene]:
-    """Every joint of one kind with every one of the other [BolkerRoth1980]."""
+    """Every joint of one kind linked with every joint of another [BolkerRoth1980]."""
     because = "rigid in the plane from 3 and 3 on, in space from 4 and 6 or 5 and 5 on (Bolker and Roth 1980)"
     for d, m, n, dof, over in BIPARTITE:
         links = [(i, m + j) for j in range(n) for i in range(m)]
@@ -64,10 +63,10 @@ def complete_bipartite() -> Iterator[KnownScene]:
 
 
 def bananas() -> Iterator[KnownScene]:
-    """Rigid spindles, each of two ends and a triangle: on the same two ends they are dependent; in a ring they are not.
+    """Rigid spindles of two ends and a triangle: dependent on the same two ends; independent in a ring.
 
-    On the same ends: the last link of every one but the first says again how far these are apart. In a ring of three
-    or more: a polygon of rigid bars, each free to turn about itself.
+    On the same ends the last link of every spindle but the first is redundant, as all fix the distance of the ends.
+    A ring of three or more is a polygon of rigid bars, each free to turn about its axis.
     """
     for n in (2, 3, 4, 8, 16, 32, 64):
         same = [link for k in range(n) for link in _spindle(0, 1, 2 + 3 * k)]
@@ -88,15 +87,15 @@ def bananas() -> Iterator[KnownScene]:
 
 
 def _spindle(a: int, b: int, first: int) -> list[Link]:
-    """Return the links of two ends and a triangle that is linked to both."""
+    """Return the links of a spindle: a triangle, which begins with joint ``first``, linked to the ends a and b."""
     triangle = (first, first + 1, first + 2)
     return [*combinations(triangle, 2), *((end, c) for end in (a, b) for c in triangle)]
 
 
 def henneberg() -> Iterator[KnownScene]:
-    """Put together joint by joint [Henneberg1911] [TayWhiteley1985]: rigid, and no link too many.
+    """Built joint by joint [Henneberg1911] [TayWhiteley1985]: rigid without a redundant link.
 
-    With links more, each of them is redundant; with the last one left out, there is one freedom more.
+    Each additional link is redundant; without the last link there is one freedom more.
     """
     because = "each step keeps the links independent, and with d joints more than links the framework rigid"
     ladder = {2: (4, 8, 16, 32, 64, 128, 256, 512), 3: (5, 8, 16, 32, 64, 128)}
@@ -116,7 +115,7 @@ def henneberg() -> Iterator[KnownScene]:
 
 
 def henneberg_links(joints: int, dimension: int, rng: random.Random) -> list[Link]:
-    """Return links by Henneberg's steps from a simplex: a joint on d others, or into a link and on d - 1 others."""
+    """Return links by Henneberg's steps: a new joint is linked to d joints, or splits a link and gets d - 1 more."""
     links = list(combinations(range(dimension), 2))
     for new in range(dimension, joints):
         if new > dimension + 1 and rng.random() < 0.5:
@@ -129,7 +128,7 @@ def henneberg_links(joints: int, dimension: int, rng: random.Random) -> list[Lin
 
 
 def trees_on_a_line() -> Iterator[KnownScene]:
-    """Links along a line: one that closes a circle is redundant, and every part moves by itself."""
+    """Links along a line: one that closes a cycle is redundant, and every connected part moves by itself."""
     because = "one freedom for every connected part; the last link of a circle is redundant"
     for n in (4, 8, 16, 32, 64, 128, 256, 512):
         rng = random.Random(n)
@@ -142,7 +141,7 @@ def trees_on_a_line() -> Iterator[KnownScene]:
 
 
 def union(vertices: Iterable[T], edges: Iterable[tuple[T, T]]) -> tuple[int, list[tuple[T, T]]]:
-    """Return how many connected components a graph has, and the edges that close a cycle with those before them."""
+    """Return (number of connected components, edges that close a cycle with earlier edges) of a graph."""
     classes: UnionFind = UnionFind(vertices)
     closing = []
     for a, b in edges:
@@ -156,7 +155,7 @@ def union(vertices: Iterable[T], edges: Iterable[tuple[T, T]]) -> tuple[int, lis
 
 
 def bars() -> Iterator[KnownScene]:
-    """Random bars between joints at random places, some pairs twice: the exact rank."""
+    """Random bars between joints at random places, some pairs twice: truth by the exact rank."""
     because = "the rank of the rigidity matrix over the rationals, at places in general position"
     for d, n in ((d, n) for n in (4, 6, 8, 12, 16) for d in (1, 2, 3)):
         for seed in range(2):
@@ -167,10 +166,10 @@ def bars() -> Iterator[KnownScene]:
 
 
 def braced_grids() -> Iterator[KnownScene]:
-    """m by m squares drawn, some with a diagonal: rows and columns as a graph [BolkerCrapo1977].
+    """A grid of m by m squares, some with a diagonal brace [BolkerCrapo1977].
 
-    A row and a column are joined where their square is braced; a brace that closes a circle is redundant, and every
-    part of the graph turns by itself.
+    In the graph of rows and columns a brace is an edge between those of its square; a brace that closes a cycle is
+    redundant, and every component of the graph turns by itself.
     """
     because = "Bolker and Crapo 1977: 3 + (parts of the graph of rows and columns) - 1"
     for m in (2, 3, 4, 6, 8, 12):

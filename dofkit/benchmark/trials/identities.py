@@ -1,7 +1,7 @@
-"""Expressions that are zero by an identity and do not look it, and near misses: what they decide in a scene.
+"""Expressions that are zero by an identity that is hard to see, and near misses, in scenes that depend on the zero.
 
-A trap stands in each of several contexts, where its being zero decides the freedom, a label or a redundancy. Beside
-them stand forms and equations a tiny exact step away from integrable, dependent or consistent ones.
+Each trap is put into several contexts, where the freedom, a label or a redundancy depends on whether it is zero. There
+are also forms and equations a tiny exact step away from integrable, dependent or consistent ones.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ class Trap:
 
     @property
     def tiny(self) -> tuple[str, ...]:
-        """The identity missed by constants that floating point does not see."""
+        """The identity plus constants that are too small for floating point."""
         return tuple(f"{self.zero} + {e}" for e in ("1e-9", "1e-25"))
 
     @property
@@ -41,31 +41,32 @@ class Trap:
 
     @property
     def everywhere(self) -> bool:
-        """Whether it has a value wherever the coordinates are; else an equation with it in also restricts these."""
+        """Whether the trap has a value for all coordinates; if not, an equation with it also restricts these."""
         return not self.coordinates or not any(f"{name}(" in self.zero for name in ("log", "asin", "acos"))
 
     @property
     def coordinates(self) -> list[str]:
-        """The coordinates in it."""
+        """The coordinates in the trap."""
         return [name for name in self.names if name in "wv"]
 
     @property
     def parameters(self) -> list[str]:
-        """The positive parameters in it."""
+        """The positive parameters in the trap."""
         return [name for name in self.names if name in "ab"]
 
 
 TRAPS = [Trap(**row) for row in (*TABLES["numbers"], *TABLES["functions"])]
-#: Expressions that are not zero, and are taken for it.
+#: Expressions that are not zero, but are easily taken for zero.
 NOT_ZERO = [Trap(row["name"], row["zero"], None, row["names"], "^" not in row["zero"]) for row in TABLES["not zero"]]
 
 # Contexts: T is the trap's text, n the number of coordinates
 
-#: A scene with T, and what is true of it where T is zero or is not; None where T cannot stand there.
+#: Returns the known scene with the text T of a trap, which is zero or not; None if the trap does not fit.
 Context = Callable[[Trap, str, bool], KnownScene | None]
 
 
 def _in_text(row: Row) -> Context:
+    """Return the context of a table's row: equations with {T}, and the truth if T is zero and if it is not."""
     contradictory = row["other"].get("consistent") is False
     finite = not any("dz" in text for text in row["rows"])
 
@@ -123,7 +124,7 @@ STEPS = ("1e-6", "1e-12", "1e-30", "1/7000000000000000000")
 
 
 def tiny_steps() -> Iterator[KnownScene]:
-    """Forms and relations a tiny exact step away from integrable, dependent or consistent ones."""
+    """Forms and equations a tiny exact step away from integrable, dependent or consistent ones."""
     for step in STEPS:
         for row in TABLES["forms"]:
             n, integrable = len(row["coordinates"].split()), row["integrable"]
@@ -151,7 +152,7 @@ def _stepped(row: Mapping[str, Any], step: str, rows: Sequence[str], truth: dict
 
 
 def in_contexts(trap: Trap, text: str, zero: bool) -> Iterator[KnownScene]:
-    """Yield the trap in every context in which it can stand."""
+    """Yield the scenes of the trap in every context that fits."""
     because = "zero by an identity" if zero else "an identity missed by a constant, or by a sign"
     for context in CONTEXTS:
         if (scene := context(trap, text, zero)) is not None:
@@ -168,7 +169,7 @@ def identities() -> Iterator[KnownScene]:
 
 
 def near_misses(trap: Trap) -> Iterator[KnownScene]:
-    """Yield every expression that is nearly an identity and is not zero, in every context."""
+    """Yield the scenes of every near miss of the trap, which is not zero, in every context."""
     for text in trap.misses:
         yield from in_contexts(trap, text, False)
 

@@ -1,4 +1,4 @@
-"""The catalog, and answers beside the constraint that they should be: the same, or a little less, more or other."""
+"""The catalog, and answers to compare with a constraint: equivalent to it, or weaker, stronger or different."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from dofkit.scene.catalog import catalog_names, catalog_text
 
 
 def scenes() -> Iterator[tuple[str, dict[str, Any]]]:
-    """Yield every scene of the catalog as it is written."""
+    """Yield (name, mapping as written) of every scene of the catalog."""
     for name in catalog_names():
         yield name, dict(read_document(catalog_text(name).encode(), name).value)
 
 
 def catalog() -> Iterator[KnownScene]:
-    """Every scene of the catalog: its freedom, its labels, what is redundant in it."""
+    """Every scene of the catalog: its freedom, its labels, its redundant constraints."""
     for name, scene in scenes():
         expect = scene["expect"]
         yield known_scene(
@@ -32,7 +32,7 @@ def catalog() -> Iterator[KnownScene]:
 
 
 def _labels(scene: Mapping[str, Any]) -> dict[str, bool] | None:
-    """Return whether each constraint is holonomic, where the scene states it of each."""
+    """Return {constraint: whether it is holonomic}, None unless the scene states this for all constraints."""
     names, expect = constraint_names(scene), scene["expect"]
     if expect.get("holonomic") is True:
         return dict.fromkeys(names, True)
@@ -44,7 +44,7 @@ def _labels(scene: Mapping[str, Any]) -> dict[str, bool] | None:
 # Answers
 
 TABLES = tables("answers.yaml")
-#: The first of the ways make sense of differential constraints too.
+#: The notations that make sense for differential constraints too.
 FOR_FORMS = TABLES["ways"][:7]
 
 
@@ -53,13 +53,13 @@ def _asked(text: str) -> dict[str, str]:
 
 
 def _scene(row: Row) -> dict[str, Any]:
-    """Return the scene of a constraint u = 0 called ``asked`` among others."""
+    """Return the scene of the row's constraint u = 0, called ``asked``, and of the row's other constraints."""
     rows = (*row.get("others", ()), _asked(f"{row['u']} = 0"))
     return scene_of(row["coordinates"], *rows, parameters=row.get("parameters", {}))
 
 
 def answers() -> Iterator[KnownScene]:
-    """Every constraint in every notation, and in those of its own."""
+    """Every constraint in many notations, and the answers listed for it."""
     for number, row in enumerate(TABLES["finite"]):
         for turn, notation in enumerate(TABLES["ways"]):
             if (number + turn) % 2 == 0 and (notation["name"] != "in a cubic" or number < 2):
@@ -79,7 +79,7 @@ def _rewritten(row: Row, notation: Row) -> KnownScene:
 
 
 def inequalities() -> Iterator[KnownScene]:
-    """A side of a surface: the same side of the same surface, or not."""
+    """Inequalities: the same side of the same surface, or not."""
     for row in TABLES["sides"]:
         disc = scene_of("x y", _asked("x^2 + y^2 <= R^2"), parameters={"R": "positive"})
         answer = ("asked", row["text"], row["same"])

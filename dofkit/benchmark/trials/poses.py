@@ -1,7 +1,7 @@
-"""Mechanisms near their singular poses: scaled, moved, rounded, measured.
+"""Mechanisms at and near singular poses: scaled, moved, rounded, with a tolerance.
 
-The truths are derived by hand at the singular pose and beside it (see ``poses.yaml``), for every size of the step; of
-rounded positions it is the exact rank.
+The truth is derived by hand at the singular pose and near it (see ``poses.yaml``), for steps of every size; for rounded
+positions it is the exact rank.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from dofkit.benchmark.trials.construction import KnownScene, Row, tables
 from dofkit.benchmark.trials.frameworks import Framework, Position, framework, hinged_loop
 
 Move = Callable[[Position], Position]
-#: (dof, instantaneous_dof); None where it was not derived.
+#: (dof or None if it was not derived, instantaneous_dof).
 Freedom = tuple[int | None, int]
 
 
@@ -31,11 +31,11 @@ class FrameworkPose:
 
     @property
     def name(self) -> str:
-        """Its name."""
+        """The name of the pose."""
         return str(self.row["name"])
 
     def freedom(self, step: Fraction) -> Freedom:
-        """Return the freedom and the instantaneous freedom at a step."""
+        """Return (freedom, instantaneous freedom) at distance ``step`` from the singular pose."""
         dof, instantaneous = self.row["beside" if step else "there"]
         return dof, instantaneous
 
@@ -49,11 +49,11 @@ class FrameworkPose:
         return framework(joints, ground, row["bars"])
 
     def scene(self, name: str, drawn: Framework, freedom: Freedom, **more: Any) -> KnownScene:
-        """Return the scene of a framework, one of this pose's or moved, with its truth."""
+        """Return the known scene of ``drawn``, a framework of this pose; ``more``: further fields of the scene."""
         return _scene_of_pose(name, drawn.scene(**more), drawn.coordinates, len(drawn.bars), freedom)
 
     def placed(self, name: str, step: Fraction, move: Move, **more: Any) -> KnownScene:
-        """Return the scene at a distance ``step`` from the singular pose, with all positions moved."""
+        """Return the known scene at distance ``step`` from the singular pose, with all positions moved by ``move``."""
         return self.scene(name, self.framework_at(step).moved(move), self.freedom(step), **more)
 
 
@@ -61,7 +61,7 @@ class HingedPose(FrameworkPose):
     """A loop of hinged bodies that is overconstrained at step 0; a single body is on all hinges."""
 
     def placed(self, name: str, step: Fraction, move: Move, **more: Any) -> KnownScene:
-        """Return the scene with one hinge displaced by ``step`` from the singular pose, and all positions moved."""
+        """Return the known scene with one hinge displaced by ``step``, and ``move`` applied to all positions."""
         row = self.row
         number, part = row["moved"]
         hinges = []
@@ -87,19 +87,19 @@ MOVES: Mapping[str, Move] = {
     "moved a million away": lambda p: tuple(x + MILLION * (k + 1) for k, x in enumerate(p)),
     "small and far away": lambda p: tuple(x / MILLION + MILLION for x in p),
 }
-#: How the truth of a pose is known.
+#: The reason that is given for the truth.
 DERIVED = "derived by hand at the singular pose and beside it; of rounded numbers the exact rank"
-#: The tolerance of exact drawings.
+#: The tolerance for scenes with exact positions.
 TOLERANCE = "1e-4"
 
 
 def _moved(pose: FrameworkPose, step: Fraction, how: str, named: str = "", **more: Any) -> KnownScene:
-    """Return a pose at a step, moved."""
+    """Return the known scene of a pose at ``step``, moved by the entry ``how`` of `MOVES`."""
     return pose.placed(f"{pose.name}, {float(step):g} beside, {how}{named}", step, MOVES[how], **more)
 
 
 def near_singular() -> Iterator[KnownScene]:
-    """At singular poses, and 10^-1 ... 10^-12 from them."""
+    """Mechanisms at singular poses, and 10^-1 ... 10^-12 from them."""
     for step in (ZERO, *STEPS):
         for pose in NEAR:
             name = f"{pose.name}, {float(step):g} beside"
@@ -108,28 +108,28 @@ def near_singular() -> Iterator[KnownScene]:
 
 
 def scaled() -> Iterator[KnownScene]:
-    """A million times larger and smaller, and far away: at singular poses and near them."""
+    """Mechanisms at and near singular poses, a million times larger or smaller, or far away."""
     for how in MOVES:
         for step in (ZERO, STEPS[0]):
             yield from (_moved(pose, step, how) for pose in (*NEAR, *JOINTED))
 
 
 def turned(position: Position) -> Position:
-    """Turn by the angle of 5, 12, 13 about the origin, make 10/7 as large, move aside: no decimals are exact."""
+    """Return the position rotated by atan2(12, 5), scaled by 10/7 and moved: its decimals do not end."""
     x, y, *others = position
     a, b = Fraction(5, 13), Fraction(12, 13)
     return tuple(v * 10 / 7 + Fraction(1, 3) for v in (a * x - b * y, b * x + a * y, *others))
 
 
 def rounded(digits: int) -> Move:
-    """Return the rounding to so many digits after the point."""
+    """Return the map that rounds a position to ``digits`` decimals."""
     return lambda p: tuple(Fraction(round(x * 10**digits), 10**digits) for x in p)
 
 
 def rounded_poses() -> Iterator[KnownScene]:
-    """Rounded drawings: exact as they are written.
+    """Mechanisms at singular poses with rounded positions that count as exact.
 
-    Where the bars are independent after rounding, the finite freedom equals that by rank; else it is unknown.
+    If the bars are independent after rounding, the freedom is the instantaneous one by rank; else it is not known.
     """
     for digits in DIGITS:
         for pose in NEAR:
@@ -141,7 +141,7 @@ def rounded_poses() -> Iterator[KnownScene]:
 
 
 def measured_poses() -> Iterator[KnownScene]:
-    """Rounded drawings with a tolerance: true is what was rounded."""
+    """Mechanisms at singular poses with rounded positions and a tolerance: the truth is that of the exact ones."""
     for digits in DIGITS:
         for pose in NEAR:
             drawn = pose.framework_at(ZERO).moved(turned).moved(rounded(digits))
@@ -150,7 +150,7 @@ def measured_poses() -> Iterator[KnownScene]:
 
 
 def measured_elsewhere() -> Iterator[KnownScene]:
-    """Yield exact drawings with a tolerance, of any size and anywhere."""
+    """Exact positions with a tolerance, of any size and anywhere."""
     for how in MOVES:
         for step in (ZERO, Fraction(1, 2)):
             yield from (_moved(p, step, how, f", within {TOLERANCE}", tolerance=TOLERANCE) for p in NEAR)

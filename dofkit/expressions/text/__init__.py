@@ -1,9 +1,10 @@
 """Mathematics as people write it -> exact expressions, and back.
 
-A text is data: nothing in it is ever run. It goes through a whitelist of characters and LaTeX commands (`characters`),
-a tokenizer that knows the declared names (`tokens`, `names`) and a grammar (`grammar`, `applications`) whose arithmetic
-is bounded (`real_values`). Every refusal is a `TextError` with the column in the text as it was written. `printing`
-writes expressions in the grammar, `typesetting` texts of it in LaTeX and MathML.
+A text is a formula as a string: data, nothing in it is ever run. It goes through a whitelist of characters and LaTeX
+commands (`characters`), a tokenizer with the declared names (`tokens`, `names`) and a grammar (`grammar`,
+`applications`) whose arithmetic is bounded (`real_values`). Every refusal is a `TextError` with the column in the text
+as it was written. `printing` writes expressions in the grammar, `typesetting` writes texts of the grammar in LaTeX and
+MathML.
 """
 
 from __future__ import annotations

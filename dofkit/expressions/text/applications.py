@@ -18,7 +18,7 @@ _BARE = frozenset({"number", "value", "motion", "call", "function", "root", "fra
 
 
 def _applied(parser: Parser, token: Token, name: str, arguments: list[Expr]) -> Expr:
-    """Return the value of the elementary function ``name``."""
+    """Return the elementary function ``name`` of ``arguments``. Raises TextError at ``token`` for a wrong number."""
     expected = FUNCTIONS.get(name, 1)
     if len(arguments) != expected:
         what = "one argument" if expected == 1 else f"{expected} arguments"
@@ -30,7 +30,7 @@ def _applied(parser: Parser, token: Token, name: str, arguments: list[Expr]) -> 
 
 
 def function(parser: Parser, token: Token) -> Expr:
-    """Read `sin(x)`, `sin x`, `sin^2(x)`."""
+    """Read what follows a function's name, as in `sin(x)`, `sin x`, `sin^2(x)`, and return the value."""
     exponent = _function_power(parser, token.name)
     arguments = parser.enclosed(commas=True) if parser.next.kind == "(" else [_bare_argument(parser, token)]
     e = _applied(parser, token, token.name, arguments)
@@ -38,7 +38,7 @@ def function(parser: Parser, token: Token) -> Expr:
 
 
 def _function_power(parser: Parser, name: str) -> Expr | None:
-    """Return the `2` of `sin^2(x)`; a negative one is a question."""
+    """Return the exponent of `sin^2(x)`, or None; a negative one is ambiguous and raises TextError."""
     token = parser.next
     if token.kind not in ("superscript", "^"):
         return None
@@ -75,19 +75,19 @@ def _bare_argument(parser: Parser, token: Token) -> Expr:
     if first.kind in ("number", "value"):
         while parser.next.kind == "value" and parser.next.start == parser.last.end:
             factors.append(parser.power())
-    after = parser.next
-    touching = after.start == parser.last.end
-    doubtful = after.kind in ("value", "number", "root", "frac") or (after.kind == "(" and touching)
-    if after.kind in ("*", "/") and touching:
-        beyond = parser.tokens[parser.at + 1]
-        doubtful = beyond.start == after.end and beyond.kind in ("value", "number", "(")
+    following = parser.next
+    touching = following.start == parser.last.end
+    doubtful = following.kind in ("value", "number", "root", "frac") or (following.kind == "(" and touching)
+    if following.kind in ("*", "/") and touching:
+        second = parser.tokens[parser.at + 1]
+        doubtful = second.start == following.end and second.kind in ("value", "number", "(")
     if doubtful:
         _ask_extent(parser, token, first)
     return factors[0] if len(factors) == 1 else mul(*factors)
 
 
 def _ask_extent(parser: Parser, token: Token, first: Token) -> NoReturn:
-    """Ask how far the argument of `sin theta/2` reaches."""
+    """Raise AmbiguousError that asks how far the argument of `sin theta/2` reaches."""
     after, end = parser.next, parser.last.end
     beyond = parser.tokens[parser.at + 1] if after.kind in ("*", "/", "^") else after
     argument = parser.source(first.start, end)
@@ -105,7 +105,7 @@ def _ask_extent(parser: Parser, token: Token, first: Token) -> NoReturn:
 
 
 def root(parser: Parser, token: Token) -> Expr:
-    """Read `√x`, `√(x + y)`."""
+    """Read what follows the sign, as in `√x`, `√(x + y)`, and return the square root."""
     first = parser.next
     if first.kind == "(":
         return _applied(parser, token, "sqrt", [parser.group()])
@@ -123,7 +123,7 @@ def root(parser: Parser, token: Token) -> Expr:
 
 
 def fraction(parser: Parser, token: Token) -> Expr:
-    """Read LaTeX's fraction of two groups in braces."""
+    """Read the two groups in braces of LaTeX's fraction and return the quotient; dx over dt is the velocity."""
     groups, brace = list[Expr](), token
     for _ in "ab":
         brace = parser.next
@@ -141,7 +141,7 @@ def fraction(parser: Parser, token: Token) -> Expr:
 
 
 def declared_function(parser: Parser, token: Token) -> Expr:
-    """Read a use of a function that the scene declares: `h(s)`, `h'(s)`, `h`, `hdot`, `dh`."""
+    """Read a declared function, as in `h(s)`, `h'(s)`, `h`, `hdot`, `dh`, and return its value or derivative."""
     name = token.name
     primes = parser.take() if parser.next.kind == "prime" and parser.next.start == token.end else None
     ahead = [t.kind for t in parser.tokens[parser.at : parser.at + 3]]
@@ -168,7 +168,7 @@ def declared_function(parser: Parser, token: Token) -> Expr:
 
 
 def _declared_arguments(parser: Parser, token: Token) -> list[Expr]:
-    """Return what `h` alone is a function of, by its declaration."""
+    """Return the arguments that the scene declares for a function whose name is written without arguments."""
     name = token.name
     declared = parser.names.arguments.get(name, ())
     if len(declared) != parser.names.functions[name]:
@@ -191,7 +191,7 @@ def _declared_arguments(parser: Parser, token: Token) -> list[Expr]:
 
 
 def _allowed(parser: Parser, token: Token, e: Expr | None) -> Expr:
-    """Return a derivative that exists and holds only what is allowed."""
+    """Return the derivative ``e``. Raises TextError at ``token`` if it is None or has a symbol that is not allowed."""
     if e is None:
         hint = "write the derivative of an expression in coordinates, velocities and t"
         parser.fail("this expression cannot be differentiated with respect to time", token, hint)
@@ -228,7 +228,7 @@ def derivative_call(parser: Parser, token: Token) -> Expr:
 
 
 def _differentiated(parser: Parser, token: Token, e: Expr, symbol: Expr) -> Expr:
-    """Return the derivative; by time it is the total one for `diff`."""
+    """Return the derivative of ``e`` by ``symbol``: partial, but total for `diff` by time."""
     if sum(1 for _ in islice(nodes(e), MAX_DIFFERENTIATED)) >= MAX_DIFFERENTIATED:
         parser.fail("this expression is too long to be differentiated here", token, "write the derivative out")
     if symbol == TIME and token.name == "diff":
@@ -237,7 +237,7 @@ def _differentiated(parser: Parser, token: Token, e: Expr, symbol: Expr) -> Expr
 
 
 def _order(parser: Parser, token: Token, e: Expr) -> int:
-    """Return a small counting number."""
+    """Return ``e`` as an order of differentiation. Raises TextError if it is not an integer from 1 to `MAX_ORDER`."""
     value = e.args[0]
     if value.denominator != 1 or not 1 <= value <= MAX_ORDER:
         parser.fail(f"{value} is not an order of differentiation", token, f"write a number from 1 to {MAX_ORDER}")
@@ -245,7 +245,7 @@ def _order(parser: Parser, token: Token, e: Expr) -> int:
 
 
 def _by_arguments(parser: Parser, token: Token, e: Expr, steps: list[Expr]) -> Expr:
-    """Return the derivative of an unknown function by its first, second, ... argument."""
+    """Return the partial derivative of an unknown function by arguments, given by number or as they are written."""
     if e.op != "call" or len(steps) > MAX_ORDER:
         parser.fail("only an unknown function has a first argument", token, "write `partial(h(x, y), 1)`")
     name, (*orders,), arguments = e.args
@@ -270,11 +270,11 @@ APPLICATIONS: dict[str, Callable[[Parser, Token], Expr]] = {
 def parse_relations(text: str, names: Names) -> tuple[Comparison, ...]:
     """Return the relations in ``text``: one, or several for a chain such as ``0 <= x <= L``.
 
-    A text without a relation means ``... = 0``. Raises TextError for what cannot be read.
+    A text without a relation means ``... = 0``. Raises TextError if the text cannot be read.
     """
     return Parser(tokenize(text, names.lookup), names, APPLICATIONS).relations()
 
 
 def parse_expression(text: str, names: Names) -> Expr:
-    """Return the value of ``text``; a relation in it is an error. Raises TextError for what cannot be read."""
+    """Return the expression in ``text``. Raises TextError if the text cannot be read or contains a relation."""
     return Parser(tokenize(text, names.lookup), names, APPLICATIONS).value()

@@ -1,6 +1,6 @@
-r"""Characters and LaTeX: a whitelist, and what each accepted character or command stands for.
+r"""Characters and LaTeX: a whitelist of characters and commands, each with its meaning.
 
-`fold` turns a text into plain letters, digits and operators, `unlatex` the commands that people paste (``\theta``,
+`fold` turns a text into plain letters, digits and operators; `unlatex` rewrites commands that people paste (``\theta``,
 ``\frac{a}{b}``, ``\dot{x}``, ``x_{1}``) into the plain grammar. Both keep, for every character of the result, the
 column at which the person wrote it. Nothing is normalised by compatibility (NFKC would make ``x²`` into ``x2``): every
 replacement is listed here. In double quotes YAML and JSON make a control character of a backslash and the letter after
@@ -17,7 +17,7 @@ from typing import NamedTuple
 from dofkit.base.documents import package_table
 from dofkit.base.errors import TextError
 
-# The bounds of a text: what is beyond them is refused before anything is computed with it.
+# Bounds of a text: a text beyond them is refused before anything is computed with it.
 
 MAX_CHARACTERS = 2000
 #: Numbers, names and signs in one text.
@@ -60,7 +60,7 @@ _SIGNS: dict[str, str] = {
 LETTERS: dict[str, str] = {"ϑ": "θ", "ϕ": "φ", "ϵ": "ε", "ϱ": "ρ", "ς": "σ", "ϰ": "κ", "µ": "μ", "∆": "Δ"}
 _SPACES = dict.fromkeys("\u00a0\u2002\u2003\u2004\u2005\u2006\u2007\u2008\u2009\u200a\u202f\u205f\u3000", " ")
 SUBSCRIPTS: dict[str, str] = dict(zip("₀₁₂₃₄₅₆₇₈₉", "0123456789", strict=True))
-#: After a number: so many times pi/180.
+#: The degree sign: the number before it is multiplied by pi/180.
 DEGREE = "°"
 _KEPT = frozenset(GREEK) | frozenset(SUPERSCRIPTS) | frozenset(FRACTIONS) | {DOT, TWO_DOTS, DEGREE}
 _MARKS = {**dict.fromkeys("\u0358", DOT)}
@@ -74,7 +74,7 @@ _LOOKALIKES: dict[str, str] = {
 
 
 def refusals(kind: str) -> dict[str, tuple[str, str]]:
-    """Return what is not read of a kind of `refusals.yaml`: why, and what to write instead."""
+    """Return {character or command: (message, hint)} of those that are refused, by their ``kind`` in refusals.yaml."""
     refused: dict[str, tuple[str, str]] = package_table(__package__, "refusals.yaml")[kind]
     return refused
 
@@ -87,7 +87,7 @@ class Folded(NamedTuple):
 
 
 def fold(text: str) -> Folded:
-    """Return ``text`` in the plain characters that the tokenizer knows, or TextError at the first other one."""
+    """Return ``text`` in plain characters. Raises TextError at the first character that has no meaning."""
     out: list[str] = []
     places: list[int] = []
     below = False
@@ -105,7 +105,7 @@ def fold(text: str) -> Folded:
 
 
 def _plain(char: str, column: int) -> str:
-    """Return what one character outside ASCII stands for."""
+    """Return the plain characters that ``char``, which is not ASCII, stands for. Raises TextError if there are none."""
     if char in _KEPT:
         return char
     for table in (_SIGNS, LETTERS, _SPACES, _MARKS):
@@ -123,7 +123,7 @@ def _plain(char: str, column: int) -> str:
 
 
 def _composed(decomposition: list[str]) -> str | None:
-    """Return a letter in another type face, or a letter with dots above it."""
+    """Return the letter of a Unicode ``decomposition``: of another type face, or with dots above; None for others."""
     if decomposition[0] == "<font>":
         base = chr(int(decomposition[1], 16))
         base = LETTERS.get(base, base)
@@ -136,6 +136,7 @@ _BASES = frozenset(f"{ord(c):04X}" for c in "abcdefghijklmnopqrstuvwxyzABCDEFGHI
 
 
 def _refusal(char: str, column: int) -> TextError:
+    """Return the error for a character that is refused: what the character is, and what to type instead."""
     if char in refusals("characters"):
         message, hint = refusals("characters")[char]
         return TextError(message, column, hint)
@@ -148,7 +149,7 @@ def _refusal(char: str, column: int) -> TextError:
         plain = f"the Latin `{latin}`" if latin.isalpha() else f"the plain `{latin}`"
         return TextError(f"{what} is a {script} character, not {plain}", column, f"type `{latin}` instead")
     if unicodedata.category(char) in ("Cf", "Cc", "Co", "Cn", "Cs"):
-        return TextError(f"the text holds an invisible character, {what}", column, "delete it")
+        return TextError(f"the text contains an invisible character, {what}", column, "delete it")
     if unicodedata.combining(char):
         hint = "name the quantity with letters, digits and `_`; dots above mean derivatives by time"
         return TextError(f"the mark {what} above a letter has no meaning here", column, hint)
@@ -157,23 +158,23 @@ def _refusal(char: str, column: int) -> TextError:
 
 
 def _wide(char: str) -> str | None:
-    """Return the ASCII character that a full-width one imitates."""
+    """Return the ASCII character that a full-width character imitates, None for other characters."""
     return chr(ord(char) - 0xFEE0) if "！" <= char <= "～" else None
 
 
 def check_name_characters(name: str) -> str | None:
-    """None if ``name`` is made of letters, digits and `_`, else the reason why not."""
+    """Return None if ``name`` consists of letters, digits and `_`, else why it does not."""
     for char in name:
         plain = LETTERS.get(char, char)
         if plain in GREEK or (plain.isascii() and (plain.isalnum() or plain == "_")):
             continue
         if not char.isascii() and (char in _LOOKALIKES or char in refusals("characters")):
             return _refusal(char, 1).message
-        return f"the name holds the character {char!r}, and names are made of Latin and Greek letters, digits and `_`"
+        return f"the name has the character {char!r}, and names are made of Latin and Greek letters, digits and `_`"
     return None
 
 
-#: The mark that `\frac` leaves for the parser; no text can hold it otherwise.
+#: The mark by which `unlatex` replaces `\frac`; no other text contains it.
 FRACTION_MARK = "\\"
 
 #: The control characters that stand for a backslash and a letter, and the commands that are looked for after them.
@@ -197,7 +198,7 @@ _COMMAND = re.compile(
     r"|_\s*\{\s*(?P<below>[A-Za-z0-9]+)\s*\}|_\s*\{(?P<odd>)",
     re.ASCII | re.DOTALL,
 )
-#: What stands around mathematics in LaTeX.
+#: The signs that enclose mathematics in LaTeX.
 _DELIMITED = re.compile(r"\s*(\$\$?|\\\(|\\\[)(?P<inner>[^$]*?)(\$\$?|\\\)|\\\])\s*", re.DOTALL)
 _CLOSING = {"$": "$", "$$": "$$", "\\(": "\\)", "\\[": "\\]"}
 _DOTTED = re.compile(
@@ -257,7 +258,7 @@ def unlatex(folded: Folded) -> Folded:
 
 
 def _undelimited(text: str) -> str:
-    """Return the text with spaces in place of the ``$``, ``\\(`` or ``\\[`` that enclose all of it."""
+    r"""Return the text with spaces in place of the ``$``, ``\\(`` or ``\\[`` that enclose all of it, if any do."""
     match = _DELIMITED.fullmatch(text)
     if match is None or _CLOSING[match[1]] != match[3]:
         return text
@@ -266,7 +267,7 @@ def _undelimited(text: str) -> str:
 
 
 def _command(name: str, text: str, start: int, end: int, column: int) -> tuple[str, int]:
-    """Return what the command ``name`` stands for, and where the text goes on after it."""
+    """Return the plain text of the LaTeX command ``name`` (at ``start`` to ``end``), and where the text continues."""
     if name in ("dot", "ddot"):
         return _dots(name, text, end, column)
     if name in _TYPE_FACES:
@@ -290,7 +291,7 @@ def _command(name: str, text: str, start: int, end: int, column: int) -> tuple[s
 
 
 def _dots(name: str, text: str, end: int, column: int) -> tuple[str, int]:
-    """Return the name of what stands under one dot or two, such as ``xdot_i``, and where the text goes on."""
+    r"""Return the name under `\\dot` or `\\ddot` with its dots, such as ``ẋ_i``, and where the text continues."""
     match = _DOTTED.match(text, end)
     if match is None:
         hint = "write the velocity of `x` as `xdot`"

@@ -1,8 +1,8 @@
 """The grammar: tokens -> expressions, by precedence climbing.
 
 Most rules depend on more than the kind of the next token, as an LALR table (lark) does: on what a name means (``x(t)``,
-``dx/dt``), on the space around a sign (``sin theta/2``), on what was read just before (``1/2x``); and each doubtful
-place asks its own question. So the rules are the methods below, from loosest to tightest:
+``dx/dt``), on the space around a sign (``sin theta/2``), on what was read just before (``1/2x``); and each ambiguous
+text has its own message. So the rules are the methods below, from loosest to tightest:
 
     relation  sum (sign sum)*          sum      term (+|- term)*
     term      factor (*|/ factor | factor written side by side)*
@@ -24,7 +24,7 @@ from dofkit.expressions.text.names import AmbiguousError, Names, derivative
 from dofkit.expressions.text.tokens import Token, Tokens
 from dofkit.expressions.tree import DT, MINUS_ONE, PI, TIME, ZERO, E, Expr, add, fn, mul, num
 
-#: The kinds of tokens that begin a factor which may stand right after another one.
+#: The kinds of tokens that may begin the next factor of a product that is written without a sign.
 STARTS = frozenset({"value", "motion", "function", "call", "operator", "(", "|", "frac", "root"})
 _PAIRS = {"(": ")", "[": "]", "{": "}"}
 
@@ -33,7 +33,7 @@ _OPEN = frozenset("(+-*/^,|") | {"relation"}
 
 
 class TextReader:
-    """Moves through the tokens of one text; ``domain`` collects where the text, as it was written, has a value."""
+    """Moves through the tokens of one text; ``domain`` collects the conditions under which it has a real value."""
 
     def __init__(self, tokens: Tokens, names: Names) -> None:
         self.tokens, self.text, self.columns = tokens
@@ -60,7 +60,7 @@ class TextReader:
         return token
 
     def source(self, start: int, end: int) -> str:
-        """Return what the person wrote there."""
+        """Return the characters from ``start`` to ``end`` of the folded text."""
         return self.text[start:end].strip()
 
     def fail(self, message: str, token: Token, hint: str | None) -> NoReturn:
@@ -68,7 +68,7 @@ class TextReader:
         raise TextError(message, self.columns[token.start], hint)
 
     def deeper(self, token: Token) -> None:
-        """Count one more level of nesting."""
+        """Enter one more level of nesting; raise TextError at ``token`` beyond `MAX_DEPTH` levels."""
         self.depth += 1
         if self.depth > MAX_DEPTH:
             message = f"this text is nested more than {MAX_DEPTH} levels deep"
@@ -77,7 +77,7 @@ class TextReader:
     def computed(
         self, token: Token, operation: Callable[..., Expr], *arguments: Any, needs: Iterable[Requirement] = ()
     ) -> Expr:
-        """Return what an operation gives, whose domain ``needs`` is kept; a fault stands at ``token``."""
+        """Return ``operation(*arguments)``, with ``needs`` added to the domain; a TextError is raised at ``token``."""
         self.domain |= dict.fromkeys(needs)
         try:
             return operation(*arguments)
@@ -85,14 +85,14 @@ class TextReader:
             self.fail(fault.message, token, fault.hint)
 
     def check_allowed(self, e: Expr, token: Token) -> None:
-        """Refuse time, velocities or accelerations where the names do not allow them."""
+        """Raise TextError at ``token`` if ``e`` is time, a velocity or an acceleration and not allowed here."""
         what = self.names.refused(e)
         if what is not None:
             written = self.source(token.start, self.last.end)
             self.fail(f"`{written}` is {what}, which cannot be used here", token, f"write it without {what}")
 
     def unexpected(self, token: Token) -> NoReturn:
-        """Say why ``token`` cannot stand where it does."""
+        """Raise TextError that says why ``token`` cannot stand where it does."""
         kind = token.kind
         if kind == "end" and len(self.tokens) == 1:
             self.fail("the text is empty", token, "write an equation, such as `x^2 + y^2 = L^2`")
@@ -117,7 +117,7 @@ class TextReader:
         self.fail(f"something is missing before `{what}`", token, hint)
 
     def _unexpected_comma(self, token: Token) -> NoReturn:
-        """Say why a comma cannot stand where it does: between two relations, or in a decimal."""
+        """Raise TextError for a comma where none can stand: between two relations, or in a decimal."""
         index = self.tokens.index(token)
         if all(any(t.kind == "relation" for t in side) for side in (self.tokens[:index], self.tokens[index:])):
             first, second = self.source(0, token.start), self.source(token.end, len(self.text))
@@ -128,7 +128,7 @@ class TextReader:
 
 
 class Parser(TextReader):
-    """Reads a text; ``applications`` has the reader of each kind of token that is applied to something."""
+    """Reads a text; ``applications`` maps a kind of token, such as a function's name, to what reads its arguments."""
 
     def __init__(
         self, tokens: Tokens, names: Names, applications: Mapping[str, Callable[[Parser, Token], Expr]]
@@ -139,7 +139,7 @@ class Parser(TextReader):
     # Relations and sums
 
     def relations(self) -> tuple[Comparison, ...]:
-        """Return the relations of the text: of a value, which is 0, of a relation or of a chain of them."""
+        """Return the relations of the text: one, or several of a chain such as 0 <= x <= L; a value e means e = 0."""
         first = self.next
         left_side = self.computed(first, bounded, self.sum())
         token = self.take()
@@ -154,7 +154,7 @@ class Parser(TextReader):
         return tuple(replace(c, domain=tuple(self.domain)) for c in comparisons)
 
     def value(self) -> Expr:
-        """Return the whole text as one value."""
+        """Read the whole text and return its value. Raises TextError if there is a relation in it."""
         e = self.computed(self.tokens[0], bounded, self.sum())
         token = self.next
         if token.kind == "relation":
@@ -164,7 +164,7 @@ class Parser(TextReader):
         return e
 
     def sum(self) -> Expr:
-        """Return the sum of terms with signs between them."""
+        """Read terms with signs between them and return their sum."""
         self.deeper(self.next)
         terms = [self.term()]
         while (kind := self.tokens[self.at].kind) in ("+", "-"):
@@ -177,7 +177,7 @@ class Parser(TextReader):
     # Products
 
     def term(self) -> Expr:
-        """Return factors with signs between them or side by side; after a quotient a space decides: `1/2 x`."""
+        """Read factors, with signs between them or side by side, and return their product; `1/2 x` needs its space."""
         first = self.next
         factors = [self.factor()]
         slash: Token | None = None
@@ -202,7 +202,7 @@ class Parser(TextReader):
                 return factors[0] if len(factors) == 1 else mul(*factors)
 
     def divide(self, factors: list[Expr]) -> bool:
-        """Divide by the next factor; return True for a derivative such as dx/dt, which is one unit."""
+        """Append the inverse of the next factor to ``factors``; return True for a derivative as dx/dt, read as one."""
         token = self.next
         divisor = self.factor()
         if divisor == DT:
@@ -217,7 +217,7 @@ class Parser(TextReader):
     # Factors and powers
 
     def factor(self) -> Expr:
-        """Return a power with signs before it."""
+        """Read signs and a power, and return its value."""
         negative = False
         signs = 0
         while (token := self.tokens[self.at]).kind in ("-", "+"):
@@ -230,7 +230,7 @@ class Parser(TextReader):
         return mul(MINUS_ONE, e) if negative else e
 
     def power(self) -> Expr:
-        """Return a primary, perhaps raised to a power; `x^y^z` is x^(y^z), `x^2(t)` is x(t)^2."""
+        """Read a primary, perhaps raised to a power; `x^y^z` is x^(y^z), `x^2(t)` is x(t)^2."""
         base = self.primary()
         token = self.tokens[self.at]
         if token.kind == "superscript":
@@ -252,13 +252,13 @@ class Parser(TextReader):
         return self.raise_to(base, exponent, token)
 
     def raise_to(self, base: Expr, exponent: Expr, token: Token) -> Expr:
-        """Return ``base^exponent`` within the bounds."""
+        """Return ``base^exponent``, its conditions added to ``domain``. Raises TextError at ``token`` if too large."""
         return self.computed(token, raised, base, exponent, needs=of_power(base, exponent))
 
     # Primaries
 
     def primary(self) -> Expr:
-        """Return a number, name, group or application."""
+        """Read a number, a name, a group or an application, and return its value."""
         token = self.tokens[self.at]
         kind = token.kind
         if kind == "number" and token.expr is not None:
@@ -281,11 +281,11 @@ class Parser(TextReader):
         return e
 
     def group(self) -> Expr:
-        """Return a sum in parentheses, brackets or braces."""
+        """Read a sum in parentheses, brackets or braces, and return its value."""
         return self.enclosed()[0]
 
     def enclosed(self, commas: bool = False) -> list[Expr]:
-        """Return the sums in parentheses, with commas between them where these are allowed."""
+        """Read sums in parentheses, with commas between them if ``commas`` is True, and return their values."""
         opening = self.take()
         bars, self.bars = self.bars, 0
         sums = [self.sum()]
@@ -304,7 +304,7 @@ class Parser(TextReader):
         return sums
 
     def bar_group(self) -> Expr:
-        """Return `|x|`, the absolute value."""
+        """Read `|x|` and return the absolute value."""
         opening = self.take()
         self.bars += 1
         inside = self.sum()
@@ -317,7 +317,7 @@ class Parser(TextReader):
         return fn("abs", inside)
 
     def named(self, token: Token, e: Expr) -> Expr:
-        """Return the meaning of a name with its primes; `x(t)` is x."""
+        """Return the value ``e`` of the name at ``token``, differentiated by the primes that follow; `x(t)` is x."""
         if self.next.kind == "prime" and self.next.start == token.end:
             e = _primed(self, token, e)
         if e.op == "sym":
@@ -329,7 +329,7 @@ class Parser(TextReader):
 
 
 def _primed(parser: Parser, token: Token, e: Expr) -> Expr:
-    """Return `x'` or `x''`."""
+    """Read the primes after a coordinate, and return its velocity or acceleration."""
     primes = parser.take()
     name = parser.source(token.start, token.end)
     if e.op != "sym" or e.args[0] != "coordinate":
@@ -342,7 +342,7 @@ def _primed(parser: Parser, token: Token, e: Expr) -> Expr:
 
 
 def _check_call(parser: Parser, token: Token, e: Expr, touching: bool) -> None:
-    """After a name, `(t)` is read over; `(2)`, `(y)` right after it are questions; `(y + 1)` is a product."""
+    """Skip `(t)` after a name; raise TextError for `(2)` or `(y)` right after it, perhaps a function's argument."""
     inside, closing = parser.tokens[parser.at + 1], parser.tokens[min(parser.at + 2, len(parser.tokens) - 1)]
     if closing.kind != ")":
         return
@@ -361,7 +361,7 @@ def _check_call(parser: Parser, token: Token, e: Expr, touching: bool) -> None:
 
 
 def _ask_quotient(parser: Parser, first: Token, slash: Token) -> NoReturn:
-    """Ask which of its two readings `1/2x` has."""
+    """Raise AmbiguousError that asks which of its two readings `1/2x` has."""
     above = parser.source(first.start, slash.start)
     below = parser.source(slash.end, parser.last.end)
     token = parser.next
@@ -376,7 +376,7 @@ def _ask_quotient(parser: Parser, first: Token, slash: Token) -> NoReturn:
 
 
 def _ask_number(parser: Parser, token: Token) -> NoReturn:
-    """Ask whether a number right after a factor makes a product or a power."""
+    """Raise TextError for a number right after a factor, which may mean a product or a power."""
     before, number = parser.last, parser.source(token.start, token.end)
     if before.kind == "number":
         parser.fail("two numbers stand side by side", token, "write the sign between them")

@@ -121,9 +121,7 @@ def _call(e: Expr) -> Printed:
     steps = [_step(arguments, index) for index in range(len(arguments))]
     named = all(step is not None for step, order in zip(steps, orders, strict=True) if order)
     if named and not _moves_with_time(arguments, orders):
-        variables = (
-            f"{step}, {order}" if order > 1 else step for step, order in zip(steps, orders, strict=True) if order
-        )
+        variables = (f"{step}, {n}" if n > 1 else step for step, n in zip(steps, orders, strict=True) if n)
         return f"diff({plain}, {', '.join(map(str, variables))})", _ATOM
     shown_steps = (step or str(i) for i, step in enumerate(steps, 1))
     places = chain.from_iterable(map(repeat, shown_steps, orders))

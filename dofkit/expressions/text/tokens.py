@@ -215,9 +215,8 @@ def _other(match: re.Match[str], columns: Sequence[int], text: str, lookup: Look
     if kind == "superscript":
         digits = "".join(SUPERSCRIPTS[c] for c in written)
         if not digits.lstrip("+-").isdigit() or len(digits) > 4 or digits.rfind("-") > 0 or "+" in digits:
-            raise TextError(
-                f"the superscript `{written[:12]}` is not an exponent", column, "write `^` and the exponent"
-            )
+            message = f"the superscript `{written[:12]}` is not an exponent"
+            raise TextError(message, column, "write `^` and the exponent")
         return Token(kind, start, end, num(int(digits)), written, int(digits))
     if kind == "wrong":
         message, hint = refusals("wrong").get(

@@ -11,18 +11,18 @@ from dofkit.base.wording import gap_in_words
 from dofkit.interface.show.sheet import Remark
 from dofkit.report import FieldVerdict, Report
 
-#: Hypotheses shorter than this name other arguments only.
+#: Hypotheses shorter than this only refer to other arguments ("the others"), and are not printed.
 _TERSE = 14
-#: The number of undecided fields that are named in one line.
+#: The most fields that are named in one line.
 _MOST_FIELDS = 6
-#: Of which points an answer speaks that is not about all of them.
+#: {where a claim is valid: its text}, for claims that are not about the whole configuration space.
 _NEAR = {"component": ", near the witness", "reference": ", near the reference configuration"}
-#: Stands before each part of a model that its scene leaves out.
+#: The separator in `Report.modelled` before each part of a model that the scene leaves out.
 LEFT_OUT = "; left out: "
 
 
 def assurance(what: str) -> dict[str, str]:
-    """Return the words for verdicts, models, methods or fields (`assurance.yaml`)."""
+    """Return {key: text} for ``what``: verdicts, models, methods or fields (`assurance.yaml`)."""
     words: dict[str, str] = package_table(__package__, "assurance.yaml")[what]
     return words
 
@@ -48,12 +48,12 @@ def certainty(report: Report) -> list[Remark]:
 
 
 def left_out(report: Report) -> str:
-    """Return which parts of the model the scene leaves out, in one line."""
+    """Return the parts of the model that the scene leaves out, in one line; empty if there are none."""
     return "; ".join(report.modelled.split(LEFT_OUT)[1:])
 
 
 def reservation(report: Report) -> str:
-    """Return in one line why the report is not proved: the chance of an error, the gap, or what is undecided."""
+    """Return why the report is not proved: the chance of an error, the gap, or what is undecided; empty if proved."""
     weakest = [(name, entry) for name, entry in report.verdicts.items() if entry.verdict == report.verdict]
     bounds = [entry.bound for _, entry in weakest if entry.bound]
     bounds += [
@@ -75,49 +75,47 @@ def reservation(report: Report) -> str:
 
 
 def _gap(bound: str, method: str) -> str:
-    """Return the gap behind a numeric answer in words."""
+    """Return the gap of a numeric answer, between values taken as zero and all others, in words."""
     if float(bound) == inf:
         return "no value is taken as zero"
     return gap_in_words(float(bound), "singular value" if "singular values" in method else "value")
 
 
 def method_in_words(report: Report) -> str:
-    """Return the method in words."""
+    """Return the method of a report in words."""
     if report.method == "count":
         return "counting: each equation is evidently independent of the others"
     return _in_words(report.method, "methods").replace("over GF(p)", "modulo a large prime")
 
 
 def _arguments(report: Report) -> Iterator[Remark]:
-    """Yield each argument with the fields that rest on it and its hypotheses."""
-    together: dict[ArgumentKey, list[str]] = {}
+    """Yield for each argument of the report: the fields that depend on it, its claim, hypotheses and theorem."""
+    fields_of: dict[ArgumentKey, list[str]] = {}
     for name, entry in report.verdicts.items():
         if entry.argument is not None:
-            together.setdefault(entry.argument, []).append(_field(name))
-    if not together:
-        return
+            fields_of.setdefault(entry.argument, []).append(_field(name))
     from dofkit.classification.arguments import arguments
 
-    for key, names in together.items():
+    for key, names in fields_of.items():
         row = arguments()[key]
         theorem = f" [{row.theorem}]" if row.theorem else ""
-        because = "" if len(row.hypotheses) < _TERSE else f" (condition: {row.hypotheses})"
-        text = f"{row.claims}{because}".replace("over GF(p)", "modulo a large prime")
+        hypotheses = "" if len(row.hypotheses) < _TERSE else f" (condition: {row.hypotheses})"
+        text = f"{row.claims}{hypotheses}".replace("over GF(p)", "modulo a large prime")
         yield Remark(", ".join(names), f"'{key}': {text}{theorem}")
 
 
 def not_proved(report: Report) -> list[Remark]:
-    """Return the fields that are not proved, those with the same reason in one line."""
-    together: dict[str, list[str]] = {}
+    """Return a remark for each reason why fields are not proved, with these fields."""
+    fields_of: dict[str, list[str]] = {}
     for name, entry in report.verdicts.items():
         if entry.verdict != "proved":
-            same = together.setdefault(f"{entry.verdict}{_because(entry, report.method)}", [])
+            same = fields_of.setdefault(f"{entry.verdict}{_because(entry, report.method)}", [])
             same.append(assurance("fields").get(name, name))
-    return [Remark(", ".join(names), said) for said, names in together.items()]
+    return [Remark(", ".join(names), said) for said, names in fields_of.items()]
 
 
 def checked_claims(report: Report) -> list[Remark]:
-    """Return how many proved claims the checker confirmed, and which not; empty where no certificate was asked for."""
+    """Return how many proved claims the checker confirmed, and which it did not; empty without a certificate."""
     proved = {name: verdict.checked for name, verdict in report.verdicts.items() if verdict.verdict == "proved"}
     for entry in report.constraints:
         proved |= {f"{entry.name} {label}": v.checked for label, v in entry.verdicts.items() if v.verdict == "proved"}
@@ -131,7 +129,7 @@ def checked_claims(report: Report) -> list[Remark]:
 
 
 def _because(entry: FieldVerdict, method: str) -> str:
-    """Return the argument in parentheses, with the chance of an error or the gap."""
+    """Return the argument in parentheses, with the chance of an error or the gap; empty if undecided."""
     if entry.verdict == "undecided":
         return ""
     chance = f"chance of error below {entry.bound}" if entry.bound else "no evidence for the checker"

@@ -1,4 +1,4 @@
-"""Printed formulas with decimals in place of fractions, for scenes that are written with decimals."""
+"""Formulas with decimals in place of fractions, for scenes that are written with decimals."""
 
 from __future__ import annotations
 
@@ -12,20 +12,20 @@ from pydantic import BaseModel
 
 from dofkit.scene.scene import Scene
 
-#: The fields of a scene with numbers and formulas of the user.
+#: The fields of a scene that contain numbers and formulas of the user.
 _OF_SCENE = ("parameters", "particles", "bodies", "constraints", "forces", "energies", "configuration")
-#: The fields of reports and of equations of motion with formulas that dofkit wrote.
+#: The fields of reports and of equations of motion that contain formulas of dofkit.
 _FORMULAS = frozenset(
     (
         *("integral", "integrating_factor", "reason", "where", "what", "basis", "feasible_at"),
         *("lagrangian", "momenta", "forces", "equations", "conserved", "eliminated", "linearized"),
     )
 )
-#: A whole number below a fraction bar, and a product or a group in parentheses before it.
+#: A whole number after a fraction bar, alone or as first factor in parentheses; and a whole coefficient.
 _DIVISOR = re.compile(r"/(?:(?P<alone>\d+)|\((?P<first>\d+)\*(?P<rest>[^()]*)\))(?![\w.^(])")
 _COEFFICIENT = re.compile(r"(\d+)(?:\*|$)(?!\*)")
 _LONGEST = 12
-#: What stands before a name of the user.
+#: The characters that may precede a name of the user, which is not a formula.
 _QUOTES = ("'", "`", '"')
 _TEXT_WITH_DECIMAL = re.compile(r"\d\.\d|(?<![\w.])\.\d")
 
@@ -33,7 +33,7 @@ Shown = TypeVar("Shown", bound=BaseModel)
 
 
 def as_the_scene(report: Shown, scene: Scene) -> Shown:
-    """Return a report or equations of motion, with decimals in their formulas if the scene is written with decimals."""
+    """Return a report or equations of motion, with decimals in the formulas if the scene contains decimals."""
     if not any(_has_decimal(getattr(scene, name)) for name in _OF_SCENE):
         return report
     converted: Shown = _converted(report, False)
@@ -41,7 +41,7 @@ def as_the_scene(report: Shown, scene: Scene) -> Shown:
 
 
 def _has_decimal(value: Any) -> bool:
-    """Return whether a value holds a decimal: in a text, or as a number whose decimals end."""
+    """Return whether a value contains a decimal: in a text, or as a fraction that has a finite decimal."""
     if isinstance(value, BaseModel):
         return any(_has_decimal(part) for part in value.__dict__.values())
     if isinstance(value, Mapping):
@@ -53,16 +53,16 @@ def _has_decimal(value: Any) -> bool:
     return isinstance(value, str) and _TEXT_WITH_DECIMAL.search(value) is not None
 
 
-def _converted(value: Any, inside: bool) -> Any:
-    """Return a value with decimals in its texts, of models in those of some fields only."""
+def _converted(value: Any, in_formula: bool) -> Any:
+    """Return a value with decimals in its texts; of models only in the fields of `_FORMULAS` and below these."""
     if isinstance(value, BaseModel):
-        fields = {name: _converted(part, inside or name in _FORMULAS) for name, part in value.__dict__.items()}
+        fields = {name: _converted(part, in_formula or name in _FORMULAS) for name, part in value.__dict__.items()}
         return value.model_copy(update=fields)
     if isinstance(value, dict):
-        return {name: _converted(part, inside) for name, part in value.items()} if inside else value
+        return {name: _converted(part, in_formula) for name, part in value.items()} if in_formula else value
     if isinstance(value, list):
-        return [_converted(part, inside) for part in value]
-    return with_decimals(value) if inside and isinstance(value, str) else value
+        return [_converted(part, in_formula) for part in value]
+    return with_decimals(value) if in_formula and isinstance(value, str) else value
 
 
 def with_decimals(text: str) -> str:
@@ -84,7 +84,7 @@ def with_decimals(text: str) -> str:
 
 
 def _product(above: str, match: re.Match[str]) -> str | None:
-    """Return a quotient with a decimal coefficient, or None where its decimals do not end."""
+    """Return a quotient with a decimal coefficient, or None if the coefficient has no finite decimal."""
     coefficient = _COEFFICIENT.match(above)
     factors = above[coefficient.end() :] if coefficient else above
     divisor = int(match["alone"] or match["first"])
@@ -100,7 +100,7 @@ def _product(above: str, match: re.Match[str]) -> str | None:
 
 
 def _product_start(text: str, end: int) -> int:
-    """Return where the product begins that ends before ``end``: after a space, an opening parenthesis or a sign."""
+    """Return the index at which the product before ``end`` begins: after a space, an open parenthesis or a sign."""
     depth, start = 0, end
     while start:
         character = text[start - 1]
@@ -112,7 +112,7 @@ def _product_start(text: str, end: int) -> int:
 
 
 def _decimal(value: Fraction) -> str | None:
-    """Return a fraction as a decimal, or None where its decimals do not end soon."""
+    """Return a fraction as a decimal, or None if it needs more than `_LONGEST` decimal places."""
     with localcontext() as context:
         context.prec = 50
         quotient = Decimal(value.numerator) / value.denominator

@@ -1,4 +1,4 @@
-"""What `print` and a notebook show of every value that has a sheet: see `dofkit.base.display`."""
+"""The texts, HTML and LaTeX that `print` and notebooks show of a value (see `dofkit.base.display`)."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ _CONSTRAINT_COLUMNS = (Column("name"), Column("text", 1), Column("type"))
 
 
 def sheet_of_scene(scene: Scene) -> Sheet:
-    """Return the sheet of a scene: its contents and constraints, as written."""
+    """Return the sheet of a scene: its objects, constraints, forces and energies, as written."""
     sections = []
     if scene.constraints:
         names = [c.name or f"c{i}" for i, c in enumerate(scene.constraints, 1)]
@@ -86,7 +86,7 @@ def _energies(scene: Scene) -> Iterator[Remark]:
 
 
 def sheet_of_linkage(linkage: Linkage) -> Sheet:
-    """Return the sheet of a graph of links: its count, and what is redundant."""
+    """Return the sheet of a graph of links: joints, links, freedom and redundant links."""
     inner = f"{linkage.inner_freedom} internal, beyond the motions as one rigid body"
     facts = [
         Fact("joints", str(len(linkage.joints)), f"in {many(linkage.dimension, 'dimension')}, in general position"),
@@ -105,17 +105,17 @@ Shown = TypeVar("Shown", Report, MotionReport)
 
 
 def text_of(value: object, width: int | None, how: bool) -> str:
-    """Return lines for a terminal."""
+    """Return a value as lines for a terminal; ``how``: with the arguments of a report."""
     return as_text(sheet_of(value, how), width)
 
 
 def html_of(value: object) -> str:
-    """Return a piece of a page."""
+    """Return a value as HTML without head and body."""
     return as_html(sheet_of(value))
 
 
 def latex_of(value: object) -> str | None:
-    """Return a display in LaTeX, or None if there are no formulas or one cannot be typeset."""
+    """Return the formulas of a value in LaTeX, or None if there are none or one cannot be typeset."""
     lines = [typeset(text) for text in _formulas(value)]
     displays = [line for line in lines if line is not None]
     if not displays or len(displays) < len(lines):
@@ -125,7 +125,7 @@ def latex_of(value: object) -> str | None:
 
 
 def _formulas(value: object) -> Iterator[str]:
-    """Yield the formulas of a value that a notebook shows typeset."""
+    """Yield the formulas of a value that a notebook typesets."""
     if isinstance(value, MotionReport):
         yield f"L = {value.lagrangian}"
         yield from value.equations
@@ -137,7 +137,7 @@ def _formulas(value: object) -> Iterator[str]:
 
 
 def sheet_of(value: object, how: bool = False) -> Sheet:
-    """Return the sheet of a value. Raises TypeError for a value that has none."""
+    """Return the sheet of a value. Raises TypeError for other types."""
     match value:
         case Report():
             return _with_title_and_picture(sheet_of_report(_printed(value), how=how), value._companion, value)
@@ -156,7 +156,7 @@ def sheet_of(value: object, how: bool = False) -> Sheet:
 
 
 def _printed(report: Shown) -> Shown:
-    """Return a report as it is printed, with decimals where its scene has decimals."""
+    """Return a report as it is printed: with decimals if its scene is written with decimals."""
     scene = report._companion.about
     return as_the_scene(report, scene) if isinstance(scene, Scene) else report
 
@@ -169,12 +169,12 @@ def _with_title_and_picture(sheet: Sheet, companion: Companion, report: Report |
     return sheet._replace(title=scene.title or "", picture=partial(picture_of, scene, report))
 
 
-#: Seconds for a picture; without a report the scene is classified for it.
+#: The time limit in seconds for a picture, which without a report includes classifying the scene.
 DRAWING = 5.0
 
 
 def picture_of(scene: Any, report: Report | None = None) -> str | None:
-    """Return the inline SVG of a scene, or None without pictures or if it cannot be drawn in time."""
+    """Return the inline SVG of a scene, or None if it cannot be drawn in time or a package is missing."""
     try:
         from dofkit.pictures.still import svg  # most values are shown without a picture
 
@@ -189,20 +189,16 @@ _COLUMNS = (Column("question"), Column("points"), Column("status"), Column("read
 
 
 def sheet_of_result(result: Result) -> Sheet:
-    """Return the sheet of a graded submission: the points, one line for each answer, and the feedback."""
+    """Return the sheet of a graded submission: points, one line for each answer, and feedback."""
     tone = _TONES.get("right" if result.score == result.max_score else "partly", "plain")
     score = "open" if result.score is None else f"{number(result.score)} of {number(result.max_score)}"
-    sections = (
-        [SheetSection("Answers", [Grid(_COLUMNS, [_row(item) for item in result.items])])] if result.items else []
-    )
+    rows = [_row(item) for item in result.items]
+    sections = [SheetSection("Answers", [Grid(_COLUMNS, rows)])] if rows else []
     feedback = [Remark(title(item), line(item.feedback)) for item in result.items if item.feedback]
     if feedback:
         sections.append(SheetSection("Feedback", feedback))
-    facts = (
-        [Fact("points", score, standing(result), tone)]
-        if result.error or result.needs_review
-        else [Fact("points", score, tone=tone)]
-    )
+    note = standing(result) if result.error or result.needs_review else ""
+    facts = [Fact("points", score, note, tone)]
     return Sheet(line(result.student), facts=facts, sections=sections)
 
 

@@ -1,4 +1,4 @@
-"""Faults of a file for a person: file, line, column, the line itself with a mark below, and what to do."""
+"""Faults of a file as lines: file, line, column, message, the line itself with a mark below, and a hint."""
 
 from __future__ import annotations
 
@@ -15,20 +15,20 @@ from dofkit.base.errors import Fault
 if TYPE_CHECKING:
     from dofkit.base.documents import Document
 
-#: More faults of a file than this are counted, not shown.
+#: The most faults of a file that are shown; further ones are counted.
 MOST_SHOWN = 20
 _WIDEST = 100
 Style = Literal["place", "error", "hint", "quiet"]
-#: Bold, bold red, bold cyan, dim: what a report has at a terminal.
+#: Terminal codes for bold, bold red, bold cyan and dim, the styles of printed reports.
 _CODES: dict[Style, str] = {"place": "1", "error": "1;31", "hint": "1;36", "quiet": "2"}
 _BEFORE = 60
-#: Where code lies that the user did not write: dofkit, the standard library and what is installed.
+#: The folders of code that the user did not write: dofkit, the standard library and installed packages.
 _LIBRARIES = (str(Path(__file__).parents[2]), sysconfig.get_path("stdlib"), sysconfig.get_path("purelib"))
 _UNPRINTABLE = re.compile("[\x00-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\u2066-\u2069]")
 
 
 def complaint(file: str, faults: tuple[Fault, ...], document: Document | None, coloured: bool = False) -> str:
-    """Every fault of ``file``, with the line that it is on where ``document`` knows it."""
+    """Return the faults of ``file`` as lines, with the faulty lines of ``document`` if it is given."""
     paint = _painted if coloured else _plain
     blocks, seen = [], set[str | None]()
     for fault in faults[:MOST_SHOWN]:
@@ -41,10 +41,10 @@ def complaint(file: str, faults: tuple[Fault, ...], document: Document | None, c
 
 
 def panel_of(error: BaseException) -> list[str]:
-    """Return the lines of an error for a notebook: the user's line that led to it, and every fault with its hint."""
+    """Return the lines of an error for a notebook: the user's last line in the traceback, faults and hints."""
     frames = traceback.extract_tb(error.__traceback__)
-    called = [frame.line for frame in frames if frame.line and not frame.filename.startswith(_LIBRARIES)]
-    lines = [f"in  {called[-1]}"] if called else []
+    user_lines = [frame.line for frame in frames if frame.line and not frame.filename.startswith(_LIBRARIES)]
+    lines = [f"in  {user_lines[-1]}"] if user_lines else []
     faults: tuple[Fault, ...] = getattr(error, "faults", ())
     lines += [line for fault in faults[:MOST_SHOWN] for line in _fault_lines(fault)] or str(error).splitlines()
     if len(faults) > MOST_SHOWN:
@@ -83,15 +83,15 @@ def _block(file: str, fault: Fault, document: Document | None, paint: Callable[[
 
 def _marked_line(text: str, number: int, column: int, paint: Callable[[str, Style], str]) -> list[str]:
     start = max(0, column - 1 - _BEFORE) if len(text) > _WIDEST else 0
-    piece = safe(text[start : start + _WIDEST])
+    excerpt = safe(text[start : start + _WIDEST])
     margin = f"{number:>5} | "
-    if not piece.strip():
+    if not excerpt.strip():
         return []
     before = " " * (len(margin) - 2) + "| "
     caret = " " * (column - 1 - start) + paint("^", "error")
-    return [paint(margin, "quiet") + piece, paint(before, "quiet") + caret]
+    return [paint(margin, "quiet") + excerpt, paint(before, "quiet") + caret]
 
 
 def safe(text: str) -> str:
-    """``text`` on one line, without characters that a terminal would obey."""
+    """Return ``text`` on one line, with control characters replaced."""
     return _UNPRINTABLE.sub(lambda match: " " if match[0] in "\t\n\r" else "?", text)

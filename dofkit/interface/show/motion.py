@@ -1,4 +1,4 @@
-"""The printed equations of motion, in the order in which they are read."""
+"""The sheet of the equations of motion: facts, equations, conserved quantities, and small motions."""
 
 from __future__ import annotations
 
@@ -8,15 +8,15 @@ from collections.abc import Iterable, Iterator, Mapping
 from dofkit.interface.show.sheet import TONES, Fact, Formula, Matrix, Remark, Sheet, SheetSection
 from dofkit.motion.lagrange.report import Linearized, MotionReport
 
-#: An equation that says nothing.
+#: The equation of a coordinate that does not occur in the Lagrangian.
 _TRIVIAL = "0 = 0"
-#: Names of the matrices of mass, damping and stiffness: the first three that are no names in their entries.
+#: Names of the mass, damping and stiffness matrices: the first triple of which no name occurs in their entries.
 _MATRICES = (("M", "C", "K"), ("A", "B", "C"), ("M_q", "C_q", "K_q"))
 _WORDS = re.compile(r"[^\W\d]\w*")
 
 
 def sheet_of_motion(report: MotionReport, title: str | None = None) -> Sheet:
-    """Return the sheet of equations of motion; its lines are not broken, so that equations can be copied."""
+    """Return the sheet of equations of motion; lines are not broken, so that equations can be copied."""
     return Sheet(
         name=report.scene,
         title=title or "",
@@ -37,17 +37,17 @@ def _facts(report: MotionReport) -> Iterator[Fact]:
 
 
 def _sections(report: MotionReport) -> Iterator[SheetSection]:
-    idle = [n for n, e in zip(report.coordinates, report.equations, strict=False) if e == _TRIVIAL]
+    trivial = [n for n, e in zip(report.coordinates, report.equations, strict=True) if e == _TRIVIAL]
     equations = _formulas(e for e in report.equations if e != _TRIVIAL)
-    yield SheetSection("Equations of motion", [*equations, *_without_equation(idle)])
+    yield SheetSection("Equations of motion", [*equations, *_without_equation(trivial)])
     pairs = zip(report.multipliers, report.constraints, strict=True)
     yield SheetSection("Constraints with a multiplier", [Remark(_formula(m), _formula(c)) for m, c in pairs])
-    momenta = (f"p_{n} = {p}" for n, p in report.momenta.items() if n not in idle)
+    momenta = (f"p_{n} = {p}" for n, p in report.momenta.items() if n not in trivial)
     yield SheetSection("Generalized momenta", _formulas(momenta))
     added = {n: f" + Q_{n}" for n in report.non_conservative}
-    forces = (f"dL/d{n}{added.get(n, '')} = {f}" for n, f in report.forces.items() if n not in idle)
+    forces = (f"dL/d{n}{added.get(n, '')} = {f}" for n, f in report.forces.items() if n not in trivial)
     yield SheetSection("Generalized forces", _formulas(forces))
-    yield SheetSection("Cyclic coordinates", _formulas(n for n in report.cyclic if n not in idle))
+    yield SheetSection("Cyclic coordinates", _formulas(n for n in report.cyclic if n not in trivial))
     conserved = (c for c in report.conserved if c.quantity != "0")
     remarks = [Remark("", _formula(f"{c.name} = {c.quantity}"), c.reason.rstrip(".")) for c in conserved]
     yield SheetSection("Conserved", remarks)
@@ -56,11 +56,11 @@ def _sections(report: MotionReport) -> Iterator[SheetSection]:
     yield SheetSection("Notes", [Remark("", note) for note in report.notes])
 
 
-def _without_equation(idle: list[str]) -> Iterator[Remark]:
-    """Name the coordinates whose equations of motion read 0 = 0."""
-    if idle:
-        noun = "the coordinate" if len(idle) == 1 else "the coordinates"
-        yield Remark("", f"No mass, force or constraint determines {noun} {', '.join(idle)}: 0 = 0.")
+def _without_equation(trivial: list[str]) -> Iterator[Remark]:
+    """Yield a remark that names the coordinates whose equation of motion is 0 = 0, if there are any."""
+    if trivial:
+        noun = "the coordinate" if len(trivial) == 1 else "the coordinates"
+        yield Remark("", f"No mass, force or constraint determines {noun} {', '.join(trivial)}: 0 = 0.")
 
 
 def _formula(text: str) -> Formula:
@@ -68,7 +68,7 @@ def _formula(text: str) -> Formula:
 
 
 def _by_hand(text: str) -> str:
-    """Return a product as written by hand, with a space between its factors; scenes read it as well."""
+    """Return a formula with spaces between factors instead of `*`, which scenes can read as well."""
     return re.sub(r"\*(?![\d*])", " ", text)
 
 
@@ -77,7 +77,7 @@ def _formulas(texts: Iterable[str]) -> list[Remark]:
 
 
 def _small_motions(small: Linearized) -> SheetSection:
-    """Return M, C, K and the frequencies about an equilibrium."""
+    """Return the section with the matrices M, C, K and the frequencies about an equilibrium."""
     matrices = (small.mass, small.damping, small.stiffness)
     taken = {word for matrix in matrices for row in matrix for entry in row for word in _WORDS.findall(entry)}
     names = next((names for names in _MATRICES if taken.isdisjoint(names)), _MATRICES[-1])

@@ -1,4 +1,4 @@
-"""A sheet as a piece of a page: tables for light and dark, formulas as MathML, nothing fetched from a network."""
+"""A sheet as HTML: tables in light and dark colours, formulas as MathML, nothing loaded from a network."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from dofkit.interface.show.sheet import Content, Formula, Matrix, Sheet
 if TYPE_CHECKING:
     from jinja2 import Template
 
-#: What only the words of a joint or a link hold: two names with a line between them, or one of these.
+#: Words that only descriptions of joints or links contain, or two names with a hyphen: such a text is no formula.
 _WORDS = re.compile(
     r"\b(?:on|at|driven by|length|radius|ratio|pitch|through|carried by|along)\b|^[a-z]{3,} \w+([-,]|$)"
 )
 
 
 def as_html(sheet: Sheet) -> str:
-    """Return the whole sheet, with a picture of its scene if pictures are installed."""
+    """Return the sheet as HTML with its style, and with a picture of the scene if pictures are installed."""
     css = (files(__package__) / "page.css").read_text(encoding="utf-8")
     picture = None if sheet.picture is None else sheet.picture()
     return _template().render(sheet=sheet, picture=picture, css=css, schemes=schemes(".dofkit"))
@@ -39,7 +39,7 @@ def _template() -> Template:
 
 
 def _set(text: Content) -> str:
-    """Return a formula as mathematics, if it is one; everything else as text."""
+    """Return a cell as HTML: a formula in MathML if it can be typeset, otherwise as text."""
     if isinstance(text, str):
         return _plain(text)
     formula = mathematics_of(text)
@@ -49,18 +49,18 @@ def _set(text: Content) -> str:
 
 
 def mathematics_of(content: Formula | Matrix) -> str | None:
-    """Return a formula or a matrix in MathML; None for words."""
+    """Return a formula or a matrix in MathML, or None for words."""
     return _matrix(content) if isinstance(content, Matrix) else _formula(content.text)
 
 
 def _formula(text: str) -> str | None:
-    """What is written as mathematics, in MathML; None for words, such as those of a joint."""
+    """Return a formula in MathML, or None for words such as the description of a joint."""
     latex = None if _WORDS.search(text) else typeset(text)
     return None if latex is None else mathml(latex)
 
 
 def _matrix(matrix: Matrix) -> str | None:
-    """Rows and columns in brackets, in MathML; None where an entry is no formula."""
+    """Return ``name = [rows]`` in MathML, or None if an entry is not a formula."""
     rows = [[_formula(text) for text in row] for row in matrix.rows]
     if any(None in row for row in rows):
         return None

@@ -10,14 +10,14 @@ from dofkit.interface.show.assurance import certainty, checked_claims, left_out,
 from dofkit.interface.show.sheet import TONES, Column, Fact, Formula, Grid, Remark, Sheet, SheetSection, Tone
 from dofkit.report import ConstraintEntry, Report, SpecialCase
 
-#: The number of constraints, reasons and other lines that each section lists; the rest is counted.
+#: The most constraints, reasons and other lines that a section lists; further ones are counted.
 MOST_ROWS = 15
 _MOST_NAMES = 24
 _COLUMNS = (
     *(Column("name"), Column("text", 3), Column("form"), Column("labels", 2)),
     Column("independent equations", numbers=True),
 )
-#: Forms of constraints in the words of textbooks.
+#: Forms of constraints in textbook terms.
 _FORMS = {"finite": "geometric", "pfaffian": "Pfaffian"}
 #: A decimal with more than three significant digits.
 _LONG_DECIMAL = re.compile(r"-?(?=(?:[.0]*[1-9])(?:\.?\d){3})\d*\.\d+(?:e-?\d+)?")
@@ -25,7 +25,7 @@ _OPPOSITES = {"holonomic": "non-holonomic", "scleronomic": "rheonomic", "bilater
 
 
 def sheet_of_report(report: Report, title: str | None = None, how: bool = False) -> Sheet:
-    """Return the printed report. ``how``: with the argument behind each answer."""
+    """Return the sheet of a report. ``how``: with the argument for each answer."""
     return Sheet(
         name=report.scene,
         title=title or "",
@@ -71,7 +71,7 @@ def _sections(report: Report, how: bool) -> Iterator[SheetSection]:
 
 
 def _listed(heading: str, remarks: Sequence[Remark]) -> SheetSection:
-    """Return a section with the first remarks, and the number of the rest."""
+    """Return a section with the first remarks, and the number of further ones."""
     return SheetSection(heading, remarks[:MOST_ROWS], _more(len(remarks)))
 
 
@@ -116,10 +116,9 @@ def _facts(report: Report) -> Iterator[Fact]:
 def _count(report: Report) -> Fact:
     count = report.count
     counts = [(count.particles, "particle"), (count.bodies, "body"), (count.coordinates, "coordinate")]
-    said = [many(number, what) for number, what in counts if number]
-    return Fact(
-        "constraint count", count.formula, f"({', '.join([*said, many(count.constraints, 'geometric equation')])})"
-    )
+    counted = [many(number, what) for number, what in counts if number]
+    counted.append(many(count.constraints, "geometric equation"))
+    return Fact("constraint count", count.formula, f"({', '.join(counted)})")
 
 
 def _numbers(report: Report) -> Iterator[Fact]:
@@ -128,9 +127,8 @@ def _numbers(report: Report) -> Iterator[Fact]:
         yield Fact("degrees of freedom", number(report.dof), f"dimension of the configuration space{branch}")
         yield Fact("velocity freedom", number(report.velocity_dof), "independent admissible velocities")
     if report.singular is not None:
-        compared = (
-            "exceeds the finite freedom: singular configuration" if report.singular else "equal to the finite freedom"
-        )
+        singular = "exceeds the finite freedom: singular configuration"
+        compared = singular if report.singular else "equal to the finite freedom"
         note = f"at the reference configuration; {compared}"
         yield Fact("instantaneous freedom", number(report.instantaneous_dof), note)
     if report.redundant_equations:
@@ -139,7 +137,7 @@ def _numbers(report: Report) -> Iterator[Fact]:
 
 
 def _other_counts(report: Report) -> Iterator[Fact]:
-    """Yield the Gruebler-Kutzbach count and the generic mobility, where they differ from the report's numbers."""
+    """Yield the Gruebler-Kutzbach count and the generic mobility, if they differ from the report's numbers."""
     mobility, generic = report.mobility, report.generic
     if mobility is not None and mobility.undriven is not None and mobility.freedom is not None:
         sure = "" if mobility.undriven_verdict == "proved" else f" [{mobility.undriven_verdict}]"
@@ -153,14 +151,14 @@ def _other_counts(report: Report) -> Iterator[Fact]:
 
 
 def _driven(undriven: int, freedom: int) -> str:
-    """Return how much of the mobility is driven, and how much remains free."""
+    """Return in words how many degrees of freedom are driven, and how many remain free."""
     driven = undriven - freedom
     remaining = "it moves as driven" if not freedom else f"{freedom} {verb(freedom)} left free"
     return f"of which {driven} {verb(driven)} driven: {remaining}"
 
 
 def _inequalities(report: Report) -> Iterator[Fact]:
-    """Yield whether the inequalities are consistent with the constraints, where there are some."""
+    """Yield whether the inequalities are consistent with the constraints, if there are any."""
     if report.consistent is False or all(e.bilateral for e in report.constraints):
         return
     point = ", ".join(f"{name} = {_short(value)}" for name, value in (report.feasible_at or {}).items())
@@ -174,21 +172,21 @@ def _inequalities(report: Report) -> Iterator[Fact]:
 
 
 def _short(value: str) -> str:
-    """Return a coordinate of a witness, a long decimal with three significant digits."""
+    """Return a coordinate of a witness; a long decimal is rounded to three significant digits."""
     return f"{float(value):.3g}" if _LONG_DECIMAL.fullmatch(value) else value
 
 
 def system_labels(report: Report, reason: str = "") -> str:
-    """Return the labels of the system in words; ``reason``: why it is not holonomic."""
+    """Return the labels of the system; ``reason`` (why it is not holonomic) follows the first label."""
     return f"{_label(report.holonomic, 'holonomic')}{reason}, {_label(report.scleronomic, 'scleronomic')}"
 
 
 def _non_holonomic(report: Report) -> str:
-    """Return in parentheses which constraint, or which inequalities, alone make the system non-holonomic."""
-    guilty = [entry for entry in report.constraints if entry.holonomic is False]
-    inequalities = bool(guilty) and all(entry.form == "inequality" for entry in guilty)
-    alone = inequalities or len(guilty) == 1 < len(report.constraints)
-    return f" (by {names_of([e.name for e in guilty])})" if alone and report.holonomic is False else ""
+    """Return in parentheses which constraint, or which inequalities, alone make the system non-holonomic, or ""."""
+    responsible = [entry for entry in report.constraints if entry.holonomic is False]
+    inequalities = bool(responsible) and all(entry.form == "inequality" for entry in responsible)
+    alone = inequalities or len(responsible) == 1 < len(report.constraints)
+    return f" (by {names_of([e.name for e in responsible])})" if alone and report.holonomic is False else ""
 
 
 def _label(value: bool | None, word: str) -> str:
@@ -196,7 +194,7 @@ def _label(value: bool | None, word: str) -> str:
 
 
 def labels(entry: ConstraintEntry) -> str:
-    """Return a constraint's labels in words."""
+    """Return the labels of a constraint with commas: holonomic, scleronomic, acatastatic, bilateral."""
     alone = ""
     if entry.holonomic != entry.holonomic_alone and entry.holonomic_alone is not None:
         alone = f" (on its own: {_label(entry.holonomic_alone, 'holonomic')})"
@@ -245,6 +243,7 @@ def _special(case: SpecialCase) -> Remark:
 
 
 def _redundancy(report: Report) -> Iterator[Remark]:
+    """Yield remarks on redundancy; ``circuit``: constraints that imply an entry ([]: always true, None: none do)."""
     if report.redundant:
         note = "these may be removed together without changing the motion"
         yield Remark("maximal redundant set", names_of(report.redundant), note)
@@ -259,18 +258,18 @@ def _redundancy(report: Report) -> Iterator[Remark]:
 
 
 def names_of(names: Sequence[str]) -> str:
-    """Return names with commas, the first of very many."""
+    """Return names with commas; of more than `_MOST_NAMES` the first."""
     return first_of(names, _MOST_NAMES)
 
 
 def number(value: int | None) -> str:
-    """Return a number, or a dash where it is not known."""
+    """Return a number as text, or a dash if it is not known."""
     return "-" if value is None else str(value)
 
 
-#: An inequality may bound the motion all the same, and so no more is said.
+#: Printed if a dropped constraint changes no number; the motion may still differ, if it was an inequality.
 SAME = "no degree of freedom, no count and no label changes"
-#: The numbers that are compared, and what they are called.
+#: (name in words, field) of the numbers that are compared.
 _NUMBERS = (
     ("degrees of freedom", "dof"),
     ("velocity freedom", "velocity_dof"),
@@ -280,13 +279,13 @@ _NUMBERS = (
 
 
 def changed(before: Report, after: Report, names: Sequence[str]) -> SheetSection:
-    """Return what changes where the constraints of these names are dropped."""
+    """Return the section of what changes when the constraints of these names are dropped."""
     remarks = [*_changes(before, after), *_undecided(before, after)]
     return SheetSection(f"Without {names_of(names)}", remarks or [Remark("", SAME)])
 
 
 def _undecided(before: Report, after: Report) -> Iterator[Remark]:
-    """Yield which fields are not compared, because they are undecided before or after."""
+    """Yield a remark that names the fields that are undecided before or after, and so cannot be compared."""
     unsure = [
         label
         for label, name in (*_NUMBERS, ("consistent", "consistent"))
@@ -318,7 +317,6 @@ def _yes(value: bool | None) -> str:
 
 
 def unexpected(missed: Sequence[str]) -> list[SheetSection]:
-    """Return the section of the fields that differ from what the scene expects, if there are any."""
-    return (
-        [SheetSection("Differs from what the scene expects", [Remark("!", line) for line in missed])] if missed else []
-    )
+    """Return the section of the fields that differ from what the scene expects; empty if there are none."""
+    remarks = [Remark("!", line) for line in missed]
+    return [SheetSection("Differs from what the scene expects", remarks)] if missed else []

@@ -1,20 +1,20 @@
-"""What is printed of a value, before it is lines at a terminal or a table in a page: facts, then sections."""
+"""The contents of what is printed of a value, before they are lines at a terminal or HTML: facts, then sections."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from typing import Literal, NamedTuple
 
-#: The meaning of a fact: ``good`` and ``bad`` are shown by colour, and by their words.
+#: The meaning of a fact, shown by its colour; ``care``: a reservation.
 Tone = Literal["plain", "good", "care", "bad"]
-#: Numbers of colours of a terminal, in the words of rich.
+#: The colour system of a terminal, by its name in rich.
 Colours = Literal["standard", "256", "truecolor", "windows"]
-#: How a verdict is meant.
+#: {verdict: tone}.
 TONES: dict[str, Tone] = {"proved": "good", "probable": "good", "numeric": "care", "undecided": "bad"}
 
 
 class Formula(NamedTuple):
-    """A text in the grammar of scenes: a page sets it as mathematics."""
+    """A text in the grammar of scenes, which HTML shows as mathematics."""
 
     text: str
 
@@ -23,7 +23,7 @@ class Formula(NamedTuple):
 
 
 class Matrix(NamedTuple):
-    """``name = [...]``, its entries in the grammar of scenes."""
+    """A named matrix, with entries in the grammar of scenes."""
 
     name: str
     rows: Sequence[Sequence[str]]
@@ -36,7 +36,7 @@ Content = str | Formula | Matrix
 
 
 class Fact(NamedTuple):
-    """A line of the table at the top: its ``value`` and, more quietly, a ``note`` on it."""
+    """A line of the table at the top: label, value, and a less prominent note."""
 
     label: str
     value: Content
@@ -45,7 +45,7 @@ class Fact(NamedTuple):
 
 
 class Remark(NamedTuple):
-    """A line of a section: its subject, and what is said about it."""
+    """A line of a section: its subject, a text about it, and a note in parentheses."""
 
     label: Content
     text: Content
@@ -53,7 +53,7 @@ class Remark(NamedTuple):
 
 
 class Column(NamedTuple):
-    """A column of a table: its share of the line (0: what its words need), and whether it holds numbers."""
+    """A column of a table: its share of the line (0: the width of its words), and whether it contains numbers."""
 
     head: str
     share: int = 0
@@ -61,14 +61,14 @@ class Column(NamedTuple):
 
 
 class Grid(NamedTuple):
-    """A table within a section; its first column holds names."""
+    """A table within a section; its first column contains names."""
 
     columns: tuple[Column, ...]
     rows: Sequence[tuple[Content, ...]]
 
 
 class SheetSection(NamedTuple):
-    """A heading with what stands under it; ``more`` says what was left out."""
+    """A heading with its contents; ``more``: a text on what was left out."""
 
     heading: str
     content: Sequence[Remark | Grid]
@@ -76,10 +76,9 @@ class SheetSection(NamedTuple):
 
 
 class Sheet(NamedTuple):
-    """Everything that is printed of a value. ``alarm``: what stands above everything else.
+    """Everything that is printed of a value. ``alarm``: a text above everything else.
 
-    ``copied``: its formulas are copied from a terminal, so that no line is broken. ``picture``: makes one as an inline
-    SVG, or None.
+    ``copied``: lines are not broken, so that formulas can be copied. ``picture``: makes an inline SVG, or None.
     """
 
     name: str

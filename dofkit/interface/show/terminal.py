@@ -1,4 +1,4 @@
-"""A sheet, or a report on one line, at a terminal: lines that fit, and nothing that a terminal would obey."""
+"""A sheet, or a report on one line, for a terminal: lines of its width, without control characters."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ from dofkit.interface.show.report import number, system_labels
 from dofkit.interface.show.sheet import TONES, Colours, Fact, Grid, Remark, Sheet, SheetSection, Tone
 from dofkit.report import Report
 
-#: How a tone is coloured.
+#: {tone: style of rich}.
 STYLES: dict[Tone, str] = {"plain": "", "good": "green", "care": "yellow", "bad": "red"}
-#: Columns for lines that are not broken.
+#: The width for lines that are not broken.
 _UNBROKEN = 1 << 16
 
 
 def as_text(sheet: Sheet, width: int | None = None, colours: Colours | None = None) -> str:
-    """Return the sheet as lines without blanks at their ends; ``width``: columns (None: the terminal's, or 80)."""
+    """Return the sheet as lines without trailing blanks; ``width``: columns (None: the terminal's, or 80)."""
     coloured = colours is not None
     console = Console(
         file=io.StringIO(),
@@ -83,7 +83,7 @@ def _remark(remark: Remark) -> Text:
 
 
 def _grid(grid: Grid) -> RenderableType:
-    """The first column in bold; names and texts are folded where they are long, words are not."""
+    """Return a table of rich, the first column bold; long names and texts are folded, other columns are not."""
     table = Table(box=None, padding=(0, 2, 0, 0), header_style="dim", show_edge=False)
     for i, column in enumerate(grid.columns):
         if column.numbers:
@@ -99,17 +99,17 @@ def _grid(grid: Grid) -> RenderableType:
     return table
 
 
-#: The widths of the line of a scene: the most for a name; the labels; a verdict.
+#: Widths in the line of a scene: the most for a name; the labels; a verdict.
 WIDEST_NAME, LABELS, VERDICT = 40, len("non-holonomic, scleronomic"), len("undecided")
 
 
 def headline(name_width: int) -> str:
-    """Return the heading above the lines of scenes; ``f``: degrees of freedom, ``v``: velocity freedom."""
+    """Return the heading above the lines of scenes (f: degrees of freedom, v: velocity freedom)."""
     return f"{'scene':<{min(name_width, WIDEST_NAME)}}  {'f':>3} {'v':>3}  {'system':<{LABELS}}  verdict"
 
 
 def brief_line(report: Report, name_width: int, colours: Colours | None = None) -> str:
-    """Return ``NAME  f  v  labels  verdict`` and remarkable findings; ``name_width``: that of the longest name."""
+    """Return ``NAME  f  v  labels  verdict`` and findings; ``name_width``: the length of the longest name."""
     name, verdict = safe(report.scene), report.verdict
     text = Text.assemble(
         (f"{name:<{min(name_width, WIDEST_NAME)}}", "bold"),
@@ -138,7 +138,7 @@ def _findings(report: Report) -> Iterator[str]:
 
 
 def outcome_of(report: Report) -> dict[str, Any]:
-    """Return what a summary counts of a report; ``is``: the findings that ``--fail-on`` may name."""
+    """Return {"scene", "verdict", "is"} for a summary; ``is``: the findings that ``--fail-on`` may name."""
     findings = {
         "inconsistent": report.consistent is False,
         "infeasible": report.feasible is False,
@@ -149,7 +149,7 @@ def outcome_of(report: Report) -> dict[str, Any]:
 
 
 def selected_line(report: Report, only: Sequence[str]) -> str:
-    """Return ``SCENE  dof 4 (proved)``: each field with its verdict."""
+    """Return a line such as ``SCENE  dof 4 (proved)``, with each field of ``only`` and its verdict."""
     fields = report.model_dump(mode="json", include=set(only))
     texts = []
     for name in only:

@@ -41,7 +41,7 @@ def _inequalities(context: Context) -> dict[str, str] | None:
 
 
 def _meeting(context: Context, inequalities: list[str]) -> FoundPoint | None:
-    """Return a point that satisfies inequalities and the geometric equations; all relations, if velocities occur."""
+    """Return a point of the configuration space, or of all relations if velocities occur, with ``inequalities``."""
     evidence = context.scenery.evidence
     moving = any(evidence.met_by(evidence.relation(name).tree) for name in inequalities)
     names, unknowns = states_of(context) if moving else (evidence.finite, context.problem.coordinates)

@@ -19,15 +19,12 @@ from dofkit.report import Report
 from dofkit.scene.scene import Scene
 
 PATH = "/motion"
-#: How many points are tried.
+#: The most points that are tried.
 MOST_POINTS = 4
 
 
 def certificate_of_motion(scene: Scene, motion: Mapping[str, Any], report: Report) -> dict[str, Any]:
-    """The certificate of equations of motion, as `lagrange` tells them; uncovered where no evidence was found.
-
-    ``report``: what the equations rest on.
-    """
+    """Return the certificate of the equations of motion on a ``report``; "uncovered" if no evidence was found."""
     fields = {name: motion[name] for name in MOTION_FIELDS}
     document, readings = scene_of_checker(scene)
     making = Certifying(document, report, readings)
@@ -37,7 +34,7 @@ def certificate_of_motion(scene: Scene, motion: Mapping[str, Any], report: Repor
 
 
 class MotionEvidence:
-    """A motion of the report, in the checker's reading."""
+    """The equations of ``motion``, with the scene as the checker reads it."""
 
     def __init__(self, context: Context, motion: dict[str, Any]) -> None:
         self.context, self.motion, self.evidence = context, motion, context.scenery.evidence
@@ -48,36 +45,37 @@ class MotionEvidence:
         self.constraint_of_multiplier = dict(zip(motion["multipliers"], constraints, strict=True))
 
     def _constants(self) -> dict[str, str]:
-        """Names in the eliminated coordinates that are none of the scene's: constants of integration."""
+        """Return {name: "0"} for the constants of integration in the expressions of eliminated coordinates."""
         names = ["C", *(f"{letter}{k}" for letter in ("C", "C_") for k in range(1, 5))]
         declared = {*self.problem.world.signs, *self.problem.coordinates}
         texts = self.motion["eliminated"].values()
         return {name: "0" for name in names if name not in declared and any(name in text for text in texts)}
 
     def read(self, text: str) -> Tree:
-        """A text of the report."""
+        """Return a text of the motion report as the checker's expression tree."""
         kept = (f"{q}ddot" for q in self.motion["coordinates"])
         return self.evidence.text(text.removesuffix("= 0"), [*self.motion["multipliers"], *self.constants, *kept])
 
     def claims(self) -> Iterator[Told]:
-        """Claims, one point after another."""
+        """Yield claims of the rule `lagrange`: for each point with a minor of full rank, and each choice of factors."""
         claim: Told = {"rule": "lagrange", "c": self.cofactors()}
         claim |= {"constants": self.constants} if self.constants else {}
         size = len(self.eliminated) + len(self.constraint_of_multiplier)
-        standings = (self.context.standing_of(self.context.equations, point=point) for point in self.points())
-        fit = (standing for standing in standings if standing is not None and len(standing.rows) == size)
-        for minor in ({"minor": self.context.minor(standing)} for standing in fit) if size else [{}]:
+        # The multipliers and eliminated coordinates are unique where this many rows are independent.
+        ranks = (self.context.standing_of(self.context.equations, point=point) for point in self.points())
+        minors = ({"minor": self.context.minor(r)} for r in ranks if r is not None and len(r.rows) == size)
+        for minor in minors if size else [{}]:
             for factors in self.factors():
                 yield {**claim, **factors, **minor}
 
     def factors(self) -> Iterator[Told]:
-        """None, or exponentials that the equations were divided by."""
+        """Yield no factors, then for each exponential in the Lagrangian the claim that it divides every equation."""
         yield {}
         for power_of_e in sorted(_exponentials(self.read(self.motion["lagrangian"]))):
             yield {"factors": dict.fromkeys(self.motion["coordinates"], power_of_e)}
 
     def cofactors(self) -> dict[str, dict[str, str]]:
-        """For every relation that is not 0 where coordinates are put in, the constraint whose multiple it is."""
+        """Return {relation: {multiplier: k}}: with ``eliminated`` put in, it is k times the multiplier's constraint."""
         rates = {**{q: symbol(f"{q}dot") for q in self.problem.coordinates}, "t": ONE}
         put: dict[str, Tree] = {"tdot": ONE, **self.eliminated}
         put |= {f"{q}dot": along(rates, tree) for q, tree in self.eliminated.items()}
@@ -91,7 +89,7 @@ class MotionEvidence:
         return multiples
 
     def points(self) -> Iterator[FoundPoint]:
-        """The main point; without a configuration and multipliers points whose eliminated coordinates are put in."""
+        """Yield the main point; without reference and multipliers, points with given remaining coordinates."""
         if not self.problem.reference and not self.constraint_of_multiplier:
             yield from filter(None, map(self._put_in, range(MOST_POINTS)))
         elif self.context.point is not None:

@@ -1,4 +1,4 @@
-"""Lagrange's equations d/dt dL/dqdot - dL/dq + sum lam a = Q [Lagrange1788], in readable form, and SymPy's method."""
+"""Lagrange's equations d/dt dL/dqdot - dL/dq + sum lam a = Q [Lagrange1788] in readable form, derived by SymPy."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ from dofkit.expressions.tree import ZERO, Expr
 from dofkit.motion.lagrange.model import LagrangeModel, NoEquationsError
 from dofkit.motion.lagrange.tidying import Tidier, ordered
 
-#: Points of GF(p) at which a rank is taken, and how many are tried for them.
+#: Random points over GF(p) at which a rank is computed, and the most points that are tried.
 POINTS, ATTEMPTS = 3, 20
 SINGULAR = "The kinetic energy is degenerate: these equations do not determine all accelerations."
 
 
 def _at_points(model: LagrangeModel, rows: Sequence[Sequence[Expr]]) -> Iterator[tuple[list[SparseRow], int]]:
-    """Yield a matrix modulo p at random points, and p."""
+    """Yield (rows modulo p, p) of a matrix at random points where it has a value."""
     ring = Ring([e for row in rows for e in row], model.positive)
     nodes = [[ring.node(e) for e in row] for row in rows]
     for seed in range(ATTEMPTS):
@@ -40,7 +40,7 @@ def _at_points(model: LagrangeModel, rows: Sequence[Sequence[Expr]]) -> Iterator
 
 @dataclass(frozen=True)
 class Derived:
-    """The equations (each is zero), momenta and generalized forces of the coordinates kept; multipliers by name."""
+    """Lagrange's equations e = 0, momenta and generalized forces by remaining coordinate; names of multipliers."""
 
     model: LagrangeModel
     lagrangian: Expr
@@ -50,9 +50,10 @@ class Derived:
     multipliers: tuple[str, ...]
 
     def is_degenerate(self) -> bool:
-        """Return whether [[M, A^T], [A, 0]] is singular at random points, so that accelerations are not determined.
+        """Return whether [[M, A^T], [A, 0]], of masses M and constraints A, is singular at random points.
 
-        Raises NoEquationsError where an equation says that a number is 0, or nothing in the energies moves.
+        If so, the equations do not determine all accelerations. Raises NoEquationsError if an equation is a constant
+        other than 0, or no velocity occurs in the energies.
         """
         model = self.model
         multipliers = [ex.parameter(n) for n in self.multipliers]
@@ -65,18 +66,16 @@ class Derived:
         unknown = [*(ex.sym("acceleration", n) for n in model.names), *multipliers]
         rows = [[diff(e, s) for s in unknown] for e in self.equations.values()]
         rows += [[*(slopes[n] for n in model.names), *(ZERO for _ in multipliers)] for slopes in model.slopes]
-        ranks = [
-            rank_of_rows(matrix, p) for (matrix, p), _ in zip(_at_points(model, rows), range(POINTS), strict=False)
-        ]
+        ranks = [rank_of_rows(m, p) for (m, p), _ in zip(_at_points(model, rows), range(POINTS), strict=False)]
         return bool(rows) and len(ranks) == POINTS and max(ranks) < len(rows)
 
     def sympys_method(self) -> Any:
-        """Return SymPy's LagrangesMethod of the same model, its equations not yet formed."""
+        """Return SymPy's LagrangesMethod of the model; its equations are not yet formed."""
         return sympys_method(self.model, Bridge(self.model.names, self.model.positive))
 
 
 def derive(model: LagrangeModel) -> Derived:
-    """Return Lagrange's equations of a model. Raises UntranslatableError where SymPy's result cannot be written."""
+    """Return Lagrange's equations of a model. Raises UntranslatableError if SymPy's result cannot be converted back."""
     bridge = Bridge(model.names, model.positive)
     method, tidy, multipliers = sympys_method(model, bridge), Tidier(bridge, model.positive), _multipliers(model)
     formed = list(method.form_lagranges_equations()) if model.names else []
@@ -94,7 +93,7 @@ def derive(model: LagrangeModel) -> Derived:
 
 
 def sympys_method(model: LagrangeModel, bridge: Bridge) -> Any:
-    """Return SymPy's LagrangesMethod of a model, its equations not yet formed."""
+    """Return SymPy's LagrangesMethod of a model; its equations are not yet formed."""
     from sympy.physics.mechanics import LagrangesMethod, Point, ReferenceFrame
 
     frame, loads = ReferenceFrame("N"), []
@@ -115,7 +114,7 @@ def sympys_method(model: LagrangeModel, bridge: Bridge) -> Any:
 
 
 def without_exponentials(e: Expr, positive: frozenset[Expr]) -> Expr:
-    """Return an expression that is 0 divided by an exponential that all its terms hold, which is never 0."""
+    """Return ``e``, the left side of e = 0, divided by the exponentials that are common to all its terms."""
     for node in sorted((n for n in ex.nodes(e) if n.op == "fn" and n.args[0] == "exp"), key=to_text):
         over = ex.power(node, ex.MINUS_ONE)
         terms = e.args if e.op == "add" else (e,)
@@ -126,7 +125,7 @@ def without_exponentials(e: Expr, positive: frozenset[Expr]) -> Expr:
 
 
 def _multipliers(model: LagrangeModel) -> tuple[str, ...]:
-    """Return lam1, lam2, ..., or the like where the scene has such names."""
+    """Return names for the multipliers, lam1, lam2, ..., or others if the scene uses these."""
     system = model.study.system
     taken = {*(c.name for c in system.coordinates), *system.parameters, *system.functions}
     numbers = range(1, len(model.constraints) + 1)

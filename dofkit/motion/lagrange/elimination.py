@@ -1,7 +1,7 @@
-"""Geometric equations solved for coordinates in closed form; a solution is put into the equation, which is then 0 = 0.
+"""Geometric equations solved for coordinates in closed form; each solution is checked by inserting it.
 
-A relation g = 0 that is linear in a coordinate q gives q = -g(0)/g_q where g_q is not 0; one that is quadratic gives
-two branches, of which one is taken: that through the reference configuration, else that of lower potential energy.
+A relation g = 0 that is linear in a coordinate q gives q = -g(0)/g_q where g_q is not 0. A quadratic relation gives two
+branches; the one through the reference configuration is chosen, else the one of lower potential energy.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ def by_time(e: Expr) -> Expr:
 
 
 def motions(solved: Mapping[str, Expr]) -> dict[Expr, Expr]:
-    """Return q = f(q', t), its velocity and its acceleration, for every coordinate that was solved for."""
+    """Return {q, qdot, qddot: expression} for every coordinate in ``solved``, with q = f(other coordinates, t)."""
     values: dict[Expr, Expr] = {}
     for name, value in solved.items():
         velocity = by_time(value)
@@ -44,14 +44,14 @@ def motions(solved: Mapping[str, Expr]) -> dict[Expr, Expr]:
     return values
 
 
-#: Longer solutions are not inserted, by their nodes.
+#: The most nodes of a solution that is used.
 LONGEST_SOLUTION = 400
 
 Remaining = Finite | Pfaffian | Nonlinear
 
 
 class EliminatedRelation(NamedTuple):
-    """g = 0, and the constants of integration that it brought with it."""
+    """A relation ``expr`` = 0, and the constants of integration in it."""
 
     expr: Expr
     constants: frozenset[Expr] = frozenset()
@@ -59,21 +59,21 @@ class EliminatedRelation(NamedTuple):
 
 @dataclass(frozen=True)
 class Elimination:
-    """Coordinates as functions of those kept (and of time); ``notes`` say what was assumed on the way."""
+    """Eliminated coordinates as functions of the remaining ones and time; ``notes`` state the assumptions made."""
 
     solved: Mapping[str, Expr] = field(default_factory=dict)
     constants: frozenset[Expr] = frozenset()
     notes: tuple[str, ...] = ()
 
     def kept(self, names: Sequence[str]) -> list[str]:
-        """The coordinates that are left."""
+        """Return the names that are not eliminated."""
         return [name for name in names if name not in self.solved]
 
 
 class Candidate(NamedTuple):
-    """A solution q = value of a relation.
+    """A solution q = value of a relation for the coordinate ``name``.
 
-    ``cost`` orders them, ``over`` must not vanish, ``other`` is the second root.
+    Candidates are ordered by ``cost``; ``over`` is a divisor that must not vanish; ``other`` is a second root.
     """
 
     cost: tuple[int, int, int]
@@ -85,9 +85,9 @@ class Candidate(NamedTuple):
 
 @dataclass
 class Eliminator:
-    """Solves relations one after another, the plainest first.
+    """Solves relations for coordinates one after another, the simplest first.
 
-    Of two roots for a coordinate the one through the ``reference`` is taken, else that of lower ``potential`` energy.
+    Of two roots the one through the ``reference`` is chosen, else the one of lower ``potential`` energy.
     """
 
     positive: frozenset[Expr]
@@ -102,9 +102,9 @@ class Eliminator:
         preferred: Sequence[str],
         roots: bool = True,
     ) -> Elimination:
-        """As many relations as possible solved for some of ``names``; ``preferred`` ones go first.
+        """Return as many relations as possible solved for some of ``names``, ``preferred`` ones first.
 
-        One relation may be solved by a root; where more need one there are too many branches, and none is taken.
+        At most one relation is solved by a root; if a second one would be needed, no root is used at all.
         """
         elimination = self._attempt(relations, names, preferred, roots)
         if elimination is None:
@@ -116,7 +116,7 @@ class Eliminator:
     def _attempt(
         self, relations: Sequence[EliminatedRelation], names: Sequence[str], preferred: Sequence[str], roots: bool
     ) -> Elimination | None:
-        """Solve for one coordinate after the other, with one root at most or none; None where a second is needed."""
+        """Solve for one coordinate after the other, with at most one root if ``roots``; None if it needs a second."""
         solved: dict[str, Expr] = {}
         constants: set[Expr] = set()
         notes: list[str] = []
@@ -164,7 +164,7 @@ class Eliminator:
         return next((pair for pair in candidates if self._checked(*pair)), None)
 
     def _solved(self, g: Expr, name: str, order: tuple[int, int]) -> Candidate | None:
-        """The relation solved for one coordinate where it is linear or quadratic in that."""
+        """Return g = 0 solved for a coordinate in which it is linear or quadratic, else None; ``order`` is a cost."""
         q = ex.coordinate(name)
         if q not in g.symbols:
             return None
@@ -190,7 +190,7 @@ class Eliminator:
         return ex.add(*(ex.mul(*(t.args if t.op == "mul" else (t,))) for t in (e.args if e.op == "add" else (e,))))
 
     def _checked(self, relation: EliminatedRelation, candidate: Candidate) -> bool:
-        """Return whether the relation holds identically with its solution; zero in the canonical ring is a proof."""
+        """Return whether the relation is proved to be 0 with the solution (and the other root), and short enough."""
         q = ex.coordinate(candidate.name)
         for value in (candidate.value, candidate.other):
             if value is None:
@@ -206,7 +206,7 @@ class Eliminator:
         return True
 
     def _chosen(self, name: str, first: Expr, second: Expr, solved: Mapping[str, Expr]) -> tuple[Expr, str]:
-        """Return the root that is taken, and a note on the other branch; the first where nothing distinguishes them."""
+        """Return (chosen root, note on the other branch); the first root if nothing distinguishes them."""
         q, start = ex.coordinate(name), {**(self.reference or {}), ex.TIME: ZERO}
         figures: list[float | None] = [None, None]
         why = "the branch through the reference configuration"
@@ -225,7 +225,7 @@ class Eliminator:
 
 
 def _unsigned(e: Expr) -> Expr:
-    """Without a number in front."""
+    """Return a product without its numerical factor."""
     return ex.mul(*(p for p in e.args if p.op != "num")) if e.op == "mul" else e
 
 
@@ -235,7 +235,7 @@ def _free_of(e: Expr, q: Expr, positive: frozenset[Expr]) -> bool:
 
 
 def _never_zero(e: Expr, positive: frozenset[Expr]) -> bool:
-    """A number, or a product of positive parameters and numbers."""
+    """Return whether ``e`` is a number, or a product of numbers and of powers of positive parameters."""
     factors = e.args if e.op == "mul" else (e,)
     return all(p.op in ("num", "const") or (p.args[0] if p.op == "pow" else p) in positive for p in factors)
 
@@ -246,7 +246,7 @@ def _all(name: str, value: Expr, solved: Mapping[str, Expr]) -> dict[Expr, Expr]
 
 
 def _sampled(e: Expr) -> Expr:
-    """At a point near 0 where parameters are of the order of 1: what the two roots are compared at."""
+    """Return ``e`` at a fixed point, coordinates near 0 and parameters near 1, at which two roots are compared."""
     values = {}
     for k, symbol in enumerate(sorted(e.symbols, key=lambda s: s.args)):
         near = symbol.args[0] == "coordinate"
@@ -262,12 +262,12 @@ def _figure(e: Expr) -> float | None:
 
 
 def in_velocities(piece: Remaining) -> Expr:
-    """Return a relation between velocities as an expression that is zero."""
+    """Return the left side of a relation piece = 0 between velocities."""
     return piece.rate if isinstance(piece, Pfaffian) else piece.expr
 
 
 def inserted(piece: Remaining, elimination: Elimination) -> Remaining:
-    """Return a relation in the coordinates that are left: q = f(q', t) brings qdot = sum f_q' q'dot + f_t."""
+    """Return a relation in the remaining coordinates, with the eliminated ones and their velocities inserted."""
     if not elimination.solved:
         return piece
     e = substitute(in_velocities(piece), motions(elimination.solved))
@@ -278,7 +278,7 @@ def inserted(piece: Remaining, elimination: Elimination) -> Remaining:
 
 
 def vanishes(piece: Remaining, positive: frozenset[Expr]) -> bool:
-    """Return whether a relation holds identically, proved in the canonical ring."""
+    """Return whether a relation is 0 = 0 identically, proved in the canonical ring."""
     return all(e.is_zero or is_identically_zero(e, positive) is True for e in expressions_of(piece))
 
 
@@ -287,15 +287,15 @@ def expressions_of(piece: Remaining) -> list[Expr]:
     return [*piece.coefficients.values(), piece.dt] if isinstance(piece, Pfaffian) else [piece.expr]
 
 
-# roots of squares
+# Roots of squares
 
 
 def without_roots(
     e: Expr, positive: frozenset[Expr], reference: Mapping[Expr, Expr] | None
 ) -> tuple[Expr, tuple[str, ...]]:
-    """Return sqrt(u^2) replaced by u or -u, whichever is positive at the reference, with notes that say so.
+    """Return (``e`` with sqrt(u^2) replaced by u or -u, whichever is positive at the reference, notes about this).
 
-    The length of a spring along a guide is such a root. Without a reference, or where u is 0 there, the root stays.
+    The length of a spring along a guide is such a root. Without a reference, or if u = 0 there, the root remains.
     """
     if reference is None:
         return e, ()

@@ -1,6 +1,6 @@
-"""The energies of a scene: as written, or from its masses, inertias and forces.
+"""The energies of a scene: given as formulas, or computed from its masses, inertias and forces.
 
-T = sum m v.v/2 + w.J w/2, every body's centre of mass at its origin.
+T = sum m v.v/2 + w.J w/2, with velocity v and angular velocity w; every body's centre of mass is at its origin.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from dofkit.system import GROUND
 
 @dataclass(frozen=True)
 class Energy:
-    """T, V and D as expressions, the non-conservative forces by coordinate, and where they are from."""
+    """T, V and D as expressions, {coordinate: non-conservative force}, and notes on assumptions."""
 
     kinetic: Expr
     potential: Expr
@@ -41,33 +41,33 @@ class Energy:
 
     @property
     def symbols(self) -> frozenset[Expr]:
-        """What all of it depends on."""
+        """The symbols in the energies and forces."""
         used = (self.kinetic, self.potential, self.dissipation, *self.forces.values())
         return frozenset[Expr]().union(*(e.symbols for e in used))
 
 
 def energy_of(scene: Scene, drawing: Drawing) -> tuple[Energy, tuple[Fault, ...]]:
-    """What `energies` gives, and what it leaves out from the masses and the forces; and what is at fault in these."""
+    """Return (energy from `energies`, completed from masses and forces, faults of these entries)."""
     worlds = EntryWorlds(drawing)
     return EnergyReader(scene, worlds).energy(), worlds.faults
 
 
-#: What forces of a type enter.
+#: {type of force: the part of the energies to which it contributes}.
 _PART = {"spring": "potential", "gravity": "potential", "damper": "dissipation", "force": "applied"}
-#: A force and its place among those of the scene.
+#: (number of the force in the scene, force).
 Numbered = tuple[int, Force]
 
 
 @dataclass
 class EnergyReader:
-    """Reads the energies of a scene, each entry in its world; ``notes`` say what was taken for granted."""
+    """Reads the energies of a scene; ``worlds`` collects the faults, ``notes`` state assumptions."""
 
     scene: Scene
     worlds: EntryWorlds
     notes: list[str] = field(default_factory=list)
 
     def energy(self) -> Energy:
-        """The energies, and the forces by coordinate."""
+        """Return the energies and the forces by coordinate."""
         written = self.scene.energies
         world = self.worlds.at("energies")
         kinetic, potential, dissipation = (
@@ -98,6 +98,7 @@ class EnergyReader:
         return Energy(kinetic, potential, dissipation, forces, tuple(self.notes))
 
     def _as_written(self, what: str, entries: Sequence[Numbered]) -> None:
+        """Note that ``what`` is given in `energies` and taken to include these forces."""
         kinds = " and ".join(dict.fromkeys(force.type for _, force in entries))
         self.notes.append(f"`energies` gives {what}, taken to include the {kinds} listed under `forces`.")
 
@@ -115,7 +116,7 @@ class EnergyReader:
                 yield _turning(world, body.inertia, world.frames[body.name])
 
     def _applied(self, entries: Sequence[Numbered]) -> dict[str, Expr]:
-        """Q by coordinate, where it is not 0."""
+        """Return {coordinate: generalized force F . dr/dq of the applied forces F at r}, without zeros."""
         work: dict[str, Expr] = {}
         for i, force in entries:
             world = self.worlds.at("forces", i)
@@ -169,7 +170,7 @@ def _text(world: World, text: object, key: str) -> Expr | None:
 
 
 def _turning(world: World, inertia: object, frame: Frame) -> Expr:
-    """w.J w/2 with J in the body's axes."""
+    """Return the rotational energy w.J w/2 of a body, with the inertia J in its axes."""
     if frame.dimension == 2:
         rate = ex.velocity(frame.angles[0])
         return HALF * mass(world, inertia, "inertia", frame.name) * rate * rate
@@ -177,7 +178,7 @@ def _turning(world: World, inertia: object, frame: Frame) -> Expr:
 
 
 def spin_energy(world: World, inertia: object, name: str, spin: Vec) -> Expr:
-    """s.J s/2 of the body of that name in space, with the spin s and J in its axes."""
+    """Return s.J s/2 of a spatial body; the angular velocity s and the inertia J (1, 3 or 3 x 3 values) in its axes."""
     if not isinstance(inertia, tuple):
         return HALF * mass(world, inertia, "inertia", name) * square(spin)
     if len(inertia) != 3:
@@ -195,7 +196,7 @@ def spin_energy(world: World, inertia: object, name: str, spin: Vec) -> Expr:
 
 
 def body_spin(frame: Frame) -> Vec:
-    """The angular velocity in the axes of a spatial body, for z-x-z Euler angles.
+    """Return the angular velocity in the axes of a spatial body, for z-x-z Euler angles.
 
     phidot (sin theta sin psi, sin theta cos psi, cos theta) + thetadot (cos psi, -sin psi, 0) + psidot e_z.
     """
@@ -215,7 +216,7 @@ def _speed_squared(names: tuple[str, ...]) -> Expr:
 
 
 def gravity_of(scene: Scene, worlds: EntryWorlds) -> Vec:
-    """The acceleration of all gravity in a scene."""
+    """Return the sum of the accelerations of all gravity in a scene."""
     pulls = [_pull(worlds.at("forces", i), force) for i, force in enumerate(scene.forces) if force.type == "gravity"]
     return plus((ZERO,) * scene.dimension, *pulls)
 
@@ -249,7 +250,7 @@ def _ends(world: World, force: Force) -> tuple[Placed, Placed] | None:
 
 
 def _turned(world: World, force: Force) -> Expr | None:
-    """The angle between two planar bodies that a torsion spring or damper acts on."""
+    """Return the angle between the two planar bodies of a torsion spring or damper; None for other forces."""
     names = [e for e in force.between or () if isinstance(e, str) and e in (*world.frames, GROUND)]
     if len(names) != 2 or world.dimension != 2:
         return None
@@ -258,7 +259,7 @@ def _turned(world: World, force: Force) -> Expr | None:
 
 
 def _vector(world: World, value: object, direction: object, key: str, downward: bool) -> Vec:
-    """A vector from its components, or from its size and direction (gravity's is the last axis, downward)."""
+    """Return a vector from components, or from size and direction (if ``downward``: the last axis, negative)."""
     d = world.dimension
     zero: Vec = (ZERO,) * d
     if isinstance(value, tuple):
@@ -286,30 +287,30 @@ def _place(point: Placed) -> Vec:
     return tuple(part / point.under for part in point.over)
 
 
-#: Stand for a mass or an inertia that the scene leaves out; an error where the motion depends on it.
+#: The beginning of the name of a parameter for a missing mass or inertia; an error if the motion depends on it.
 MISSING = "_missing "
 
 
 @dataclass
 class EntryWorlds:
-    """The world as each entry of a scene sees it that is read for the motion, and all their faults."""
+    """Makes a `World` for each entry that is read, so that faults have the entry's path, and collects the faults."""
 
     drawing: Drawing
     _worlds: list[World] = field(default_factory=list)
 
     def at(self, *here: str | int) -> World:
-        """The world of the entry at a path."""
+        """Return the world of the entry at a path."""
         self._worlds.append(World(self.drawing, here))
         return self._worlds[-1]
 
     @property
     def faults(self) -> tuple[Fault, ...]:
-        """In the order in which the entries were read."""
+        """The faults of all entries, in the order of reading."""
         return tuple(fault for world in self._worlds for fault in world.faults)
 
 
 def moving(world: World, value: object, *where: str | int) -> Expr:
-    """Return a number or text, which may mention velocities, as an expression; else 0, and the world has a fault."""
+    """Return a number or text, which may mention velocities, as an expression; 0 after a fault."""
     if isinstance(value, (str, Fraction)):
         return world.expression(value, *where, allow=MOVING)
     world.fault("one value is needed here, not a list", *where, hint="write a number or a text")
@@ -317,7 +318,7 @@ def moving(world: World, value: object, *where: str | int) -> Expr:
 
 
 def needed(world: World, value: object, key: str, what: str) -> Expr:
-    """The same of a value that must be given."""
+    """Return a required value as `moving` does; 0, with a fault, if it is None."""
     if value is None:
         world.fault(f"the `{key}` {what} is missing", hint="give a number or a parameter")
         return ZERO
@@ -325,12 +326,12 @@ def needed(world: World, value: object, key: str, what: str) -> Expr:
 
 
 def mass(world: World, value: object, key: str, name: str) -> Expr:
-    """A mass or an inertia, or a parameter in its place that says that it is missing."""
+    """Return a mass or an inertia as an expression; for None the parameter that marks it as missing."""
     return ex.parameter(f"{MISSING}{key} of {name}") if value is None else moving(world, value, key)
 
 
 def masses(scene: Scene, worlds: EntryWorlds) -> Iterator[tuple[World, Expr, tuple[str, ...]]]:
-    """For every particle, then every body: its world, its mass and the coordinates of its place."""
+    """Yield (world, mass, coordinates of the position) of every particle, then of every body."""
     table = worlds.drawing.vocabulary.table
     for i, particle in enumerate(scene.particles):
         world = worlds.at("particles", i)
@@ -341,7 +342,7 @@ def masses(scene: Scene, worlds: EntryWorlds) -> Iterator[tuple[World, Expr, tup
 
 
 def missing(symbols: frozenset[Expr], scene: Scene) -> list[Fault]:
-    """A fault for everything that was left out and that the motion depends on, where it belongs."""
+    """Return a fault for every missing mass or inertia among ``symbols``, at the particle or body."""
     named = sorted(str(s.args[1]).removeprefix(MISSING) for s in symbols if str(s.args[1]).startswith(MISSING))
     where: dict[str, tuple[str | int, ...]] = {p.name: ("particles", i) for i, p in enumerate(scene.particles)}
     where.update({b.name: ("bodies", i) for i, b in enumerate(scene.bodies)})

@@ -1,7 +1,7 @@
-"""Equations of motion: Lagrange's equations of a scene, in the coordinates that its constraints leave.
+"""Equations of motion: Lagrange's equations of a scene, in the coordinates that remain after elimination.
 
-Constraints are used as they were classified: finite ones are eliminated where they solve in closed form and keep a
-multiplier where not, as non-holonomic ones always do; redundant ones are left out; inequalities never enter.
+Constraints are used as they were classified: geometric equations are solved in closed form if possible, and keep a
+multiplier if not, as non-holonomic ones always do; redundant ones are left out; inequalities are not used.
 """
 
 from __future__ import annotations
@@ -39,23 +39,23 @@ from dofkit.system import System
 
 __all__ = ["Conserved", "Linearized", "MotionReport", "NoEquationsError", "derived_of", "lagrange"]
 
-#: Equations of longer Lagrangians than this are too long to be read, where much was eliminated.
+#: The most characters of a Lagrangian with roots (twice as many without) for readable equations after elimination.
 LONGEST = 500
-#: Seconds for the equations with all eliminated that can be.
+#: Seconds for the equations with every possible elimination.
 TRYING = 8.0
-#: Seconds for the equations of a tree in the angles of its joints, and the nodes of a Lagrangian that is tried.
+#: Seconds for the equations of a tree in the angles of its joints, and the most nodes of such a Lagrangian.
 JOINTS_TRYING, MOST_WRITTEN = 20.0, 2000
-#: Seconds for sorting a Lagrangian, and the nodes of one that is too long for that.
+#: Seconds for sorting an energy, and the most nodes of an energy that is sorted.
 SORTING, MOST_NODES = 2.0, 1500
-#: Said where the elimination was cut short.
+#: The note if the elimination was given up.
 LONG = "Elimination would make the equations too long to read, so the constraints keep multipliers."
 
-#: Said where a tree is too large.
+#: The message for a tree that is too large.
 TOO_LONG = (
     "in the angles and displacements of {} joints the Lagrangian has {} parts, and at most {} can be differentiated "
     "in the time available: weld some of the joints, or analyse a part of the tree"
 )
-#: Said where texts are longer than a scene's may be.
+#: The note for formulas that are too long for a scene.
 LENGTHY = f"Some of these formulas have more than {MAX_CHARACTERS} characters, more than a scene can hold in one text."
 
 
@@ -112,9 +112,9 @@ def lagrange(scene: SceneLike, linearize: bool = False, budget: float | None = N
 
 
 def derived_of(scene: Scene) -> Derived:
-    """The equations of motion as expressions.
+    """Return the equations of motion as expressions.
 
-    Where they would be longer than a text of a scene may be, nothing is eliminated, and all multipliers are kept.
+    If they would be longer than a text of a scene may be, nothing is eliminated, and all multipliers are kept.
     """
     source = read(scene)
     by_joints = _by_joints(source)
@@ -136,7 +136,7 @@ def derived_of(scene: Scene) -> Derived:
 
 
 def _by_joints(source: MotionSource) -> Derived | None:
-    """The equations of a tree in space in joint coordinates; None of any other. Raises where they are too long."""
+    """Return the equations of a spatial tree in joint coordinates; None for other scenes. Raises if too long."""
     tree = joint_motion(source.scene, source.drawing, source.system)
     if tree is None:
         return None
@@ -160,7 +160,7 @@ def _noted(derived: Derived, note: str) -> Derived:
 
 
 def _short(lagrangian: Expr) -> bool:
-    """Return whether a Lagrangian is short enough for readable equations; roots grow as they are differentiated."""
+    """Return whether a Lagrangian is short enough for readable equations; derivatives of roots are long."""
     roots = any(
         n.op == "pow" and n.args[1].op == "num" and n.args[1].args[0].denominator > 1 for n in ex.nodes(lagrangian)
     )
@@ -168,7 +168,7 @@ def _short(lagrangian: Expr) -> bool:
 
 
 def _sorted(model: LagrangeModel) -> LagrangeModel:
-    """Return the same with kinetic and potential energies sorted by velocities, where that is shorter."""
+    """Return the model with kinetic and potential energy sorted by velocities, if that is shorter."""
     tidy = Tidier(Bridge(model.names, model.positive), model.positive, SORTING)
     kinetic, potential = (
         e if sum(1 for _ in ex.nodes(e)) > MOST_NODES else tidy.shorter(e)
@@ -178,14 +178,14 @@ def _sorted(model: LagrangeModel) -> LagrangeModel:
 
 
 def _readable(derived: Derived) -> bool:
-    """Return whether every text can be read back."""
+    """Return whether every formula is short enough to be read back as a text."""
     texts = (derived.lagrangian, *derived.equations.values(), *derived.momenta.values(), *derived.forces.values())
     return all(len(to_text(e)) + len(" = 0") <= MAX_CHARACTERS for e in texts)
 
 
 @dataclass(frozen=True)
 class MotionSource:
-    """What the equations of motion of a scene are derived from."""
+    """The input of the derivation: a scene, its system, energies, names and frames."""
 
     scene: Scene
     system: System
@@ -195,13 +195,13 @@ class MotionSource:
 
     @cached_property
     def study(self) -> Examined:
-        """What is known of the scene's constraints."""
+        """The classification of the scene's constraints."""
         return examined(self.system, passes=GENERIC)
 
     def model(self, eliminates: bool = True) -> LagrangeModel:
-        """Return energies and constraints, with coordinates eliminated where possible if ``eliminates``.
+        """Return energies and constraints, with coordinates eliminated where possible, unless ``eliminates`` is False.
 
-        Raises SceneError for masses that are missing.
+        Raises SceneError for missing masses on which the motion depends.
         """
         model = lagrange_model(self.study, self.energy, self.names, eliminates)
         faults = missing(model.energy.symbols, self.scene)
@@ -211,14 +211,14 @@ class MotionSource:
 
 
 def read(scene: Scene) -> MotionSource:
-    """The scene's energies and what is known of its constraints. Raises SceneError with all its faults."""
+    """Return the source of the equations of motion of a scene. Raises SceneError with all faults."""
     surveyed = survey(scene, euler=True)
     if surveyed.faults:
         raise SceneError(surveyed.faults, scene.name)
     energy, faults = energy_of(scene, surveyed.drawing)
     if faults:
         raise SceneError(faults, scene.name)
-    if not _tells_of_motion(scene):
+    if not _has_kinetics(scene):
         message = (
             "the scene has neither a kinetic energy in `energies` nor masses, so no equations of motion can be derived"
         )
@@ -227,15 +227,15 @@ def read(scene: Scene) -> MotionSource:
     return MotionSource(scene, system_of(scene, surveyed), energy, surveyed.names, surveyed.drawing)
 
 
-def _tells_of_motion(scene: Scene) -> bool:
-    """Return whether anything in the scene describes its motion."""
+def _has_kinetics(scene: Scene) -> bool:
+    """Return whether a scene has a kinetic energy or a mass."""
     if scene.energies is not None and scene.energies.kinetic is not None:
         return True
     return any(p.mass is not None for p in scene.particles) or any(b.mass is not None for b in scene.bodies)
 
 
 def _small(scene: Scene, derived: Derived) -> tuple[Linearized | None, tuple[str, ...]]:
-    """Small motions, or why they are not given; what was eliminated may have no value at rest, and is then kept."""
+    """Return (linearization, ()), or (None, (reason,)); a second attempt is made without elimination."""
     try:
         return linearized(derived), ()
     except NoEquationsError as error:
@@ -278,12 +278,12 @@ SECONDS = 2.0
 
 
 def cyclic(derived: Derived) -> list[str]:
-    """The coordinates with dL/dq = 0 identically."""
+    """Return the coordinates with dL/dq = 0 identically."""
     return [n for n in derived.model.names if _zero(derived, diff(derived.lagrangian, ex.coordinate(n)))]
 
 
 def conserved(derived: Derived) -> Iterator[Conserved]:
-    """Momenta on which no force acts, and the energy function h = sum qdot p - L.
+    """Yield the momenta on which no force acts, and the energy function h = sum qdot p - L if it is conserved.
 
     dp/dt = dL/dq + Q - sum lam a; dh/dt = -dL/dt + sum Q qdot - sum lam a qdot, where a qdot = 0 if a constraint
     has no term free of velocities.
@@ -294,9 +294,9 @@ def conserved(derived: Derived) -> Iterator[Conserved]:
             quantity = to_text(derived.momenta[name])
             yield Conserved(name=f"p_{name}", quantity=quantity, reason=f"no generalized force acts along {name}.")
     energy = model.energy
-    idle = all(_zero(derived, e) for e in (energy.dissipation, *energy.forces.values()))
+    forceless = all(_zero(derived, e) for e in (energy.dissipation, *energy.forces.values()))
     timeless = _zero(derived, diff(derived.lagrangian, ex.TIME))
-    if model.names and idle and timeless and all(_workless(c, derived) for c in model.constraints):
+    if model.names and forceless and timeless and all(_workless(c, derived) for c in model.constraints):
         function, total = energy_function(derived)
         reason = "L has no explicit time dependence, and all non-conservative and constraint forces are workless."
         if not total:
@@ -308,14 +308,14 @@ def conserved(derived: Derived) -> Iterator[Conserved]:
 
 
 def energy_function(derived: Derived) -> tuple[Expr, bool]:
-    """h = sum qdot dL/dqdot - L, and whether that is T + V, as it is where T is quadratic in the velocities."""
+    """Return (h = sum qdot dL/dqdot - L, whether h = T + V, as for T quadratic in the velocities)."""
     energies = derived.model.energy
     powers = ex.add(*(ex.velocity(n) * p for n, p in derived.momenta.items()))
     function = powers - derived.lagrangian
     total = energies.kinetic + energies.potential
-    whole = _zero(derived, function - total)
+    is_total = _zero(derived, function - total)
     tidy = Tidier(Bridge(derived.model.names, derived.model.positive), derived.model.positive, SECONDS)
-    return tidy.shorter(total if whole else function), whole
+    return tidy.shorter(total if is_total else function), is_total
 
 
 def _zero(derived: Derived, e: Expr) -> bool:
@@ -323,7 +323,7 @@ def _zero(derived: Derived, e: Expr) -> bool:
 
 
 def _workless(piece: Remaining, derived: Derived) -> bool:
-    """Return whether the constraint's force does no work in the motion itself."""
+    """Return whether the constraint's force does no work in actual motions, because time does not enter."""
     if isinstance(piece, Pfaffian):
         return _zero(derived, piece.dt)
     return not isinstance(piece, Nonlinear) and _zero(derived, diff(piece.expr, ex.TIME))

@@ -1,7 +1,8 @@
 """The energies of a tree of bodies in space in the angles and displacements of its joints.
 
-A body's point that is drawn at a stands at g(a); over a joint g' = g o J, with J a turn or a shift by q written at the
-reference. Velocities are kept in the axes of each body: c = R^T (velocity of a point), s = R^T (angular velocity).
+A body's point at ``a`` of the reference is at g(a). Across a joint g' = g o J, J a rotation or a translation by q,
+written in the reference. Velocities are in the axes of each body, R its rotation: c = R^T (velocity of a point),
+s = R^T (angular velocity).
 """
 
 from __future__ import annotations
@@ -39,13 +40,13 @@ from dofkit.scene.frames import Frame, euler
 from dofkit.scene.scene import Scene
 from dofkit.system import GROUND, Connection, System
 
-#: Said of the coordinates.
+#: The note on the coordinates.
 COUNTED = "Joint angles and displacements are measured from the reference configuration: {}."
 _AXES = tuple(unit(i, 3) for i in range(3))
 
 
 class JointStep(NamedTuple):
-    """A part of a joint's motion: a turn about ``along`` through ``at``, or a shift along it, by ``amount``."""
+    """A part of a joint's motion, by ``amount``: rotation about ``along`` through ``at``, or (at None) translation."""
 
     along: Vec
     at: Vec | None
@@ -53,13 +54,13 @@ class JointStep(NamedTuple):
     rate: Expr
 
     def back(self) -> JointStep:
-        """The motion of the first body against the second."""
+        """Return the motion of the first body relative to the second."""
         return self._replace(amount=-self.amount, rate=-self.rate)
 
 
 class MovingBody(NamedTuple):
-    """How a body moves: ``velocity`` of its point drawn at ``point``, its ``spin``, and gravity's ``pull``, all in its
-    axes; ``fall``: gravity times where that point stands."""
+    """A body's motion in its axes: ``velocity`` of its material point at ``point`` of the reference, angular velocity
+    ``spin``, acceleration of gravity ``pull``; ``fall``: gravity times the position of that point."""
 
     point: Vec
     velocity: Vec
@@ -68,14 +69,14 @@ class MovingBody(NamedTuple):
     fall: Expr
 
     def at(self, point: Vec) -> MovingBody:
-        """The same, about another point."""
+        """Return the same motion, stated for another point."""
         arm = minus(point, self.point)
         return MovingBody(
             point, plus(self.velocity, cross(self.spin, arm)), self.spin, self.pull, self.fall + dot(self.pull, arm)
         )
 
     def after(self, step: JointStep) -> MovingBody:
-        """The body that a step carries."""
+        """Return the motion of the next body, which moves by ``step`` relative to this one."""
         along = step.along
         if step.at is None:
             more = plus(cross(self.spin, scaled(step.amount, along)), scaled(step.rate, along))
@@ -87,7 +88,7 @@ class MovingBody(NamedTuple):
 
 
 def _turned_back(step: JointStep, v: Vec) -> Vec:
-    """A direction of the first body in the axes of the second: (u.v) u + cos q (v - (u.v) u) - sin q u x v."""
+    """Return v rotated by -q about the axis u: (u.v) u + cos q (v - (u.v) u) - sin q u x v."""
     parallel = scaled(dot(step.along, v), step.along)
     across, turned = minus(v, parallel), cross(step.along, v)
     cosine, sine = ex.fn("cos", step.amount), ex.fn("sin", step.amount)
@@ -96,14 +97,14 @@ def _turned_back(step: JointStep, v: Vec) -> Vec:
 
 @dataclass(frozen=True)
 class JointMotion:
-    """A scene in which joints' angles and displacements are the coordinates, as a mapping; and its energies."""
+    """A scene, as a mapping, whose coordinates are joint angles and displacements; and its energies."""
 
     value: Mapping[str, object]
     energy: Energy
 
 
 def joint_motion(scene: Scene, drawing: Drawing, system: System) -> JointMotion | None:
-    """The motion of a tree in space; None of what is none, or has particles, other forces than gravity, or screws."""
+    """Return the motion of a spatial tree; None for scenes with loops, particles, screws, or forces but gravity."""
     kinds = {force.type for force in scene.forces}
     if scene.dimension != 3 or scene.particles or scene.coordinates or kinds - {"gravity"} or len(scene.bodies) < 2:
         return None
@@ -125,7 +126,7 @@ def joint_motion(scene: Scene, drawing: Drawing, system: System) -> JointMotion 
 
 @dataclass
 class _TreeReader:
-    """Reads a tree; ``names``: the coordinate for each angle and displacement, as far as they were met."""
+    """Reads a tree; ``names``: {angle or displacement read so far, such as ``shoulder.angle``: its coordinate}."""
 
     scene: Scene
     drawing: Drawing
@@ -133,7 +134,7 @@ class _TreeReader:
     names: dict[str, str]
 
     def _named(self, quantity: str) -> str:
-        """The coordinate of an angle or displacement, ``shoulder.angle``: ``shoulder_angle``, or the like."""
+        """Return the new coordinate of an angle or displacement ``shoulder.angle``, ``shoulder_angle`` or similar."""
         taken = {*self.names.values(), *self.system.parameters, *self.system.functions}
         name = "".join(c if c.isascii() and (c.isalnum() or c == "_") else "_" for c in quantity).strip("_")
         name = name if name[:1].isalpha() else f"q_{name}"
@@ -143,7 +144,7 @@ class _TreeReader:
         return name
 
     def steps_of(self, joint: Connection) -> list[JointStep] | None:
-        """What the second body of a joint does against the first; None of a screw, or of general position."""
+        """Return the steps from a joint's first body to its second; None for a screw or a joint in general position."""
         name = self.system.constraints[joint.constraint].name
         place = joint.places[0] if joint.places else None
         lines = [direction for direction in joint.directions if direction is not None]
@@ -160,7 +161,7 @@ class _TreeReader:
         return steps
 
     def energy(self, joints: Mapping[tuple[str, ...], list[JointStep]]) -> Energy | None:
-        """T and V in the coordinates of joints; None where not every body hangs on the ground."""
+        """Return T and V in joint coordinates; None if not every body is connected to the ground, or after a fault."""
         worlds = EntryWorlds(self.drawing)
         pull = gravity_of(self.scene, worlds)
         zero = (ZERO,) * 3
@@ -171,9 +172,9 @@ class _TreeReader:
             for (first, second), steps in joints.items():
                 if body not in (first, second) or {first, second} <= moving.keys():
                     continue
-                other, coordinate = (second, steps) if body == first else (first, [s.back() for s in reversed(steps)])
+                other, path = (second, steps) if body == first else (first, [s.back() for s in reversed(steps)])
                 moving[other] = moving[body]
-                for step in coordinate:
+                for step in path:
                     moving[other] = moving[other].after(step)
                 waiting.append(other)
         if len(moving) <= len(self.scene.bodies):
@@ -185,11 +186,11 @@ class _TreeReader:
             kinetic.append(HALF * m * square(centre.velocity))
             kinetic.append(spin_energy(world, part.inertia, part.name, apply(_axes_back(frame), centre.spin)))
             potential.append(-m * centre.fall)
-        note = COUNTED.format(", ".join(f"{coordinate} is {name}" for name, coordinate in self.names.items()))
+        note = COUNTED.format(", ".join(f"{path} is {name}" for name, path in self.names.items()))
         return None if worlds.faults else Energy(ex.add(*kinetic), ex.add(*potential), ZERO, {}, (note,))
 
     def couplings(self) -> list[str] | None:
-        """Relations between joints as texts; None where one mentions what is no coordinate here."""
+        """Return the equations of the couplings as texts; None if one mentions another quantity than a coordinate."""
         texts = []
         for written in self.scene.constraints:
             if not isinstance(written, Coupling):
@@ -208,7 +209,7 @@ class _TreeReader:
         return texts
 
     def _measured(self, name: str) -> str | None:
-        """The coordinate that a coupling means by a joint's name, with what is meant of it or alone."""
+        """Return the coordinate of a coupling's name, ``shoulder`` or ``shoulder.angle``; None if it is not unique."""
         alone = [
             coordinate
             for quantity, coordinate in self.names.items()
@@ -218,9 +219,9 @@ class _TreeReader:
 
 
 def _line_of(what: str, number: int, lines: Sequence[Vec]) -> tuple[Vec, bool]:
-    """The line of a part of a joint's motion, and whether it turns about it.
+    """Return (axis of a part of a joint's motion, whether it is a rotation).
 
-    A rotation turns about x, y and z; of a plane's motion the displacements are across its normal.
+    A spherical joint has rotations about x, y and z; a planar joint has displacements perpendicular to its normal.
     """
     if what.startswith("rotation"):
         return _AXES[number], True
@@ -233,5 +234,5 @@ def _line_of(what: str, number: int, lines: Sequence[Vec]) -> tuple[Vec, bool]:
 
 
 def _axes_back(frame: Frame) -> tuple[Vec, ...]:
-    """From directions of the reference configuration to the body's own axes."""
+    """Return the matrix from directions of the reference configuration to the body's axes."""
     return transposed(euler(*frame.initial))

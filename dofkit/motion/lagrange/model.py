@@ -1,4 +1,4 @@
-"""A classified system with its energies, made ready for Lagrange's equations: what is eliminated and what is left."""
+"""A classified system with its energies, prepared for Lagrange's equations by eliminating coordinates."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian
 from dofkit.relations.setting import Setting
 from dofkit.report import BRANCH_WARNING
 
-#: Constants of integration in one integral.
+#: The most constants of integration in one integral.
 MOST_CONSTANTS = 4
 
 
@@ -45,10 +45,10 @@ class NoEquationsError(DofkitError):
 
 @dataclass(frozen=True)
 class LagrangeModel:
-    """What Lagrange's equations are written from.
+    """The energies and constraints from which Lagrange's equations are derived.
 
-    ``names``: the coordinates that are kept; ``energy`` in them; ``constraints``: the independent relations that keep
-    a multiplier; ``left_out``: the constraints that are redundant.
+    ``names``: the remaining coordinates; ``energy`` in these, ``whole`` in all coordinates; ``constraints``: the
+    independent relations that keep a multiplier; ``left_out``: the redundant constraints.
     """
 
     study: Examined
@@ -62,12 +62,12 @@ class LagrangeModel:
 
     @property
     def positive(self) -> frozenset[Expr]:
-        """The parameters that are positive."""
+        """The positive parameters."""
         return self.study.setting.positive
 
     @cached_property
     def motions(self) -> dict[Expr, Expr]:
-        """What the eliminated coordinates, velocities and accelerations are."""
+        """{eliminated coordinate, velocity or acceleration: expression in the remaining ones}."""
         return motions(self.elimination.solved)
 
     @property
@@ -87,17 +87,17 @@ class LagrangeModel:
         return finite + [{n: diff(r, ex.velocity(n)) for n in self.names} for r in self.nonholonomic]
 
     def applied(self, name: str) -> Expr:
-        """Return the non-conservative generalized force along a coordinate."""
+        """Return the non-conservative generalized force along a coordinate, damping included."""
         return self.energy.forces.get(name, ZERO) - diff(self.energy.dissipation, ex.velocity(name))
 
 
 def lagrange_model(study: Examined, energy: Energy, names: Names, eliminates: bool = True) -> LagrangeModel:
-    """The system with as much eliminated as is possible in closed form, or with nothing eliminated.
+    """Return the model with as much eliminated as possible in closed form, or nothing if not ``eliminates``.
 
-    Integrals of differential constraints are used where their constants do not enter the motion. Raises
-    NoEquationsError where the system is inconsistent or was not decided.
+    Integrals of differential constraints are used if their constants do not enter the motion. Raises SceneError if the
+    system is inconsistent, NoEquationsError if it is undecided.
     """
-    _possible(study)
+    _check_decided(study)
     outcome = study.outcome
     coordinates = [c.name for c in study.system.coordinates]
     free = study.report.generalized_coordinates or []
@@ -111,15 +111,13 @@ def lagrange_model(study: Examined, energy: Energy, names: Names, eliminates: bo
             model = _built(study, energy, elimination, coordinates)
             if model is not None:
                 return model
-    raise NoEquationsError(
-        "it is undecided which of the constraints are independent, so no equations of motion are given"
-    )
+    raise NoEquationsError("it is undecided which constraints are independent, so no equations of motion are given")
 
 
 def _agreeing(
     eliminator: Eliminator, relations: Sequence[EliminatedRelation], coordinates: Sequence[str], free: Sequence[str]
 ) -> Elimination:
-    """An elimination that keeps the report's generalized coordinates, where just as many can be eliminated so."""
+    """Return an elimination that keeps the report's generalized coordinates ``free`` if it eliminates as many."""
     dependent = [c for c in coordinates if c not in free]
     elimination = eliminator.eliminated(relations, coordinates, dependent)
     if elimination.solved.keys() != set(dependent) and len(elimination.solved) == len(dependent):
@@ -129,7 +127,8 @@ def _agreeing(
     return elimination
 
 
-def _possible(study: Examined) -> None:
+def _check_decided(study: Examined) -> None:
+    """Raise SceneError for an inconsistent system, NoEquationsError if it has branches or is undecided."""
     report = study.report
     if report.consistent is False:
         names = ", ".join(report.conflicting) or "its constraints"
@@ -146,7 +145,7 @@ def _possible(study: Examined) -> None:
 
 
 def _integrals(study: Examined, names: Names) -> Iterator[EliminatedRelation]:
-    """The geometric equations that holonomic differential constraints integrate to."""
+    """Yield the integrals, as geometric equations, of holonomic differential constraints."""
     owners = {r.constraint for r in study.outcome.rows if isinstance(r.piece, Pfaffian)}
     for i in sorted(owners):
         entry = study.report.constraints[i]
@@ -157,6 +156,7 @@ def _integrals(study: Examined, names: Names) -> Iterator[EliminatedRelation]:
 
 
 def _read_integral(text: str, names: Names) -> EliminatedRelation | None:
+    """Return an integral with its unknown names as constants; None if it cannot be read so."""
     constants: dict[str, Expr] = {}
     while len(constants) <= MOST_CONSTANTS:
         vocabulary = Names(names.coordinates, {**names.parameters, **constants}, names.functions, names.arguments)
@@ -175,7 +175,7 @@ def _read_integral(text: str, names: Names) -> EliminatedRelation | None:
 def _built(
     study: Examined, energy: Energy, elimination: Elimination, coordinates: Sequence[str]
 ) -> LagrangeModel | None:
-    """The model after an elimination; None where constants enter it, or the count of constraints does not come out."""
+    """Return the model after an elimination; None if constants enter it, or the number of constraints is not right."""
     kept = elimination.kept(coordinates)
     reduced = _reduced(energy, elimination, kept, study.setting)
     if reduced is None:
@@ -214,9 +214,9 @@ def _built(
 
 
 def _reduced(energy: Energy, elimination: Elimination, kept: Sequence[str], setting: Setting) -> Energy | None:
-    """The energies in the coordinates that are left; None where a constant of integration enters the motion.
+    """Return the energies in the remaining coordinates; None if a constant of integration enters the motion.
 
-    A constant that is only added to the potential is left out. Forces follow the coordinates: Q_j = sum Q_i dq_i/dq_j.
+    A constant that is only added to the potential is dropped. Forces are transformed by Q_j = sum Q_i dq_i/dq_j.
     """
     solved = elimination.solved
     if not solved:
@@ -243,11 +243,10 @@ def _reduced(energy: Energy, elimination: Elimination, kept: Sequence[str], sett
 
 
 def independent(names: Sequence[str], pieces: Sequence[Remaining], setting: Setting) -> list[Remaining] | None:
-    """Return a largest independent set of the remaining constraints, each of which has its multiplier; or None.
+    """Return a maximal independent set of the remaining constraints, or None if a block is undecided.
 
-    A block of one relation, or of relations nonlinear in velocities, is taken as it is. In any other the independent
-    rows of the matrix at a random point are kept; relations that the block hides have rows too, and are left out. None
-    where a block is undecided.
+    A block of one relation, or with relations nonlinear in velocities, is taken as it is. In other blocks the relations
+    with independent rows at a random point are chosen, which include the block's hidden relations.
     """
     if not pieces:
         return []

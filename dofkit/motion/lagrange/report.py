@@ -1,4 +1,4 @@
-"""The equations of motion as they are reported. Field names are fixed; see the docstrings."""
+"""The report on equations of motion. Field names are fixed; see the docstrings."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ QP = "action, M L^2 T^-1: each product q*p has the dimension of energy times tim
 
 
 class Conserved(ReportModel):
-    """A quantity that does not change along the motion: what it is called, it, and why."""
+    """A quantity that is constant along the motion: its name, its formula, and the reason."""
 
     name: str
     quantity: str
@@ -28,9 +28,9 @@ class Conserved(ReportModel):
 class Linearized(ReportModel):
     """M qddot + C qdot + K q = 0 for small deviations q of ``coordinates`` from an equilibrium.
 
-    ``characteristic``: det(M s^2 + C s + K), empty for large systems; ``frequencies``: the angular ones where C is 0,
-    as text; empty where no formula is given, and where one is not real. ``unstable``: deviations grow, which a negative
-    square of a frequency shows; false where that is not known.
+    ``characteristic``: det(M s^2 + C s + K), empty for large systems; ``frequencies``: angular frequencies as texts, if
+    C is 0, all are real and have formulas, else empty. ``unstable``: whether a square of a frequency is negative, so
+    that deviations grow; false if that is not known.
     """
 
     coordinates: list[str]
@@ -46,11 +46,11 @@ class Linearized(ReportModel):
 class MotionReport(DisplayedFormulas, ReportModel):
     """Lagrange's equations of a scene, as texts in the grammar of scenes (``qddot`` for accelerations).
 
-    ``coordinates`` are those kept; ``eliminated`` ones are functions of them. ``forces`` are dL/dq plus the
-    non-conservative ones; ``equations`` end in ``= 0``, one for each coordinate; ``constraints`` are those that keep a
+    ``coordinates`` are the remaining ones; ``eliminated``: the others as functions of these. ``forces``: dL/dq plus the
+    non-conservative forces; ``equations`` end in ``= 0``, one for each coordinate; ``constraints``: those that keep a
     multiplier, in the order of ``multipliers``; ``left_out``: redundant ones. ``non_conservative``: the coordinates
-    along which a force acts that is no part of the Lagrangian. ``cyclic``: coordinates that do not occur
-    in the Lagrangian. ``verdict``: how certain the classification is that the constraints are used by.
+    with a force that is not part of the Lagrangian. ``cyclic``: coordinates that do not occur in the Lagrangian.
+    ``verdict``: how certain the classification of the constraints is.
     """
 
     _in_brief: ClassVar[tuple[str, ...]] = ("scene", "equations", "verdict")
@@ -76,12 +76,12 @@ class MotionReport(DisplayedFormulas, ReportModel):
     _companion: Companion = PrivateAttr(default_factory=Companion)
 
     def text(self, width: int | None = None) -> str:
-        """What the command line prints; its lines are not broken, so that equations can be copied."""
+        """Return what the command line prints; long lines are not broken, so that equations can be copied."""
         return text_of(self, width)
 
     @property
     def classification(self) -> Report:
-        """The report of the constraints that the equations rest on; of one that was read back there is none."""
+        """The classification report on which the equations depend. Raises ValueError if this report was read back."""
         return self._derivation.model.study.report
 
     @property
@@ -91,7 +91,7 @@ class MotionReport(DisplayedFormulas, ReportModel):
         return self._derived
 
     def to_sympy(self) -> Any:
-        """Return SymPy's LagrangesMethod for the coordinates kept, its equations not yet formed.
+        """Return SymPy's LagrangesMethod for the remaining coordinates; its equations are not yet formed.
 
         Raises ValueError for a report that was read back and not derived here.
         """

@@ -1,7 +1,7 @@
 """Small motions M qddot + C qdot + K q = 0 about an equilibrium, with its characteristic equation and frequencies.
 
-The equilibrium is the reference configuration, or else where all coordinates are 0. It is checked exactly against the
-equations and the constraints. Constraints that keep a multiplier restrict the deviations to those that they allow.
+The equilibrium is the reference configuration, else the configuration with all coordinates 0; the equations and the
+constraints are checked there exactly. Constraints that keep a multiplier restrict the deviations.
 """
 
 from __future__ import annotations
@@ -25,9 +25,9 @@ from dofkit.motion.lagrange.tidying import Tidier
 
 Place = Mapping[Expr, Expr]
 
-#: Frequencies are given where the characteristic polynomial has factors of so small degree in s^2, for so many rows.
+#: Frequencies have formulas up to this degree of factors in s^2; the polynomial is computed up to this many rows.
 MOST_BY_FORMULA, MOST_ROWS = 2, 6
-#: Choices of dependent coordinates that are tried.
+#: The most choices of dependent coordinates that are tried.
 CHOICES = 40
 
 
@@ -41,10 +41,10 @@ class Matrices(NamedTuple):
 
 
 def linearized(derived: Derived) -> Linearized:
-    """Return M, C and K at the reference configuration if that is an equilibrium, else at 0.
+    """Return the linearization at the reference configuration if that is an equilibrium, else at 0.
 
-    With E(q, qdot, qddot, lam) = 0 the equations: M = dE/dqddot, C = dE/dqdot, K = dE/dq there. Raises NoEquationsError
-    where time enters or neither is an equilibrium.
+    The equations are E(q, qdot, qddot, lam) = 0, and M = dE/dqddot, C = dE/dqdot, K = dE/dq. Raises NoEquationsError
+    if time enters, or neither configuration is an equilibrium.
     """
     model = derived.model
     if any(ex.TIME in e.symbols for e in (*model.holonomic, *model.nonholonomic)):
@@ -64,7 +64,7 @@ def linearized(derived: Derived) -> Linearized:
 
 
 def _at_rest(e: Expr, place: Place) -> Expr:
-    """Return an expression without velocities and accelerations, at a place."""
+    """Return an expression at a configuration, with velocities and accelerations 0."""
     rates = {s: ZERO for s in e.symbols if s.args[0] in ("velocity", "acceleration")}
     return substitute(e, {**rates, **place})
 
@@ -78,21 +78,21 @@ class _Linearization:
         self.tidy = Tidier(self.bridge, self.model.positive)
 
     def plain(self, e: Expr) -> Expr:
-        """Return an expression with sines of known angles inserted."""
+        """Return an expression with its known values, such as sin(pi/5), evaluated by SymPy."""
         return e if e.op == "num" else self.bridge.expr(self.bridge.sympy(e))
 
     def matrix(self, rows: Sequence[Sequence[Expr]]) -> Any:
-        """Return a matrix in SymPy."""
+        """Return a matrix of expressions as a SymPy matrix."""
         import sympy
 
         return sympy.Matrix([[self.bridge.sympy(e) for e in row] for row in rows])
 
     def may_vanish(self, det: Any) -> bool:
-        """Return whether a determinant is not proved to be other than 0."""
+        """Return whether a determinant may be 0: False only if it is proved not to be."""
         return is_identically_zero(self.bridge.expr(det.expand()), self.model.positive) is not False
 
     def balancing(self, place: Place) -> Place | None:
-        """Return the multipliers that balance the forces at a place if it is an equilibrium, proved; else None."""
+        """Return the multipliers that balance the forces at ``place``; None if no equilibrium is proved there."""
         try:
             if not all(self._vanishes(_at_rest(e, place)) for e in (*self.model.holonomic, *self.model.nonholonomic)):
                 return None
@@ -106,13 +106,13 @@ class _Linearization:
 
     @raising_no_value
     def _vanishes(self, e: Expr) -> bool:
-        """Return whether an expression is 0 identically, sines of known angles inserted; proved."""
+        """Return whether an expression is proved to be 0 identically, with known values evaluated."""
         plain = self.plain(e)
         return plain.is_zero or is_identically_zero(plain, self.model.positive) is True
 
     @raising_no_value
     def _multipliers(self, forces: list[Expr]) -> Place | None:
-        """Return the multipliers that balance the forces, if any do: least squares, which are checked afterwards."""
+        """Return the multipliers of forces = 0 by least squares, unchecked; None if they are not unique."""
         names = [ex.parameter(n) for n in self.derived.multipliers]
         if not names:
             return {}
@@ -128,7 +128,7 @@ class _Linearization:
         return {s: self.tidy(sympy.cancel(v)) for s, v in zip(names, solution, strict=True)}
 
     def matrices(self, place: Place, multipliers: Place) -> Matrices:
-        """Return M, C and K there. Raises NoEquationsError where the constraints are singular."""
+        """Return M, C and K for the free deviations at ``place``. Raises NoEquationsError for singular constraints."""
         values = {**place, **multipliers}
         kinds: tuple[ex.Kind, ...] = ("acceleration", "velocity", "coordinate")
         every = []
@@ -146,7 +146,7 @@ class _Linearization:
         return Matrices(tuple(self.model.names[i] for i in free), *(basis.T * m * basis for m in every))
 
     def _allowed(self, place: Place) -> tuple[list[int], Any]:
-        """Return the indices of free deviations, and all deviations as combinations of them."""
+        """Return (indices of the free deviations, matrix of all deviations in terms of these)."""
         import sympy
 
         names, model = self.model.names, self.model
@@ -158,23 +158,23 @@ class _Linearization:
                 )
             rows.append([_at_rest(diff(r, ex.velocity(n)), place) for n in names])
         matrix, every = self.matrix(rows), list(range(len(rows)))
-        for tied in islice(combinations(range(len(names) - 1, -1, -1), len(rows)), CHOICES):
-            part = matrix.extract(every, list(tied))
+        for dependent in islice(combinations(range(len(names) - 1, -1, -1), len(rows)), CHOICES):
+            part = matrix.extract(every, list(dependent))
             det = part.det(method="berkowitz")
             if self.may_vanish(det):
                 continue
-            free = [i for i in range(len(names)) if i not in tied]
+            free = [i for i in range(len(names)) if i not in dependent]
             others = -(part.adjugate() * matrix.extract(every, free)) / det
             basis = sympy.zeros(len(names), len(free))
             for k, i in enumerate(free):
                 basis[i, k] = 1
-                for j, t in enumerate(tied):
+                for j, t in enumerate(dependent):
                     basis[t, k] = sympy.cancel(others[j, k])
             return free, basis
         raise NoEquationsError("the constraints are singular at the equilibrium")
 
     def texts(self, place: Place) -> dict[str, str]:
-        """Return the coordinates at rest, those that were eliminated too."""
+        """Return {coordinate: its value at equilibrium as text}, including eliminated ones."""
         values = {str(q.args[1]): to_text(v) for q, v in place.items()}
         for name, value in self.model.elimination.solved.items():
             try:
@@ -184,7 +184,7 @@ class _Linearization:
         return values
 
     def linearized(self, place: Place, matrices: Matrices) -> Linearized:
-        """Return the report's entry."""
+        """Return the linearization at ``place`` for the report."""
         import sympy
 
         s = sympy.Dummy("s")
@@ -208,7 +208,7 @@ class _Linearization:
         )
 
     def _by_powers(self, polynomial: Any, s: Any) -> str:
-        """Return a polynomial in s as text, the highest power first, what its coefficients have in common before it."""
+        """Return a polynomial in s as text, the highest power first, with its common factor in front."""
         import sympy
 
         system = self.model.study.system
@@ -227,7 +227,7 @@ class _Linearization:
         return total if factor == "1" else f"{factor}*({total})"
 
     def _frequency(self, square: Any) -> str:
-        """Return the root of the square of a frequency: of the polynomial, or of its factors, whichever is shorter."""
+        """Return the root of the square of a frequency as text, in the shorter of two forms."""
         import sympy
 
         factored = sympy.factor(square)
@@ -238,7 +238,7 @@ class _Linearization:
 def _squares(polynomial: Any, s: Any, damping: Any) -> list[Any]:
     """Return the squares of the angular frequencies, s = i omega, from the factors of the polynomial in s^2.
 
-    Nothing with damping, and where a factor has no formula for its roots.
+    The list is empty with damping, and if a factor has no formula for its roots.
     """
     import sympy
 

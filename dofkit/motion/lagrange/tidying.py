@@ -1,6 +1,6 @@
-"""Expressions written shorter, with terms, factors and signs as a lecturer writes them on a board.
+"""Expressions written shorter, with terms, factors and signs in the order of a textbook.
 
-A form counts as shorter only where it is proved equal to the expression.
+A shorter form is used only if it is proved equal to the expression.
 """
 
 from __future__ import annotations
@@ -20,31 +20,31 @@ from dofkit.expressions.sympy_bridge import Bridge, UntranslatableError
 from dofkit.expressions.text.printing import to_text
 from dofkit.expressions.tree import Expr
 
-#: Expressions with more SymPy operations, or that would have more terms than this, are not expanded.
+#: The most SymPy operations, and terms after expansion, of an expression that is rewritten; a bound on counts of terms.
 EXPANDED, TERMS, MANY = 3000, 1500, 10**9
-#: Sums of more terms are not joined to one angle: SymPy compares each two of them.
+#: The most terms of a sum in which angles are combined, because SymPy compares every two terms.
 JOINED = 60
-#: Seconds for all expressions of one report.
+#: Seconds of processor time for all expressions of one report.
 SECONDS = 6.0
-#: A product that hides a sum with velocities is read as if it were longer by so many symbols.
+#: What a product with a sum of velocities as a factor adds to the length, because it is hard to read.
 HIDDEN = 8
 _RATES = ("velocity", "acceleration")
 
 
 @dataclass
 class Tidier:
-    """Writes expressions as short as a form is found while ``seconds`` last."""
+    """Writes expressions in the shortest form that is found, within ``seconds`` of processor time in total."""
 
     bridge: Bridge
     positive: frozenset[Expr]
     seconds: float = SECONDS
 
     def __call__(self, e: Any) -> Expr:
-        """Return an expression of SymPy's, written shorter."""
+        """Return a SymPy expression as an `Expr` in its shortest form."""
         return self.shorter(self.bridge.expr(e))
 
     def shorter(self, e: Expr) -> Expr:
-        """Return the shortest form that is proved equal, in the order of terms that people expect."""
+        """Return the shortest form that is proved equal to ``e``, in the usual order of terms."""
         best, size = e, length(e)
         start = thread_time()
         try:
@@ -59,7 +59,7 @@ class Tidier:
         return ordered(best)
 
     def _forms(self, e: Expr) -> Iterator[Expr]:
-        """Yield sums by rates with factored coefficients, then what SymPy expands, collects and joins to one angle."""
+        """Yield candidate forms: sorted by velocities with factored coefficients, then those of SymPy."""
         check()
         if all(n.op in ("num", "sym") for n in ex.nodes(e)):
             return
@@ -78,7 +78,7 @@ class Tidier:
                 continue
 
     def _by_sympy(self, e: Any, waves: bool, expands: bool) -> Iterator[Any]:
-        """Yield SymPy's forms: cos a cos b + sin a sin b = cos(a - b), terms expanded, 1 - cos^2 = sin^2."""
+        """Yield SymPy's forms: cos a cos b + sin a sin b = cos(a - b) applied, expanded, 1 - cos^2 = sin^2 applied."""
         import sympy
         from sympy.simplify.fu import TR6, TR10i
 
@@ -94,7 +94,7 @@ class Tidier:
 
 
 def terms(e: Expr) -> int:
-    """Return an upper bound of the terms of any sum in ``e`` once it is expanded, `MANY` where it is larger."""
+    """Return an upper bound, at most `MANY`, on the number of terms in any sum of ``e`` after expansion."""
     memo: dict[Expr, int] = {}
     for node in ex.nodes(e):
         counts = [memo[child] for child in ex.children(node)]
@@ -112,7 +112,7 @@ def terms(e: Expr) -> int:
 
 
 def by_rates(e: Expr, positive: frozenset[Expr]) -> Expr | None:
-    """In the canonical ring, a sum over the monomials in velocities and accelerations, each coefficient factored."""
+    """Return ``e`` as a sum over monomials in velocities and accelerations with factored coefficients, or None."""
     try:
         canon, [(top, bottom)] = quotients_of([e], positive)
         if any(_is_rate(canon, i) for i in canon.generators_in(bottom)):
@@ -129,7 +129,7 @@ def _is_rate(canon: Canon, index: int) -> bool:
 
 
 def _grouped(canon: Canon, top: Poly) -> list[tuple[Expr, Poly]]:
-    """The polynomial's parts by their monomials in rates."""
+    """Return (monomial in velocities and accelerations, its coefficient) for each one in a polynomial."""
     generators = canon.ring.var_expr
     rates = {i for i in range(len(generators)) if _is_rate(canon, i)}
     coefficients = canon.collected(top, rates)
@@ -151,7 +151,7 @@ def _factored_product(canon: Canon, poly: Poly) -> Expr:
 
 
 def length(e: Expr) -> int:
-    """Return how long an expression is to read: nodes count as often as they are written."""
+    """Return the length of an expression for a reader: the number of nodes as written, more for `HIDDEN` sums."""
     lengths: dict[Expr, int] = {}
     for node in ex.nodes(e):
         sums = [p for p in node.args if p.op == "add"] if node.op == "mul" else []
@@ -161,15 +161,15 @@ def length(e: Expr) -> int:
 
 
 _KINDS = {"parameter": 0, "time": 1, "coordinate": 2, "velocity": 4, "acceleration": 5}
-#: Letters of parameters in the order in which they are written: masses, inertias, stiffness and damping, gravity.
+#: First letters of parameters in the order of writing: masses, inertias, stiffness and damping, gravity.
 _LETTERS = ("mM", "IJ", "kc", "g")
-#: Of sums with higher exponents no number is taken out.
+#: The highest exponent of a sum from which a numerical factor is taken out.
 _HIGHEST = 4
 _LETTER = re.compile(r"([A-Za-z])_?(?:\d\w*|(?<=_)\w+)?")
 
 
 def ordered(e: Expr) -> Expr:
-    """The same expression with its terms and factors in a steady order that people expect, and few minus signs."""
+    """Return ``e`` with its terms and factors in the usual order, and with few minus signs."""
     memo: dict[Expr, Expr] = {}
     for node in ex.nodes(e):
         operands = tuple(memo[child] for child in ex.children(node))
@@ -187,10 +187,10 @@ def _sum(terms: tuple[Expr, ...]) -> Expr:
 
 
 def _product(factors: tuple[Expr, ...]) -> Expr:
-    """With the signs and numbers of sums before it.
+    """Return the product, with signs and numerical factors of its sums taken out.
 
     ``-a*(-b - c)`` is ``a*(b + c)``, ``a*(cos(x) - 1)`` is ``-a*(1 - cos(x))``, ``(a/2 + b/2)*c`` is ``(a + b)*c/2``;
-    a minus goes into a difference of constants.
+    a minus sign goes into a difference of constants.
     """
     number, kept = Fraction(1), []
     for factor in factors:
@@ -205,20 +205,20 @@ def _product(factors: tuple[Expr, ...]) -> Expr:
             number *= content ** exponent.args[0].numerator
             factor = base if exponent == ex.ONE else Expr("pow", (base, exponent))
         kept.append(factor)
-    turned = next((k for k, part in enumerate(kept) if _turns(part)), None) if number < 0 else None
+    turned = next((k for k, part in enumerate(kept) if _is_reversible(part)), None) if number < 0 else None
     if turned is not None:
         kept[turned], number = _sum(tuple(_times(term, Fraction(-1)) for term in kept[turned].args)), -number
     return _times(Expr("mul", tuple(sorted(kept, key=_factor))) if len(kept) != 1 else kept[0], number)
 
 
-def _turns(e: Expr) -> bool:
-    """Return whether it is a difference of constants, which may as well stand the other way round."""
+def _is_reversible(e: Expr) -> bool:
+    """Return whether ``e`` is a sum of parameters with as many minus as plus signs, which is as good reversed."""
     constants = e.op == "add" and all(s.args[0] == "parameter" for s in e.symbols)
     return constants and 2 * sum(map(_is_negative, e.args)) == len(e.args)
 
 
 def _content(e: Expr) -> Fraction:
-    """The number that stands before a sum: what its terms have in common, negative where that spares minus signs."""
+    """Return the common numerical factor of the terms of a sum, negative if that saves minus signs."""
     numbers = [_number(term) for term in e.args]
     common = Fraction(gcd(*(n.numerator for n in numbers)), lcm(*(n.denominator for n in numbers)))
     return -common if _better_negated(e) else common
@@ -231,7 +231,7 @@ def _number(term: Expr) -> Fraction:
 
 
 def _times(term: Expr, number: Fraction) -> Expr:
-    """The term with a number before it, its factors in their order."""
+    """Return number * term, with the factors in their order."""
     if term.op == "num":
         return ex.num(term.args[0] * number)
     first, others = (term.args[0], term.args[1:]) if term.op == "mul" else (term, (term,))
@@ -261,7 +261,7 @@ def _orders(e: Expr, kind: str) -> int:
 
 
 def _term(e: Expr) -> tuple[bool, bool, bool, bool, tuple[object, ...]]:
-    """Accelerations, then velocities, then the rest; positive before negative, and constants before what moves."""
+    """Return the sort key of a term: accelerations, velocities, others; positive before negative; constants first."""
     factors = e.args if e.op == "mul" else (e,)
     moving = any(s.args[0] != "parameter" for s in e.symbols)
     quick = not _orders(e, "acceleration"), not _orders(e, "velocity")
@@ -269,20 +269,20 @@ def _term(e: Expr) -> tuple[bool, bool, bool, bool, tuple[object, ...]]:
 
 
 def _factor(e: Expr) -> tuple[int, int, str]:
-    """Numbers, parameters, coordinates, functions and sums, velocities, accelerations."""
+    """Return the sort key: numbers, parameters, coordinates, functions and sums, velocities, accelerations."""
     base = e.args[0] if e.op == "pow" else e
     if base.op == "num":
         return -1, 0, to_text(base)
     if base.op == "sym":
         kind, name = base.args
-        return _KINDS.get(kind, 6), _standing(name) if kind == "parameter" else 0, name
+        return _KINDS.get(kind, 6), _place_of(name) if kind == "parameter" else 0, name
     if all(s.args[0] == "parameter" for s in base.symbols):
-        return 0, min((_standing(s.args[1]) for s in base.symbols), default=0), to_text(base)
+        return 0, min((_place_of(s.args[1]) for s in base.symbols), default=0), to_text(base)
     return 3, 0, to_text(base)
 
 
-def _standing(parameter: str) -> int:
-    """Where a parameter stands by its letter: ``m g l``, ``m l^2``, ``k x``."""
+def _place_of(parameter: str) -> int:
+    """Return the place of a parameter in a product by its letter, as in ``m g l``, ``m l^2``, ``k x``."""
     match = _LETTER.fullmatch(parameter)
     letter = match[1] if match is not None else ""
     return next((place for place, letters in enumerate(_LETTERS) if letter and letter in letters), len(_LETTERS))

@@ -1,4 +1,4 @@
-"""Constraints: one small class for each type, with its equations in its docstring and its facts for all others.
+"""Constraints: one small class for each type, with its equations in its docstring and its properties in its ``facts``.
 
 `TYPES` maps every ``type`` to its class. A new type is a class of this folder, a row of `AnyConstraint` and
 one of ``words.yaml``.

@@ -1,4 +1,4 @@
-"""What every constraint type has in common, and the types that are given by texts: equations, surfaces and curves."""
+"""The base class of all constraint types, and the types given by texts: equations, surfaces and curves."""
 
 from __future__ import annotations
 
@@ -42,16 +42,16 @@ class ConstraintBase(WrittenModel):
 
     name: str | None = Field(None, description="its name; by default c1, c2, ... by position")
 
-    #: The dimensions in which it is defined.
+    #: The dimensions of a scene in which the type is defined.
     dimensions: ClassVar[tuple[int, ...]] = (1, 2, 3)
-    #: What everyone else may know of the type.
+    #: The properties of the type, which other packages use instead of its name.
     facts: ClassVar[TypeFacts] = TypeFacts()
     #: How the type is drawn.
     symbol: ClassVar[Symbol]
 
     @classmethod
     def kind(cls) -> str:
-        """Return its ``type``, as written."""
+        """Return the constraint's ``type``, as it is written in a scene."""
         return _kind(cls)
 
     @classmethod
@@ -70,23 +70,23 @@ class ConstraintBase(WrittenModel):
         return examples.get(dimension) or examples[max(examples)]
 
     def relations(self, world: World) -> Iterable[Relation]:
-        """Yield its scalar relations; faults go to the world."""
+        """Yield the scalar relations of the constraint; faults are recorded in ``world``."""
         raise NotImplementedError
 
     def notes(self, world: World) -> Iterator[str]:
-        """Sentences for the report that only this type can know."""
+        """Yield sentences about this constraint for the report."""
         del world
         yield from ()
 
     def texts(self) -> Iterator[str]:
-        """Yield its texts that may mention coordinates."""
+        """Yield the formulas of the constraint that may mention coordinates."""
         for key in _TEXTS:
             value = getattr(self, key, None)
             yield from (value,) if isinstance(value, str) else value if isinstance(value, tuple) else ()
 
     @property
     def in_words(self) -> str:
-        """One line for a person to read."""
+        """The constraint in one line for a person to read."""
         return self.kind()
 
 
@@ -104,32 +104,32 @@ def _kind(cls: type[ConstraintBase]) -> str:
 
 
 def component_relations(vector: Vec, label: str = "{}", about: Vec = ()) -> Iterator[Relation]:
-    """Yield one relation a component, named ``x``, ``y``, ``z`` within ``label``."""
+    """Yield a relation v = 0 for each component v of ``vector``, named ``x``, ``y``, ``z`` within ``label``."""
     for letter, part in zip("xyz", vector, strict=False):
         yield Relation(part, part=label.format(letter), vector=about)
 
 
 def meet(world: World, first: Placed, second: Placed, *where: str | int) -> None:
-    """Check that two points that must coincide do so at the reference."""
+    """Record a fault if two points that must coincide are apart in the reference configuration."""
     if first.reference is None or second.reference is None:
         return
-    gap = minus(second.reference, first.reference)
-    if not world.any_differs(gap):
+    offset = minus(second.reference, first.reference)
+    if not world.any_differs(offset):
         return
     places = f"{figures(first.reference)} and {figures(second.reference)}"
     message = f"in the reference configuration {first.label} and {second.label} are apart, at {places}"
     hint = "give them the same position, or set `tolerance` if it is measured"
-    world.misfit(root(square(gap)), message, *where, hint=hint)
+    world.misfit(root(square(offset)), message, *where, hint=hint)
 
 
 def figures(position: Vec | None) -> str:
-    """Return a position in figures."""
+    """Return a position as text, such as (1, 2.5); unknown components as `?`."""
     components = [approximate(part) for part in position or ()]
     return "(" + ", ".join("?" if part is None else f"{part:.6g}" for part in components) + ")"
 
 
 def root(squared: Expr) -> float | None:
-    """Return the square root in figures, where it is a number."""
+    """Return the square root as a float; None if ``squared`` is not a number or is negative."""
     value = approximate(squared)
     return None if value is None or value < 0 else float(value**0.5)
 
@@ -137,8 +137,8 @@ def root(squared: Expr) -> float | None:
 class Equation(ConstraintBase):
     """``left = right`` gives left - right = 0; ``left <= right`` gives right - left >= 0.
 
-    A chain ``0 <= x <= L`` gives two relations. The text may hold velocities, differentials and time,
-    and second derivatives where it integrates once.
+    A chain ``0 <= x <= L`` gives two relations. The text may contain velocities, differentials and time,
+    and second derivatives if it can be integrated once.
     """
 
     type: Literal["equation"] = Field(default="equation", description="an equation or inequality as text")
@@ -155,7 +155,7 @@ class Equation(ConstraintBase):
 
 
 def as_equation(value: object) -> object:
-    """Return a constraint as a mapping where it is a plain text, which is an equation."""
+    """Return a constraint that is a plain text as the mapping of an equation, any other value unchanged."""
     return {"type": Equation.kind(), "text": value} if isinstance(value, str) else value
 
 
@@ -164,15 +164,15 @@ def _texts(value: object) -> object:
 
 
 def with_values(relation: Relation, values: Mapping[Expr, Expr], part: str = "") -> Relation:
-    """Return a relation between letters, with what they stand for in place of them, also where its domain is stated."""
+    """Return ``relation``, and its domain, with ``values`` substituted for its letters and named ``part``."""
     domain = tuple((substitute(e, values), required) for e, required in relation.domain)
     return Relation(substitute(relation.expr, values), relation.sense, part, domain=domain)
 
 
 class On(ConstraintBase):
-    """Every member lies on a surface g(x, y, z) = 0, or on a curve g1 = g2 = 0: members x texts relations.
+    """Every member lies on a surface g(x, y, z) = 0, or on a curve g1 = g2 = 0: one relation per member and text.
 
-    ``x``, ``y``, ``z`` stand for each member's coordinates in turn; an inequality keeps it on one side.
+    ``x``, ``y``, ``z`` stand for each member's coordinates in turn; an inequality keeps the members on one side.
     """
 
     type: Literal["on"] = Field(description="points on a surface or a curve")
@@ -185,6 +185,7 @@ class On(ConstraintBase):
     symbol: ClassVar[Symbol] = Symbol(run="locus")
 
     def _places(self) -> Iterator[tuple[str, tuple[str | int, ...]]]:
+        """Yield each text with the keys of its location in the constraint."""
         if self.surface is not None:
             yield self.surface, ("surface",)
         for i, text in enumerate(self.curve or ()):
@@ -207,11 +208,11 @@ class On(ConstraintBase):
         ]
         for i, member in enumerate(self.members):
             point = world.point(member, "members", i)
-            stands = {coordinate(letter): part for letter, part in zip(letters, _position(point), strict=True)}
+            position = {coordinate(letter): part for letter, part in zip(letters, _position(point), strict=True)}
             for j, relation in enumerate(read):
                 part = f"at {show_point(member)}" + (f", text {j + 1}" if len(read) > 1 else "")
                 try:
-                    yield with_values(relation, stands, part)
+                    yield with_values(relation, position, part)
                 except NoValueError:
                     world.fault(f"the text has no value at {show_point(member)}", "members", i)
                     return

@@ -31,12 +31,11 @@ X, Y = (coordinate(letter) for letter in OWN)
 
 
 class Cam(ConstraintBase):
-    """g(x, y) = 0 for the point P in the body's own coordinates, (x, y) = R(theta)^T (P - p): 1 relation.
+    """g(x, y) = 0 for the follower's point P in the cam's frame, (x, y) = R(theta)^T (P - p): 1 relation.
 
-    The profile g = 0 turns and moves with the body; its axes are those of the body's frame (origin p, angle theta). A
-    higher pair of the plane, of freedom 2: the point slides along the profile and turns on it. If the reference
-    configuration gives the contact, it moves infinitesimally like a slot along the tangent there. There is none in
-    space, where a follower touches a surface.
+    The profile g = 0 moves with the body's frame (origin p, angle theta). The contact is a higher pair of the plane, of
+    freedom 2: the point slides along the profile and turns on it. If the reference configuration has contact, the
+    infinitesimal motions are those of a slot along the tangent there.
     """
 
     type: Literal["cam"] = Field(description="a point on the profile of a body, in the plane")
@@ -65,7 +64,7 @@ class Cam(ConstraintBase):
         yield with_values(profile, _body_coordinates(frame, point), part="contact")
 
     def _profile(self, world: World) -> Relation | None:
-        """g; None after a fault."""
+        """Return the relation g(x, y) = 0 of the profile; None after a fault, which is recorded in ``world``."""
         before = len(world.faults)
         names = within_member(world.names, OWN)
         used = {s.args[1] for s in symbols_of(self.curve, names) if s.args[0] == "coordinate"}
@@ -83,7 +82,7 @@ class Cam(ConstraintBase):
         return relations[0]
 
     def _check(self, world: World, frame: Frame, point: Placed, drawn: DrawnContact) -> None:
-        """A point that is off the profile where both are drawn is a fault that shows by how much."""
+        """Record a fault, with the distance, if the point is off the profile in the reference configuration."""
         body = None if frame.fixed else frame.name
         place = point.label if point.frame else f"{point.label} at {figures(point.reference)}"
         hint = "move the point or the body, or set `tolerance` if they are measured"
@@ -106,7 +105,7 @@ class Cam(ConstraintBase):
 
 
 def _body_coordinates(frame: Frame, point: Placed) -> dict[Expr, Expr]:
-    """x and y of the point in the body's own coordinates."""
+    """Return {x: ..., y: ...} with the point's coordinates in the body's frame."""
     arm = minus(point.over, frame.position)
     if not frame.fixed:
         arm = apply(transposed(turn(coordinate(frame.angles[0]))), arm)
@@ -114,13 +113,13 @@ def _body_coordinates(frame: Frame, point: Placed) -> dict[Expr, Expr]:
 
 
 class DrawnContact(NamedTuple):
-    """g and its gradient at the reference, in the world's axes; no value, and no slope at a corner, are None and 0."""
+    """The value g (``gap``, None if undefined) and gradient (``slope``, 0 at a corner) of a drawn profile."""
 
     gap: Expr | None
     slope: Vec
 
     def tangent(self, measured: bool) -> Vec | None:
-        """Along the profile; None where the point is off it, at a corner or cusp, or where that is not known."""
+        """Return the profile's tangent; None at a corner, if undecided, or off the profile (unless ``measured``)."""
         if self.gap is None or any(map(has_call, (self.gap, *self.slope))):
             return None
         if not any(map(differs_from_zero, self.slope)) or (not measured and differs_from_zero(self.gap)):
@@ -129,7 +128,7 @@ class DrawnContact(NamedTuple):
 
 
 def _drawn(profile: Expr, frame: Frame, place: Vec) -> DrawnContact:
-    """Return the profile where a point is drawn."""
+    """Return value and gradient of the profile g at the point ``place`` of the reference configuration."""
     turned = turn(frame.initial[0]) if frame.initial else None
     arm = minus(place, frame.start)
     coordinates = arm if turned is None else apply(transposed(turned), arm)
@@ -146,10 +145,10 @@ def _drawn(profile: Expr, frame: Frame, place: Vec) -> DrawnContact:
 
 
 class Roll(ConstraintBase):
-    """Rolls without slipping on the plane z = 0 (a sphere in space) or the line y = 0 (a disc in the plane).
+    """A sphere rolls without slipping on the plane z = 0, or in the plane a disc on the line y = 0.
 
-    Space, with the angular velocity w in world axes: z - r = 0, xdot - r w_y = 0, ydot + r w_x = 0 (3 relations).
-    Plane: y - r = 0, xdot + r thetadot = 0 (2 relations); theta counts counter-clockwise.
+    In space, with the angular velocity w in world axes: z - r = 0, xdot - r w_y = 0, ydot + r w_x = 0 (3 relations).
+    In the plane: y - r = 0, xdot + r thetadot = 0 (2 relations); theta is positive counter-clockwise.
     """
 
     type: Literal["roll"] = Field(description="a disc or sphere that rolls without slipping, contact included")
@@ -194,14 +193,14 @@ def _no_slip(frame: Frame, radius: Expr) -> Iterator[Relation]:
 
 
 def _gear_rows(at: Kinematics) -> Iterator[VelocityRow]:
-    """(w2 - w) - ratio (w1 - w) = 0, with w of the carrier if there is one."""
+    """Yield the row of (w2 - w) - ratio (w1 - w) = 0, with the angular velocity w of the carrier, or 0 without one."""
     turns = [at.spin(k)[0] for k in range(len(at.members))]
     carrier = turns[2] if len(turns) > 2 else {}
     yield combined(((1, turns[1]), (-at.number, turns[0]), (at.number - 1, carrier)))
 
 
 class Gear(Joint):
-    """(theta2 - theta20) - ratio (theta1 - theta10) = 0, angles against ``carrier`` if there is one: 1 relation.
+    """(theta2 - theta20) - ratio (theta1 - theta10) = 0, with angles relative to ``carrier`` if given: 1 relation.
 
     Two wheels that touch on the outside turn against each other: their ratio is negative, -r1/r2.
     """

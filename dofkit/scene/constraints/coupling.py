@@ -1,4 +1,4 @@
-"""A relation between joints: what gears in space, belts, differentials and joints that mimic others have in common."""
+"""A relation between the angles and displacements of joints, such as gears, belts, differentials and mimic joints."""
 
 from __future__ import annotations
 
@@ -28,12 +28,12 @@ from dofkit.scene.symbols import Symbol
 from dofkit.scene.world import World
 from dofkit.system import JointRate, Kinematics, Relation, TypeFacts, VelocityRow
 
-#: Angles in ratios of integers are written without arcs up to this sum of the integers.
+#: A relation sum k_i angle_i = 0 with integers k_i is written without inverse functions up to this sum of the |k_i|.
 MOST_TURNS = 8
 
 
 def _coupling_rows(at: Kinematics) -> Iterator[VelocityRow]:
-    """Yield the sum over the joints of the slope of the relation by each, times its rate."""
+    """Yield the row of the sum over the joints: derivative of the relation by the joint, times the joint's rate."""
     if at.couplings:
         yield combined([(factor, rate(part)) for rate, factor, part in at.couplings])
 
@@ -51,12 +51,12 @@ Joints = Annotated[
 
 
 class Coupling(ConstraintBase):
-    """f(q1, q2, ...) = 0 for angles and displacements of joints: 1 relation; an inequality bounds them.
+    """f(q1, q2, ...) = 0 for angles and displacements q of joints: 1 relation; an inequality bounds them.
 
-    Each is counted from the reference configuration: the angle of the second body relative to the first, right-handed
-    about the axis, or its displacement along it. In space tan(q/2) = v.n / (s |n|) of the relative rotation (s, v). An
-    equation that is linear in angles with small integer factors is written as Im prod (s |n| + i v.n)^k = 0, which
-    determines q modulo whole turns.
+    Each q counts from the reference configuration: the angle of the second body relative to the first, right-handed
+    about the axis n, or the displacement along n. In space tan(q/2) = v.n / (s |n|) with the quaternion (s, v) of the
+    relative rotation. An equation that is linear in angles with small integer factors k is written as Im prod (s |n| +
+    i v.n)^k = 0, which determines the angles modulo whole turns.
     """
 
     type: Literal["coupling"] = Field(description="a relation between angles or displacements of joints")
@@ -71,7 +71,7 @@ class Coupling(ConstraintBase):
 
     @property
     def lettered(self) -> dict[str, str]:
-        """The joint of every letter; a name in a list is its own."""
+        """The joint's name for every letter; a name in a list is its own letter."""
         return dict(self.joints) if isinstance(self.joints, Mapping) else {name: name for name in self.joints}
 
     def relations(self, world: World) -> Iterator[Relation]:
@@ -88,9 +88,8 @@ class Coupling(ConstraintBase):
                 "a coupling is either one equation or bounds", "text", hint="write a second coupling for the other one"
             )
             return
-        if "=" not in senses and not self._within_half_turns(
-            world, [relation.expr for relation in relations], measured
-        ):
+        bounds = [relation.expr for relation in relations]
+        if "=" not in senses and not self._within_half_turns(world, bounds, measured):
             return
         for relation in relations:
             if relation.sense == "=" and not self._fits(world, relation.expr, measured):
@@ -99,10 +98,9 @@ class Coupling(ConstraintBase):
             yield in_arcs._replace(expr=_in_turns(relation.expr, measured) or in_arcs.expr)
 
     def _within_half_turns(self, world: World, bounds: Sequence[Expr], measured: Mapping[Expr, MeasuredJoint]) -> bool:
-        """Return whether bounds on an angle of space lie within half a turn of the reference; else record a fault.
+        """Return whether bounds on angles in space lie within half a turn of the reference; if not, record a fault.
 
-        The angle is measured between -pi and pi, so that a bound beyond would exclude every configuration, although a
-        hinge does turn so far.
+        The angle is measured between -pi and pi: a bound beyond would exclude every configuration.
         """
         message = (
             "an angle in space is measured from the reference configuration, between -pi and pi, and these bounds lie "
@@ -121,13 +119,14 @@ class Coupling(ConstraintBase):
         return True
 
     def _measured(self, world: World) -> dict[Expr, MeasuredJoint] | None:
-        """Return what every letter stands for; None after a fault, or where a joint itself is at fault."""
+        """Return the measured joint for every letter; None after a fault, here or in one of the joints."""
         before = len(world.faults)
         joints = {coordinate(letter): self._joint(world, letter, name) for letter, name in self.lettered.items()}
         measured = {letter: joint for letter, joint in joints.items() if joint is not None}
         return measured if len(measured) == len(joints) and len(world.faults) == before else None
 
     def _joint(self, world: World, letter: str, written: str) -> MeasuredJoint | None:
+        """Return the joint that is ``written`` for a letter, such as `shoulder` or `nut.angle`; None after a fault."""
         why = valid_name(letter)
         if why is not None:
             world.fault(why, "joints", letter, hint=f'write a letter for it: `joints: {{q: "{written}"}}`')
@@ -149,7 +148,7 @@ class Coupling(ConstraintBase):
         return None if measured is None else measured._replace(name=f"{name}.{what}")
 
     def _located(self, world: World, letter: str, joint: Driven, measure: Measure) -> MeasuredJoint | None:
-        """Return the joint where it is drawn."""
+        """Return the joint with its geometry in the reference configuration; None after a fault."""
         planar, placed = world.dimension == 2 and measure.turns, joint.holds.placed and not measure.turns
         if any(end not in world.frames and end != world.ground.name for end in joint.between):
             return None
@@ -166,7 +165,7 @@ class Coupling(ConstraintBase):
         return MeasuredJoint(first, second, JointGeometry(place, () if axis is None else (axis,)), measure, "")
 
     def _fits(self, world: World, e: Expr, measured: Mapping[Expr, MeasuredJoint]) -> bool:
-        """Record the rates at the reference, where every joint stands at 0; whether the relation has a value there."""
+        """Record the joints' rates at the reference, where all are at 0; return False if ``e`` has no value there."""
         at: dict[Expr, Expr] = {**dict.fromkeys(measured, ZERO), TIME: ZERO}
         try:
             gap = substitute(e, at)
@@ -196,7 +195,7 @@ class Coupling(ConstraintBase):
 
 
 class MeasuredJoint(NamedTuple):
-    """A joint where it is drawn, and what of it is measured."""
+    """A joint with its geometry in the reference configuration, and the angle or displacement that is measured."""
 
     first: Frame
     second: Frame
@@ -206,16 +205,16 @@ class MeasuredJoint(NamedTuple):
 
     @property
     def turns_in_space(self) -> bool:
-        """Whether it is an angle about an axis of space."""
+        """Whether an angle about an axis in space is measured."""
         return self.measure.turns and bool(self.drawn.axes)
 
     @property
     def value(self) -> Expr:
-        """Its angle or displacement."""
+        """The measured angle or displacement."""
         return self.measure.value(self.first, self.second, self.drawn)
 
     def rate(self, slope: Expr) -> JointRate:
-        """Return its term in the time derivative of a relation whose derivative by this joint is ``slope``."""
+        """Return the joint's term in the rate of a relation whose derivative by the joint is ``slope``."""
         axis = self.drawn.axis.vector if self.drawn.axes else ()
         return JointRate(
             self.name,
@@ -229,7 +228,7 @@ class MeasuredJoint(NamedTuple):
         )
 
     def half(self) -> tuple[Expr, Expr] | None:
-        """Return cosine and sine of half its angle up to a positive factor; None for no angle of Gibbs charts."""
+        """Return (cosine, sine) of half the angle, times a positive factor; None without two Gibbs vectors."""
         turned = relative(self.first, self.second) if self.turns_in_space else None
         if turned is None:
             return None
@@ -238,7 +237,7 @@ class MeasuredJoint(NamedTuple):
 
 
 def _most(e: Expr, measured: Mapping[Expr, MeasuredJoint]) -> float:
-    """Return the most that a sum of several angles of space can be, each at most pi; of anything else no bound."""
+    """Return the maximum of a linear ``e`` in several angles in space, each at most pi; infinity for other ``e``."""
     slopes = {letter: approximate(diff(e, letter)) for letter in measured}
     moving = [letter for letter, slope in slopes.items() if slope != 0]
     at = approximate(substitute(e, dict.fromkeys(measured, ZERO)))
@@ -249,14 +248,14 @@ def _most(e: Expr, measured: Mapping[Expr, MeasuredJoint]) -> float:
 
 
 def _stated_by_arcs(low: float, high: float) -> bool:
-    """Return whether bounds state of an angle between -pi and pi what they state of the angle counted on."""
+    """Return whether bounds on the angle between -pi and pi mean the same as bounds on the accumulated angle."""
     if not isfinite(low + high):
         return low < pi and high > -pi
     return (-pi <= low and high <= pi) or (low <= -pi and high >= pi)
 
 
 def _bounds_of(letter: Expr, relations: Sequence[Expr]) -> tuple[float, float]:
-    """Between which numbers relations e >= 0 keep what a letter stands for, as far as they are linear in it alone."""
+    """Return (low, high): the bounds on ``letter`` by those relations e >= 0 that are linear in ``letter`` alone."""
     low, high = -inf, inf
     for e in relations:
         slope, at = approximate(diff(e, letter)), approximate(substitute(e, {letter: ZERO}))
@@ -266,13 +265,13 @@ def _bounds_of(letter: Expr, relations: Sequence[Expr]) -> tuple[float, float]:
 
 
 def _split(written: str, entries: Mapping[str, object]) -> tuple[str, str]:
-    """Return the joint's name, and what of it is meant."""
+    """Return the joint's name, and `angle` or `displacement` if that is written after a point, else ""."""
     name, dot_, what = written.rpartition(".")
     return (name, what) if dot_ and written not in entries else (written, "")
 
 
 def _in_turns(e: Expr, measured: Mapping[Expr, MeasuredJoint]) -> Expr | None:
-    """Return a homogeneous linear relation of angles of space with small whole factors, without arcs: Im prod z^k."""
+    """Return sum k_i angle_i = 0 with small integers k_i as Im prod z_i^k_i = 0, z_i at half the angle; else None."""
     terms = linear_terms(e)
     halves = {letter: measured[letter].half() for letter in terms if letter in measured}
     if len(halves) < len(terms) or any(half is None for half in halves.values()):
@@ -289,15 +288,16 @@ def _in_turns(e: Expr, measured: Mapping[Expr, MeasuredJoint]) -> Expr | None:
     return total[1]
 
 
-def _product(a: tuple[Expr, Expr], b: tuple[Expr, Expr]) -> tuple[Expr, Expr]:
-    """Return the product of two complex numbers."""
-    if is_zero((a[1],)):
-        return mul(a[0], b[0]), mul(a[0], b[1])
-    return difference(mul(a[0], b[0]), mul(a[1], b[1])), mul(a[0], b[1]) + mul(a[1], b[0])
+def _product(first: tuple[Expr, Expr], second: tuple[Expr, Expr]) -> tuple[Expr, Expr]:
+    """Return the product of two complex numbers, each given as (real part, imaginary part)."""
+    if is_zero((first[1],)):
+        return mul(first[0], second[0]), mul(first[0], second[1])
+    imaginary = mul(first[0], second[1]) + mul(first[1], second[0])
+    return difference(mul(first[0], second[0]), mul(first[1], second[1])), imaginary
 
 
 def _whole(factors: Sequence[Fraction]) -> list[int]:
-    """Return the same ratios in the smallest integers."""
+    """Return the coprime integers in the ratio of ``factors``; an empty list if all are 0."""
     below = lcm(*(f.denominator for f in factors))
     above = [int(f * below) for f in factors]
     common = gcd(*above)

@@ -25,7 +25,7 @@ from dofkit.system import Kinematics, Relation, TypeFacts, VelocityRow
 
 
 def distance_rows(at: Kinematics) -> Iterator[VelocityRow]:
-    """(b - a).(v_b - v_a) for every two points."""
+    """Yield the row (b - a).(v_b - v_a) for every two points a, b."""
     for j, k in combinations(range(len(at.points)), 2):
         arm: Sequence[Any] = [q - p for p, q in zip(at.points[j][1], at.points[k][1], strict=True)]
         yield along(arm, less(at.velocity(k), at.velocity(j)))
@@ -34,7 +34,7 @@ def distance_rows(at: Kinematics) -> Iterator[VelocityRow]:
 class Link(ConstraintBase):
     """|A - B|^2 - length^2 = 0, also in one dimension.
 
-    Without ``length`` it is the distance in the reference configuration, or a generic squared length.
+    ``length`` defaults to the distance in the reference configuration, and without one to a generic length.
     """
 
     type: Literal["link"] = Field(description="two points at a given distance")
@@ -75,11 +75,12 @@ def _same_place(first: Placed, second: Placed) -> bool:
 
 
 def _moves(length: Expr) -> bool:
+    """Return whether a length changes with time."""
     return any(symbol.args[0] != "parameter" for symbol in length.symbols)
 
 
 def distance(world: World, first: Placed, second: Placed, length: Expr | None) -> Expr:
-    """|A - B|^2 - length^2, cleared of denominators."""
+    """Return |A - B|^2 - length^2 times its denominator; ``length`` None stands for the reference or a generic one."""
     drawn = square_between(first.reference, second.reference) if first.reference and second.reference else None
     if length is not None:
         squared = power(length, TWO)
@@ -104,7 +105,7 @@ def distance(world: World, first: Placed, second: Placed, length: Expr | None) -
 
 
 def _check_length(world: World, length: Expr, drawn: Expr | None, before: str, after: str) -> None:
-    """A length that contradicts the reference is a fault that shows both, the latter between two pieces of text."""
+    """Record a fault for a ``length`` that is negative or not the reference length ``drawn`` at time 0."""
     start = substitute(length, {TIME: ZERO})
     figure = approximate(start)
     if figure is not None and figure < 0:
@@ -124,7 +125,7 @@ def _figure(number: float | None) -> str:
 
 
 class Rigid(ConstraintBase):
-    """|A - B|^2 - d_AB^2 = 0 for every pair of members: m(m-1)/2 relations."""
+    """|A - B|^2 - d_AB^2 = 0 for every pair of the m members: m(m-1)/2 relations."""
 
     type: Literal["rigid"] = Field(description="particles that keep all their distances")
     members: Annotated[tuple[str, ...], Field(min_length=2)] = Field(description="particles")
@@ -164,8 +165,8 @@ class Rigid(ConstraintBase):
 class String(ConstraintBase):
     """A taut string along points in order: |P1 - P2| + |P2 - P3| + ... - length = 0, one relation.
 
-    The points between the ends are small pulleys. Without ``length`` it is the
-    length in the reference configuration, or generic.
+    The points between the ends are small pulleys. ``length`` defaults to the length in the reference configuration, and
+    without one to a generic length.
     """
 
     type: Literal["string"] = Field(description="an inextensible string over small pulleys")

@@ -1,12 +1,12 @@
-"""The parts of a relative motion that a joint can hold, and what of it can be prescribed.
+"""The parts of a relative motion that a joint can fix, and the angle or displacement that can be prescribed.
 
-A joint is a row of parts. Each part has its relations between the two frames and the rows of the same equations in
-velocities, so that no type states either.
+A joint is a sequence of fixed parts. Each part defines its relations between the two frames and the rows of the same
+equations in velocities.
 
-Material points at the same place ``a`` of the reference are X_i = p_i + R_i (a - p0_i). Where both
-bodies are written in Gibbs vectors g_i, the rotation R1^T R2 is the quaternion (s, v) with
-s = 1 + g1.g2 and v = g2 - g1 - g1 x g2, and a shared axis n is v.u = 0 for the u across n: of the
-two ways to keep the lines parallel this leaves out the one with the axis turned over.
+Notation: p_i, R_i are position and rotation of body i, p0_i its reference position. The material points at the place
+``a`` of the reference are X_i = p_i + R_i (a - p0_i). If both rotations are given by Gibbs vectors g_i, R1^T R2 is the
+quaternion (s, v) with s = 1 + g1.g2 and v = g2 - g1 - g1 x g2, and bodies that share an axis n satisfy v.u = 0 for the
+u perpendicular to n, which excludes the half turns that reverse the axis.
 """
 
 from __future__ import annotations
@@ -26,12 +26,12 @@ from dofkit.scene.frames import Frame, between, relative
 from dofkit.scene.world import Direction
 from dofkit.system import Kinematics, Relation, VelocityRow
 
-#: Numbers of so many bits make no long ones.
+#: Below this many bits, `longest_of` states the bits of the input, because products stay short.
 FEW_BITS = 16
 
 
 class JointGeometry(NamedTuple):
-    """The geometry of a joint: its ``place`` (None where its equations need none), its axes, a screw's pitch.
+    """A joint in the reference configuration: its ``place`` (None if not needed), axes, and pitch (``number``).
 
     In the plane a joint that turns has no axis.
     """
@@ -42,25 +42,25 @@ class JointGeometry(NamedTuple):
 
     @property
     def axis(self) -> Direction:
-        """The only axis, or the first."""
+        """The first axis."""
         return self.axes[0]
 
     @property
     def at(self) -> Vec:
-        """The place of a joint that has one."""
+        """The place; an empty vector if there is none."""
         return self.place or ()
 
 
-# The parts of a relative motion that joints hold
+# The parts of a relative motion that joints fix
 
 
 def _point(first: Frame, second: Frame, drawn: JointGeometry) -> Iterator[Relation]:
-    """X2 - X1 = 0 for the material points at the place: d relations."""
+    """Yield X2 - X1 = 0 for the material points at the joint's place: d relations."""
     yield from component_relations(between(first.point(drawn.at), second.point(drawn.at))[0], "point {}", drawn.at)
 
 
 def _origin(first: Frame, second: Frame, drawn: JointGeometry) -> Iterator[Relation]:
-    """p2 - p1 - R1 (p02 - p01) = 0, cleared: d relations."""
+    """Yield p2 - p1 - R1 (p02 - p01) = 0, times a denominator: d relations."""
     del drawn
     frame = carrier(first, second)
     start = minus(second.start, first.start)
@@ -71,10 +71,10 @@ def _origin(first: Frame, second: Frame, drawn: JointGeometry) -> Iterator[Relat
 
 
 def _orientation(first: Frame, second: Frame, drawn: JointGeometry) -> Iterator[Relation]:
-    """No relative rotation: the plane angle, or 3 relations in space.
+    """Yield the relations that there is no relative rotation: 1 in the plane, 3 in space.
 
-    theta2 - theta1 - const = 0; g2 - g1 = 0; or the Gibbs vector of B = R1^T R2, of which 1 + tr B times two are
-    B32 - B23, B13 - B31, B21 - B12, and which no half turn has.
+    In the plane theta2 - theta1 = 0; in space g2 - g1 = 0, or else that the Gibbs vector of B = R1^T R2 is 0: its
+    components are (B32 - B23, B13 - B31, B21 - B12) / (1 + tr B), up to a factor, and undefined for half turns.
     """
     del drawn
     if first.dimension == 2:
@@ -89,10 +89,10 @@ def _orientation(first: Frame, second: Frame, drawn: JointGeometry) -> Iterator[
 
 
 def _axis(first: Frame, second: Frame, drawn: JointGeometry) -> Iterator[Relation]:
-    """Yield 2 relations that keep the direction n of the axis the same in both bodies, one for each u across n.
+    """Yield 2 relations that the axis n has the same direction in both bodies, one for each u perpendicular to n.
 
-    In general (R1 n).(R2 u) = 0, which keeps them from turning about n x u. Where both rotations are given by Gibbs
-    vectors, v.u = 0 with the vector part v of the quaternion of R1^T R2 keeps them from turning about u.
+    With Gibbs vectors for both rotations v.u = 0 (no rotation about u), with the vector part v of the quaternion of
+    R1^T R2; otherwise (R1 n).(R2 u) = 0 (no rotation about n x u).
     """
     for axis in drawn.axes:
         turned = relative(first, second)
@@ -105,7 +105,7 @@ def _axis(first: Frame, second: Frame, drawn: JointGeometry) -> Iterator[Relatio
 
 
 def _axes(first: Frame, second: Frame, drawn: JointGeometry) -> Iterator[Relation]:
-    """Yield the relation that the first axis, carried by the first body, is perpendicular to the second."""
+    """Yield the relation that the first axis, fixed in the first body, is perpendicular to the second body's axis."""
     a, b = (axis.vector for axis in drawn.axes)
     turned = relative(first, second)
     if turned is None:
@@ -117,19 +117,19 @@ def _axes(first: Frame, second: Frame, drawn: JointGeometry) -> Iterator[Relatio
 
 
 def _across(first: Frame, second: Frame, drawn: JointGeometry) -> Iterator[Relation]:
-    """Yield the relations that the second body does not move across the axis of the first."""
+    """Yield the relations that the second body has no displacement perpendicular to the axis of the first."""
     for u in drawn.axis.across:
         yield Relation(slide(first, second, drawn, u)[0], part="across", vector=u)
 
 
 def _distance(first: Frame, second: Frame, drawn: JointGeometry) -> Iterator[Relation]:
-    """Yield the relation that the second body does not move along the axis of the first."""
+    """Yield the relation that the second body has no displacement along the axis of the first."""
     n = drawn.axis.vector
     yield Relation(slide(first, second, drawn, n)[0], part="distance", vector=n)
 
 
 def _thread(first: Frame, second: Frame, drawn: JointGeometry) -> Iterator[Relation]:
-    """displacement - pitch angle / (2 pi) = 0, cleared."""
+    """Yield displacement - pitch angle / (2 pi) = 0, times a denominator."""
     n = drawn.axis.vector
     moved, under = slide(first, second, drawn, n)
     advance = mul(drawn.number or ZERO, angle_of(first, second, drawn)) / (2 * PI)
@@ -137,26 +137,26 @@ def _thread(first: Frame, second: Frame, drawn: JointGeometry) -> Iterator[Relat
 
 
 def turn_rate(at: Kinematics) -> VelocityRow:
-    """Return how fast the second body turns against the first, in space about the axis."""
+    """Return the row of the angular velocity of the second body relative to the first, in space about the axis."""
     turn = at.turn()
     return turn[0] if at.dimension == 2 else rows.along(at.directions[0], turn)
 
 
 def slide_rate(at: Kinematics) -> VelocityRow:
-    """Return how fast the second body moves along the axis against the first."""
+    """Return the row of the velocity of the second body relative to the first, along the axis."""
     return rows.along(at.directions[0], at.shift())
 
 
 class HeldPart(NamedTuple):
-    """A part of a relative motion that is fixed: its ``relations``, and the rows of its ``velocities``."""
+    """A fixed part of a relative motion: its ``relations`` between two frames, and the rows of its ``velocities``."""
 
     relations: Callable[[Frame, Frame, JointGeometry], Iterator[Relation]]
     velocities: Callable[[Kinematics], Iterable[VelocityRow]]
 
 
 Part = Literal["point", "origin", "orientation", "axis", "axes", "across", "distance", "thread"]
-#: What a joint can hold of the second body against the first: a common point, its origin, its orientation, the
-#: direction of a common axis, two axes at a right angle, the displacement across or along the axis, an advance by turn.
+#: Parts of the second body's relative motion: a common point, the origin, the orientation, the direction of
+#: a common axis, two axes at a right angle, the displacement perpendicular to or along the axis, a screw's advance.
 PARTS: Mapping[Part, HeldPart] = {
     "point": HeldPart(_point, lambda at: at.shift()),
     "origin": HeldPart(_origin, lambda at: at.shift()),
@@ -171,7 +171,7 @@ PARTS: Mapping[Part, HeldPart] = {
 
 @dataclass(frozen=True)
 class Holds:
-    """What a joint holds, in the order of its equations; called, it yields the rows of their velocities."""
+    """The fixed parts of a joint in the order of its equations; a call yields the rows of their velocity equations."""
 
     motion_parts: tuple[Part, ...]
 
@@ -186,14 +186,14 @@ class Holds:
 
     @property
     def placed(self) -> bool:
-        """Whether the equations need a place: that of the point, or of an axis about which the bodies turn."""
+        """Whether the equations depend on the joint's place, that of its point or of the axis of rotation."""
         return "point" in self.motion_parts or ("axis" in self.motion_parts and "across" in self.motion_parts)
 
     def mentioned(self, first: Frame, second: Frame, drawn: JointGeometry) -> frozenset[str] | None:
-        """Return the coordinates that the equations mention, where no part of these stands alone; else None.
+        """Return the coordinates in the equations if common coordinates connect all of these, else None.
 
-        The angles of a body occur in all equations of a place that is not its origin, unless the plane needs no axis.
-        What is stated in the directions of the first of two moving bodies mentions all their coordinates.
+        A body's angles occur in all equations of a place that is not its origin, and in those of an axis. Equations in
+        the directions of the first of two moving bodies mention all coordinates of both.
         """
         positions = [str(x.args[1]) for frame in (first, second) for x in frame.position if x.op == "sym"]
         if "point" not in self.motion_parts:
@@ -206,7 +206,7 @@ class Holds:
 
 
 def longest_of(first: Frame, second: Frame, drawn: JointGeometry) -> int | None:
-    """Return the bits of the longest number in equations of two frames drawn in fractions; None for others."""
+    """Return the bits of the longest number in the equations of two frames with rational geometry; None for others."""
     moving = [frame for frame in (first, second) if not frame.fixed]
     if not moving or any(frame.chart not in ("plane", "gibbs") for frame in moving) or drawn.number is not None:
         return None
@@ -222,9 +222,9 @@ def longest_of(first: Frame, second: Frame, drawn: JointGeometry) -> int | None:
 
 
 class Measure(NamedTuple):
-    """An angle or displacement of a joint: its ``value``, the ``law`` that it follows, and its ``rate``.
+    """An angle or displacement of a joint: its ``value``, what is 0 under a prescribed ``law``, and its ``rate``.
 
-    The value and the law are those of two frames with the joint's geometry; ``turns``: it is an angle.
+    All are functions of the two frames and the joint's geometry; ``turns``: whether it is an angle.
     """
 
     value: Callable[[Frame, Frame, JointGeometry], Expr]
@@ -234,15 +234,15 @@ class Measure(NamedTuple):
 
 
 def carrier(first: Frame, second: Frame) -> Frame:
-    """Return the frame in which directions common to both are simplest: the ground's, else the first."""
+    """Return the frame in which directions fixed in both are simplest: the ground's if one is fixed, else the first."""
     return second if second.fixed else first
 
 
 def slide(first: Frame, second: Frame, drawn: JointGeometry, direction: Vec) -> tuple[Expr, Expr]:
-    """Return how far the second body has moved from the first along a direction of both, as numerator and denominator.
+    """Return (numerator, denominator) of the second body's displacement from the first along ``direction``.
 
-    It is the body's point at the joint's place, or its origin where that has none: bodies that do not turn against each
-    other, or slide on a plane across the direction.
+    The displacement of the body's point at the joint's place; without a place of its origin, where the choice does not
+    matter: the bodies do not rotate relative to each other, or slide on a plane perpendicular to the direction.
     """
     frame = carrier(first, second)
     other = first if frame is second else second
@@ -259,14 +259,14 @@ def _displacement(first: Frame, second: Frame, drawn: JointGeometry) -> Expr:
 
 
 def _displacement_law(first: Frame, second: Frame, drawn: JointGeometry, law: Expr) -> Expr:
-    """Displacement along the axis less the law, n.X - |n| f = 0 with X the displacement, times its denominator."""
+    """Return n.X - |n| f times a denominator, with the displacement X, the axis n and the law f."""
     n = drawn.axis.vector
     moved, under = slide(first, second, drawn, n)
     return difference(moved, mul(length(n), under, law))
 
 
 def angle_of(first: Frame, second: Frame, drawn: JointGeometry) -> Expr:
-    """Return the second body's angle against the first, in space about the shared axis, right-handed."""
+    """Return the angle of the second body relative to the first, in space about the shared axis, right-handed."""
     if not drawn.axes:
         return difference(second.angle, first.angle)
     n = drawn.axis.vector
@@ -277,10 +277,10 @@ def angle_of(first: Frame, second: Frame, drawn: JointGeometry) -> Expr:
 
 
 def _angle_law(first: Frame, second: Frame, drawn: JointGeometry, law: Expr) -> Expr:
-    """Return what is 0 where the angle of the second body against the first about the axis is ``law``.
+    """Return an expression that is 0 if the angle of the second body relative to the first is the law f.
 
-    In the plane theta2 - theta1 - f = 0. In space v.n cos(f/2) - s |n| sin(f/2) = 0, or with
-    w = n x u: (R1 w).(R2 u) cos f - |n| (R1 u).(R2 u) sin f = 0.
+    In the plane theta2 - theta1 - f. In space, with the axis n, v.n cos(f/2) - s |n| sin(f/2), or with w = n x u, u
+    perpendicular to n: (R1 w).(R2 u) cos f - |n| (R1 u).(R2 u) sin f.
     """
     if not drawn.axes:
         return difference(angle_of(first, second, drawn), law)
@@ -294,12 +294,12 @@ def _angle_law(first: Frame, second: Frame, drawn: JointGeometry, law: Expr) -> 
 
 
 def _sine_and_cosine(first: Frame, second: Frame, axis: Direction) -> tuple[Expr, Expr]:
-    """Return sine and cosine of the angle about the axis n, times one positive factor, by u across n and n x u."""
+    """Return (sine, cosine) of the angle about the axis, times a positive factor."""
     u = axis.across[0]
-    now = second.carry(u)
-    return dot(first.carry(cross(axis.vector, u)), now), mul(length(axis.vector), dot(first.carry(u), now))
+    turned = second.carry(u)
+    return dot(first.carry(cross(axis.vector, u)), turned), mul(length(axis.vector), dot(first.carry(u), turned))
 
 
-#: What a drive may prescribe, and a coupling may mention.
+#: The two quantities that a drive may prescribe and a coupling may mention.
 ANGLE = Measure(angle_of, _angle_law, turn_rate, turns=True)
 DISPLACEMENT = Measure(_displacement, _displacement_law, slide_rate)

@@ -1,4 +1,4 @@
-"""Joints: two bodies, or a body and the ground, and which parts of their relative motion are held."""
+"""Joints: two bodies, or a body and the ground, and which parts of their relative motion are fixed."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class Joint(ConstraintBase):
 
     between: tuple[str, str] = Field(description="the two bodies; one may be ground")
 
-    #: What it holds of the second body against the first.
+    #: The parts of the relative motion that the joint fixes.
     holds: ClassVar[Holds]
 
     dimensions: ClassVar[tuple[int, ...]] = (2, 3)
@@ -46,17 +46,17 @@ class Joint(ConstraintBase):
         return None if len(world.faults) > before else (first, second)
 
     def geometry(self, world: World) -> JointGeometry:
-        """Return what it asks of the world; faults go there."""
+        """Return the joint's geometry in the reference configuration; faults are recorded in ``world``."""
         del world
         return JointGeometry()
 
     def laws(self, world: World, first: Frame, second: Frame, drawn: JointGeometry) -> Iterator[Relation]:
-        """Yield the drive's relation, if it is driven."""
+        """Yield the relation of the drive, if the joint is driven."""
         del world, first, second, drawn
         yield from ()
 
     def joined(self, world: World, first: Frame, second: Frame) -> Sequence[Relation]:
-        """Return the relations between the two frames, written out where the reference states what they mention."""
+        """Return the relations between the two frames: lazily if their coordinates are known without writing them."""
         drawn = self.geometry(world)
         laws = tuple(self.laws(world, first, second, drawn))
         equations = partial(self.holds.relations, first, second, drawn)
@@ -89,7 +89,7 @@ class LocatedJoint(Joint):
     at: Vector | None = Field(None, description="the joint's position in the reference configuration")
 
     def located(self, world: World) -> Vec | None:
-        """Return the place that its equations need; None where they need none, though one may be given."""
+        """Return the place on which the equations depend; None if they depend on none, even if ``at`` is given."""
         place = world.place(self.at, "at") if self.holds.placed or self.at is not None else None
         return place if self.holds.placed else None
 
@@ -114,12 +114,12 @@ class Driven(Axial):
 
     drive: Text | None = Field(None, description="the prescribed angle or displacement from the reference, in t")
 
-    #: Which of the two that is.
+    #: The quantity that a drive prescribes.
     drives: ClassVar[Measure]
 
     @classmethod
     def measures(cls) -> dict[str, Measure]:
-        """Return what a coupling may mention of it, by name: it turns about its axis, or slides along it."""
+        """Return {name: measure} of what a coupling may mention: the angle about and displacement along the axis."""
         measures = (("axis", "angle", ANGLE), ("across", "displacement", DISPLACEMENT))
         return {name: measure for part, name, measure in measures if part in cls.holds.motion_parts}
 

@@ -20,6 +20,7 @@ from dofkit.system import GROUND, Kinematics, Relation, TypeFacts, VelocityRow
 
 
 def _fixed_rows(at: Kinematics) -> Iterator[VelocityRow]:
+    """Yield the rows of the velocity of the fixed point, or of the body's velocity and angular velocity."""
     if at.points:
         yield from at.velocity(0)
     else:
@@ -54,12 +55,12 @@ class Fixed(ConstraintBase):
         if placed.frame == GROUND:
             world.fault("this point is fixed in the world already", "point", hint="name a particle or a body's point")
             return
-        stands = placed.reference
-        if stands is None:
-            stands = tuple(world.fresh() for _ in range(world.dimension))
+        position = placed.reference
+        if position is None:
+            position = tuple(world.fresh() for _ in range(world.dimension))
         else:
-            world.apart(placed, world.ground.point(stands, figures(stands)), ZERO)
-        yield from component_relations(minus(placed.over, scaled(placed.under, stands)))
+            world.apart(placed, world.ground.point(position, figures(position)), ZERO)
+        yield from component_relations(minus(placed.over, scaled(placed.under, position)))
 
     @property
     def in_words(self) -> str:
@@ -67,7 +68,7 @@ class Fixed(ConstraintBase):
 
 
 def _hold(frame: Frame) -> Iterator[Relation]:
-    """Position at its reference value, and the rotation the identity."""
+    """Yield the relations that a body has its reference position, and no rotation from the reference."""
     yield from component_relations(minus(frame.position, frame.start))
     if frame.chart == "gibbs":
         yield from component_relations(tuple(coordinate(name) for name in frame.angles), "orientation {}")
@@ -105,14 +106,15 @@ class Coincident(ConstraintBase):
 
 
 def across_a_line(at: Kinematics) -> Iterator[VelocityRow]:
-    """No slip of the point across the direction."""
+    """Yield the rows that the point has no velocity perpendicular to the line, relative to the body."""
     yield from across(at.directions[0], at.slip())
 
 
 class Slot(ConstraintBase):
     """The point P stays on the line through ``at`` along ``axis`` that ``body`` carries: d - 1 relations.
 
-    (R u).(P - p) - u.(a - p0) = 0 for each of the directions u across the axis.
+    (R u).(P - p) - u.(a - p0) = 0 for each direction u perpendicular to the axis, with the body's position p (p0 in the
+    reference), its rotation R and a = ``at``.
     """
 
     type: Literal["slot"] = Field(description="a point on a straight line carried by a body")
@@ -152,13 +154,14 @@ class Slot(ConstraintBase):
 
 
 def along(frame: Frame, point: Placed, place: Vec, direction: Vec) -> Expr:
-    """(R u).(P - p) - u.(a - p0), cleared: how far P is from the place carried by the frame, along u."""
+    """Return (R u).(P - p) - u.(a - p0) times its denominator: the displacement of P from the place a along u."""
     arm = dot(direction, minus(place, frame.start))
     offset = minus(point.over, scaled(point.under, frame.position))
     return difference(dot(frame.carry(direction), offset), mul(arm, frame.under, point.under))
 
 
 def _check_on_line(world: World, point: Placed, place: Vec, axis: Direction) -> None:
+    """Record a fault, with the distance, if the point is off the line in the reference configuration."""
     stands = point.reference
     if stands is None:
         return

@@ -1,8 +1,8 @@
-"""What runs in the browser: the functions that the bench and the practice sheets call, by name and with texts.
+"""Functions for the browser, which the bench and the practice sheets call by name, with JSON arguments.
 
-`reports` checks and classifies a scene, and `shown` is a printed sheet as JSON; `drawings` needs numpy, `equations`
-SymPy, and `answers` reads and judges the answers of a sheet. A module is imported when it is first asked for, after
-the worker has loaded what it needs. Nothing returned is HTML.
+`reports` checks and classifies a scene, and `shown` writes a printed sheet as JSON; `drawings` needs numpy, `equations`
+SymPy; `answers` reads and judges the answers of a sheet. A module is imported at its first call, after the worker has
+loaded its libraries. No function returns HTML.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from dofkit.base.errors import DofkitError, Fault, SceneError
 
 
 def answer(module: str, call: str, arguments: str) -> str:
-    """Return what a function says, as JSON; what is no scene, and what has no answer, gives its faults."""
+    """Return the value of ``module.call(*arguments)`` as JSON; if it raises a DofkitError, the faults."""
     try:
         value = getattr(import_module(f"{__name__}.{module}"), call)(*json.loads(arguments))
     except SceneError as error:

@@ -1,4 +1,4 @@
-"""The answers of a sheet: how one is read, set as a formula where it is one, and the judgement of all."""
+"""The answers of a practice sheet: how an answer is read, and the judgement of all answers."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from dofkit.site.browser.shown import json_of_content
 
 
 def read(declared: str, question: str, text: str, language: Language) -> dict[str, Any]:
-    """Return how an answer is read, or why it cannot be read."""
+    """Return how an answer is read (``shown``, a formula with MathML), or why it cannot be read."""
     reading = read_answer(declared, question, text, language)
     if "read_as" in reading:
         words = reading["read_as"]
@@ -22,5 +22,5 @@ def read(declared: str, question: str, text: str, language: Language) -> dict[st
 
 
 def judge(assignment: str, answers: Mapping[str, Mapping[str, str]]) -> dict[str, Any]:
-    """Return the judgement of each answer of a practice sheet."""
+    """Return {"items": judgements} of the answers of a practice sheet."""
     return {"items": judge_answers(assignment, answers)}

@@ -11,13 +11,13 @@ from dofkit.scene.reading import loads
 
 
 def picture(text: str) -> dict[str, str]:
-    """Return the picture of a scene as SVG, and what it says in words."""
+    """Return the picture of a scene as ``svg``, with its alternative text."""
     drawn = draw(loads(text))
     return {"svg": drawn.svg(), "alternative": drawn.alternative}
 
 
 def motion(text: str) -> dict[str, Any]:
-    """Return what the player shows of a scene."""
+    """Return the player's ``data`` for the motion of a scene, with alternative text and notes."""
     moving = animate(loads(text))
     sketch = moving.sketch
     data = player_data(sketch, moving.clips, moving.program, moving.switches)

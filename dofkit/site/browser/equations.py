@@ -12,6 +12,6 @@ from dofkit.site.browser.shown import json_of_sheet
 
 
 def equations(text: str) -> dict[str, Any]:
-    """Return the printed equations of motion."""
+    """Return the equations of motion of a scene as a printed sheet."""
     scene = loads(text)
     return {"sheet": json_of_sheet(sheet_of_motion(as_the_scene(lagrange(scene), scene), scene.title))}

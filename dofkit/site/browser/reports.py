@@ -1,4 +1,4 @@
-"""The report on a scene as one types: its faults, what it declares, and what changes where constraints are left out."""
+"""The report on a scene that is being typed: its faults, its names, and the effect of leaving out constraints."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from dofkit.site.browser.shown import json_of_sheet
 
 
 def check(text: str) -> dict[str, Any]:
-    """Return the names that a scene declares, for completion; a text with faults raises them, so there are none."""
+    """Return the names that a scene declares, for completion. Raises SceneError if the text has faults."""
     scene = loads(text)
     names = [c.name for c in coordinate_table(scene).coordinates]
     names += [f"d{name}" for name in names]
@@ -24,7 +24,7 @@ def check(text: str) -> dict[str, Any]:
 
 
 def report(text: str, left_out: Sequence[str]) -> dict[str, Any]:
-    """Return the report on a scene without the constraints that are left out, and what that changes."""
+    """Return the report on a scene without the constraints ``left_out``, and what changes by leaving them out."""
     whole = loads(text)
     names = [constraint.name or f"c{i}" for i, constraint in enumerate(whole.constraints, 1)]
     dropped = [name for name in left_out if name in names]
@@ -41,5 +41,5 @@ def report(text: str, left_out: Sequence[str]) -> dict[str, Any]:
 
 
 def as_json(text: str) -> dict[str, Any]:
-    """Return a scene as a mapping, without what is at its default."""
+    """Return a scene as a mapping, without fields of default value."""
     return {"scene": loads(text).model_dump(mode="json", exclude_defaults=True, exclude_none=True)}

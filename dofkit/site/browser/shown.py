@@ -1,4 +1,4 @@
-"""A printed sheet as JSON: texts, and formulas as `{"text", "math"}`, of whose MathML a page takes known elements."""
+"""A printed sheet as JSON: texts, and formulas as `{"text", "math"}`; a page uses only known elements of the MathML."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from dofkit.interface.show.sheet import Content, Grid, Sheet, SheetSection
 
 
 def json_of_sheet(sheet: Sheet) -> dict[str, Any]:
-    """Return a printed sheet, its formulas with their MathML."""
+    """Return a printed sheet as JSON, formulas with their MathML."""
     return {
         "name": sheet.name,
         "title": json_of_content(sheet.title),
