@@ -18,7 +18,7 @@ from dofkit.exact.points.real_search import RealSearch, at_another_time
 from dofkit.exact.ring.program import Scalar, values, vanish
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.triangular import TriangularSolver
-from dofkit.exact.unknowns import Unit, unit_of
+from dofkit.exact.unknowns import Unknown, unknown_of
 from dofkit.exact.zero import independent_on_set
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
@@ -133,7 +133,7 @@ class States:
         except NoValueError:
             return None
 
-    def _solver(self, nodes: Sequence[int], fixed: frozenset[Unit] = frozenset()) -> TriangularSolver:
+    def _solver(self, nodes: Sequence[int], fixed: frozenset[Unknown] = frozenset()) -> TriangularSolver:
         return TriangularSolver(self.ring, [n for n in nodes if self.ring.code[n] != (0, 0)], fixed, seed=5)
 
     @cached_property
@@ -143,7 +143,7 @@ class States:
     @cached_property
     def _moving(self) -> TriangularSolver:
         still = [v for v in self.ring.vars if not moves(self.ring, v.index)]
-        return self._solver(self.moving, frozenset(unit_of(self.ring, v.index) for v in still))
+        return self._solver(self.moving, frozenset(unknown_of(self.ring, v.index) for v in still))
 
     def real(self, seed: int) -> RealPoint | None:
         """Return a real state with balls: velocities at a random configuration where there are some, else any."""
