@@ -46,8 +46,7 @@ def _freedoms_agree(values: Values) -> bool:
 def _dependences_agree(values: Values) -> bool:
     """Return whether the numbers of redundant equations by rank, by implication and in the groups agree.
 
-    More equations may be implied if one equation removes several freedoms. At a singular configuration the groups may
-    have fewer.
+    More may be implied if one equation removes several freedoms. At a singular configuration the groups may have fewer.
     """
     redundant, surplus = values["redundant"], values["redundant_equations"]
     if redundant is None or surplus is None or values["consistent"] is not True:

@@ -22,10 +22,7 @@ MAX_CHOICES, LEAVING_SECONDS = 40, 5.0
 
 
 def implied(reduced: Sequence[Reduced], setting: Setting, numbers: Sequence[int]) -> Redundancies:
-    """Return the redundancies among the constraints ``numbers`` by implication.
-
-    Undecided if they are more than `MAX_CHOICES` or time runs out.
-    """
+    """Return the redundancies among ``numbers`` by implication; undecided if these are too many or time runs out."""
     if len(numbers) > MAX_CHOICES:
         return undecided_dependence(numbers)
     return unless_late(partial(_by_implication, reduced, setting, numbers), undecided_dependence(numbers))

@@ -16,7 +16,7 @@ from flint import arb, arb_mat
 
 from dofkit.base.deadline import check
 from dofkit.base.libraries import np
-from dofkit.exact.matrices.dense import PASSES, Matrix, dot, length, pivoted, plus, unit_rows
+from dofkit.exact.matrices.dense import GRAM_SCHMIDT_PASSES, Matrix, dot, length, pivoted, plus, unit_rows
 
 #: With scaled rows, pivots below `NOISE` are rounding errors, above `SIGNAL` not; up to `FAINT` they count as 0.
 NOISE, SIGNAL = 1e-9, 1e-6
@@ -45,7 +45,7 @@ def greedy_rows(matrix: Matrix, rank: int) -> list[int]:
         if len(kept) == rank:
             break
         residual = list(row)
-        for _ in range(PASSES):
+        for _ in range(GRAM_SCHMIDT_PASSES):
             for direction in basis:
                 residual = plus(residual, -dot(residual, direction), direction)
         size = length(residual)

@@ -24,7 +24,7 @@ BITS, SMALL = 512, 400 if HAS_NUMPY else math.inf
 #: Singular values up to `FLAT` count as 0 in a step; `LEAST` keeps a damped system regular where f = 0.
 FLAT, LEAST = 1e-12, 1e-60
 #: How often Gram-Schmidt is repeated for one direction, because the first pass leaves rounding errors.
-PASSES = 2
+GRAM_SCHMIDT_PASSES = 2
 
 
 def dot(a: Vector, b: Vector) -> float:
@@ -128,7 +128,7 @@ def pivoted(matrix: Matrix, least: float = 0.0, most: int | None = None) -> Pivo
         if not sizes[best] > least:
             break
         direction = residual[best]
-        for _ in range(PASSES):
+        for _ in range(GRAM_SCHMIDT_PASSES):
             for other in chosen.basis:
                 direction = plus(direction, -dot(direction, other), other)
             size = length(direction)
@@ -152,7 +152,7 @@ def _array_pivoted(residual: np.ndarray, least: float, most: int) -> Pivoting:
         if not lengths[best] > least:
             break
         direction = residual[best].copy()
-        for _ in range(PASSES):
+        for _ in range(GRAM_SCHMIDT_PASSES):
             direction -= basis[:k].T @ (basis[:k] @ direction)
             size = float(np.linalg.norm(direction))
             if not size:

@@ -34,10 +34,7 @@ INFLATIONS, ROOM = 4, 2**-30
 
 
 class RealSearch:
-    """Searches for real points on the zero set of ``nodes`` by changing ``unknowns``.
-
-    Unnamed (generic) parameters are among the unknowns.
-    """
+    """Searches for real points on the zero set of ``nodes`` by changing ``unknowns`` (also unnamed parameters)."""
 
     def __init__(
         self,

@@ -86,9 +86,8 @@ def false_without_value(function: Callable[P, Decision]) -> Callable[P, Decision
 class Var:
     """A generator.
 
-    ``kind``: symbol, cos, sin, exp, log, root (``degree``-th), asin, atan, atan2, sign, call or pi;
-    ``key`` identifies it; ``args`` are the nodes of its arguments; ``partner`` is the cos of a sin and
-    the sin of a cos.
+    ``kind``: symbol, cos, sin, exp, log, root (``degree``-th), asin, atan, atan2, sign, call or pi; ``key`` identifies
+    it; ``args``: the nodes of its arguments; ``partner``: the index of the cos of a sin, or the sin of a cos.
     """
 
     index: int
@@ -196,10 +195,7 @@ class Instructions(ABC):
 
 
 def reachable(program: Instructions, roots: Iterable[int], through_generators: bool = True) -> list[int]:
-    """Return every instruction that the roots depend on, the last first.
-
-    Without ``through_generators``, the arguments of generators are left out.
-    """
+    """Return every node that the roots depend on (``through_generators``: also by their arguments), the last first."""
     seen: set[int] = set()
     stack = list(roots)
     while stack:
@@ -252,10 +248,7 @@ def vanish(ring: Instructions, point: Point, nodes: Sequence[int]) -> bool:
 
 @raising_no_value
 def values(ring: Instructions, point: Point, upto: int | None = None) -> list[Scalar]:
-    """Return the value of every instruction at ``point``; raises PoleError at a pole.
-
-    ``upto`` stops after that many instructions.
-    """
+    """Return the values of all nodes (or the first ``upto``) at a point; raises PoleError at a pole."""
     check()
     out: list[Scalar] = []
     push = out.append

@@ -85,10 +85,7 @@ def is_always_satisfied(c: DomainCondition, positive: frozenset[Expr]) -> bool:
 def is_satisfied_at(
     c: DomainCondition, configuration: Mapping[Expr, Expr], positive: frozenset[Expr], strictly: bool = False
 ) -> bool | None:
-    """Return whether a condition is satisfied at a configuration; None if its sign there is not known.
-
-    With ``strictly``, >= is tested as >.
-    """
+    """Return whether a condition is satisfied at a configuration (``strictly``: >= as >); None if not known."""
     sign = _sign(substitute(c.expr, configuration), positive)
     if sign is None:
         return None
