@@ -191,10 +191,7 @@ def is_graph(chart: Chart) -> bool:
 
 
 def _in_regions(chart: Chart) -> bool:
-    """Return whether signs of expressions in the coordinates occur, so that the relations differ by region.
-
-    Signs of expressions in velocities do not count.
-    """
+    """Return whether signs of expressions in coordinates (not velocities) occur, so that relations differ by region."""
     moving = frozenset(s for s in chart.symbols if s != ex.TIME)
     signs = [chart.ring.var_expr[v.index].symbols for v in chart.ring.vars if v.kind == "sign"]
     return any(not moving.isdisjoint(u) and not any(s.args[0] == "velocity" for s in u) for u in signs)

@@ -70,10 +70,7 @@ class ImpliedRelations:
         return self._answers[key]
 
     def needed(self, row: int, others: Sequence[int]) -> list[int]:
-        """Return the others that an implied relation needs: those with nonzero multipliers along a curve.
-
-        All of them if the multipliers cannot be computed.
-        """
+        """Return the ``others`` with nonzero multipliers along a curve; all of them if these cannot be computed."""
         numbers = sorted((row, *others))
         subchart = chart_of_rows(self.chart, numbers)
         point = pose_point(subchart, {**self.reference, ex.TIME: ex.ZERO}, 3)
@@ -87,10 +84,7 @@ class ImpliedRelations:
             return list(others)
 
     def rigid(self, rows: Sequence[int]) -> int:
-        """Return the dimension of the rigid motions that preserve some relations.
-
-        0 if these do not mention all coordinates, or the motions are not known.
-        """
+        """Return the dimension of the rigid motions of these relations; 0 if unknown, or coordinates do not occur."""
         subchart = chart_of_rows(self.chart, rows)
         point = pose_point(subchart, {**self.reference, ex.TIME: ex.ZERO}, 3)
         return 0 if point is None or len(subchart.symbols) < len(self.chart.symbols) else rigid_motions(subchart, point)

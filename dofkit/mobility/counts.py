@@ -76,7 +76,7 @@ def freedom_of_body(system: System) -> int:
 def kutzbach_count(
     system: System, equations: Sequence[int], others: int, freedom: int | None, placed: PlacementMaker
 ) -> Mobility | None:
-    """Return Kutzbach's count and why it differs from ``freedom``; ``others``: number of equations, also of no joint."""
+    """Return Kutzbach's count and why it differs from ``freedom``; ``others``: number of all equations to count."""
     joints = joints_of(system, equations)
     if not joints:
         return None

@@ -133,7 +133,7 @@ def _in_one_plane(g: Geometry, axes: Sequence[NamedLine]) -> bool:
 
 
 def _through_one_point(g: Geometry, axes: Sequence[NamedLine]) -> list[NamedLine]:
-    """Return the most axes through one point in space, of ``axes`` of which no two are parallel; [] for fewer than 3."""
+    """Return the most ``axes`` in space, no two of them parallel, that meet in one point; [] for fewer than 3."""
     best: list[NamedLine] = []
     for a, b in combinations(axes, 2):
         if not g.meet(a, b):
@@ -229,7 +229,7 @@ def _of_bars(g: Geometry, bars: Sequence[NamedLine], members: Sequence[Connectio
 
 
 def _of_points(g: Geometry, members: Sequence[Connection]) -> Iterator[str]:
-    """Yield a sentence if the ends of links are on a line or plane in space, or a conic in the plane [BolkerRoth1980]."""
+    """Yield a sentence if ends of links are on a line or plane in space, or a conic in the plane [BolkerRoth1980]."""
     points: dict[str, tuple[Any, ...]] = {}
     for c in members:
         at = g.placement.located[c.constraint]

@@ -107,7 +107,7 @@ class Companionship:
         An integral of some of its rows need not be: dx = y dz and x = 0 make z constant, but not where y = 0.
         """
         forms = codistribution(block, self.answered.setting, a.hidden, [f.expr])
-        return first_integrals.IntegralSearch(forms).holds(f.expr)
+        return first_integrals.IntegralSearch(forms).is_constant(f.expr)
 
     def _holonomic(self, constraint: int, rows: Sequence[Row], block: Block) -> bool:
         """Return whether the forms of a constraint are holonomic together with ``rows`` only; False if undecided."""
