@@ -1,6 +1,6 @@
-"""The arguments by which answers are given: what each shows, from which hypotheses, and which function checks these.
+"""The arguments that answers rest on: what each shows, from which hypotheses, and which function checks these.
 
-An answer that is sure names a row of `arguments.yaml`: `dofkit.base.verdicts.Claim` lets none be written without.
+Every decided answer names a row of `arguments.yaml`; `dofkit.base.verdicts.Claim` enforces this.
 """
 
 from __future__ import annotations
@@ -14,9 +14,9 @@ from dofkit.base.verdicts import ArgumentKey
 
 
 class Argument(NamedTuple):
-    """A row: what it ``claims``, the key of its ``theorem`` in `THEOREMS.md` ("" where it is a definition or a count).
+    """An argument: what it ``claims``, its ``hypotheses`` in words, and the function by which they are ``checked_by``.
 
-    ``hypotheses`` in words; ``checked_by``: the function that checks them.
+    ``theorem`` is a key of `THEOREMS.md`, "" for a definition or a count.
     """
 
     claims: str

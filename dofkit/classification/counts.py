@@ -1,8 +1,8 @@
-"""Counts that stand beside a report's own: in general position, and Gruebler's and Kutzbach's; and why they differ.
+"""Counts shown next to a report's own: in general position, and Gruebler's and Kutzbach's; and why they differ.
 
-Where positions are rounded, an exact rank is full although the true one is not. So the relations between twists, with
-rows of length 1 as for measured geometry, are looked at for a gap between their singular values. A body turns about the
-middle of its points, its turn measured by how far they reach, so that a small body in a large scene makes none.
+If positions are rounded, an exact rank may be full although the true one is not. A gap between the singular values of
+the relations between twists, with rows of length 1, shows this. Rotations are taken about the centroid of a body's
+points and multiplied by their largest distance from it, so that a small body in a large scene causes no gap.
 """
 
 from __future__ import annotations
@@ -27,15 +27,15 @@ from dofkit.mobility.placement import TURNS, Member, Placement, drawn_placement,
 from dofkit.relations.normal.pieces import Finite
 from dofkit.report import Generic, Mobility
 
-#: Dependent sets of rows that are looked at, and sentences about them that are written.
+#: Bounds on the dependent sets of rows examined in a block, and on the sentences about special positions.
 MOST_SETS, MOST_TOLD = 40, 6
-#: Relations in more columns than these are not looked at for a near-dependence.
+#: Near-dependence is tested up to so many columns.
 MOST_COLUMNS = 200
-#: A singular value is nearly 0 below the first of these, if it is less by the second than what comes next.
+#: A singular value is nearly 0 if it is below `NEAR` and smaller than the next one by the factor `GAP`.
 NEAR, GAP = 2e-3, 100.0
-#: Of the time that is left, for the count in general position.
+#: Share of the remaining time for the count in general position.
 SHARE = 0.4
-#: Measured lines count as parallel, and so on, within so many tolerances.
+#: Positions with a tolerance count as special (lines as parallel, for example) within so many tolerances.
 SLACK = 10
 T = TypeVar("T")
 _LATE = General(None, why="there was no time to count")
@@ -43,7 +43,7 @@ _LATE = General(None, why="there was no time to count")
 
 @dataclass(frozen=True)
 class CountsBeside:
-    """The counts of one scene; the reference configuration is turned into numbers once, where it is asked for."""
+    """The counts of one scene; ``instantaneous``: its velocity freedom at the reference configuration."""
 
     study: Study
     instantaneous: int | None
@@ -88,7 +88,7 @@ class CountsBeside:
         return measured_placement(system) if measured else drawn_placement(system, self.study.setting.positive)
 
     def _dependent_sets(self) -> list[list[int]]:
-        """The constraints of minimal dependent sets of rows at the reference, of circuits too; none holds another."""
+        """Return the constraints of minimal dependent sets of rows and of circuits; none contains another."""
         sets: list[list[int]] = []
         for block, a in self.study.outcome.answered_parts:
             if len(a.matrix) != len(block.rows):
@@ -100,7 +100,7 @@ class CountsBeside:
         return [s for s in unique if not any(set(t) < set(s) for t in unique)]
 
     def nearly(self) -> str | None:
-        """What to say of a near-dependence at an exact drawing."""
+        """Return a warning if the rows are nearly dependent at an exact reference configuration, otherwise None."""
         here, system = self.instantaneous, self.study.system
         if here is None or system.tolerance is not None or not system.has_geometry:
             return None
@@ -110,7 +110,7 @@ class CountsBeside:
         return None if placement is None else _nearly_dependent(placement, system.dimension, columns, columns - here)
 
     def mobility(self) -> Mobility | None:
-        """Gruebler's and Kutzbach's count; None without bodies and joints."""
+        """Return Gruebler's and Kutzbach's count; None without bodies and joints."""
         study = self.study
         others = sum(
             r.constraint.facts.joint or all(isinstance(p, Finite) for p in n.pieces)
@@ -125,7 +125,7 @@ class CountsBeside:
 
 
 def _if_it_has_a_value(work: Callable[[], T]) -> T | None:
-    """The counts; None where there was no time, or the reference has no value (a root of what is negative)."""
+    """Return the result of ``work``; None if time runs out or an expression has no value at the reference."""
     try:
         return unless_late(raising_no_value(work), None)
     except (ArithmeticError, ValueError):
@@ -133,7 +133,10 @@ def _if_it_has_a_value(work: Callable[[], T]) -> T | None:
 
 
 def counts_beside(study: Study, instantaneous: int | None) -> tuple[dict[str, Generic | Mobility | None], str | None]:
-    """``generic`` and ``mobility``, and what to say of a near-dependence; ``instantaneous``: at the reference."""
+    """Return the report's fields ``generic`` and ``mobility``, and a warning of a near-dependence or None.
+
+    ``instantaneous``: the velocity freedom at the reference configuration.
+    """
     counts = CountsBeside(study, instantaneous)
     with part(SHARE):
         generic = _if_it_has_a_value(counts.generic)
@@ -141,7 +144,7 @@ def counts_beside(study: Study, instantaneous: int | None) -> tuple[dict[str, Ge
 
 
 def _nearly_dependent(placement: Placement, dimension: int, columns: int, rank: int) -> str | None:
-    """What to say of a near-dependence, with a `tolerance` to set; None where there is none, or too much to look at.
+    """Return a warning of a near-dependence, with the `tolerance` to set; None if there is none or it is not tested.
 
     ``placement`` in floating point, lengths in units of the scene's size; ``rank``: the exact one.
     """
@@ -167,9 +170,9 @@ def _nearly_dependent(placement: Placement, dimension: int, columns: int, rank: 
 
 
 def _about_centroids(j: list[list[float]], placement: Placement, dimension: int) -> list[list[float]]:
-    """Return the rows by velocities v' of the centroids and w' = reach w: v = v' - w x (middle - start).
+    """Return the rows in terms of velocities v' of the centroids and w' = reach w: v = v' - w x (middle - start).
 
-    So rows can be compared whatever the unit of length and wherever the origin.
+    So their sizes do not depend on the unit of length and on the origin.
     """
     j = [list(row) for row in j]
     for member, points in _points(placement).values():
@@ -190,18 +193,18 @@ def _about_centroids(j: list[list[float]], placement: Placement, dimension: int)
 
 
 def _points(placement: Placement) -> dict[int, tuple[Member, list[list[float]]]]:
-    """Return the places at which each member is connected, by its first column."""
-    held: dict[int, tuple[Member, list[list[float]]]] = {}
+    """Return {first column of a member: (member, points at which it is connected)}."""
+    points_of: dict[int, tuple[Member, list[list[float]]]] = {}
     for connection in placement.located:
         joined = ((member, at) for at in connection.places for member in connection.members)
         for member, at in (*connection.points, *joined):
             if member.column is not None:
-                held.setdefault(member.column, (member, []))[1].append(list(map(float, at)))
-    return held
+                points_of.setdefault(member.column, (member, []))[1].append(list(map(float, at)))
+    return points_of
 
 
 def _gap(j: list[list[float]], rank: int) -> tuple[float, float] | None:
-    """The largest of the singular values that are nearly 0, and the next above; None where there are none such."""
+    """Return (the largest singular value that is nearly 0, the next larger one); None if none is nearly 0."""
     for above, below in pairwise(singular_values(unit_rows(j))[:rank]):
         if below < NEAR and above > GAP * below:
             return below, above

@@ -13,9 +13,9 @@ from dofkit.classification.study import Decided, Study, counted, decided
 from dofkit.classification.turned_coordinates import (
     TurnedGroup,
     are_coordinates,
-    chosen_at_drawing,
+    chosen_at_reference,
     partly_turned,
-    rows_at_drawing,
+    rows_at_reference,
     turned_together,
 )
 from dofkit.configuration.rigid_motions import RigidOrbit
@@ -31,9 +31,9 @@ from dofkit.relations.normal.pieces import Finite
 from dofkit.relations.setting import Setting
 from dofkit.system import Rotation
 
-#: Coordinates up to so many are looked at.
+#: Bound on the coordinates of a block for the slower methods.
 MOST = 120
-#: Arguments by which every part of the set is as good as every other.
+#: Arguments that are valid on every component of the configuration space.
 ALIKE: frozenset[ArgumentKey | None] = frozenset(
     {
         "nothing constrains",
@@ -48,7 +48,7 @@ ALIKE: frozenset[ArgumentKey | None] = frozenset(
 
 
 def generalized_coordinates(study: Study) -> Decided:
-    """Return an independent choice of ``dof`` coordinates: those that are not pivots of what integrates."""
+    """Return a choice of ``dof`` independent coordinates by name, with its claim."""
     chosen = unless_late(partial(_of_system, study), None)
     return decided(study, chosen, OPEN if chosen is None else claim_of_choice(study, chosen))
 
@@ -58,7 +58,7 @@ def _of_system(study: Study) -> list[str] | None:
     if outcome.dof is None:
         return None
     chosen = set(outcome.untouched)
-    places_of: dict[int, list[int]] = {}
+    places_of: dict[int, list[int]] = {}  # blocks that are equal up to names get the same choice
     for block, a in zip(outcome.blocks, outcome.answers, strict=True):
         places = None if a.kind is None else places_of.get(a.kind)
         if places is None:
@@ -74,8 +74,8 @@ def _of_system(study: Study) -> list[str] | None:
         if group.places == 1:
             continue
         free = chosen.intersection(group.block.coordinates)
-        whole = Answer(dof=len(free), dependent=group.block.coordinates, hidden=[*group.hidden])
-        names = _of_block(group.block, whole, study.setting, system.rotations)
+        of_group = Answer(dof=len(free), dependent=group.block.coordinates, hidden=[*group.hidden])
+        names = _of_block(group.block, of_group, study.setting, system.rotations)
         if names is None:
             return None
         chosen = chosen - free | set(names)
@@ -83,18 +83,18 @@ def _of_system(study: Study) -> list[str] | None:
 
 
 def _turned_groups(study: Study, chosen: Collection[str]) -> Iterable[TurnedGroup]:
-    """Return the groups of blocks that hold the angles of bodies of which some angles are chosen and some are not."""
+    """Return the groups of blocks with the angles of bodies of which some angles are chosen and some are not."""
     turning = partly_turned(chosen, study.system.rotations) if study.system.rotations else ()
     outcome = study.outcome
     return turned_together(outcome.blocks, outcome.answers, outcome.untouched, turning) if turning else ()
 
 
 def claim_of_choice(study: Study, chosen: Sequence[str]) -> Claim:
-    """Of the generalized coordinates: the others have independent rows, at the reference or at a generic point.
+    """Return the claim that ``chosen`` are coordinates: the columns of the others are independent at some point.
 
-    Where the set may have several parts the point may lie on another one. At a singular reference the set is known
-    where it is the orbit of the system as one body; elsewhere it may be no graph over any coordinates. Where
-    some angles of a body that turns are chosen, at a certified configuration.
+    The point is the reference or a generic one; if the set may have several components, it may lie on another one. At
+    a singular reference, the choice is certain if the set is the orbit of the system as one body. If some angles of a
+    body are chosen, the choice is tested at a certified configuration.
     """
     of_blocks = []
     for block, a in zip(study.outcome.blocks, study.outcome.answers, strict=True):
@@ -119,14 +119,14 @@ def claim_of_choice(study: Study, chosen: Sequence[str]) -> Claim:
 
 
 def _of_block(block: Block, a: Answer, setting: Setting, rotations: Sequence[Rotation]) -> list[str] | None:
-    """The free coordinates of a block; None where none is known."""
+    """Return a choice of ``a.dof`` coordinates of a block, by several methods in turn; None if all fail."""
     if a.dof is None:
         return None
     if a.dof == 0:
         return []
     block_coordinates = frozenset(block.coordinates)
     turning = [r for r in rotations if r.chart == "gibbs" and not block_coordinates.isdisjoint(r.names)]
-    of_joints = partial(_dependent_at_drawing, TurnedGroup(block, ()), setting, places_first=not a.answered_parts)
+    of_joints = partial(_dependent_at_reference, TurnedGroup(block, ()), setting, places_first=not a.answered_parts)
     dependent = set(a.dependent if a.answered_parts is None else of_joints())
     direct = [c for c in block.coordinates if c not in dependent]
     if not turning and len(direct) == a.dof:
@@ -134,25 +134,26 @@ def _of_block(block: Block, a: Answer, setting: Setting, rotations: Sequence[Rot
         return direct if chosen is None or not _is_regular(block, a, chosen, setting) else chosen
     if setting.engines != BOTH:
         return direct if len(direct) == a.dof and not turning else None
-    whole = direct if len(direct) == a.dof and not (turning and partly_turned(direct, turning)) else None
-    drawn = None if whole or not turning else chosen_at_drawing(TurnedGroup(block, tuple(a.hidden)), setting, turning)
-    if drawn is not None and len(drawn) == a.dof:
-        return drawn
+    suitable = direct if len(direct) == a.dof and not (turning and partly_turned(direct, turning)) else None
+    group = TurnedGroup(block, tuple(a.hidden))
+    at_reference = None if suitable or not turning else chosen_at_reference(group, setting, turning)
+    if at_reference is not None and len(at_reference) == a.dof:
+        return at_reference
     if block.forms or block.nonlinear or len(block.coordinates) > MOST or expired():
-        return whole
+        return suitable
     orbit = None if turning else orbit_at_reference(block, a, setting)
     if orbit is not None:
         return orbit.chart_of()
     result = tangent_spaces.nearby(block, a.dof, setting, turning)
-    return result if result is not None or turning else whole
+    return result if result is not None or turning else suitable
 
 
-def _dependent_at_drawing(group: TurnedGroup, setting: Setting, places_first: bool = False) -> tuple[str, ...]:
-    """Coordinates that the rows at the reference can be solved for, the last ones where there is a choice.
+def _dependent_at_reference(group: TurnedGroup, setting: Setting, places_first: bool = False) -> tuple[str, ...]:
+    """Return coordinates that the rows at the reference can be solved for, later ones preferred.
 
-    ``places_first``: places are solved for before angles.
+    With ``places_first``, positions x, y, z are preferred to angles.
     """
-    result = rows_at_drawing(group, setting)
+    result = rows_at_reference(group, setting)
     if result is None:
         return ()
     names, block_names = group.block.coordinates, frozenset(group.block.coordinates)
@@ -165,15 +166,15 @@ def _dependent_at_drawing(group: TurnedGroup, setting: Setting, places_first: bo
 
 
 def orbit_at_reference(block: Block, a: Answer, setting: Setting) -> RigidOrbit | None:
-    """Where a drawing is singular and yet moves as one body alone: its orbit. None elsewhere."""
-    alone = a.about == "reference" and a.instantaneous != a.velocity_dof and not block.forms and not block.nonlinear
-    return RigidOrbit.at_reference(make_chart(block, setting), a.dof) if alone and a.dof else None
+    """Return the orbit of the system as one body, if the reference is singular and nothing else moves; else None."""
+    singular = a.about == "reference" and a.instantaneous != a.velocity_dof and not block.forms and not block.nonlinear
+    return RigidOrbit.at_reference(make_chart(block, setting), a.dof) if singular and a.dof else None
 
 
 def regular_at_witness(names: Sequence[str], a: Answer, chosen: Sequence[str]) -> bool | None:
-    """Return whether the geometric equations, by the coordinates that are not chosen, have full rank at the witness.
+    """Return whether the columns of the coordinates that are not chosen are independent at the witness.
 
-    None where no rows are known there. What divides by a coefficient may divide by 0 on the part of the witness.
+    None if no rows are known there. (A coefficient that was divided by may be 0 on the component of the witness.)
     """
     if a.real is None or a.dof is None:
         return None
@@ -182,10 +183,10 @@ def regular_at_witness(names: Sequence[str], a: Answer, chosen: Sequence[str]) -
 
 
 def _is_regular(block: Block, a: Answer, chosen: Sequence[str], setting: Setting) -> bool:
-    """Return whether the relations, by the coordinates that are not chosen, have full rank at the examined point.
+    """Return whether the columns of the coordinates that are not chosen are independent at the examined point.
 
-    A coefficient that was divided by may be 0 all over the set; at a reference these are numbers. Of what was answered
-    by parts no rows are known.
+    (A coefficient that was divided by may be 0 on the set; at a reference only numbers are divided by, so that a block
+    analysed in parts, of which no rows are known, is regular.)
     """
     if a.answered_parts is not None:
         return setting.reference is not None
@@ -199,10 +200,10 @@ def _is_regular(block: Block, a: Answer, chosen: Sequence[str], setting: Setting
 
 
 def _explicit(block: Block, dof: int, setting: Setting) -> list[str] | None:
-    """Those by which the relations give all others at once: an angle rather than what it makes of lengths.
+    """Return ``dof`` coordinates of which all others are explicit functions by the relations; None if there are none.
 
-    Where there is a choice the last of the block's coordinates are solved for. At a reference configuration a
-    coefficient may be 0, so that only numbers are divided by there.
+    Later coordinates of the block are preferably solved for. At a reference configuration a coefficient may be 0, so
+    that only numbers are divided by there.
     """
     if block.forms or block.nonlinear or len(block.coordinates) > MOST:
         return None

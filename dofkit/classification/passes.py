@@ -1,4 +1,4 @@
-"""The passes that fill a report, in their order, with the claim of each field and the laws that fields obey."""
+"""The passes that fill the fields of a report, in their order, and the laws that fields have to obey."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from dofkit.relations.setting import ALL, Reductions
 from dofkit.report import BRANCH_WARNING, ConstraintEntry, FieldVerdict, ForceEntry, Mobility, Report
 from dofkit.system import BINDING, System
 
-#: Fields of the entries that are withheld together with the redundancy of the report.
+#: Fields of the constraints' entries that are withheld together with the redundancy of the report.
 OF_ENTRIES = ("independent", "circuit", "redundant_equations")
 UNDECIDED = FieldVerdict.of(OPEN)
 CONTRADICTION = "These fields are withheld because they contradict each other ({law}): {fields}."
@@ -44,10 +44,9 @@ def _freedoms_agree(values: Values) -> bool:
 
 
 def _dependences_agree(values: Values) -> bool:
-    """Return whether as many equations are redundant by rank, by implication and in the groups.
+    """Return whether the numbers of redundant equations by rank, by implication and in the groups agree.
 
-    An equation that states several things removes more freedom than one: then more equations are implied. At a singular
-    configuration the groups may hold fewer.
+    More may be implied if one equation removes several freedoms. At a singular configuration the groups may have fewer.
     """
     redundant, surplus = values["redundant"], values["redundant_equations"]
     if redundant is None or surplus is None or values["consistent"] is not True:
@@ -66,7 +65,7 @@ def _dependences_agree(values: Values) -> bool:
 
 
 def _circuits_agree(values: Values) -> bool:
-    """Return whether circuits belong to redundant constraints and hold only constraints written before them."""
+    """Return whether circuits belong to redundant constraints and contain only constraints written before them."""
     before = set[str]()
     for e in values["constraints"]:
         if e.circuit is not None and (e.name not in (values["redundant"] or ()) or not before.issuperset(e.circuit)):
@@ -76,7 +75,7 @@ def _circuits_agree(values: Values) -> bool:
 
 
 def _growth_agrees(values: Values) -> bool:
-    """Return whether the growth vector begins with the velocity freedom and ends with the freedom, time apart."""
+    """Return whether the growth vector begins with the velocity freedom and ends with the freedom (+ 1 with time)."""
     growth, dof, velocities = (values[k] for k in ("growth_vector", "dof", "velocity_dof"))
     if None in (growth, dof, velocities):
         return True
@@ -90,7 +89,7 @@ def _choice_agrees(values: Values) -> bool:
 
 
 class Agreement(NamedTuple):
-    """A law in words, the fields that are withheld where it is broken, and the function that checks it."""
+    """A law in words, the ``fields`` that are withheld if it is broken, and the function that checks it."""
 
     law: str
     fields: tuple[str, ...]
@@ -118,7 +117,7 @@ AGREEMENTS: tuple[Agreement, ...] = (
 
 
 def agreed(values: Values) -> dict[str, Any]:
-    """Return the fields of a report without those that contradict each other."""
+    """Return the fields of a report, those that contradict each other set to None with a warning."""
     kept = dict(values)
     for row in AGREEMENTS:
         if not row.holds(values):
@@ -143,7 +142,7 @@ def _with_open_dependence(e: ConstraintEntry) -> ConstraintEntry:
 
 
 def of_entries(name: str, study: Study) -> Decided:
-    """A label of the system: all entries' where it is true, the surest that is false where it is not."""
+    """Return a label of the system: true with the claims of all entries, or false with the most certain false one."""
     entries = study.entries
     value = all_of(getattr(e, name) for e in entries)
     if value is None:
@@ -156,7 +155,7 @@ def of_entries(name: str, study: Study) -> Decided:
 
 
 def _claim(field: FieldVerdict) -> Claim:
-    """The claim of an entry as the entry has it."""
+    """Return the claim that a field of an entry was written from."""
     if field.verdict == "undecided":
         return OPEN
     bits = int(field.bound.removeprefix("2^-")) if field.verdict == "probable" and field.bound else None
@@ -164,7 +163,7 @@ def _claim(field: FieldVerdict) -> Claim:
     return Claim(field.verdict, field.argument, bits, gap, field.about or "everywhere")
 
 
-#: What decides each field that can be wrong, in the order of the report.
+#: The function that decides each field that has a claim, in the order of the report.
 DECIDED: Mapping[str, Callable[[Study], Decided]] = {
     "consistent": fields.consistent,
     "conflicting": fields.conflicting,
@@ -183,16 +182,16 @@ DECIDED: Mapping[str, Callable[[Study], Decided]] = {
 }
 
 
-#: Of the time, for the blocks of a scene.
+#: Share of the time for the analysis of the blocks.
 SOLVING = 0.75
 NO_SPECIAL_CASES = "There was no time to look for special cases."
 
-#: What fills fields: from the study of a system, and the values of the passes before.
+#: A pass: returns fields, given the study of a system and the fields filled before.
 Fill = Callable[[Study, Values], Values]
 
 
 def _generic_fields(study: Study, values: Values) -> Values:
-    """Return the generic answer: every field that needs no second look at the scene, with the claim of each."""
+    """Return all fields that are read from the study, with the claim of each."""
     del values
     answers = {name: decide(study) for name, decide in DECIDED.items()}
     return {
@@ -211,7 +210,7 @@ def _generic_fields(study: Study, values: Values) -> Values:
 
 
 def _warnings(study: Study) -> list[str]:
-    """Lines of text: what was noticed while reading, why something is open, and what is hidden."""
+    """Return the warnings: what was noticed while reading, why something is undecided, and hidden equations."""
     answer = list(study.system.warnings)
     answer += [
         f"not read, so the true freedom may be smaller: {t}" for t in study.system.left_out if t.startswith(BINDING)
@@ -239,7 +238,7 @@ def _warnings(study: Study) -> list[str]:
 
 
 def _about_branches(system: System, branches: Sequence[str]) -> Iterator[str]:
-    """Yield for each branch that alone has the report's freedom how the answer for another branch is obtained."""
+    """Yield for each of the ``branches``, the only ones with the report's freedom, how to choose another branch."""
     for branch in branches:
         for missing in _missing_reference(system):
             yield (
@@ -249,7 +248,7 @@ def _about_branches(system: System, branches: Sequence[str]) -> Iterator[str]:
 
 
 def _missing_reference(system: System) -> Iterator[str]:
-    """Yield what the scene has to give for a reference configuration, where it has none."""
+    """Yield what has to be added to a scene without a reference configuration to give it one."""
     placed = {str(symbol.args[1]) for symbol in system.pose}
     if system.reference is not None or all(c.name in placed for c in system.coordinates):
         return
@@ -264,7 +263,7 @@ def _missing_reference(system: System) -> Iterator[str]:
 
 
 def _verdicts(of_fields: Mapping[str, Claim], entries: Sequence[ConstraintEntry]) -> Values:
-    """Return how certain every field is, and the weakest verdict of all, those of the entries included."""
+    """Return the fields ``verdicts`` (of every field) and ``verdict`` (the weakest of them and of all entries)."""
     shared = {id(e.verdicts): e.verdicts for e in entries}.values()
     of_entries = {v.verdict for verdicts in shared for v in verdicts.values()} | {e.verdict for e in entries}
     weak = weakest(*(c.verdict for c in of_fields.values()), *of_entries)
@@ -272,12 +271,12 @@ def _verdicts(of_fields: Mapping[str, Claim], entries: Sequence[ConstraintEntry]
 
 
 def _feasibility(study: Study, values: Values) -> Values:
-    """Return whether the inequalities can be satisfied together with the constraints; nothing where there are none."""
+    """Return the fields about inequalities: whether they can be satisfied together; nothing if there are none."""
     return inequalities_together(study, values) if any(r.inequalities for r in study.reduced) else {}
 
 
 def _counts(study: Study, values: Values) -> Values:
-    """Return the counts that stand beside the report's own, and a warning of a near-dependence; none without joints."""
+    """Return the textbook counts, and a warning of a near-dependence; nothing without joints."""
     if not any(c.members for c in study.system.connections):
         return {}
     counts, near = counts_beside(study, values["instantaneous_dof"])
@@ -290,9 +289,9 @@ def _counts(study: Study, values: Values) -> Values:
 
 
 def _special(study: Study, values: Values) -> Values:
-    """Return the special cases, and a warning where only one of several branches has the report's freedom.
+    """Return the special cases, and a warning if only one of several branches has the report's freedom.
 
-    Nothing is special about geometric equations at a reference configuration: their answer is about that one.
+    Nothing if all equations are geometric and there is a reference: the answer is then about this configuration only.
     """
     if study.system.reference is not None and not any(block.forms for block in study.outcome.blocks):
         return {}
@@ -312,14 +311,14 @@ def _velocity_freedom(reductions: Reductions, released: System) -> Values:
     return {} if number is None or verdict == "undecided" else {"undriven": number, "undriven_verdict": verdict}
 
 
-#: All passes, in their order: each fills fields of the report, or adds to those that the passes before it filled.
+#: All passes, in their order: each returns new fields, or replaces some of those before.
 PASSES: tuple[Fill, ...] = (_generic_fields, _feasibility, _counts, _special)
-#: The generic answer, and all that needs no special cases.
+#: Only the first pass, and all passes but the special cases.
 GENERIC, PLAIN = PASSES[:1], PASSES[:-1]
 
 
 def report_of(study: Study, passes: Sequence[Fill] = PASSES) -> Report:
-    """Return the report that some passes fill, in their order."""
+    """Return the report filled by some passes, without fields that contradict each other."""
     values: dict[str, Any] = {}
     for fill in passes:
         values.update(fill(study, values))
@@ -340,7 +339,7 @@ def examined(
     reductions: Reductions = ALL,
     passes: Sequence[Fill] = PASSES,
 ) -> Examined:
-    """All that some engines find of a system in so many seconds, with some ``reductions``. Raises OutOfTimeError."""
+    """Return the study and report of a system by some ``engines`` and ``reductions``; may raise OutOfTimeError."""
     with limited(seconds), precise_for(system.longest), gc_rarely():
         with part(SOLVING):
             result = study(system, engines, reductions)

@@ -1,4 +1,4 @@
-"""A system with its answered blocks (`Study`), and the fields of a report that are read from it, one function each."""
+"""A system with the answers of its blocks (`Study`), and one function for each report field that is read from it."""
 
 from __future__ import annotations
 
@@ -29,19 +29,19 @@ from dofkit.relations.setting import ALL, Reductions, Setting
 from dofkit.report import ConstraintEntry, Count, Redundancy
 from dofkit.system import System
 
-#: Of the time that is left after the blocks: for what depends on what; the rest is for labels.
+#: Share of the time after the blocks for `Study.dependence`.
 DEPENDENCE = 0.5
 
 
 class Dependence(NamedTuple):
-    """A minimal set of constraints that cannot hold together, and what depends on what, each by numbers."""
+    """A minimal contradictory set of constraints, and the dependence of constraints on each other, by numbers."""
 
     conflicting: Conflict
     dependent: list[Redundancies]
 
 
 class Decided(NamedTuple):
-    """The value of a field of the report, with its claim; None for what cannot be wrong, or is not asked."""
+    """The value of a field of the report, with its claim; without a claim the field does not apply."""
 
     value: Any
     claim: Claim | None = None
@@ -49,7 +49,7 @@ class Decided(NamedTuple):
 
 @dataclass(frozen=True)
 class Study:
-    """A system, its relations over the reals, what may be assumed of its symbols, and its blocks' answers."""
+    """A system, the normal forms of its constraints, the assumptions about its symbols, and its blocks' answers."""
 
     system: System
     reduced: Sequence[Reduced]
@@ -63,23 +63,23 @@ class Study:
 
     @cached_property
     def free(self) -> Claim:
-        """Of the freedoms: the answers of all blocks together."""
+        """The claim of the freedoms, from the answers of all blocks together."""
         return together(*(a.claim for a in self.outcome.answers))
 
     @property
     def equations(self) -> int:
-        """Bilateral scalar equations."""
+        """The number of bilateral scalar equations."""
         return sum(r.equations for r in self.reduced)
 
     @property
     def redundant_equations(self) -> int | None:
-        """Equations less (coordinates - velocities), never below 0; None where the velocities are not known."""
+        """Equations minus (coordinates - velocity freedom), at least 0; None if the velocity freedom is not known."""
         velocities = self.outcome.velocity_dof
         return None if velocities is None else max(0, self.equations - (len(self.system.coordinates) - velocities))
 
     @cached_property
     def dependence(self) -> Dependence:
-        """What conflicts and what depends on what, in a share of the time."""
+        """Conflicting and dependent constraints; undecided if the share `DEPENDENCE` of the time runs out."""
         nothing = undecided_dependence(i for i, r in enumerate(self.reduced) if r.normals)
         conflicting = Conflict([])
         with part(DEPENDENCE):
@@ -95,12 +95,12 @@ class Study:
 
     @cached_property
     def company(self) -> Companionship:
-        """The blocks, to be asked what a form integrates to together with which others."""
+        """The search for what a form integrates to together with other constraints."""
         return Companionship(self.answered, self.names)
 
     @cached_property
     def answered(self) -> AnsweredBlocks:
-        """The blocks answered for their labels alone, at no drawing; those that were found so are not asked again."""
+        """Answers of blocks for labels only, without a reference; those of the outcome are used if they have none."""
         plain = replace(self.setting, pose={}, reference=None, grows=False, flag=False)
         answered = AnsweredBlocks(plain)
         if self.setting.reference is None and not self.setting.pose:
@@ -113,17 +113,17 @@ class Study:
         return self.entries_beside(self.dependence.dependent)
 
     def entries_beside(self, dependent: Sequence[Redundancies]) -> list[ConstraintEntry]:
-        """The constraints' entries, where this is known of what depends on what."""
+        """Return the constraints' entries for given dependences."""
         return entries_of(self.reduced, self.setting, self.outcome, dependent, self.company)
 
 
 def study(
     system: System, engines: Engines = BOTH, reductions: Reductions = ALL, grows: bool = True, flag: bool = False
 ) -> Study:
-    """The blocks of a system answered by some engines, with some reductions in use.
+    """Return the study of a system by some engines, with some reductions in use.
 
-    ``grows``: the growth vector; ``flag``: the derived flag. Raises OutOfTimeError, and SceneError where a relation
-    cannot be read over the reals.
+    ``grows``, ``flag``: whether to compute the growth vector and the derived flag. Raises OutOfTimeError, and
+    SceneError if an expression is not a valid relation.
     """
     reduced, setting = prepared(system, reductions)
     setting = replace(setting, engines=engines, grows=grows, flag=flag)
@@ -136,19 +136,19 @@ HOLDS = Claim("proved", "zero at the reference", about="reference")
 
 
 def decided(study: Study, value: Any, claim: Claim) -> Decided:
-    """Return a field about the motions, undecided where it has no value; not asked where there are no motions."""
+    """Return a field about the motions, undecided if its value is None; without a claim if there is no motion."""
     if study.outcome.consistent is False:
         return Decided(value)
     return Decided(value, OPEN if value is None else claim)
 
 
 def counted(claim: Claim) -> Claim:
-    """A number that is counted from another: a proof of it is a proof by counting."""
+    """Return the claim of a number that is computed from one with this claim; a proof becomes one by counting."""
     return Claim("proved", "count", claim.bits, claim.gap, claim.about) if claim.verdict == "proved" else claim
 
 
 def consistent(study: Study) -> Decided:
-    """That there is a motion: so the blocks say; that there is none: the surest of them that says so."""
+    """Return whether there is a motion, with the claims of all blocks; if not, with the most certain of them."""
     outcome = study.outcome
     if outcome.consistent is None:
         return Decided(None, OPEN)
@@ -161,7 +161,7 @@ def consistent(study: Study) -> Decided:
 
 
 def conflicting(study: Study) -> Decided:
-    """The names of a minimal set of constraints that cannot hold together."""
+    """Return the names of a minimal set of constraints that contradict each other; none in a consistent system."""
     members, sure = study.dependence.conflicting
     names = [study.names[i] for i in members]
     if study.outcome.consistent is not False:
@@ -171,10 +171,7 @@ def conflicting(study: Study) -> Decided:
 
 
 def instantaneous_dof(study: Study) -> Decided:
-    """Infinitesimal motions allowed at the reference configuration; None without one.
-
-    Its claim is of ranks there, which are exact where no row depends on others.
-    """
+    """Return the velocity freedom at the reference configuration; None without one."""
     outcome = study.outcome
     if study.system.reference is None:
         return Decided(None)
@@ -189,7 +186,7 @@ def instantaneous_dof(study: Study) -> Decided:
 
 
 def _where_branches_cross(study: Study, reference: Mapping[Expr, Expr]) -> tuple[int | None, bool]:
-    """Return the instantaneous freedom by the differentials of relations as written, where their branches cross."""
+    """Return (instantaneous freedom, whether it is proved) by the relations as written, where branches cross."""
     rows = []
     for i, r in enumerate(study.reduced):
         for normal, written in zip(r.normals, r.written, strict=True):
@@ -202,7 +199,7 @@ def _where_branches_cross(study: Study, reference: Mapping[Expr, Expr]) -> tuple
 
 
 def singular(study: Study) -> Decided:
-    """Whether the reference allows other velocities than finite motions have; None without a reference."""
+    """Return whether the instantaneous freedom is not the velocity freedom; None without a reference."""
     (here, claim), velocities = instantaneous_dof(study), study.outcome.velocity_dof
     value = None if here is None or velocities is None else here != velocities
     return Decided(value) if claim is None else decided(study, value, together(claim, study.free))
@@ -217,7 +214,7 @@ def lecture_count(study: Study) -> Count:
 
 
 def redundant(study: Study) -> Decided:
-    """The names of a maximal redundant set, in their order; None where it was not decided, or nothing moves."""
+    """Return the names of a maximal redundant set, in the order of the scene; None if undecided or inconsistent."""
     dependent, outcome = study.dependence.dependent, study.outcome
     if not outcome.consistent or outcome.velocity_dof is None or any(r.undecided for r in dependent):
         return decided(study, None, OPEN)
@@ -226,9 +223,9 @@ def redundant(study: Study) -> Decided:
 
 
 def redundancies(study: Study) -> Decided:
-    """The groups of constraints that depend on each other, where a constraint or an equation is redundant.
+    """Return the groups of constraints that depend on each other and have a redundant constraint or equation.
 
-    In x^2 + y^2 = 0 and x^2 + z^2 = 0 none is, though x = 0 is stated twice.
+    x^2 + y^2 = 0 and x^2 + z^2 = 0 are no group: neither is redundant, although each implies x = 0.
     """
     names, sizes = study.names, [r.equations for r in study.reduced]
     dependent = [r for r in study.dependence.dependent if r.redundant or r.has_dependent_equations(sizes)]
@@ -241,10 +238,10 @@ def redundancies(study: Study) -> Decided:
 
 
 def _of_dependence(study: Study, some: bool) -> Claim:
-    """Of what depends on what: nothing does where the count says so.
+    """Return the claim of dependences; ``some``: there are any. If no equation is surplus, it is a claim by counting.
 
-    That nothing is redundant though equations depend on each other is no claim about the component alone on which they
-    were counted: each constraint is needed at a state of its own.
+    That every constraint is needed although equations depend on each other is not limited to the component on which
+    the equations were counted.
     """
     if not some and study.redundant_equations == 0:
         return counted(study.free)
@@ -255,14 +252,14 @@ def _of_dependence(study: Study, some: bool) -> Claim:
 
 
 def joint_coordinates(study: Study) -> list[str] | None:
-    """Angles and displacements of joints that describe a tree; None for what is none, or has another freedom."""
+    """Return joint angles and displacements that are coordinates of a tree; None if the system is no free tree."""
     dof = study.outcome.dof
     result = tree_coordinates(study.system) if dof is not None and study.system.joints else None
     return result if result is not None and len(result) == dof else None
 
 
 def largest_integrable_part(study: Study) -> Decided:
-    """What the forms say in geometric equations; None where that is not known."""
+    """Return the geometric equations that the forms imply, with their number; None if this is not known."""
     outcome = study.outcome
     if not any(block.forms for block in outcome.blocks):
         return Decided(None)
@@ -273,7 +270,7 @@ def largest_integrable_part(study: Study) -> Decided:
 
 
 def growth_vector(study: Study) -> Decided:
-    """Dimensions of D, D + [D, D], ... for the whole: blocks do not bracket with each other; they share only time."""
+    """Return the dimensions of D, D + [D, D], ... for the system: the sums over blocks, which share only time."""
     outcome = study.outcome
     if not outcome.consistent or not any(b.forms for b in outcome.blocks):
         return Decided(None)
@@ -295,32 +292,31 @@ def growth_vector(study: Study) -> Decided:
 
 
 def _claim_of_growth(study: Study, growth: Sequence[int]) -> Claim:
-    """Of the growth vector: its first and last numbers are those of the freedoms; others are ranks over GF(p).
+    """Return the claim of the growth vector: its first and last numbers are freedoms, the others ranks over GF(p).
 
-    Those are not too large where what is not 0 there is not 0; nor too small where no more brackets there are. Between
-    two dimensions that differ by 1 there is no other.
+    A rank is not too large if values that are not 0 over GF(p) are not 0, and not too small if the Lie algebra is
+    free up to there. Between two dimensions that differ by 1 there is no other.
     """
     pairs = zip(study.outcome.blocks, study.outcome.answers, strict=True)
     blocks = [(a.growth, a.trusted) for block, a in pairs if block.forms]
     if growth[-1] <= growth[0] + 1 or (len(growth) == 2 and all(trusted for _, trusted in blocks)):
         return counted(study.free)
-    whole = all(trusted and of_block and is_free(of_block) for of_block, trusted in blocks)
-    if study.free.verdict == "proved" and whole:
+    free = all(trusted and of_block and is_free(of_block) for of_block, trusted in blocks)
+    if study.free.verdict == "proved" and free:
         return replace(study.free, argument="free Lie algebra")
     return together(study.free, Claim("probable", "brackets at points", bits=BITS))
 
 
 def _time_enters(entry: ConstraintEntry) -> bool | None:
-    """Return whether a constraint holds t or a term without velocities that cannot be divided out; None: undecided."""
+    """Return whether t, or a term without velocities, really occurs in a constraint; None if undecided."""
     labels = (entry.scleronomic, *([entry.catastatic] if entry.form in ("pfaffian", "nonlinear") else []))
     return True if False in labels else None if None in labels else False
 
 
 def witness(study: Study) -> dict[str, str] | None:
-    """A certified configuration: the reference where it is one, else what the blocks found; None where one has none.
+    """Return a certified configuration, {name: value as text}, from the blocks' witnesses; None if one is missing.
 
-    What nothing constrains is 0. Parameters have the values that the configuration was found with; where blocks that
-    share one were found with several, there is no configuration of the system.
+    Unconstrained coordinates are 0. Parameters have the values of the search; None if blocks have different values.
     """
     outcome = study.outcome
     if outcome.consistent is not True or any(a.witness is None for a in outcome.answers):
@@ -337,12 +333,12 @@ def witness(study: Study) -> dict[str, str] | None:
 
 
 def method(study: Study) -> str:
-    """What ran."""
+    """Return the methods that were used."""
     return "; ".join(dict.fromkeys(a.method for a in study.outcome.answers if a.method)) or "count"
 
 
 def modelled(system: System, outcome: Outcome) -> str:
-    """What the model kept and left out, and why."""
+    """Return sentences on what is in the model and what was left out, and why."""
     sentences = []
     touched = len(system.coordinates) - len(outcome.untouched)
     if outcome.blocks:
@@ -361,7 +357,7 @@ def modelled(system: System, outcome: Outcome) -> str:
 
 
 def _looked_at(outcome: Outcome) -> Iterator[str]:
-    """What of the relations had to be followed to tell motions from shakes."""
+    """Yield sentences on the relations and coordinates that were left out of the analysis of finite motions."""
     left_out = sum(a.looked.left_out for a in outcome.answers)
     if left_out:
         whole = sum(len(b.rows) for b in outcome.blocks)

@@ -20,24 +20,27 @@ from dofkit.relations.blocks import Block, Chart, make_chart
 from dofkit.relations.setting import Setting
 from dofkit.system import Rotation
 
-#: How far a singular or special configuration is left to look at the set nearby, and what counts as 0 there.
+#: Sizes of the random displacements from the reference in successive searches, and the pivot that counts as 0.
 AWAY, ZERO = (0.05, 0.05, 0.05, 0.05, 0.3, 0.6, 0.6, 1.0), 1e-7
-#: The same where there are just as many relations as the freedom asks for: far from the origin they look nearly alike.
+#: The pivot that counts as 0 if the number of relations agrees with the freedom; they may look nearly dependent.
 FAINT = 1e-10
-#: The length of secants, and the least share of it that counts: the set is curved, and found to half its digits.
+#: Length of secants, relative size below which a remainder of one counts as 0 (curvature), and damped steps.
 SECANT, SPREAD, SETTLING = 1e-4, 3e-2, 60
 #: Powers of the error by which steps are damped: weakly first, then more.
 DAMPED = (2, 1)
-#: The same at a singular point, which a descent reaches to half its digits.
+#: Relative size below which a remainder of tangent vectors counts as 0; singular points have half the digits.
 ROUGH = 1e-5
 
 
 def nearby(block: Block, dof: int, setting: Setting, turning: Sequence[Rotation]) -> list[str] | None:
-    """From the tangent space at a regular point near the reference, or anywhere where there is none."""
+    """Return ``dof`` coordinates that are independent on the tangent space at a regular point, or None.
+
+    The point is near the reference, if there is one. ``turning``: the rotations given by Gibbs vectors.
+    """
     chart = make_chart(block, setting)
     reference = chart.setting.reference
     start = {} if reference is None else float_point(chart, reference) or {}
-    drawn = _drawn_tangent(chart, start, dof)
+    at_reference = _tangent_at_reference(chart, start, dof)
     search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.setting.positive, chart.symbols)
     for seed, away in enumerate(AWAY):
         symbols = search.start(seed, {})
@@ -47,7 +50,7 @@ def nearby(block: Block, dof: int, setting: Setting, turning: Sequence[Rotation]
             continue
         tangent = _tangent(chart, symbols, turning, dof)
         if len(tangent) == dof:
-            chosen = None if drawn is None else _regular_columns(chart, tangent, drawn, turning)
+            chosen = None if at_reference is None else _regular_columns(chart, tangent, at_reference, turning)
             chosen = _columns(chart, tangent) if chosen is None else chosen
             return chosen if len(chosen) == dof else None
         regular = len(chart.nodes) == len(block.coordinates) - dof
@@ -58,30 +61,30 @@ def nearby(block: Block, dof: int, setting: Setting, turning: Sequence[Rotation]
     return None
 
 
-def _drawn_tangent(chart: Chart, start: dict[Expr, float], dof: int) -> Any:
-    """The tangent space at the reference over the chart's own coordinates; None where the set is not regular there."""
+def _tangent_at_reference(chart: Chart, start: dict[Expr, float], dof: int) -> Any:
+    """Return a basis of the tangent space at the reference, in Gibbs vectors; None if the set is not regular there."""
     if not start:
         return None
     tangent = _tangent(chart, start, (), dof)
     return tangent if len(tangent) == dof else None
 
 
-def _regular_columns(chart: Chart, near: Any, drawn: Any, turning: Sequence[Rotation]) -> list[str] | None:
-    """The first coordinates on which the tangent space projects regularly nearby and at the reference.
+def _regular_columns(chart: Chart, near: Any, at_reference: Any, turning: Sequence[Rotation]) -> list[str] | None:
+    """Return the first coordinates that are independent on the tangent spaces nearby and at the reference, or None.
 
-    The angles of a body that turns are no coordinates where it is drawn; a body some of whose angles are chosen stands
-    there with all of its Gibbs vector. None where there is no such choice.
+    At the reference, a body with a chosen Euler angle is represented by its whole Gibbs vector, because Euler angles
+    may be singular there.
     """
     names = [str(s.args[1]) for s in chart.symbols if s != ex.TIME]
     whose = {name: k for k, r in enumerate(turning) for name in r.names}
     chosen: list[int] = []
     for c in range(len(names)):
         lengths = [i for i in (*chosen, c) if names[i] not in whose]
-        if _rank(near, [*chosen, c]) > len(chosen) and _rank(drawn, lengths) == len(lengths):
+        if _rank(near, [*chosen, c]) > len(chosen) and _rank(at_reference, lengths) == len(lengths):
             chosen.append(c)
     turned = {whose[names[i]] for i in chosen if names[i] in whose}
-    standing = [i for i, n in enumerate(names) if whose.get(n) in turned or (i in chosen and n not in whose)]
-    complete = len(chosen) == len(near) and _rank(drawn, standing) == len(drawn)
+    columns = [i for i, n in enumerate(names) if whose.get(n) in turned or (i in chosen and n not in whose)]
+    complete = len(chosen) == len(near) and _rank(at_reference, columns) == len(at_reference)
     return [names[i] for i in chosen] if complete else None
 
 
@@ -90,9 +93,9 @@ def _rank(tangent: Any, columns: Sequence[int], least: float = ROUGH) -> int:
 
 
 def _secants(chart: Chart, search: RealSearch, symbols: dict[Expr, float], dof: int) -> Any:
-    """The tangent space at a point where relations are dependent all along, from ``dof`` independent short secants.
+    """Return a basis of the tangent space from ``dof`` independent short secants, or None.
 
-    Coordinates that no relation holds are free.
+    It is used where the relations are dependent on the whole set. Coordinates that occur in no relation are free.
     """
     names = [s for s in chart.symbols if s != ex.TIME]
     symbols = {**dict.fromkeys(names, 0.0), **symbols}
@@ -110,7 +113,7 @@ def _secants(chart: Chart, search: RealSearch, symbols: dict[Expr, float], dof: 
 
 
 def _settles(search: RealSearch, symbols: dict[Expr, float], seed: int, power: int) -> bool:
-    """Moves ``symbols`` to the set nearby, by damped steps: where the gradients are dependent others go far away."""
+    """Move ``symbols`` (in place) to the set nearby by damped steps, and return whether this converges."""
     for _ in range(SETTLING):
         f, j = search.float_system(symbols, seed)
         scale = [largest(row) + 1e-300 for row in j]
@@ -124,10 +127,7 @@ def _settles(search: RealSearch, symbols: dict[Expr, float], seed: int, power: i
 
 
 def _tangent(chart: Chart, symbols: dict[Expr, float], turning: Sequence[Rotation], dof: int) -> Any:
-    """A basis of the tangent space at fixed time over the block's coordinates, as rows.
-
-    Lengths, angles and other coordinates are each measured in the unit in which they change the relations as much.
-    """
+    """Return a basis of the tangent space at fixed time over the block's coordinates, as rows; angles are Euler's."""
     point = FloatPoint(symbols)
     at = values(chart.ring, point)
     columns = [c for s, c in zip(chart.symbols, chart.columns, strict=True) if s != ex.TIME]
@@ -139,7 +139,7 @@ def _tangent(chart: Chart, symbols: dict[Expr, float], turning: Sequence[Rotatio
 
 
 def _in_angles(chart: Chart, symbols: dict[Expr, float], basis: Any, turning: Sequence[Rotation]) -> Any:
-    """The columns of Gibbs vectors turned into those of the Euler angles."""
+    """Return tangent vectors with the rates of Euler angles in place of those of Gibbs vectors."""
     at = values(chart.ring, FloatPoint(symbols))
     names = [str(s.args[1]) for s in chart.symbols if s != ex.TIME]
     changed = [list(row) for row in basis]
@@ -162,9 +162,7 @@ def _value(at: Any, chart: Chart, name: str) -> float:
 
 
 def _columns(chart: Chart, tangent: Any, least: float = ROUGH) -> list[str]:
-    """The first coordinates, in order, on which the tangent space projects regularly, by singular values of at least
-    that.
-    """
+    """Return the first coordinates, in order, that are independent on the tangent space up to ``least``."""
     names = [str(s.args[1]) for s in chart.symbols if s != ex.TIME]
     chosen: list[int] = []
     most = rank(tangent, least)

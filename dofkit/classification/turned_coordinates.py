@@ -1,7 +1,8 @@
-"""Which Euler angles of bodies are coordinates, where the engines compute with Gibbs vectors.
+"""Which Euler angles of bodies are generalized coordinates, where the engines compute with Gibbs vectors g.
 
-omega = 2 (gdot + g x gdot) / (1 + g.g) = phidot e_z + thetadot n + psidot R e_z, with n along e_z x R e_z. Names of
-angles are only read off where all three rates are solved for; a Gibbs vector may be spread over several blocks.
+omega = 2 (gdot + g x gdot) / (1 + g.g) = phidot e_z + thetadot n + psidot R e_z, with n along e_z x R e_z. So a choice
+of all three components of g, or of none, is one of all three angles or of none; any other has to be translated. The
+components of a Gibbs vector may be in several blocks.
 """
 
 from __future__ import annotations
@@ -30,20 +31,20 @@ from dofkit.relations.normal.pieces import Finite, JointEquation
 from dofkit.relations.setting import NamedRows, Setting
 from dofkit.system import Rotation
 
-#: A value of what nothing constrains, at which no angle is singular.
+#: The value of unconstrained components of Gibbs vectors, at which the Euler angles are not singular.
 ANYWHERE = 0.3
-#: What is added to a number of floating point, so that the ball holds the number meant.
+#: Added to a float, so that the ball contains the true number.
 NEARLY = arb(0, 1e-12)
-#: The least square of the sine of a tilt at which a body does not seem to stand upright.
+#: A body counts as upright if the square of the sine of its tilt is smaller.
 TILTED = 1e-7
-#: Coordinates at most of what is looked at where it is drawn, and where it is searched for.
-MOST_DRAWN, MOST_SEARCHED = 700, 60
+#: Bounds on the coordinates of a group for which rows are computed at the reference, or a point is searched.
+MOST_AT_REFERENCE, MOST_SEARCHED = 700, 60
 
 
 class TurnedGroup(NamedTuple):
-    """Blocks joined that hold the angles of bodies, forms left out; ``places``: how many they were.
+    """Blocks that contain angles of the same bodies, joined, without their forms.
 
-    ``fixed``: the coordinates that are proved to stay as they are drawn.
+    ``places``: the number of these blocks and unconstrained coordinates; ``fixed``: coordinates proved to be constant.
     """
 
     block: Block
@@ -53,7 +54,7 @@ class TurnedGroup(NamedTuple):
 
 
 def partly_turned(chosen: Collection[str], rotations: Sequence[Rotation]) -> tuple[Rotation, ...]:
-    """The rotations of which some angles are chosen and some are not: only all three stand for all three."""
+    """Return the rotations of which some angles (or components of Gibbs vectors) are chosen and some are not."""
     chosen_names = frozenset(chosen)
     return tuple(r for r in rotations if r.chart == "gibbs" and 0 < len(chosen_names.intersection(r.names)) < 3)
 
@@ -61,7 +62,7 @@ def partly_turned(chosen: Collection[str], rotations: Sequence[Rotation]) -> tup
 def turned_together(
     blocks: Sequence[Block], answers: Sequence[Answer], untouched: Collection[str], rotations: Sequence[Rotation]
 ) -> Iterator[TurnedGroup]:
-    """What holds the angles of each body together, with what nothing touches."""
+    """Yield the groups of blocks and untouched coordinates that are connected through the angles of bodies."""
     if not rotations:
         return
     graph: nx.Graph = nx.Graph()
@@ -84,20 +85,21 @@ def turned_together(
 
 
 def _vanishing(e: Expr) -> Iterator[str]:
-    """The coordinate that a relation says is 0, and no more; none of another relation."""
+    """Yield the coordinate x if the relation is x = 0 or -x = 0."""
     for s in e.symbols:
         if s.args[0] == "coordinate" and e in (s, ex.mul(ex.MINUS_ONE, s)):
             yield str(s.args[1])
 
 
 def _stays(a: Answer) -> bool:
+    """Return whether all coordinates of a block are proved to be constant."""
     return a.dof == 0 and a.verdict == "proved" and (a.about == "reference" or a.linear)
 
 
-def rows_at_drawing(group: TurnedGroup, setting: Setting, most: float = math.inf) -> NamedRows | None:
-    """The rows of the relations at the reference; None where they do not hold there.
+def rows_at_reference(group: TurnedGroup, setting: Setting, most: float = math.inf) -> NamedRows | None:
+    """Return the rows of a group's relations at the reference; None if these are not satisfied there.
 
-    Where not all are those of joints they are written out for at ``most`` so many coordinates.
+    None also if a relation is not one of a joint and there are more than ``most`` coordinates.
     """
     numbers = dict.fromkeys(row.constraint for row in group.block.rows)
     result = setting.joint_rows(numbers) if setting.joint_rows is not None and not group.hidden else None
@@ -114,17 +116,17 @@ def rows_at_drawing(group: TurnedGroup, setting: Setting, most: float = math.inf
     return NamedRows([{names[c]: v for c, v in row.items()} for row in rows], point.p)
 
 
-def chosen_at_drawing(group: TurnedGroup, setting: Setting, turning: Sequence[Rotation]) -> list[str] | None:
-    """The first coordinates whose differentials complete the rows of the relations at the reference.
+def chosen_at_reference(group: TurnedGroup, setting: Setting, turning: Sequence[Rotation]) -> list[str] | None:
+    """Return the first coordinates whose differentials complete the rows of the relations at the reference to a basis.
 
-    Over GF(p), where a minor that is not 0 is not 0 over the numbers either. The others are those that the rows can be
-    solved for, the last ones where there is a choice [Whitney1935]. None where angles are singular there or drawn at
-    others than right ones, and for what is large.
+    The rank is taken over GF(p): a nonzero minor there is nonzero. The rows are solved for the other coordinates, later
+    ones preferred [Whitney1935]. None without a reference, for large groups, and if chosen angles are singular there or
+    those of a body that is not turned by right angles.
     """
     names = group.block.coordinates
     if setting.reference is None or not any(map(_right_rates, turning)):
         return None
-    result = rows_at_drawing(group, setting, MOST_DRAWN)
+    result = rows_at_reference(group, setting, MOST_AT_REFERENCE)
     if result is None:
         return None
     place = {name: k for k, name in enumerate(names)}
@@ -136,9 +138,9 @@ def chosen_at_drawing(group: TurnedGroup, setting: Setting, turning: Sequence[Ro
 
 
 def _right_rates(r: Rotation) -> dict[str, str]:
-    """Of a body drawn at right angles the part of the Gibbs vector whose rate is each Euler angle's; else none.
+    """Return {Euler angle: component of the Gibbs vector with its rate}; empty unless the reference has right angles.
 
-    The axes e_z, n = (-b, a, 0) and k = (a, b, 0) are orthonormal: up to signs they are those of the world.
+    The axes e_z, n = (-b, a, 0) and k = (a, b, 0) are then, up to signs, those of the world.
     """
     phi, theta = map(_right_angles, r.initial[:2])
     if phi is None or theta is None or theta % 2 == 0:
@@ -149,7 +151,7 @@ def _right_rates(r: Rotation) -> dict[str, str]:
 
 
 def _right_angles(e: Expr) -> int | None:
-    """How many right angles an angle is, less whole turns; None where it is no whole number of them."""
+    """Return the number of right angles in an angle, modulo 4; None if it is not an integer."""
     k = round((approximate(e) or 0.0) * 2 / math.pi)
     return k % 4 if e == ex.mul(ex.num(Fraction(k, 2)), ex.PI) else None
 
@@ -161,7 +163,7 @@ def are_coordinates(group: TurnedGroup, chosen: Collection[str], setting: Settin
     """
     chosen = frozenset(chosen)
     names = [name for name in group.block.coordinates if name in chosen]
-    if chosen_at_drawing(group, setting, turning) == names:
+    if chosen_at_reference(group, setting, turning) == names:
         return True
     if len(group.block.coordinates) > MOST_SEARCHED:
         return False
@@ -179,7 +181,7 @@ def are_coordinates(group: TurnedGroup, chosen: Collection[str], setting: Settin
 def _rows(
     group: TurnedGroup, chart: Chart, real: RealPoint | None, chosen: Collection[str], turning: Sequence[Rotation]
 ) -> list[list[arb]]:
-    """The rows of the relations and of the chosen coordinates' rates, over the block's coordinates."""
+    """Return the rows of the relations and those of the chosen coordinates' rates, over the block's coordinates."""
     place = {name: k for k, name in enumerate(group.block.coordinates)}
     ranked = [s for s in chart.symbols if chart.ring.var_index(s) is not None]
     rows = []
@@ -200,18 +202,19 @@ def _rows(
 
 
 def angle_rates(g: Sequence[arb], r: Rotation, upright: bool | None = None) -> arb_mat:
-    """The Euler angles' rates by the rates of the Gibbs vector. Raises ZeroDivisionError where they are singular.
+    """Return the matrix of the Euler angles' rates by the rates of the Gibbs vector ``g``.
 
-    Where the body keeps its z axis ``upright``, psi stands for the turn about it, theta and phi for tilts; None: where
-    it seems to stand upright. Its z axis is drawn at R0 e_z = (sin theta sin phi, -sin theta cos phi, cos theta).
+    For a body that is ``upright`` (by default if it seems to be) psi is the rotation about z, and theta and phi are
+    tilts; otherwise raises ZeroDivisionError if the angles are singular. The z axis of the body at the reference is
+    R0 e_z = (sin theta sin phi, -sin theta cos phi, cos theta).
     """
     x, y, z = g
     phi, theta = (NEARLY + (approximate(e) or 0.0) if not e.is_zero else arb(0) for e in r.initial[:2])
-    drawn = [theta.sin() * phi.sin(), -theta.sin() * phi.cos(), theta.cos()]
+    z_axis = [theta.sin() * phi.sin(), -theta.sin() * phi.cos(), theta.cos()]
     cross = arb_mat([[0, -z, y], [z, 0, -x], [-y, x, 0]])
     identity = arb_mat([[1, 0, 0], [0, 1, 0], [0, 0, 1]])
     scale = 2 / (1 + x * x + y * y + z * z)
-    axis = (identity + (cross + cross * cross) * scale) * arb_mat([[v] for v in drawn])
+    axis = (identity + (cross + cross * cross) * scale) * arb_mat([[v] for v in z_axis])
     a, b, c = (axis[i, 0] for i in range(3))
     if upright is None:
         upright = bool(a * a + b * b < TILTED)

@@ -1,4 +1,4 @@
-"""Reports in which everything is undecided: what is left to say of a scene where there was no time for more."""
+"""Reports in which everything is undecided, for scenes for which time has run out."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from dofkit.system import Constraint, Relation, System
 
 
 def sketch(system: System, why: str) -> Report:
-    """All that a system says without being computed with: names, texts, forms as written, the count of equations."""
+    """Return a report with names, texts, forms as written and the textbook count only; ``why`` is the reason."""
     entries = [open_entry(c, why) for c in system.constraints]
     written = sum(e.equations for e in entries if e.form == "finite")
     answer = count(system, CountedFacts(written, None, None, 0, entries))
@@ -22,18 +22,18 @@ def sketch(system: System, why: str) -> Report:
 
 
 def undecided(report: Report, why: str) -> Report:
-    """A sketch with another reason."""
+    """Return a report of `sketch` with another reason."""
     entries = [e.model_copy(update={"reason": f"Not decided: {why}."}) for e in report.constraints]
     return report.model_copy(update={"constraints": entries, "warnings": [*report.warnings[:-1], why_nothing(why)]})
 
 
 def why_nothing(why: str) -> str:
-    """The warning that nothing was decided."""
+    """Return the warning that nothing was decided."""
     return f"Nothing was decided: {why}."
 
 
 def open_entry(constraint: Constraint, why: str) -> ConstraintEntry:
-    """An entry of which nothing but its form as written is known."""
+    """Return the entry of a constraint of which only the form as written is known."""
     form: Form = max((_form(r) for r in constraint.relations), key=FORMS.index, default="finite")
     return ConstraintEntry(
         name=constraint.name,
@@ -49,7 +49,7 @@ def open_entry(constraint: Constraint, why: str) -> ConstraintEntry:
 
 
 def _form(relation: Relation) -> Form:
-    """The form as written; over the reals it may be simpler."""
+    """Return the form of a relation as written; over the reals it may be simpler."""
     if relation.sense != "=":
         return "inequality"
     moving = frozenset(s for s in relation.expr.symbols if s.args[0] in RATES)
@@ -64,7 +64,7 @@ def open_report(
     forces: Sequence[ForceEntry],
     warnings: Sequence[str],
 ) -> Report:
-    """A report of which nothing but names and the count is known."""
+    """Return a report in which only names and the count are known."""
     return Report(
         scene=name,
         count=lecture_count,

@@ -1,15 +1,15 @@
-"""What the reference configuration allows: instantaneously, and as a finite motion.
+"""The instantaneous freedom at the reference configuration P, and the dimension of the set of solutions near P.
 
-Where the equations are dependent there, only what is dependent has to be looked at. Let B be a basis of the rows of the
-Jacobian at P, and M the manifold on which the equations of B are satisfied. The set that all equations cut out is M if
-those outside B vanish on M too. One of them that is a combination of rows S of B is looked at together with any set of
-equations that contains S: where these cut out the manifold M' of their part of B [ImplicitFunctions], it vanishes on
-M', and M lies in M'. So equations in no dependent set (coloops) are not looked at, and mechanisms that share nothing
-are apart.
+If the equations are dependent at P, only the dependent ones have to be analysed. Let B be a basis of the rows of the
+Jacobian at P, and M the manifold on which the equations of B are satisfied. The set of all equations is M if those
+outside B vanish on M. An equation outside B whose row is a combination of rows S of B is analysed together with a set
+of equations that contains S: if the set of these is the manifold M' of those of them that are in B [ImplicitFunctions],
+the equation vanishes on M', and so on M, which is contained in M'. So equations in no dependent set (coloops) are left
+out, and independent mechanisms are analysed separately.
 
-Two rows are in one class if a minimal dependent set holds both. Together with a class those equations are kept that
-mention its coordinates only: without them a bar across a square could not tell that the square is fixed. Where that is
-not enough, all equations are looked at together.
+Two rows are in one class if a minimal dependent set contains both. Equations that mention only coordinates of a class
+are added to it: without them a bar across a square would not show that the square is fixed. If this is not sufficient,
+all equations are analysed together.
 """
 
 from __future__ import annotations
@@ -51,20 +51,20 @@ from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import FollowedClasses
 from dofkit.relations.blocks import Chart
 
-#: A gap between singular values that tells them apart.
+#: The least ratio of two pivots between which the rank is certain.
 CLEAR = 1e3
-#: How far from the reference the angles are looked at.
+#: Sizes of random displacements from the reference in `near_reference`.
 NEAR = (2**-6, 2**-10, 2**-16, 2**-24)
 EXPLICIT = "each equation determines one coordinate in terms of others, so the set is a graph"
 
 
 @dataclass(frozen=True)
 class AtReference:
-    """``instantaneous``: infinitesimal motions allowed; ``local``: the dimension of the finite motion.
+    """The instantaneous freedom at the reference (proved if ``sure``), and the dimension of the set (``local``).
 
-    ``matrix`` is the Jacobian there over GF(``modulus``), or the pattern of its dependent rows. ``dependent``: columns
-    that the others determine, where the matrix does not tell. ``looked``: what was looked at of the relations.
-    ``sure``: is ``instantaneous`` proved?
+    ``matrix`` is the Jacobian over GF(``modulus``), of rank ``rank``, or modulo 2 the pattern of its dependent rows;
+    then ``dependent`` are the columns to solve for. ``rigid``: the dimension of rigid motions of the system.
+    ``looked``: the relations and coordinates that were analysed.
     """
 
     instantaneous: int
@@ -79,7 +79,7 @@ class AtReference:
 
 
 def at_reference(chart: Chart, reference: Mapping[Expr, Expr]) -> AtReference | None:
-    """Return the answer at the reference configuration (t = 0), or None if that does not satisfy the equations."""
+    """Return the result at the reference configuration and t = 0; None if it does not satisfy the equations."""
     with ctx.workprec(precision()):
         pose = {**reference, ex.TIME: ex.ZERO}
         if "field" not in chart.setting.engines:
@@ -89,9 +89,9 @@ def at_reference(chart: Chart, reference: Mapping[Expr, Expr]) -> AtReference | 
 
 
 def _is_exact(chart: Chart, pose: Mapping[Expr, Expr], answer: AtReference) -> bool:
-    """Return whether the rank, which is not too large over GF(p), is proved not to be too small.
+    """Return whether the rank over GF(p), which cannot be too large, is proved not to be too small.
 
-    So it is where no row depends on others, where only rigid motions of the system are left, and at a rational point.
+    It is if no row depends on others, if only rigid motions of the system remain, or by the rank at a rational point.
     """
     velocities = answer.instantaneous
     if chart.coordinates - velocities == len(answer.matrix) or velocities == answer.rigid:
@@ -101,7 +101,7 @@ def _is_exact(chart: Chart, pose: Mapping[Expr, Expr], answer: AtReference) -> b
 
 
 def _by_field(chart: Chart, pose: Mapping[Expr, Expr]) -> AtReference | None:
-    """`at_reference` with a point over GF(p), and balls where signs are asked for."""
+    """Return `at_reference` by a point over GF(p), and balls for signs."""
     point = point_at(chart, pose, 3)
     if point is None:
         return None
@@ -113,9 +113,9 @@ def _by_field(chart: Chart, pose: Mapping[Expr, Expr]) -> AtReference | None:
     fields = rigid_fields(chart, point)
     rigid = rank_of(fields, point.p)
     together = timed or rank == n - rigid or "classes" not in chart.setting.reductions
-    apart = None if together else _by_parts(chart, pose, matrix, point.p, rank)
-    if apart is not None:
-        local, looked = apart
+    by_classes = None if together else _by_classes(chart, pose, matrix, point.p, rank)
+    if by_classes is not None:
+        local, looked = by_classes
         return AtReference(n - rank_q, local, matrix, point.p, rank, rigid, looked=looked)
     if rank < len(matrix) and not timed:
         local, spared = _with_fewer(chart, pose, point, fields)
@@ -133,9 +133,9 @@ def _with_fewer(
     fields: Sequence[Sequence[Any]],
     asked: Sequence[criteria.Criterion] = criteria.CRITERIA,
 ) -> tuple[LocalDimension, int]:
-    """Return the local dimension by a chart with fewer coordinates, where there is one, and how many went.
+    """Return (local dimension, number of coordinates that were eliminated), after solving linear equations.
 
-    ``fields``: the motions of the system as one body over the chart's columns; what they are on fewer is what is left.
+    ``fields``: the rigid motions of the system over the chart's columns.
     """
     small, free = smaller(chart)
     spared = chart.coordinates - small.coordinates
@@ -153,13 +153,12 @@ def _with_fewer(
     return replace(local, dimension=None if local.dimension is None else local.dimension + free), spared
 
 
-def _by_parts(
+def _by_classes(
     chart: Chart, pose: Mapping[Expr, Expr], matrix: Sequence[SparseRow], p: int, rank: int
 ) -> tuple[LocalDimension, FollowedClasses] | None:
-    """Return the local dimension where every class of dependent relations gives a manifold, and what was looked at.
+    """Return the local dimension if the set of every class of dependent relations is a manifold, and what was analysed.
 
-    None where one does not, or is not known to, or is all there is: then all have to be
-    looked at together.
+    None if this is not known of a class, or if one class has all relations: then all have to be analysed together.
     """
     dimension = len(chart.columns) - rank
     if rank == len(matrix):
@@ -173,7 +172,7 @@ def _by_parts(
     followed = more = 0
     for part in classes:
         class_chart = chart_of_rows(chart, part.rows)
-        local, spared = _of_part(class_chart, pose, part.rank)
+        local, spared = _of_class(class_chart, pose, part.rank)
         if local is None:
             return None
         dimensions.append(local)
@@ -187,14 +186,14 @@ def _by_parts(
 
 
 def _rigid() -> str:
-    """Why what depends on itself does not move."""
+    """Return the reason for a rigid class."""
     return f"the dependent part is rigid: {conclusions.WHOLE}"
 
 
-def _of_part(chart: Chart, pose: Mapping[Expr, Expr], rank: int) -> tuple[LocalDimension | None, int]:
-    """One class by itself, and how many coordinates went before it was followed.
+def _of_class(chart: Chart, pose: Mapping[Expr, Expr], rank: int) -> tuple[LocalDimension | None, int]:
+    """Return (local dimension of one class, number of coordinates that were eliminated).
 
-    None where its set is not known to be a manifold of the codimension of its rank.
+    None as the dimension if its set is not known to be a manifold whose codimension is the rank.
     """
     point = pose_point(chart, pose, 3)
     if point is None:
@@ -209,14 +208,14 @@ def _of_part(chart: Chart, pose: Mapping[Expr, Expr], rank: int) -> tuple[LocalD
 
 
 def _at_fixed_time(local: LocalDimension, timed: int) -> LocalDimension:
-    """Return the dimension without that of time, along which the set goes on; none where it does not."""
+    """Return the dimension at fixed time, 1 less if there is time; None if time is constant on the set."""
     if local.dimension is None:
         return local
     return replace(local, dimension=None if local.confined else local.dimension - timed)
 
 
 def _by_balls(chart: Chart, pose: Mapping[Expr, Expr]) -> AtReference | None:
-    """`at_reference` with balls alone: what a tiny ball contains 0 of is taken for 0."""
+    """Return `at_reference` by balls only; a value whose tiny ball contains 0 counts as 0."""
     ball = ball_point(chart, pose)
     matrix = None if ball is None else ball_matrix(chart, ball, True)
     if ball is None or matrix is None:
@@ -238,7 +237,7 @@ def _by_balls(chart: Chart, pose: Mapping[Expr, Expr]) -> AtReference | None:
 
 
 def ball_matrix(chart: Chart, ball: BallPoint, exact: bool) -> list[list[arb]] | None:
-    """Return the Jacobian over all columns; None where a relation's ball excludes 0 or has no value."""
+    """Return the Jacobian over all columns; None if it has no value, or (``exact``) a relation's ball excludes 0."""
     try:
         at = values(chart.ring, ball)
         if exact and not all(at[node].contains(0) for node in chart.nodes):
@@ -252,7 +251,7 @@ def ball_matrix(chart: Chart, ball: BallPoint, exact: bool) -> list[list[arb]] |
 
 
 def ball_point(chart: Chart, pose: Mapping[Expr, Expr]) -> BallPoint | None:
-    """Return the reference configuration with balls; symbols without a value get random ones, in its values too."""
+    """Return a pose as a point of balls, with random values of the other symbols; None if a value is undefined."""
     rng, symbols = random.Random("dofkit reference"), dict[Expr, Any]()
     with ctx.workprec(precision()):
         keys = [var.key for var in chart.ring.vars if var.kind == "symbol"]
@@ -275,10 +274,7 @@ def float_point(chart: Chart, pose: Mapping[Expr, Expr]) -> dict[Expr, float] | 
 
 
 def near_reference(chart: Chart, rank: int) -> Iterator[RealPoint | None]:
-    """Certified configurations near the reference, each joined to it by a curve; None where nothing constrains.
-
-    At one on another part of the set other coordinates may be free.
-    """
+    """Yield certified configurations near the reference, joined to it by a curve of the set; None without relations."""
     if not chart.nodes:
         yield None
         return
@@ -299,14 +295,14 @@ def near_reference(chart: Chart, rank: int) -> Iterator[RealPoint | None]:
 
 @dataclass(frozen=True)
 class DependentClass:
-    """Rows that are looked at together, by their numbers, and how many of them are independent."""
+    """The numbers of rows that are analysed together, and the rank of these rows."""
 
     rows: tuple[int, ...]
     rank: int
 
 
 def dependent_parts(chart: Chart, reduced: Echelon) -> list[DependentClass]:
-    """The classes with dependent rows, each with what else is said of its coordinates; ``reduced``: with supports."""
+    """Return the classes of dependent rows (by the supports of an echelon form), with equations of its coordinates."""
     graph: nx.Graph = nx.Graph()
     for row, support in reduced.supports.items():
         graph.add_node(row)
@@ -319,8 +315,8 @@ def dependent_parts(chart: Chart, reduced: Echelon) -> list[DependentClass]:
             users.setdefault(s, []).append(i)
     classes = []
     for component in nx.connected_components(graph):
-        held = frozenset[Expr]().union(*(mentioned[i] for i in component))
-        enclosed = {i for s in held for i in users[s] if mentioned[i] <= held and i not in reduced.supports}
+        occurring = frozenset[Expr]().union(*(mentioned[i] for i in component))
+        enclosed = {i for s in occurring for i in users[s] if mentioned[i] <= occurring and i not in reduced.supports}
         rows = tuple(sorted(component | enclosed))
         classes.append(DependentClass(rows, len(rows) - sum(r in reduced.supports for r in rows)))
     return sorted(classes, key=lambda part: part.rows)

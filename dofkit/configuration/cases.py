@@ -1,7 +1,7 @@
 """A set of zeros divided into cases: a product is 0 where a factor is, a x + b where x = -b/a or where a = b = 0.
 
-On each case all relations but a few give one coordinate each. Elimination that divides by ``a`` sees the first kind
-only; a part on which ``a`` is 0 may be larger.
+In each case most relations are solved for one coordinate each. Elimination that only divides by ``a`` misses the part
+of the set with a = 0, which may be larger.
 """
 
 from __future__ import annotations
@@ -22,15 +22,15 @@ from dofkit.expressions.tree import Expr
 from dofkit.relations.linear_relations import linear
 from dofkit.relations.normal.zero_set import zero_set
 
-#: Cases that are distinguished, in all; nodes of an expression past which no coordinate is put into it.
+#: Bound on the number of cases, and on the nodes of an expression after substituting a coordinate.
 MAX_CASES, MAX_NODES = 48, 300
 
 
 @dataclass(frozen=True)
 class ZeroCase:
-    """Where ``solved`` relations give one unknown each, ``unsolved`` vanish too, and none of ``nonzero`` does.
+    """``solved`` relations, one for each unknown eliminated, ``unsolved`` ones, and expressions that are ``nonzero``.
 
-    ``fresh``: relations whose factors were not looked at.
+    ``fresh``: further relations, which have not yet been split into factors.
     """
 
     solved: tuple[Expr, ...]
@@ -40,16 +40,16 @@ class ZeroCase:
 
     @property
     def relations(self) -> tuple[Expr, ...]:
-        """All that vanishes there."""
+        """All relations of the case."""
         return self.solved + self.unsolved + self.fresh
 
 
 @dataclass(frozen=True)
 class BoundedCase:
-    """The relations of a case and a bound of the dimension of its points; ``counted``: the complex ones have it.
+    """The relations of a case, and a bound (``most``) on the dimension of its set.
 
-    ``exact``: with constants as further unknowns the set has no more dimensions than these, so they are not due to the
-    random numbers that constants are given.
+    ``counted``: the bound is the dimension of the set of complex points. ``exact``: it is so for generic constants, not
+    only for the random numbers used for them, because the dimension with constants as unknowns agrees.
     """
 
     relations: tuple[Expr, ...]
@@ -61,11 +61,10 @@ class BoundedCase:
 def cases_of(
     relations: Sequence[Expr], unknowns: Sequence[Expr], positive: frozenset[Expr]
 ) -> list[BoundedCase] | None:
-    """Return the cases of some relations between ``unknowns``; None where there are too many of them.
+    """Return the cases of some relations between ``unknowns``; None if there are too many, no case if no real point.
 
-    Other symbols are generic constants, in which the relations have to be analytic: else what is not 0 everywhere may
-    be 0 through an interval. No case: there is no real point. Where combinations lead to too many cases, those of the
-    relations as they are.
+    Other symbols are generic constants, in which the relations have to be analytic: otherwise a coefficient that is not
+    0 everywhere might be 0 on an interval. Linear combinations of relations are used unless they give too many cases.
     """
     if not all(is_analytic(g, g.symbols.difference(unknowns), positive) for g in relations):
         return None
@@ -76,14 +75,15 @@ def cases_of(
 def _cases_of(
     relations: Sequence[Expr], unknowns: Sequence[Expr], positive: frozenset[Expr], combining: bool
 ) -> list[BoundedCase] | None:
+    """Return `cases_of`; ``combining``: whether to use linear combinations of relations."""
     moving = frozenset(unknowns)
-    open_, bounded, seen = [ZeroCase((), (), tuple(relations))], list[BoundedCase](), 0
-    while open_:
+    pending, bounded, number = [ZeroCase((), (), tuple(relations))], list[BoundedCase](), 0
+    while pending:
         check()
-        seen += 1
-        if seen > MAX_CASES:
+        number += 1
+        if number > MAX_CASES:
             return None
-        case = open_.pop()
+        case = pending.pop()
         subcases = _split(case, moving, positive)
         if subcases is None and combining:
             together = _combined(case.unsolved, moving, positive)
@@ -91,12 +91,12 @@ def _cases_of(
         if subcases is None:
             bounded += [b for b in [_bounded(case, unknowns, positive)] if b.most >= 0]
         else:
-            open_ += subcases
+            pending += subcases
     return bounded
 
 
 def _split(case: ZeroCase, moving: frozenset[Expr], positive: frozenset[Expr]) -> list[ZeroCase] | None:
-    """Return the cases within one; None where it is divided no further."""
+    """Return the subcases into which a case is divided; None if it is not divided further."""
     if case.fresh:
         g, unsplit = case.fresh[0], case.fresh[1:]
         branches = zero_set(g, positive, moving)[0]
@@ -124,9 +124,9 @@ def _split(case: ZeroCase, moving: frozenset[Expr], positive: frozenset[Expr]) -
 
 
 def _combined(relations: Sequence[Expr], moving: frozenset[Expr], positive: frozenset[Expr]) -> tuple[Expr, ...] | None:
-    """Combinations with numbers that say the same, where one of them is linear or falls into factors; else None.
+    """Return an equivalent set of linear combinations, if a new one is linear or can be split; else None.
 
-    x^2 + z^2 = a^2 and x^2 + (z - w)^2 = a^2 give w (w - 2 z) = 0; two circles meet on a line.
+    x^2 + z^2 = a^2 and x^2 + (z - w)^2 = a^2 give w (w - 2 z) = 0; two circles give their radical line.
     """
     if len(relations) < 2:
         return None
@@ -138,7 +138,7 @@ def _combined(relations: Sequence[Expr], moving: frozenset[Expr], positive: froz
 
 
 def _linear(relations: Sequence[Expr], moving: frozenset[Expr]) -> Iterator[tuple[tuple[int, int], Expr, Expr, Expr]]:
-    """(how large, relation, unknown, its coefficient) where a relation has the first degree in an unknown."""
+    """Yield (cost of substituting, relation, unknown, its coefficient) for relations of first degree in an unknown."""
     sizes = {g: sum(1 for _ in ex.nodes(g)) for g in relations}
     for g in relations:
         for s in sorted(moving & g.symbols, key=repr):
@@ -152,7 +152,7 @@ def _linear(relations: Sequence[Expr], moving: frozenset[Expr]) -> Iterator[tupl
 
 @false_without_value
 def _same_zeros(e: Expr, other: Expr, positive: frozenset[Expr]) -> bool:
-    """Return whether two expressions are the same up to a number."""
+    """Return whether two expressions are equal up to a numerical factor; False also if they are too large."""
     if e.symbols != other.symbols:
         return False
     _, [(first, _), (second, _)] = quotients_of([e, other], positive)
@@ -160,9 +160,9 @@ def _same_zeros(e: Expr, other: Expr, positive: frozenset[Expr]) -> bool:
 
 
 def _bounded(case: ZeroCase, unknowns: Sequence[Expr], positive: frozenset[Expr]) -> BoundedCase:
-    """Return a case that is divided no further, with the bound of its dimension: -1 where it has no point.
+    """Return a case with the bound on its dimension, -1 if it has no point.
 
-    One relation takes one dimension away, unless it holds everywhere; several take that of a Groebner basis.
+    One unsolved relation removes one dimension, unless it may be 0 = 0; for several a Groebner basis is computed.
     """
     most = len(unknowns) - len(case.solved)
     if not case.unsolved:
@@ -178,10 +178,10 @@ def _bounded(case: ZeroCase, unknowns: Sequence[Expr], positive: frozenset[Expr]
     constants = [ring.var_node.index(ring.node(s)) for s in sorted(others, key=repr)]
     canon = Canon(ring)
     generators = [canon.quotient(node)[0] for node in nodes]
-    whole = dimension_of(canon, generators, moving)
-    if whole is None:
+    dimension = dimension_of(canon, generators, moving)
+    if dimension is None:
         return BoundedCase(case.relations, most - 1, False)
     total = dimension_of(canon, generators, [*moving, *constants])
-    drawn = any(not e.symbols for e in ring.var_expr)  # numbers such as cos(1) are drawn in both
-    exact = not drawn and total is not None and max(-1, total - len(constants)) <= whole
-    return BoundedCase(case.relations, -1 if whole < 0 else most - len(moving) + whole, True, exact)
+    randomised = any(not e.symbols for e in ring.var_expr)  # numbers such as cos(1) are random in both
+    exact = not randomised and total is not None and max(-1, total - len(constants)) <= dimension
+    return BoundedCase(case.relations, -1 if dimension < 0 else most - len(moving) + dimension, True, exact)

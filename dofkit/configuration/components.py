@@ -1,11 +1,11 @@
-"""The parts of a configuration space: is there a larger one than that of the point that was found?
+"""The components of a configuration space: is there a larger one than that of the point that was found?
 
-A regular point of r relations in n unknowns tells the dimension n - r of its own part. No part is smaller [Krull1928],
-but one may be larger: y = (x - 1) u, (x - 1) v = y w, (x - 1) w = y u hold where x = 1, y = 0 whatever u, v, w are.
-That none is larger is known where
+At a regular point of r independent relations in n unknowns its component has the dimension n - r. No component is
+smaller [Krull1928], but one may be larger: y = (x - 1) u, (x - 1) v = y w, (x - 1) w = y u are satisfied for x = 1,
+y = 0 and all u, v, w. It is known that none is larger if
 
-- the relations but one give a coordinate each as a function of others: the set is a graph over a hypersurface;
-- a Groebner basis shows the dimension of all complex points, or does so for every case [Buchberger1965].
+- all relations except one are solved for a coordinate each: the set is a graph over a hypersurface;
+- a Groebner basis gives the dimension of the complex points, of the set or of every case [Buchberger1965].
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Chart
 from dofkit.relations.linear_relations import Explicit, explicit_relations
 
-#: Relations that are looked at; cases of all parts together that are looked at, and that are listed.
+#: Bounds on the relations, and on the choices of cases that are analysed, and that are listed.
 MAX_RELATIONS, MAX_TOGETHER, MAX_PRODUCTS = 200, 16, 2000
 LARGER = "over the complex numbers the set has a component of larger dimension, and its real points were not decided"
 NO_CASE = "no configuration satisfies all equations: each case leads to an equation without a solution"
@@ -38,22 +38,23 @@ NEAR = (
     "the freedom is that of the component of the configuration space that contains the witness: a larger "
     "component was not excluded"
 )
-#: A case of each part, which hold together.
+#: One case for each part of the relations, to be satisfied together.
 Choice = tuple[all_cases.BoundedCase, ...]
 OTHERS = "whether several components pass through the point that was found was not decided"
 
 
 class RelationPart(NamedTuple):
-    """Relations between ``unknowns`` that no other relations share."""
+    """Relations, and their ``unknowns``, which occur in no other relations."""
 
     relations: tuple[Expr, ...]
     unknowns: tuple[Expr, ...]
 
 
 def largest_component(chart: Chart, variety: Variety, find: Callable[[Chart], Variety], case: bool = False) -> Variety:
-    """What is known of the set, for its component of largest dimension; ``find`` gives that of another chart.
+    """Return the variety of the component of largest dimension, given a ``variety`` near some point.
 
-    ``case``: what was found is the set of a case, which is a part of this one.
+    ``find`` computes the variety of another chart; ``case``: the given variety is that of a case only. If a larger
+    component cannot be excluded, the result is about the component of the point, or undecided.
     """
     if variety.dimension is None or not variety.consistent:
         return variety
@@ -67,7 +68,7 @@ def largest_component(chart: Chart, variety: Variety, find: Callable[[Chart], Va
     if set_cases is None or not set_cases[2]:
         return near(variety)
     solved, loose, together = set_cases
-    best, open_, regular = variety, list[bool](), _is_regular(chart, variety)
+    best, undecided, regular = variety, list[bool](), _is_regular(chart, variety)
     for number, choice in enumerate(together):
         if loose + _most(choice) <= (best.dimension or 0):
             break
@@ -76,12 +77,12 @@ def largest_component(chart: Chart, variety: Variety, find: Callable[[Chart], Va
         larger = _variety_of(chart, _relations_of(solved, choice), find)
         if larger.consistent is False and larger.verdict == "proved":
             continue
-        best, ended = _larger(chart, best, larger, loose + _most(choice))
-        if not ended:
-            open_.append(all(case.counted for case in choice))
-    if any(open_) and regular:
+        best, reached = _larger(chart, best, larger, loose + _most(choice))
+        if not reached:
+            undecided.append(all(case.counted for case in choice))
+    if any(undecided) and regular:
         return replace(best, dimension=None, verdict="undecided", reasons=[*best.reasons, LARGER])
-    if open_:
+    if undecided:
         return near(best) if best is variety else _near_its_point(best)
     best = _by(best, "cases" if solved.implicit else "graph")
     best = replace(best, separating=separating_expressions(together, (best.dimension or 0) - loose))
@@ -92,7 +93,7 @@ def largest_component(chart: Chart, variety: Variety, find: Callable[[Chart], Va
 def separating_expressions(choices: Sequence[Sequence[all_cases.BoundedCase]], largest: int) -> tuple[Expr, ...]:
     """Return expressions that vanish in every case of the largest dimension and not in every smaller one.
 
-    The shortest come first; where no relation occurs in all large cases, their product is the only one.
+    The shortest come first. If no relation occurs in all large cases, a product of one of each is the only result.
     """
     cases = [({g for case in choice for g in case.relations}, _most(choice)) for choice in choices]
     large, small = [c for c, most in cases if most == largest], [c for c, most in cases if most < largest]
@@ -108,7 +109,7 @@ def _length(e: Expr) -> tuple[int, str]:
 
 
 def _variety_of(chart: Chart, relations: Sequence[Expr], find: Callable[[Chart], Variety]) -> Variety:
-    """What is known of the set of other relations; nothing where they have no value at the points that are tried."""
+    """Return the variety of other relations; an undecided one if they have no value at the points that are tried."""
     try:
         return find(_restricted(chart, relations))
     except NoValueError:
@@ -116,7 +117,7 @@ def _variety_of(chart: Chart, relations: Sequence[Expr], find: Callable[[Chart],
 
 
 def _is_regular(chart: Chart, variety: Variety) -> bool:
-    """Return whether the relations have as large a rank there as the dimension says."""
+    """Return whether the rank of the relations at the first sample agrees with the dimension."""
     rank = (
         None if not variety.samples else rank_of_rows(field_jacobian(chart, variety.samples[0]), variety.samples[0].p)
     )
@@ -124,7 +125,7 @@ def _is_regular(chart: Chart, variety: Variety) -> bool:
 
 
 def by_cases(chart: Chart, variety: Variety, find: Callable[[Chart], Variety]) -> Variety:
-    """What is known of a set of which no regular point was found: the first case with points, or that none has any."""
+    """Return the variety of the first case with points, or an empty one if there is no case; else ``variety``."""
     if not 0 < len(chart.relations) <= MAX_RELATIONS:
         return variety
     set_cases = _cases_of_set(chart)
@@ -146,7 +147,7 @@ def by_cases(chart: Chart, variety: Variety, find: Callable[[Chart], Variety]) -
 
 
 def _by(variety: Variety, argument: ArgumentKey) -> Variety:
-    """What was found at a regular point, of all parts by an argument."""
+    """Return the variety with an argument for all components in place of "regular point"."""
     return replace(variety, argument=argument) if variety.argument == "regular point" else variety
 
 
@@ -156,7 +157,7 @@ def _near(variety: Variety) -> Variety:
 
 
 def _near_its_point(case: Variety) -> Variety:
-    """Return the same of a case, a part of the set: near its point the rest of the set may be larger."""
+    """Return the variety of a case as undecided, because the set may have a larger component through its point."""
     return replace(case, dimension=None, verdict="undecided", reasons=[*case.reasons, OTHERS])
 
 
@@ -165,7 +166,7 @@ def _most(choice: Iterable[all_cases.BoundedCase]) -> int:
 
 
 def _larger(chart: Chart, best: Variety, other: Variety, most: int) -> tuple[Variety, bool]:
-    """Return the larger of two varieties, and whether the other has the dimension ``most``: none can be larger."""
+    """Return (the larger of two varieties, whether the other one reaches the bound ``most`` on its dimension)."""
     samples = [p for p in other.samples if on_variety(chart, p)]
     if not other.consistent or other.dimension is None or not samples:
         return best, False
@@ -174,7 +175,7 @@ def _larger(chart: Chart, best: Variety, other: Variety, most: int) -> tuple[Var
 
 
 def _restricted(chart: Chart, relations: Sequence[Expr]) -> Chart:
-    """The chart with other relations, in a ring of their own: they may have no value where those of the chart do."""
+    """Return the chart with other relations, in a new ring, as those of the chart may have no value where these do."""
     ring = chart.ring.another(relations)
     for var in chart.ring.vars:
         if var.kind == "symbol":
@@ -183,27 +184,24 @@ def _restricted(chart: Chart, relations: Sequence[Expr]) -> Chart:
 
 
 def is_graph(chart: Chart) -> bool:
-    """Return whether every relation gives a coordinate as a function of others on one region [ImplicitFunctions]."""
+    """Return whether every relation can be solved for a coordinate, so that the set is a graph [ImplicitFunctions]."""
     if len(chart.relations) > MAX_RELATIONS or _in_regions(chart) or _has_branches(chart):
         return False
     return not explicit_relations(chart.relations).implicit
 
 
 def _in_regions(chart: Chart) -> bool:
-    """Return whether signs of what moves occur: on each side of their zeros other functions stand there.
-
-    Signs of velocities part these, at every configuration.
-    """
+    """Return whether signs of expressions in coordinates (not velocities) occur, so that relations differ by region."""
     moving = frozenset(s for s in chart.symbols if s != ex.TIME)
     signs = [chart.ring.var_expr[v.index].symbols for v in chart.ring.vars if v.kind == "sign"]
     return any(not moving.isdisjoint(u) and not any(s.args[0] == "velocity" for s in u) for u in signs)
 
 
 def _has_branches(chart: Chart) -> bool:
-    """Return whether functions of what moves may be related in some regions only: acos(cos(x)) is x, or -x.
+    """Return whether functions of the coordinates may be related in some regions only: acos(cos(x)) is x, or -x.
 
-    On the set y = x^2 so is sqrt(y). Elsewhere what is analytic has one relation in all regions, and independent
-    generators have none.
+    On the set y = x^2 this is also so for sqrt(y). Analytic functions have the same relations everywhere, and
+    independent generators have none.
     """
     moving, related = frozenset(chart.symbols), frozenset[Expr]().union(*(g.symbols for g in chart.relations))
     branched = [chart.ring.var_expr[v.index] for v in chart.ring.vars if v.kind in BRANCHED]
@@ -217,10 +215,10 @@ def _has_branches(chart: Chart) -> bool:
 
 @false_without_value
 def is_irreducible(chart: Chart) -> bool:
-    """Return whether the set is known to have one component: what is generic at a regular point is so at all of them.
+    """Return whether the set is known to be irreducible, so that generic results are valid at all regular points.
 
-    So have a graph, and the zeros of one polynomial without factors: parts that it may have over larger numbers are
-    conjugate, and as good as each other where no such number occurs (x - sqrt(2) y is 0 on one part of x^2 = 2 y^2).
+    It is if it is a graph over the zeros of an irreducible polynomial, or of none. These may have several components
+    over algebraic numbers, which are conjugate and alike if no such number occurs (x = +-sqrt(2) y in x^2 = 2 y^2).
     """
     if len(chart.relations) > MAX_RELATIONS or _in_regions(chart) or _has_branches(chart):
         return False
@@ -240,7 +238,7 @@ def is_irreducible(chart: Chart) -> bool:
 
 
 def parts_of(relations: Sequence[Expr], symbols: Sequence[Expr]) -> list[RelationPart]:
-    """Return the relations by the coordinates that they share; the moment is any."""
+    """Return the relations grouped by shared coordinates, each group with its unknowns; time joins none."""
     coordinates = frozenset(symbols)
     groups = []
     for numbers in components(g.symbols & coordinates for g in relations):
@@ -251,9 +249,9 @@ def parts_of(relations: Sequence[Expr], symbols: Sequence[Expr]) -> list[Relatio
 
 
 def _cases_of_set(chart: Chart) -> tuple[Explicit, int, list[Choice]] | None:
-    """Return what the relations give explicitly, the number of coordinates in no other, and choices of cases of parts.
+    """Return (explicit solutions, number of coordinates in no implicit relation, choices of a case for each part).
 
-    The largest choices come first; there is none where a part has no case. None where they are too many.
+    The choices of largest dimension come first; there is none if a part has no case. None if they are too many.
     """
     solved = explicit_relations(chart.relations)
     groups = parts_of(solved.implicit, [s for s in chart.symbols if s != ex.TIME])
@@ -269,7 +267,7 @@ def _relations_of(solved: Explicit, choice: Choice) -> list[Expr]:
 
 
 def _cases(part: RelationPart, chart: Chart) -> list[all_cases.BoundedCase] | None:
-    """Return the cases of a part with the bounds of their dimensions."""
+    """Return the cases of a part with the bounds on their dimensions; None if they are too many."""
     try:
         nonzero = [g for g in part.relations if is_identically_zero(g, chart.setting.positive) is not True]
         return all_cases.cases_of(nonzero, part.unknowns, chart.setting.positive)

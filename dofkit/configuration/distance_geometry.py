@@ -1,8 +1,7 @@
-"""Lengths that no points can have, proved by geometry before anything is searched.
+"""Proofs that no points have the prescribed distances, by the triangle inequality [Menger1928].
 
-A distance is at most the length of any route between its ends (the triangle inequality [Menger1928]). Floating point
-proposes, intervals decide; where they do not tell two sides apart, as in a triangle drawn out to a line, nothing is
-contradicted.
+A distance is at most the length of any route between its ends. Routes are found in floating point, and a contradiction
+is proved with intervals; equality, as in a triangle stretched to a line, is no contradiction.
 """
 
 from __future__ import annotations
@@ -28,16 +27,16 @@ from dofkit.system import Distance, Place
 
 #: Precision at which two lengths are compared, in bits.
 BITS = 1024
-#: Steps of all searches for short routes, and points of one body that are used.
+#: Bounds on the steps of all searches for routes, and on the points of one body that are used.
 MAX_VISITS, MAX_CARRIED = 100_000, 40
-#: Ways that are longer than a distance by more than this fraction are no reason to doubt it.
+#: Routes are searched up to the length of a distance times 1 + SLACK.
 SLACK = 1e-9
-#: Distances are shown to so many digits.
+#: Digits of distances in messages.
 DIGITS = 6
 
 
 class Side(NamedTuple):
-    """A known distance, about ``length``, or a bound from above; ``owner`` None where a body holds both points."""
+    """A distance, about ``length``, or an upper bound (``at_most``); ``owner``: its constraint, None within a body."""
 
     first: Place
     second: Place
@@ -48,10 +47,7 @@ class Side(NamedTuple):
 
 
 def lengths_unmet(block: Block, setting: Setting) -> Answer | None:
-    """Return the answer to a block whose links cannot close; None where that is not seen.
-
-    A distance is longer than a route between its ends (each side of a polygon is at most the others together).
-    """
+    """Return an inconsistent answer if a distance of a block is longer than a route between its ends; else None."""
     owners = sorted({row.constraint for row in block.rows})
     prescribed = [(i, d) for i in owners for d in setting.distances.get(i, ())]
     sides = sorted(_sides(prescribed), key=lambda side: -side.length) if len(prescribed) > 1 else []
@@ -75,6 +71,7 @@ def lengths_unmet(block: Block, setting: Setting) -> Answer | None:
 
 
 def _unmet(side: Side, others: Sequence[Side], route: str) -> Answer:
+    """Return the inconsistent answer for a side that is longer than the ``others``, which form a route."""
     most = sum(other.length for other in others)
     why = (
         f"the points {side.first.label} and {side.second.label} cannot be {side.length:.{DIGITS}g} apart: "
@@ -85,20 +82,20 @@ def _unmet(side: Side, others: Sequence[Side], route: str) -> Answer:
 
 
 def _sides(distances: Sequence[tuple[int, Distance]]) -> Iterator[Side]:
-    """Yield the distances, with parameters at random, and those between points of one body."""
+    """Yield the distances, with random values of parameters, and those between points of one body."""
     draw = random.Random("dofkit lengths")
     symbols = sorted({s for _, d in distances for s in d.squared.symbols}, key=repr)
     values = {s: Fraction(draw.randrange(10**6, 10**7), 10**6) for s in symbols}
     written = ((d.first, d.second, d.squared, owner, d.at_most) for owner, d in distances)
-    held = ((a, b, square_between(a.reference or (), b.reference or ()), None, False) for a, b in _carried(distances))
-    for first, second, squared, owner, at_most in (*written, *held):
+    within = ((a, b, square_between(a.reference or (), b.reference or ()), None, False) for a, b in _carried(distances))
+    for first, second, squared, owner, at_most in (*written, *within):
         about = interval_of(squared, values)
         if about is not None and about >= 0 and first != second:
             yield Side(first, second, squared, float(about.sqrt().mid()), owner, at_most)
 
 
 def _is_longer(longest: Side, others: Sequence[Side], positive: frozenset[Expr]) -> bool:
-    """Return whether a length is certainly more than others together, whatever the positive parameters are."""
+    """Return whether a length is proved to be more than the sum of others, for all values of positive parameters."""
     gap = ex.add(ex.sqrt(longest.squared), *(ex.mul(ex.MINUS_ONE, ex.sqrt(o.squared)) for o in others))
     if gap.symbols:
         return never_holds(ex.mul(ex.MINUS_ONE, gap), False, positive)
@@ -107,7 +104,7 @@ def _is_longer(longest: Side, others: Sequence[Side], positive: frozenset[Expr])
 
 
 def _carried(distances: Iterable[tuple[int, Distance]]) -> Iterator[tuple[Place, Place]]:
-    """Yield pairs of points of one body: they keep the distance they are drawn at."""
+    """Yield pairs of points of one body; their distance is that at the reference."""
     bodies: dict[str, dict[Place, None]] = {}
     for _, d in distances:
         for place in (d.first, d.second):

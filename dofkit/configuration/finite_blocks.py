@@ -22,8 +22,8 @@ from dofkit.relations.answer import Answer, RealRows
 from dofkit.relations.blocks import Block, Chart, is_measured, make_chart
 from dofkit.relations.setting import Setting
 
-#: Measured numbers are not exact: away from where they were measured they prove nothing.
-NOT_DRAWN = (
+#: Reason: numbers with a tolerance prove nothing away from the reference configuration.
+UNPLACED = (
     "with a tolerance the geometry is valid only near the reference configuration, and not everything "
     "here has a position there"
 )
@@ -31,7 +31,7 @@ ONE_MOMENT = "the reference configuration satisfies the equations at this instan
 
 
 def finite_answer(block: Block, setting: Setting) -> Answer:
-    """The answer to a block of geometric equations, at the reference where it satisfies them and else generically."""
+    """Return the answer of a block of geometric equations, at the reference if it satisfies them, else generic."""
     chart = make_chart(block, setting)
     measured = is_measured(block, setting)
     result = _within_tolerance(block, chart) if measured else _finite_answer(chart)
@@ -40,7 +40,7 @@ def finite_answer(block: Block, setting: Setting) -> Answer:
 
 
 def _within_tolerance(block: Block, chart: Chart) -> Answer:
-    """Return the answer of a block with measured geometry; numbers do not matter in a tree without positions."""
+    """Return the answer of a block with a tolerance; in a tree without positions the numbers do not matter."""
     pose = pose_of_block(chart)
     if pose is None and is_tree(block, chart.setting):
         return _finite_answer(chart)
@@ -48,19 +48,19 @@ def _within_tolerance(block: Block, chart: Chart) -> Answer:
         return Answer(None, verdict="undecided", reasons=["measured geometry has no points over GF(p)"])
     freedom = None if pose is None else measured_freedom(chart, pose)
     return (
-        Answer(None, verdict="undecided", reasons=[NOT_DRAWN]) if freedom is None else _measured_answer(chart, freedom)
+        Answer(None, verdict="undecided", reasons=[UNPLACED]) if freedom is None else _measured_answer(chart, freedom)
     )
 
 
 def _finite_answer(chart: Chart) -> Answer:
     setting = chart.setting
     if setting.reference is not None:
-        drawn = _drawn_answer(chart, setting.reference)
-        if drawn is not None and drawn.consistent is False:
-            return drawn
-        if drawn is not None:
-            drawn.about, drawn.witness = "reference", of_reference(chart.symbols, setting.reference)
-            return drawn
+        local = _local_answer(chart, setting.reference)
+        if local is not None and local.consistent is False:
+            return local
+        if local is not None:
+            local.about, local.witness = "reference", of_reference(chart.symbols, setting.reference)
+            return local
     variety = find(chart, setting.pose)
     result = _answer_of(variety)
     result.bits = error_bits(chart.ring, chart.nodes, len(chart.columns))
@@ -78,7 +78,7 @@ def _finite_answer(chart: Chart) -> Answer:
 
 
 def _answer_of(variety: Variety) -> Answer:
-    """What is known of a set of configurations, as the answer of a block."""
+    """Return the answer of a block with a given variety."""
     freedom = variety.dimension
     answer = Answer(
         variety.consistent, freedom, freedom, variety.verdict, variety.about, variety.argument, gap=variety.gap
@@ -87,7 +87,7 @@ def _answer_of(variety: Variety) -> Answer:
 
 
 def _real_rows(chart: Chart, real: RealPoint | None) -> RealRows | None:
-    """Return the rows at a certified point, where they may tell another part of the set."""
+    """Return the Jacobian in balls at a certified real point; None if the point is not certified."""
     if real is None or not real.certain:
         return None
     matrix = ball_matrix(chart, real.point, False)
@@ -95,7 +95,7 @@ def _real_rows(chart: Chart, real: RealPoint | None) -> RealRows | None:
 
 
 def _numeric_matrix(chart: Chart, real: RealPoint, result: Answer) -> None:
-    """Which relations depend on which, and which coordinates on which, from a regular real point."""
+    """Set ``matrix`` (the pattern of dependent rows) and ``dependent`` of the result, from a regular real point."""
     if not real.certified or not real.part.rows or len(real.matrix) != len(chart.nodes):
         return
     result.matrix = sparse(dependencies(real.matrix, real.part))
@@ -105,8 +105,8 @@ def _numeric_matrix(chart: Chart, real: RealPoint, result: Answer) -> None:
     result.dependent = tuple(str(ranked[columns[i]].args[1]) for i in part.columns)
 
 
-def _drawn_answer(chart: Chart, reference: Mapping[Expr, Expr]) -> Answer | None:
-    """At the reference configuration; None where the relations do not hold there."""
+def _local_answer(chart: Chart, reference: Mapping[Expr, Expr]) -> Answer | None:
+    """Return the answer at the reference configuration; None if it does not satisfy the relations."""
     local_answer = at_reference(chart, reference)
     if local_answer is None:
         return None
@@ -137,7 +137,7 @@ def _drawn_answer(chart: Chart, reference: Mapping[Expr, Expr]) -> Answer | None
 
 
 def _confined_answer(chart: Chart, result: Answer) -> Answer:
-    """No motion passes through the reference; whether one does elsewhere is asked of generic configurations."""
+    """Return the answer if no motion passes through the reference: inconsistent if none exists at all, or undecided."""
     elsewhere = find(chart, {})
     if elsewhere.consistent is False:
         return replace(_answer_of(elsewhere), method=result.method)
@@ -150,7 +150,7 @@ def _confined_answer(chart: Chart, result: Answer) -> Answer:
 
 
 def _measured_answer(chart: Chart, freedom: MeasuredFreedom) -> Answer:
-    """Return the freedom at a measured pose as the answer of a block."""
+    """Return the answer of a block with a given freedom within the tolerance."""
     dimension = freedom.dimension
     result = Answer(True, dimension, dimension, "numeric" if dimension is not None else "undecided")
     result.argument, result.gap, result.about = "singular values", freedom.gap, "reference"
@@ -168,7 +168,7 @@ def _measured_answer(chart: Chart, freedom: MeasuredFreedom) -> Answer:
 
 
 def _finite_matrix(chart: Chart, variety: Variety, result: Answer) -> None:
-    """Which relations depend on which, and which coordinates on which, from a point over GF(p)."""
+    """Set ``matrix``, ``modulus``, ``dependent`` and ``degenerate`` of the result, from a point over GF(p)."""
     point = variety.samples[0]
     result.matrix, result.modulus = field_jacobian(chart, point), point.p
     result.dependent = dependent_names(result.matrix, chart, point.p)
@@ -178,6 +178,6 @@ def _finite_matrix(chart: Chart, variety: Variety, result: Answer) -> None:
 
 
 def dependent_names(rows: Sequence[SparseRow], chart: Chart, p: int) -> tuple[str, ...]:
-    """Coordinates that the rows can be solved for, the last ones where there is a choice."""
+    """Return the names of coordinates that the rows can be solved for, later ones preferred."""
     frame = sparse_frame(without_time(rows, chart.coordinates), chart.coordinates, p)
     return tuple(str(chart.symbols[c].args[1]) for c in frame.dependent)

@@ -1,6 +1,6 @@
 """The dimension of the configuration space at its generic points, by rank, and near points that are singular.
 
-A rank over GF(p) is compared with that at a certified real point, without which a set over GF(p) says nothing.
+A rank over GF(p) is compared with that at a certified real point, because the set may have no real point at all.
 """
 
 from __future__ import annotations
@@ -34,10 +34,10 @@ from dofkit.relations.blocks import Chart
 
 
 def variety_at(chart: Chart, samples: list[FieldPoint], seed: int, core: Sequence[int]) -> Variety:
-    """Return the set near generic points over GF(p) that lie on it, held against a real point.
+    """Return the variety near generic points over GF(p) (``samples``), compared with a real point.
 
-    ``core``: relations to search a real point of. Points at which the time is fixed, or at which a sign is another than
-    at the real point, lie on other parts of the set.
+    ``core``: the relations that are used to search a real point. Points at which time is fixed, or at which a sign
+    differs from that at the real point, are ignored, because they lie on other components.
     """
     real = real_point(chart, seed, core) if len(chart.columns) <= BALL_COLUMNS else None
     samples = [p for p in samples if time_is_free(chart, p)] or samples
@@ -54,7 +54,7 @@ def variety_at(chart: Chart, samples: list[FieldPoint], seed: int, core: Sequenc
     argument: ArgumentKey | None = "regular point"
     reasons: list[str] = []
     if rank < len(chart.nodes):
-        local = criteria.local_at(chart, samples[0], None, 0, drawn=False)
+        local = criteria.local_at(chart, samples[0], None, 0, special=False)
         if local.dimension is None or local.confined or local.dimension < columns - rank:
             exact = None if local.confined else local.dimension
             dimension = None if exact is None else exact - timed
@@ -64,7 +64,7 @@ def variety_at(chart: Chart, samples: list[FieldPoint], seed: int, core: Sequenc
 
 
 def near_real_point(chart: Chart, real: RealPoint | None, core: Sequence[int]) -> Variety:
-    """Return the set near a real point, without points over GF(p)."""
+    """Return the variety near a real point, without points over GF(p)."""
     if real is None:
         return Variety(None, None, "undecided", reasons=["no configuration satisfying all equations was found"])
     columns = len(chart.columns)
@@ -80,9 +80,9 @@ def near_real_point(chart: Chart, real: RealPoint | None, core: Sequence[int]) -
     return Variety(None, None, "undecided", [], real, ["only singular points were found"])
 
 
-# Real points, and what they say of an answer from points over GF(p)
+# Real points, and their comparison with points over GF(p)
 
-#: Blocks with more columns than this are not certified with balls.
+#: Bound on the columns of a block for which real points are certified with balls.
 BALL_COLUMNS = 60
 NEARLY = "nearly dependent equations are satisfied at a real point within its precision, but a zero was not certified"
 SINGULAR = "every real configuration that was found is singular; the motions there were not decided"
@@ -90,7 +90,7 @@ ALLOWING = "the answers assume that the unknown functions are such that a real c
 
 
 def real_point(chart: Chart, seed: int, core: Sequence[int]) -> RealPoint | None:
-    """Return a real point of the nodes ``core``, with balls; None where none is found, or none is looked for."""
+    """Return a real zero of the nodes ``core``, with balls; None if none is found, or the block is too large."""
     if len(chart.columns) > BALL_COLUMNS or "balls" not in chart.setting.engines:
         return None
     search = RealSearch(chart.ring, core, chart.unknowns, chart.setting.positive, chart.symbols)
@@ -102,7 +102,7 @@ def real_point(chart: Chart, seed: int, core: Sequence[int]) -> RealPoint | None
 
 
 def with_reality(chart: Chart, variety: Variety, rank: int) -> Variety:
-    """Hold the real point against what the field said."""
+    """Return the variety (changed in place) after comparing its ``rank`` over GF(p) with its real point."""
     real = variety.real
     if "balls" not in chart.setting.engines:
         return _by_field_alone(chart, variety)
@@ -121,14 +121,14 @@ def with_reality(chart: Chart, variety: Variety, rank: int) -> Variety:
         variety.reasons.append(
             "real points and points over GF(p) disagree about the rank: the set has several components"
         )
-    elif any(map(_hangs_on_a_function, chart.relations)):
+    elif any(map(_depends_on_unknown_function, chart.relations)):
         variety.verdict = weakest(variety.verdict, "probable")
         variety.reasons.append(ALLOWING)
     return variety
 
 
-def _hangs_on_a_function(e: Expr) -> bool:
-    """Return whether coordinates stand in unknown functions only: h(x) = 0 holds somewhere for some h, not for all."""
+def _depends_on_unknown_function(e: Expr) -> bool:
+    """Return whether coordinates occur in unknown functions only: h(x) = 0 has a solution for some h, not for all."""
     within = any(node.op == "call" for node in ex.nodes(e))
     return within and not any(s.args[0] == "coordinate" for s in _outside_calls(e))
 
@@ -142,7 +142,7 @@ def _outside_calls(e: Expr) -> Iterator[Expr]:
 
 
 def _by_field_alone(chart: Chart, variety: Variety) -> Variety:
-    """Without balls a rank stands only where no relation between functions can have been missed."""
+    """Return the variety if only GF(p) is used: undecided if a relation between functions may have been missed."""
     if independent_on_set(chart.ring, chart.nodes):
         variety.verdict = weakest(variety.verdict, "probable")
         return variety
@@ -150,7 +150,7 @@ def _by_field_alone(chart: Chart, variety: Variety) -> Variety:
 
 
 def _without_reality(chart: Chart, variety: Variety) -> Variety:
-    """No real point: an unknown function may be chosen so that there is one; else nothing is known."""
+    """Return the variety without a real point: undecided, unless an unknown function may be such that one exists."""
     calls = any(chart.ring.vars[i].kind == "call" for i in generators_of(chart))
     if calls:
         variety.verdict = weakest(variety.verdict, "probable")
@@ -166,7 +166,7 @@ def _undecided(variety: Variety, why: str) -> Variety:
 
 
 def near_singular_point(chart: Chart, variety: Variety) -> Variety:
-    """Return the set near a singular real point, where only such points were found; else the same as was known."""
+    """Return the variety near a singular real point, if only such points were found; otherwise ``variety``."""
     real = variety.real
     if real is None or real.certain:
         return variety
@@ -178,26 +178,26 @@ def near_singular_point(chart: Chart, variety: Variety) -> Variety:
     return Variety(True, dimension, "numeric", variety.samples, real, reasons, argument=local.argument)
 
 
-# Singular real points without exact coordinates, brought to high precision and looked at to second order
+# Singular real points without exact coordinates, computed in high precision and analysed to second order
 
-#: Working precision, and the radius given to the result.
+#: Working precision in bits; the radius of the resulting point is 2^-RADIUS_BITS.
 BITS, RADIUS_BITS = 1400, 200
-#: Steps at the most; relations are smaller than this at a singular point that was reached, and not near a small gap.
+#: Bound on the steps; a point is reached when the relations are below 2^-RESIDUAL_BITS.
 STEPS, RESIDUAL_BITS = 800, 600
-#: The relations have to become smaller by this factor within so many steps: convergence to a singular point is linear.
+#: Within `PERIOD` steps the relations have to decrease by `GAIN`: convergence to a singular point is linear.
 PERIOD, GAIN = 50, arb(2) ** -16
-#: A combination of dependent rows is smaller than this there: surfaces that meet by 10^-64 are no longer tangent.
+#: Rows count as dependent if a combination is below 2^-DEPENDENT_BITS, so that surfaces with a gap of 10^-64 do not.
 DEPENDENT_BITS = 280
 #: Added to the diagonal of a Gram matrix, so that it has an inverse.
 SHIFT = arb(2) ** (-BITS // 2)
-#: Relations that are brought to high precision at the most; an entry of a Jacobian that is taken for 0.
+#: Bound on the relations of a singular point; entries of a Jacobian up to TINY count as 0.
 MAX_ROWS, TINY = 20, 1e-12
 
 
 def numeric_local(chart: Chart, real: RealPoint) -> LocalDimension | None:
-    """Return the local dimension near a singular point that a real search ran into; None where it is not known."""
+    """Return the local dimension near a singular point that a real search converged to; None if it is not known."""
     if len(chart.nodes) > MAX_ROWS or precision() > DEPENDENT_BITS:
-        return None  # numbers so long may differ by less than what is taken for 0
+        return None  # long numbers may differ by less than what counts as 0
     with ctx.workprec(BITS):
         try:
             return _dimension_near(chart, real)
@@ -207,6 +207,7 @@ def numeric_local(chart: Chart, real: RealPoint) -> LocalDimension | None:
 
 @raising_no_value
 def _dimension_near(chart: Chart, real: RealPoint) -> LocalDimension | None:
+    """Return the local dimension at the singular point near ``real``, in high precision."""
     point = _converge(chart, real)
     if point is None:
         return None
@@ -226,10 +227,10 @@ def _dimension_near(chart: Chart, real: RealPoint) -> LocalDimension | None:
 
 
 def _converge(chart: Chart, real: RealPoint) -> BallPoint | None:
-    """Return the point to which minimal steps of Newton's method lead, with balls; None if it is regular, or not found.
+    """Return the point, in balls, to which Newton's method with minimal steps converges; None if it is regular.
 
-    Each step about halves the distance to a point where the dependent relations are Morse-Bott, so that it reaches high
-    precision in as many steps as that has bits.
+    If the dependent relations are Morse-Bott there, each step about halves the distance, so that high precision needs
+    as many steps as it has bits. None also if it does not converge.
     """
     symbols: dict[Any, arb] = {s: arb(v.mid()) if isinstance(v, arb) else arb(v) for s, v in real.point.symbols.items()}
     moved = [s for s in chart.unknowns if chart.ring.var_index(s) is not None]
@@ -254,7 +255,7 @@ def _converge(chart: Chart, real: RealPoint) -> BallPoint | None:
 
 
 def _system(chart: Chart, symbols: Mapping[Any, arb], moved: Sequence[Expr]) -> tuple[list[arb], list[list[arb]]]:
-    """Return the relations and their Jacobian, as numbers."""
+    """Return the relations' values and their Jacobian by ``moved``, as exact numbers (midpoints)."""
     check()
     point = BallPoint(symbols)
     at = values(chart.ring, point)
@@ -264,23 +265,23 @@ def _system(chart: Chart, symbols: Mapping[Any, arb], moved: Sequence[Expr]) -> 
 
 
 def _is_singular(j: Sequence[Sequence[arb]]) -> bool:
-    """Return whether rows are dependent: in floating point, and then to high precision."""
+    """Return whether some rows are dependent, in floating point and in high precision."""
     matrix = [[float(v) for v in row] for row in j]
     if not all(math.isfinite(v) for row in matrix for v in row):
         return False
     rank, _, rows, pivots = independent_part([[0.0 if abs(v) < TINY else v for v in row] for row in matrix])
     others = [list(row) for r, row in enumerate(j) if r not in rows]
     if rank == 0 or not others:
-        sums = others
+        remainders = others
     else:
         basis = arb_mat([[j[r][c] for c in pivots] for r in rows])
         weights = arb_mat([[row[c] for c in pivots] for row in others]) * basis.inv()
-        sums = (arb_mat(others) - weights * arb_mat([list(j[r]) for r in rows])).tolist()
-    return bool(others) and all(abs(v.mid()) < arb(2) ** -DEPENDENT_BITS for row in sums for v in row)
+        remainders = (arb_mat(others) - weights * arb_mat([list(j[r]) for r in rows])).tolist()
+    return bool(others) and all(abs(v.mid()) < arb(2) ** -DEPENDENT_BITS for row in remainders for v in row)
 
 
 def _minimal_step(j: Sequence[Sequence[arb]], f: Sequence[arb]) -> list[arb]:
-    """Return J^T (J J^T)^-1 f."""
+    """Return the shortest d with J d = f: J^T (J J^T)^-1 f."""
     matrix = arb_mat(j)
     gram = matrix * matrix.transpose()
     n = gram.nrows()

@@ -1,16 +1,16 @@
 """Is a relation implied by others near the reference configuration?
 
-Let S be relations that are independent at the reference P, and M the manifold that they cut out there
-[ImplicitFunctions]. A relation g is implied by S near P if and only if it vanishes on M. That its row is a sum of the
-rows of S at P says less: of three points on a line two distances give the third instantaneously only. So g is followed
-along a random curve of M: what is not 0 there is a proof that it is not implied, what is 0 to an order above its
-degree, and at a distance, vanishes on M with high probability [SchwartzZippel]. Measured geometry is continued for a
-finite step, within the tolerance.
+Let S be relations that are independent at the reference P, and M the manifold of their solutions near P
+[ImplicitFunctions]. A relation f is implied by S near P if and only if it vanishes on M. It is not sufficient that its
+row is a combination of the rows of S at P: for three points on a line two distances give the third instantaneously
+only. So f is expanded along a random curve of M: if it is not 0 there, it is not implied; if it is 0 to an order above
+its degree, and at a distance, it vanishes on M with high probability [SchwartzZippel]. For geometry with a tolerance
+the freedom without f is compared (`measured`).
 
-Which relations of S it needs is read from its multipliers: df = sum l_k dg_k at every point of M. With A(s) the
-derivatives of the g_k by the dependent columns along a curve of M and b(s) those of f, the row l(s) solves l A = b; its
-coefficients follow one after another from A at the point. A multiplier that is 0 at the point need not be 0 along the
-curve.
+The relations g_k of S that f needs are those with nonzero multipliers: df = sum l_k dg_k at every point of M. With A(s)
+the derivatives of the g_k by the dependent columns along a curve of M and b(s) those of f, the row l(s) solves l A = b;
+its coefficients are computed one after another with A at the point. A multiplier that is 0 at the point need not be 0
+along the curve.
 """
 
 from __future__ import annotations
@@ -40,29 +40,29 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Chart
 
-#: Points that are looked for near a reference, and how far they are begun, in the columns' scales.
+#: Number of searches for points near the reference, and size of the random displacements, in the columns' scales.
 BESIDE, AWAY = 12, 0.05
-#: From where on a point is another one, and how near to a relation one is that satisfies it: half the digits.
+#: A point differs from the reference beyond `MOVED`; it satisfies a relation up to `TOGETHER` (half the digits).
 MOVED, TOGETHER, TINY = 1e-3, 1e-6, 1e-300
 
 
 @dataclass(frozen=True)
 class ImpliedRelations:
-    """What the relations of a chart imply of each other near the reference, at t = 0; asked once each."""
+    """Implications between the relations of a chart near the reference at t = 0; results are remembered."""
 
     chart: Chart
-    drawing: Mapping[Expr, Expr]
+    reference: Mapping[Expr, Expr]
     _answers: dict[tuple[int, ...], bool | None] = field(default_factory=dict)
 
     def follows(self, row: int, others: Sequence[int], afar: bool = True) -> bool | None:
-        """Return whether relation ``row`` vanishes near the reference where ``others``, independent there, do.
+        """Return whether relation ``row`` vanishes near the reference where ``others``, independent there, do; or None.
 
-        None where it was not decided. Not ``afar``: True says only that it vanishes to some order.
+        Without ``afar``, True means only that it vanishes to some order along a curve.
         """
         key = (int(afar), row, *sorted(others))
         if key not in self._answers:
             subchart = chart_of_rows(self.chart, sorted(key[1:]))
-            pose = {**self.drawing, ex.TIME: ex.ZERO}
+            pose = {**self.reference, ex.TIME: ex.ZERO}
             if self.chart.setting.tolerance is None:
                 self._answers[key] = _on_manifold(subchart, pose, len(others), afar)
             else:
@@ -70,13 +70,10 @@ class ImpliedRelations:
         return self._answers[key]
 
     def needed(self, row: int, others: Sequence[int]) -> list[int]:
-        """Which of others a relation needs that they imply: those with a multiplier along a curve.
-
-        All of them where that is not known.
-        """
+        """Return the ``others`` with nonzero multipliers along a curve; all of them if these cannot be computed."""
         numbers = sorted((row, *others))
         subchart = chart_of_rows(self.chart, numbers)
-        point = pose_point(subchart, {**self.drawing, ex.TIME: ex.ZERO}, 3)
+        point = pose_point(subchart, {**self.reference, ex.TIME: ex.ZERO}, 3)
         if point is None or "field" not in subchart.setting.engines or self.chart.setting.tolerance is not None:
             return list(others)
         try:
@@ -87,25 +84,22 @@ class ImpliedRelations:
             return list(others)
 
     def rigid(self, rows: Sequence[int]) -> int:
-        """Return the dimension of the rigid motions that keep some relations, over the coordinates they mention.
-
-        0 where they mention not all, or the motions are not known.
-        """
+        """Return the dimension of the rigid motions of these relations; 0 if unknown, or coordinates do not occur."""
         subchart = chart_of_rows(self.chart, rows)
-        point = pose_point(subchart, {**self.drawing, ex.TIME: ex.ZERO}, 3)
+        point = pose_point(subchart, {**self.reference, ex.TIME: ex.ZERO}, 3)
         return 0 if point is None or len(subchart.symbols) < len(self.chart.symbols) else rigid_motions(subchart, point)
 
     def seem_to_follow(self, rows: Sequence[int], others: Sequence[int]) -> bool:
-        """Return whether relations are satisfied at points of others, sampled near the reference from random starts.
+        """Return whether ``rows`` are satisfied at points near the reference that satisfy ``others``.
 
-        Numbers, no proof: for sets that are singular all along, whose branches are found as their points are.
+        This is numerical evidence, from random starts, for sets that are singular throughout.
         """
         chart = self.chart
-        start = float_point(chart, self.drawing)
+        start = float_point(chart, self.reference)
         if start is None or "balls" not in chart.setting.engines or chart.setting.tolerance is not None:
             return False
         search = RealSearch(chart.ring, [chart.nodes[i] for i in others], chart.unknowns, chart.setting.positive)
-        seen = 0
+        moved = 0
         for seed in range(BESIDE):
             check()
             there = search.start(seed, {})
@@ -116,11 +110,11 @@ class ImpliedRelations:
                 continue
             if self._distance(there, rows) > TOGETHER:
                 return False
-            seen += any(abs(there[s] - start[s]) > MOVED * k for s, k in zip(chart.symbols, chart.scales, strict=True))
-        return seen >= BESIDE // 2
+            moved += any(abs(there[s] - start[s]) > MOVED * k for s, k in zip(chart.symbols, chart.scales, strict=True))
+        return moved >= BESIDE // 2
 
     def _distance(self, symbols: Mapping[Expr, float], rows: Sequence[int]) -> float:
-        """How far, in the columns' scales, a point is from the zeros of some relations, by their differentials."""
+        """Return the linearised distance, in the columns' scales, from a point to the zeros of some relations."""
         chart, point = self.chart, FloatPoint(symbols)
         at = values(chart.ring, point)
         columns = [c for c in chart.columns if c >= 0]
@@ -132,34 +126,34 @@ class ImpliedRelations:
 
 
 def _on_manifold(chart: Chart, pose: Mapping[Expr, Expr], rank: int, afar: bool) -> bool | None:
-    """Return whether the relations cut out a manifold of codimension ``rank`` near the reference configuration.
+    """Return whether the set of a chart is a manifold of codimension ``rank`` near the reference; None if undecided.
 
-    ``rank`` is that of the relations without the one that is tested: where the answer is True that one is implied. None
-    where it is not decided. ``afar``: points at a distance are looked at too, with interval arithmetic.
+    ``rank`` is that of the relations without the one that is tested; if True, this one is implied. With ``afar`` they
+    are also evaluated at a distance, in interval arithmetic.
     """
     if "field" not in chart.setting.engines:
         return None
     small, free = smaller(chart)
-    gone = len(chart.columns) - len(small.columns) - free
+    eliminated = len(chart.columns) - len(small.columns) - free
     if not small.nodes:
-        return gone == rank
+        return eliminated == rank
     point = point_at(small, pose, 3)
     if point is None:
         return None
     rigid = rigid_motions(small, point)
     ball = ball_point(small, pose) if afar and "balls" in chart.setting.engines else None
-    return vanish_near(small, point, ball, rigid, rank - gone)
+    return vanish_near(small, point, ball, rigid, rank - eliminated)
 
 
 def pivots_among(chart: Chart, point: FieldPoint, rows: Sequence[int]) -> Pivots:
-    """Return the frame of some rows that are independent at a point."""
+    """Return the pivots of some rows, with their numbers in the chart; the rows are independent at the point."""
     matrix = field_jacobian(chart, point, [chart.nodes[r] for r in rows])
     frame = sparse_frame(matrix, len(chart.columns), point.p)
     return replace(frame, rows=tuple(rows[r] for r in frame.rows))
 
 
 def _within_tolerance(chart: Chart, pose: Mapping[Expr, Expr], rank: int) -> bool | None:
-    """Return whether what moves under all measured relations but one keeps that one within the tolerance."""
+    """Return whether the set of a chart has codimension ``rank`` within the tolerance; None if undecided."""
     if "balls" not in chart.setting.engines:
         return None
     try:
@@ -171,14 +165,14 @@ def _within_tolerance(chart: Chart, pose: Mapping[Expr, Expr], rank: int) -> boo
 
 # Multipliers along a curve
 
-#: Orders of the multipliers that are looked at.
+#: Order to which multipliers are expanded.
 ORDER = 4
 
 
 def needed_along(field: Manifold, other: int) -> list[int]:
-    """Return the numbers of the manifold's relations whose multipliers for the dependent one, ``other``, are not 0.
+    """Return the numbers of the manifold's relations with nonzero multipliers in the dependent relation ``other``.
 
-    Over GF(p), along a random curve, to an order. Raises NoValueError.
+    They are computed over GF(p) along a random curve, to `ORDER`. Raises NoValueError.
     """
     curve = field.line(random_direction(field), ORDER)
     columns = [field.columns[c] for c in field.frame.dependent]
@@ -198,5 +192,5 @@ def needed_along(field: Manifold, other: int) -> list[int]:
 
 
 def _sparse(row: Sequence[Series], k: int) -> SparseRow:
-    """Return the coefficients of s^k without zeros."""
+    """Return the coefficients of s^k of a row, without zeros."""
     return {c: v for c, series in enumerate(row) if (v := int(series.coefficient(k)))}

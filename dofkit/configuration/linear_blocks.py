@@ -1,8 +1,8 @@
-"""Blocks all of whose relations are linear with rational coefficients: answered, or confirmed, by exact elimination.
+"""Blocks all of whose relations are linear with rational coefficients: analysed, or confirmed, by exact elimination.
 
-A q + r(t) = 0 and B dq + s(t) dt = 0, where r and s may hold parameters: a row that is a sum of others over the
-rationals is implied by them if its right side is the same sum, and else contradicts them; nothing else can happen. All
-forms are closed, so every one is a consequence of geometric equations, and n - rank coordinates are free everywhere.
+A q + r(t) = 0 and B dq + s(t) dt = 0, where r and s may contain parameters: a row that is a combination of others over
+the rationals is implied by them if its right side is the same combination, and otherwise contradicts them. All forms
+are closed, so that each is a consequence of a geometric equation, and n - rank coordinates are free everywhere.
 """
 
 from __future__ import annotations
@@ -31,15 +31,16 @@ from dofkit.relations.setting import Setting
 METHOD = "exact elimination over the rationals"
 CONTRADICTION = "the linear equations contradict each other"
 OTHERWISE = "exact elimination over the rationals disagrees with points over GF(p)"
-#: Functions of time that are analytic everywhere: 0 through an interval only if they are 0 always.
+#: Functions that are analytic everywhere, so that they are 0 on an interval only if they are 0 always.
 _ENTIRE = frozenset({"sin", "cos", "exp", "sinh", "cosh", "tanh", "atan"})
 
 
 @dataclass(frozen=True)
 class LinearElimination:
-    """Rows over a block's coordinates, by their numbers.
+    """The ``rows`` of a block over its coordinates, after elimination.
 
-    ``supports``: what every dependent row is a sum of; ``contradictory``: the first that contradicts these.
+    ``supports``: {dependent row: {row: factor} of which it is the sum}; ``contradictory``: the first dependent row with
+    another right side.
     """
 
     rows: Sequence[RationalRow]
@@ -48,12 +49,12 @@ class LinearElimination:
 
     @property
     def rank(self) -> int:
-        """Independent rows."""
+        """The number of independent rows."""
         return len(self.rows) - len(self.supports)
 
 
 def elimination(block: Block, positive: frozenset[Expr]) -> LinearElimination | None:
-    """The rows of a block by exact elimination, finite ones first, as written; None where it is not linear, or open."""
+    """Return the elimination of a block's rows, finite ones first; None if it is not linear or undecided."""
     finite = [isinstance(r.piece, Finite) for r in block.rows]
     order = [(not f, r.constraint) for f, r in zip(finite, block.rows, strict=True)]
     if block.nonlinear or block.conditions or order != sorted(order):
@@ -62,25 +63,25 @@ def elimination(block: Block, positive: frozenset[Expr]) -> LinearElimination | 
     split_rows = [p for r in block.rows if (p := _linear_row(r.piece, place)) is not None]
     if len(split_rows) < len(block.rows) or not all(_entire(function) for _, function in split_rows):
         return None
-    rows, rests = [row for row, _ in split_rows], [function for _, function in split_rows]
+    rows, right_sides = [row for row, _ in split_rows], [function for _, function in split_rows]
     supports = dependences(rows)
     for i, factors in () if supports is None else supports.items():
-        remainder = _sum_of_rests(rests, finite, {i: fmpq(-1), **factors})
+        remainder = _right_side(right_sides, finite, {i: fmpq(-1), **factors})
         if not linear_terms(remainder) or zero_and_verdict(remainder, positive) == (True, "proved"):
             continue
         return LinearElimination(rows, supports or {}, i) if certainly_nonzero(remainder, positive) else None
     return None if supports is None else LinearElimination(rows, supports)
 
 
-def _sum_of_rests(rests: Sequence[Expr], finite: Sequence[bool], factors: Mapping[int, fmpq]) -> Expr:
-    """What is left of a sum of rows that is 0: of finite ones the rests, beside forms their rates."""
+def _right_side(right_sides: Sequence[Expr], finite: Sequence[bool], factors: Mapping[int, fmpq]) -> Expr:
+    """Return the right side of a sum of rows whose left side is 0; with forms, finite rows are differentiated."""
     rates = not all(finite[k] for k in factors)
-    terms = ((v, diff(rests[k], ex.TIME) if rates and finite[k] else rests[k]) for k, v in factors.items())
+    terms = ((v, diff(right_sides[k], ex.TIME) if rates and finite[k] else right_sides[k]) for k, v in factors.items())
     return ex.add(*(ex.mul(ex.num(fraction(v)), e) for v, e in terms if not e.is_zero))
 
 
 def _linear_row(piece: Piece, place: Mapping[Expr, int]) -> tuple[RationalRow, Expr] | None:
-    """(coefficients, the rest); None where a coefficient is no rational number or the rest holds coordinates."""
+    """Return (coefficients, right side); None if a coefficient is not rational or the right side has coordinates."""
     if isinstance(piece, Pfaffian):
         if any(a.op != "num" for a in piece.coefficients.values()) or _moving(piece.dt):
             return None
@@ -105,7 +106,7 @@ def _moving(e: Expr) -> bool:
 
 
 def _entire(e: Expr) -> bool:
-    """Real at all times, and analytic in time: polynomials in t and some functions of them, with any constants."""
+    """Return whether ``e`` is real and analytic at all times: a polynomial in t or an entire function of it."""
     if e.op == "fn":
         return e.args[0] in _ENTIRE and _entire(e.args[1])
     if e.op != "pow":
@@ -122,9 +123,9 @@ def _number(value: Any) -> fmpq:
 
 
 def eliminated(block: Block, setting: Setting) -> Answer | None:
-    """Return the answer to a large block of geometric equations, away from any drawing; None for any other.
+    """Return the answer of a large block of linear geometric equations; None for other blocks.
 
-    Smaller ones are answered at points like all others, and `confirmed`.
+    Smaller ones are analysed at points like all others, and then `confirmed`.
     """
     small = len(block.coordinates) <= BALL_COLUMNS or block.forms
     if small or setting.engines != BOTH or setting.tolerance is not None or "eliminations" not in setting.reductions:
@@ -134,8 +135,8 @@ def eliminated(block: Block, setting: Setting) -> Answer | None:
         return None
     owners = [r.constraint for r in block.rows]
     if reduced.contradictory is not None:
-        guilty = [owners[k] for k in (reduced.contradictory, *reduced.supports[reduced.contradictory])]
-        minimal = tuple(sorted(guilty)) if max(Counter(owners).values()) == 1 else ()
+        conflict = [owners[k] for k in (reduced.contradictory, *reduced.supports[reduced.contradictory])]
+        minimal = tuple(sorted(conflict)) if max(Counter(owners).values()) == 1 else ()
         return Answer(False, argument="linear contradiction", reasons=[CONTRADICTION], conflict=minimal, method=METHOD)
     p, n = prime_for(1, (), 0), len(block.coordinates)
     matrix = _modulo(reduced.rows, p)
@@ -149,7 +150,7 @@ def eliminated(block: Block, setting: Setting) -> Answer | None:
     return Answer(
         dof=n - reduced.rank,
         velocity_dof=n - reduced.rank,
-        verdict="proved" if _same_dependence(reduced, matrix, p, alone=False) else "probable",
+        verdict="proved" if _same_dependence(reduced, matrix, p, single=False) else "probable",
         derived=(reduced.rank,),
         matrix=matrix,
         modulus=p,
@@ -171,10 +172,10 @@ def _modulo(rows: Sequence[RationalRow], p: int) -> list[SparseRow] | None:
 # -- an answer from points --------------------------------------------------------------------------
 
 
-def confirmed(block: Block, a: Answer, setting: Setting, alone: bool) -> Answer:
-    """Return an answer that is only probable, as proved where exact elimination says the same.
+def confirmed(block: Block, a: Answer, setting: Setting, single: bool) -> Answer:
+    """Return a probable answer as proved if exact elimination agrees, as undecided if it disagrees.
 
-    ``alone``: every constraint of the block wrote one row, in this block or any other.
+    ``single``: every constraint of the block has one row only, in all blocks.
     """
     if a.consistent is None or setting.engines != BOTH or setting.tolerance is not None:
         return a
@@ -186,14 +187,14 @@ def confirmed(block: Block, a: Answer, setting: Setting, alone: bool) -> Answer:
         return Answer(None, verdict="undecided", reasons=[OTHERWISE], method=METHOD)
     if not a.consistent:
         return replace(a, verdict="proved", argument="linear contradiction", method=METHOD)
-    if not _agrees(reduced, a, len(block.coordinates), alone):
+    if not _agrees(reduced, a, len(block.coordinates), single):
         return a
     labels = {i: replace(label, verdict="proved") for i, label in a.labels.items()}
     return replace(a, verdict="proved", labels=labels, method=METHOD, linear=True, argument="exact elimination")
 
 
-def _agrees(reduced: LinearElimination, a: Answer, n: int, alone: bool) -> bool:
-    """Return whether an answer has the freedom, labels, growth and dependences that the elimination has."""
+def _agrees(reduced: LinearElimination, a: Answer, n: int, single: bool) -> bool:
+    """Return whether an answer agrees with the elimination in freedom, labels, growth vector and dependences."""
     free = n - reduced.rank
     numbers = {a.dof, a.velocity_dof, *(() if a.instantaneous is None else (a.instantaneous,))}
     grown = a.growth is None or len(set(a.growth)) == 1
@@ -203,21 +204,21 @@ def _agrees(reduced: LinearElimination, a: Answer, n: int, alone: bool) -> bool:
         return False
     matrix = without_time(a.matrix, n)
     same = len(a.dependent) == reduced.rank and matrix == _modulo(reduced.rows, a.modulus)
-    return same and _same_dependence(reduced, matrix, a.modulus, alone)
+    return same and _same_dependence(reduced, matrix, a.modulus, single)
 
 
-def _same_dependence(reduced: LinearElimination, matrix: Sequence[SparseRow], p: int, alone: bool) -> bool:
+def _same_dependence(reduced: LinearElimination, matrix: Sequence[SparseRow], p: int, single: bool) -> bool:
     """Return whether the rows depend on each other modulo p as they do over the rationals.
 
-    The same rows are sums of the same rows before them; where constraints wrote several rows each, other sets of them
-    are asked for as well: no minor of the rows concerned is a multiple of p that is not 0, because none is as large
-    [Hadamard1893], or because they are those of a graph, all of whose minors are 0 or 1 in size [Kirchhoff1847].
+    The same rows must be sums of the same rows before them. If constraints have several rows (not ``single``), other
+    sets of rows are used as well: then no minor of dependent rows may be a nonzero multiple of p, because all minors
+    are smaller [Hadamard1893], or are 0 or +-1 as those of a graph [Kirchhoff1847].
     """
     modular = echelon(matrix, p, supports=True).supports
     if {i: tuple(sorted(f)) for i, f in reduced.supports.items()} != modular:
         return False
     core = sorted({k for i, f in reduced.supports.items() for k in (i, *f)})
-    if alone or not core:
+    if single or not core:
         return True
     rows = [_primitive(reduced.rows[i]) for i in core]
     small = math.prod(sum(v * v for v in row) for row in rows) < p * p
@@ -225,8 +226,8 @@ def _same_dependence(reduced: LinearElimination, matrix: Sequence[SparseRow], p:
 
 
 def _primitive(row: RationalRow) -> list[int]:
-    """Return the entries as whole numbers without a common factor."""
+    """Return the entries, multiplied by a common factor, as integers without a common divisor."""
     scale = math.lcm(*(int(v.q) for v in row.values()))
-    whole = [int(v * scale) for v in row.values()]
-    common = math.gcd(*whole)
-    return [v // common for v in whole]
+    integers = [int(v * scale) for v in row.values()]
+    common = math.gcd(*integers)
+    return [v // common for v in integers]

@@ -1,4 +1,4 @@
-"""Rigid motions of the system: their dimension at a point, and the orbit of a configuration that moves no other way."""
+"""Rigid motions of the system: their dimension at a point, and the orbit of a configuration without other motions."""
 
 from __future__ import annotations
 
@@ -17,13 +17,14 @@ from dofkit.exact.ring.program import gradient, values
 from dofkit.expressions import tree as ex
 from dofkit.relations.blocks import Chart
 
+#: A velocity field: {column: [(factor, other column or None)]} means the sum of factor * (its value, or 1 for None).
 Displacement = dict[int, list[tuple[int, int | None]]]
 
 
 def displacement_fields(chart: Chart) -> list[Displacement]:
-    """Translations and rotations: for a column, the sum of factor * (the value of another column, or 1).
+    """Return the fields of translations and rotations of all particles and planar bodies of a block.
 
-    Only where every coordinate of the block is a place or the angle of a planar body.
+    None unless every coordinate is a position x, y, z or the angle of a planar body.
     """
     place = {str(s.args[1]): i for i, s in enumerate(chart.symbols) if s != ex.TIME}
     here = [c for c in chart.setting.roles if c.name in place]
@@ -47,15 +48,15 @@ def displacement_fields(chart: Chart) -> list[Displacement]:
 
 
 def rigid_motions(chart: Chart, point: FieldPoint) -> int:
-    """Return the dimension, at the point, of the displacements of everything as one body that keep all relations."""
+    """Return the dimension, at the point, of the rigid motions of the system that preserve all relations."""
     vectors = rigid_fields(chart, point)
     return rank_of(vectors, point.p) if vectors else 0
 
 
 def rigid_fields(chart: Chart, point: FieldPoint) -> list[list[Any]]:
-    """Return the displacements of everything as one body that keep all relations, at the point, over the columns.
+    """Return the rigid motions of the system that preserve all relations, as velocities at the point over the columns.
 
-    A displacement counts only if every relation is unchanged by it at a random point of the ambient space.
+    A motion counts only if the derivative of every relation along it is 0 at a random point of the ambient space.
     """
     fields = displacement_fields(chart)
     away = pose_point(chart, {}, 11) if fields else None
@@ -67,12 +68,12 @@ def rigid_fields(chart: Chart, point: FieldPoint) -> list[list[Any]]:
 
 
 def rigid_motions_real(chart: Chart, point: BallPoint | FloatPoint) -> int:
-    """Return the dimension of the displacement fields that keep all relations at a real point."""
+    """Return the dimension, at a real point, of the rigid motions that preserve all relations."""
     return rank(displacements_real(chart, point), 1e-9)
 
 
 def displacements_real(chart: Chart, point: BallPoint | FloatPoint) -> list[list[float]]:
-    """Return the displacement fields that keep all relations, at a real point, as rows over the columns."""
+    """Return the rigid motions that preserve all relations, as velocities at a real point over the columns."""
     fields = displacement_fields(chart)
     by_field = "field" in chart.setting.engines
     away = None if not fields else pose_point(chart, {}, 11) if by_field else free_real_point(chart, 11)
@@ -84,6 +85,7 @@ def displacements_real(chart: Chart, point: BallPoint | FloatPoint) -> list[list
 
 
 def _at(chart: Chart, point: FieldPoint | BallPoint | FloatPoint, field: Displacement) -> list[Any]:
+    """Return the velocity of a field at a point, over the columns."""
     zero = point.number(ex.ZERO.args[0])
     vector = [zero] * len(chart.columns)
     at = values(chart.ring, point)
@@ -105,6 +107,7 @@ def _slopes(chart: Chart, point: FieldPoint | BallPoint) -> list[dict[int, Any]]
 def _keeps(
     chart: Chart, point: FieldPoint | BallPoint, field: Displacement, slopes: Sequence[Mapping[int, Any]]
 ) -> bool:
+    """Return whether the derivatives of all relations along a field are 0 at a point."""
     vector = _at(chart, point, field)
     unit = point.number(ex.ONE.args[0])
     of = {c: vector[i] for i, c in enumerate(chart.columns) if c >= 0}
@@ -119,7 +122,7 @@ def _keeps(
 
 
 class RigidOrbit(NamedTuple):
-    """Fields of the rigid motions at the reference, over GF(p): what is independent there is independent."""
+    """The velocities of rigid motions at the reference, over GF(p), by coordinate ``names``."""
 
     names: list[str]
     fields: list[list[Any]]
@@ -127,7 +130,7 @@ class RigidOrbit(NamedTuple):
 
     @classmethod
     def at_reference(cls, chart: Chart, dof: int) -> RigidOrbit | None:
-        """Return the orbit, where it has the dimension ``dof`` and so is all that is near the reference; else None."""
+        """Return the orbit if it has the dimension ``dof``, so that it is the set near the reference; else None."""
         setting = chart.setting
         if setting.reference is None or "field" not in setting.engines:
             return None
@@ -140,7 +143,7 @@ class RigidOrbit(NamedTuple):
         return orbit if orbit.rank(orbit.names) == dof else None
 
     def rank(self, chosen: Sequence[str]) -> int:
-        """Return the rank of the projection of the tangent space onto some coordinates."""
+        """Return the rank of the projection of the tangent space to some coordinates."""
         columns = [k for k, name in enumerate(self.names) if name in chosen]
         return rank_of([[field[k] for k in columns] for field in self.fields], self.p) if self.fields else 0
 

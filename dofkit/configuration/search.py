@@ -1,8 +1,8 @@
-"""Points of the configuration space of a block, its dimension, and how certain that is.
+"""The configuration space of a block without a reference: generic points, dimension, and how certain this is (`find`).
 
-Two one-sided engines: a rank over GF(p) is not too small where the point is generic and not too large where no relation
-between functions was missed; a rank certified with balls is not too large. Where they agree the rank stands. A real
-point makes certain that there is a real configuration at all.
+A rank over GF(p) is not too small if the point is generic, and not too large if no relation between functions was
+missed; a rank certified with balls is not too large. So the rank is right if both agree. A certified real point proves
+that there is a real configuration at all.
 """
 
 from __future__ import annotations
@@ -42,16 +42,16 @@ from dofkit.relations.linear_relations import Explicit, explicit_relations, line
 from dofkit.relations.normal.no_solution import no_solution
 from dofkit.relations.setting import Setting
 
-#: More relations than this are not searched for a proof that they have no real solution.
+#: Bound on the relations for a proof that they have no real solution.
 MAX_RELATIONS = 40
 FIXED = "at the points that were found the geometric equations fix the time: no motion passes through them"
 EMPTY = "no real configuration satisfies all equations: signs of terms, or a resultant, exclude every real solution"
 
 
 def find(chart: Chart, pose: Mapping[Expr, Expr], seed: int = 0) -> Variety:
-    """Generic points of the configuration space of a block, and its dimension.
+    """Return the variety of a block: generic points, and the dimension of its largest component.
 
-    Where no real point was found it is tried to prove that there is none.
+    If no real point is found, a proof that there is none is tried.
     """
     variety, find_variety = _variety(chart, pose, seed), partial(_variety, pose={}, seed=seed)
     if _fixes_time(chart, variety):
@@ -60,9 +60,9 @@ def find(chart: Chart, pose: Mapping[Expr, Expr], seed: int = 0) -> Variety:
     if timed:
         variety = by_cases(chart, variety, find_variety)
     near = near_singular_point(chart, variety) if variety.consistent is None else variety
-    unseen = near is variety and (variety.consistent is not True or ALLOWING in variety.reasons)
-    looked = {"field", "balls"} <= chart.setting.engines and unseen and variety.verdict != "proved"
-    if looked and len(chart.relations) <= MAX_RELATIONS and no_solution(chart.relations, chart.setting.positive):
+    no_point = near is variety and (variety.consistent is not True or ALLOWING in variety.reasons)
+    may_be_empty = {"field", "balls"} <= chart.setting.engines and no_point and variety.verdict != "proved"
+    if may_be_empty and len(chart.relations) <= MAX_RELATIONS and no_solution(chart.relations, chart.setting.positive):
         return Variety(False, None, "proved", reasons=[EMPTY], argument="no real solution")
     by_case = (
         variety.dimension is None
@@ -77,7 +77,7 @@ def find(chart: Chart, pose: Mapping[Expr, Expr], seed: int = 0) -> Variety:
 
 
 def _fixes_time(chart: Chart, variety: Variety) -> bool:
-    """Return whether the relations are satisfied at single instants only near all points that were found."""
+    """Return whether the relations determine the time near all points that were found."""
     if chart.time is None or not variety.consistent:
         return False
     if variety.samples or variety.real is None:
@@ -88,6 +88,7 @@ def _fixes_time(chart: Chart, variety: Variety) -> bool:
 
 
 def _variety(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> Variety:
+    """Return the variety near the first points that are found: over GF(p) by elimination, at the pose, or real ones."""
     if not chart.nodes:
         return all_configurations(chart, seed)
     generic = (u.args[1] for u in chart.unknowns if chart.ring.var_index(u) is not None)
@@ -109,10 +110,10 @@ def _variety(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> Variety:
         refuted = _refuted(chart, solver)
         if refuted is not None:
             return refuted
-        drawn = [p for p in (solver.draw(seed + k + 1) for k in range(samples_for(chart))) if p is not None]
-        drawn = [p for p in drawn if on_variety(chart, p)]
-        if drawn:
-            return variety_at(chart, drawn, seed, core)
+        points = [p for p in (solver.draw(seed + k + 1) for k in range(samples_for(chart))) if p is not None]
+        points = [p for p in points if on_variety(chart, p)]
+        if points:
+            return variety_at(chart, points, seed, core)
     samples = pose_samples(chart, pose, seed)
     return (
         variety_at(chart, samples, seed, core)
@@ -122,9 +123,9 @@ def _variety(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> Variety:
 
 
 def _reductions(chart: Chart, solved: Explicit) -> Iterator[tuple[Explicit, list[int]]]:
-    """Yield relations that give a coordinate each, with the others' nodes: those that are linear, then all that do.
+    """Yield (solved relations, nodes of the other relations): first only linear ones are solved, then others as well.
 
-    A root of what is put in for a coordinate would be another generator than the root as written.
+    The second way is not used with roots, signs and logarithms, which would be other generators after substitution.
     """
     eliminates = "eliminations" in chart.setting.reductions
     yield solved, [n for n, g in zip(chart.nodes, chart.relations, strict=True) if not eliminates or linear(g) is None]
@@ -135,7 +136,7 @@ def _reductions(chart: Chart, solved: Explicit) -> Iterator[tuple[Explicit, list
 
 
 def _refuted(chart: Chart, solver: TriangularSolver) -> Variety | None:
-    """What elimination alone says against the relations; None where it says nothing."""
+    """Return an empty or undecided variety if elimination leaves a nonzero number; None if it does not."""
     if not solver.plan.contradictory or _signed(chart.ring, solver.plan.witness):
         return None
     if "balls" in chart.setting.engines:
@@ -150,15 +151,15 @@ def _refuted(chart: Chart, solver: TriangularSolver) -> Variety | None:
 
 
 def _signed(ring: Ring, node: int) -> bool:
-    """Return whether there is a sign that varies: another one may make 0 of what is not."""
+    """Return whether a sign of a nonconstant expression occurs in a node, which may be 0 for another sign."""
     inside = (ring.code[i] for i in reachable(ring, [node], through_generators=False))
     return any(op == VAR and ring.vars[k].kind == "sign" and ring.var_expr[k].symbols for op, k in inside)
 
 
-# Level bodies: at theta = 0 the Euler angles phi and psi turn alike, and distinguish no poses
+# Level bodies: at theta = 0 the Euler angles phi and psi are rotations about the same axis (gimbal lock)
 
-#: So many configurations are looked at, and a sine that is smaller is taken for 0.
-LOOKED, SINGULAR = 6, 1e-6
+#: Number of configurations that are examined, and the sine that counts as 0.
+EXAMINED, SINGULAR = 6, 1e-6
 LEVEL = (
     "configurations were found where sin({}) is 0: the other Euler angles turn alike there, so that coordinates are no "
     "poses; a `coupling` of joints says such an equation"
@@ -166,16 +167,16 @@ LEVEL = (
 
 
 def level_angle(block: Block, setting: Setting) -> str | None:
-    """Return a tilt of the block that is 0 or pi in a configuration that was found by chance; None where there is none.
+    """Return the name of a tilt (second Euler angle) of the block that is 0 or pi in some configuration, or None.
 
-    There is a part of the set then where the body is level, and what is counted of the set may be counted there.
+    The set has then a component on which the body is level, and its dimension may be that of this component.
     """
     tilts = setting.tilts.intersection(block.coordinates)
     if not tilts or not block.finite:
         return None
     chart = make_chart(block, setting)
     search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.setting.positive, chart.symbols)
-    for seed in range(LOOKED):
+    for seed in range(EXAMINED):
         symbols = search.start(seed, {})
         if search.descend(symbols, seed) is not None:
             level = [name for name in tilts if abs(math.sin(symbols.get(ex.coordinate(name), 1.0))) < SINGULAR]

@@ -1,4 +1,4 @@
-"""The configuration space of a block as far as it is known, its points over GF(p), and certified points as text."""
+"""The type `Variety` of a block's configuration space, points over GF(p), and certified points as text."""
 
 from __future__ import annotations
 
@@ -31,13 +31,12 @@ from dofkit.relations.linear_relations import explicit_relations, linear, number
 
 @dataclass
 class Variety:
-    """The set {g = 0} of a block's geometric equations, as far as it is known.
+    """What is known about the set {g = 0} of a block's geometric equations; None for what is undecided.
 
-    ``consistent``: None where it is not known. ``dimension``: of the configuration space at fixed time (None:
-    not decided). ``samples``: points over GF(p) on it; ``real``: a real point with balls; ``about``: is it about
-    the component of largest dimension, or the ``component`` of these points? ``argument``, ``gap``, ``witness``: see
-    `Answer`. ``parted``: these points lie on different parts of it. ``separating``: expressions each of which vanishes
-    on every component of this dimension, where there may be others.
+    ``consistent``: whether it has real points. ``dimension``: of the configuration space at fixed time, of its largest
+    component, or of that of the points if ``about`` is "component". ``samples``: points over GF(p) on it; ``real``: a
+    real point with balls. ``argument``, ``gap``, ``witness``, ``separating``: see `Answer`. ``parted``: the points lie
+    on different components.
     """
 
     consistent: bool | None
@@ -56,14 +55,14 @@ class Variety:
 
 # Witnesses: a certified configuration as text
 
-#: Digits of what is no short number; the point that is certified lies within one unit of the last.
+#: Digits of decimals; the certified point is within one unit of the last.
 DIGITS = 25
 
 Witness = Mapping[Expr, str]
 
 
 def of_real_point(symbols: Iterable[Expr], real: RealPoint | None) -> Witness | None:
-    """Coordinates, time and named parameters at a point whose ball holds a true zero; None without one."""
+    """Return {symbol: text} of coordinates, time and named parameters at a certified real point; None without one."""
     if real is None or not real.certain or real.solved < real.part.rank:
         return None
     pose = {s: v for s, v in real.point.symbols.items() if s.args[0] != "velocity" and str(s.args[-1])[0] != "_"}
@@ -71,7 +70,7 @@ def of_real_point(symbols: Iterable[Expr], real: RealPoint | None) -> Witness | 
 
 
 def of_reference(symbols: Iterable[Expr], reference: Mapping[Expr, Expr]) -> Witness:
-    """Return the reference configuration; t = 0 there."""
+    """Return {symbol: text} of the reference configuration, with t = 0."""
     pose = ((s, ex.ZERO if s == ex.TIME else reference[s]) for s in symbols if s == ex.TIME or s in reference)
     return {s: "0" if value.is_zero else to_text(value) for s, value in pose}
 
@@ -86,12 +85,12 @@ def _text(value: Any) -> str:
 
 # Points of the ambient space
 
-#: Random points that are tried.
+#: Attempts at a random point.
 TRIES = 60
 
 
 def free_real_point(chart: Chart, seed: int) -> BallPoint | None:
-    """Return a random real point of the ambient space at which the program runs."""
+    """Return a random real point of the ambient space at which all expressions have a value; None after `TRIES`."""
     with ctx.workprec(max(ctx.prec, precision())):
         for attempt in range(TRIES):
             point = random_ball_point(chart.ring, chart.setting.positive, TRIES * seed + attempt)
@@ -103,17 +102,17 @@ def free_real_point(chart: Chart, seed: int) -> BallPoint | None:
     return None
 
 
-#: Functions that are one branch of several; of the sign of an expression see `components`.
+#: Generators that are one branch of several functions (for signs see `components`).
 BRANCHED = ("root", "asin", "atan", "atan2")
 
 
 def is_unconstrained(chart: Chart) -> bool:
-    """Return whether every configuration is allowed, and every function is the same one at all of them."""
+    """Return whether there is no relation, and no generator with several branches."""
     return not chart.nodes and all(v.kind != "sign" and v.kind not in BRANCHED for v in chart.ring.vars)
 
 
 def all_configurations(chart: Chart, seed: int = 0) -> Variety:
-    """Return the set of all configurations, where there is no relation."""
+    """Return the variety of a chart without relations."""
     points = []
     if "field" in chart.setting.engines:
         points = [p for p in (pose_point(chart, {}, seed + k) for k in range(samples_for(chart))) if p is not None]
@@ -124,18 +123,18 @@ def all_configurations(chart: Chart, seed: int = 0) -> Variety:
 
 # Points over GF(p)
 
-#: Points over GF(p) that must agree.
+#: Number of random points over GF(p), and their number if signs or roots are chosen at random.
 SAMPLES, MORE_SAMPLES = 2, 6
 
 
 def samples_for(chart: Chart) -> int:
-    """More points where signs and roots may be chosen differently at each."""
+    """Return the number of random points to use for a chart."""
     free = any(v.kind in ("sign", "root") and chart.ring.var_expr[v.index].symbols for v in chart.ring.vars)
     return MORE_SAMPLES if free else SAMPLES
 
 
 def field_jacobian(chart: Chart, point: FieldPoint, nodes: Sequence[int] | None = None) -> list[SparseRow]:
-    """dg/d(columns) over GF(p), row by row without zeros."""
+    """Return the Jacobian over GF(p) of the relations, or of some nodes, by the columns, as sparse rows."""
     at = values(chart.ring, point)
     unit = point.number(ex.ONE.args[0])
     place = {c: i for i, c in enumerate(chart.columns) if c >= 0}
@@ -153,7 +152,7 @@ def on_variety(chart: Chart, point: FieldPoint) -> bool:
 
 
 def pose_point(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> FieldPoint | None:
-    """Return a point over GF(p): given symbols have their exact values, others random ones; everything has a value."""
+    """Return a point over GF(p) with the exact values of a pose and random ones of other symbols; or None."""
     occurring = {s: v for s, v in pose.items() if chart.ring.var_index(s) is not None}
     fixed = _values_of_generators(chart.ring, occurring)
     if fixed is None:
@@ -175,13 +174,13 @@ def pose_point(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> FieldPoint
 
 
 def point_at(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> FieldPoint | None:
-    """Return a point over GF(p) of the set at which given symbols have their values; None where there is none."""
+    """Return the `pose_point` if it satisfies the geometric equations, otherwise None."""
     point = pose_point(chart, pose, seed)
     return None if point is None or not on_variety(chart, point) else point
 
 
 def _values_of_generators(ring: Ring, pose: Mapping[Expr, Expr]) -> list[tuple[int, int]] | None:
-    """(generator, node of its value) for symbols and for the functions of them that have a known value."""
+    """Return (generator, node of its value) for the symbols of a pose and all functions of them; None if undefined."""
     settled: dict[int, int] = {}
     try:
         for var in list(ring.vars):
@@ -194,7 +193,7 @@ def _values_of_generators(ring: Ring, pose: Mapping[Expr, Expr]) -> list[tuple[i
 
 
 def pose_samples(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> list[FieldPoint]:
-    """Points of the set at which the symbols have the given values; none where some of them are not on it."""
+    """Return points of the set with the values of a pose; an empty list if it does not satisfy the equations."""
     if not pose:
         return []
     points = []
@@ -207,7 +206,7 @@ def pose_samples(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> list[Fie
 
 
 def time_is_free(chart: Chart, point: FieldPoint) -> bool:
-    """Return whether the differentials of the relations leave the time free at a point."""
+    """Return whether the differentials of the relations do not imply dt = 0 at a point."""
     rows = field_jacobian(chart, point)
     return chart.time is None or rank_of_rows(without_time(rows, chart.coordinates), point.p) == rank_of_rows(
         rows, point.p
@@ -216,7 +215,7 @@ def time_is_free(chart: Chart, point: FieldPoint) -> bool:
 
 @false_without_value
 def has_same_signs(chart: Chart, point: FieldPoint, real: RealPoint) -> bool:
-    """Return whether what stands in absolute values has the same signs at a point over GF(p) as at a real one."""
+    """Return whether all signs (of arguments of absolute values) at a point over GF(p) are those at a real point."""
     ring = chart.ring
     signs = [i for i in generators_of(chart) if ring.vars[i].kind == "sign"]
     if not signs:
@@ -226,13 +225,13 @@ def has_same_signs(chart: Chart, point: FieldPoint, real: RealPoint) -> bool:
 
 
 def generators_of(chart: Chart) -> set[int]:
-    """Return the generators that the geometric equations reach."""
+    """Return the indices of the generators that occur in the geometric equations."""
     code = chart.ring.code
     return {code[i][1] for i in reachable(chart.ring, chart.nodes) if code[i][0] == VAR}
 
 
 def chart_of_relations(chart: Chart, relations: Sequence[Expr], ring: Ring | None = None) -> Chart:
-    """Return a chart of other relations on the columns that they mention; on all columns where it has a ``ring``."""
+    """Return a chart of other relations with the columns that they mention; with a given ``ring``, with all columns."""
     mentioned = frozenset[Expr]().union(*(g.symbols for g in relations))
     symbols = chart.symbols if ring else tuple(s for s in chart.symbols if s in mentioned)
     ring = ring or Ring(relations, chart.setting.positive)
@@ -242,16 +241,16 @@ def chart_of_relations(chart: Chart, relations: Sequence[Expr], ring: Ring | Non
 
 
 def chart_of_rows(chart: Chart, rows: Sequence[int]) -> Chart:
-    """Return some of the relations on the columns that they mention."""
+    """Return a chart of some of the relations, with the columns that they mention."""
     return chart_of_relations(chart, [chart.relations[r] for r in rows])
 
 
 def smaller(chart: Chart) -> tuple[Chart, int]:
-    """Return the chart without coordinates that linear relations give, and how many of those that went were free.
+    """Return (the chart after solving linear relations, number of coordinates that no relation mentions any more).
 
-    The set is a graph over the other coordinates [ImplicitFunctions]. So go the angles of bodies that do not turn
-    (theta = 0), bodies welded to others (x_B = x_A, theta_B = theta_A), z = 0. Free are those that no relation mentions
-    any more: the set is a product with a line for each. The chart itself where none can go.
+    The set is a graph over the remaining coordinates [ImplicitFunctions], times a line for each coordinate that is not
+    mentioned. This eliminates angles of bodies that do not turn (theta = 0), welded bodies (x_B = x_A, theta_B =
+    theta_A), and z = 0. The chart itself if nothing can be solved.
     """
     if chart.time is not None or "eliminations" not in chart.setting.reductions:
         return chart, 0
@@ -263,5 +262,5 @@ def smaller(chart: Chart) -> tuple[Chart, int]:
 
 
 def frame_at(chart: Chart, point: FieldPoint) -> Pivots:
-    """Independent relations and dependent columns at a point."""
+    """Return the independent relations and the dependent columns at a point."""
     return sparse_frame(field_jacobian(chart, point), len(chart.columns), point.p)

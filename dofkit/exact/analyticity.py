@@ -1,7 +1,7 @@
 """Analyticity: whether a function that is not identically zero vanishes on no open set [IsolatedZeros].
 
-A quotient is analytic on the complex numbers without its poles, which are a connected set, so poles are no obstacle.
-Inside a root, a logarithm, an absolute value or an inverse function they are one: t*sqrt(1 + 1/t^2) - sqrt(1 + t^2)
+A quotient is analytic on the complex numbers without its poles. This set is connected, so poles are no obstacle; but
+inside a root, a logarithm, an absolute value or an inverse function they are: t*sqrt(1 + 1/t^2) - sqrt(1 + t^2)
 is 0 for t > 0 only.
 """
 
@@ -15,19 +15,19 @@ from dofkit.expressions.tree import Expr
 
 #: Functions that are analytic on the whole real line, and have one value at every complex number but their poles.
 ENTIRE = frozenset({"exp", "sin", "cos", "sinh", "cosh", "tanh"})
-#: Functions that have real poles besides.
+#: Functions that are analytic except at real poles.
 POLAR = frozenset({"tan", "cot", "sec", "csc"})
 
 
 def is_analytic(
     e: Expr, symbols: Iterable[Expr], positive: frozenset[Expr] = frozenset(), *, poles: bool = True
 ) -> bool:
-    """Return whether ``e`` is proved to be one analytic function of ``symbols``; False means that it is not known.
+    """Return whether ``e`` is proved to be one analytic function of ``symbols``; False if this is not known.
 
-    It is where no absolute value, root, logarithm or inverse function has an argument that can reach the edge of its
-    domain or of its branch. An argument of the first degree may reach the edge of the domain, because what it leaves is
-    a convex set. Other symbols are constants, those of ``positive`` are greater than 0, and unknown functions are
-    generic ones. With ``poles=False`` it must also have a value at all real points.
+    It is proved if no absolute value, root, logarithm or inverse function has an argument that can reach the boundary
+    of its domain or of its branch. An argument of the first degree may reach the boundary of the domain, because the
+    rest of the domain is convex. Other symbols are constants, those of ``positive`` are greater than 0, and unknown
+    functions are generic ones. With ``poles=False``, ``e`` must also have a value at all real points.
 
     >>> from dofkit.expressions import tree as ex
     >>> x, t = ex.coordinate("x"), ex.TIME
@@ -73,7 +73,7 @@ def _is_affine(e: Expr, moving: frozenset[Expr]) -> bool:
 
 
 def _is_inside_branch(name: str, arguments: Sequence[Expr], positive: frozenset[Expr]) -> bool:
-    """Return whether the arguments of a function stay away from the edges of its domain and of its branch."""
+    """Return whether the arguments of a function stay away from the boundaries of its domain and of its branch."""
     return name == "atan" or (name in ("log", "abs", "atan2") and _is_positive(arguments[-1], positive))
 
 

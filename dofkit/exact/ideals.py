@@ -1,6 +1,6 @@
 """Ideals of polynomials in a ring's generators, by Groebner bases [Buchberger1965].
 
-Elimination divides by what it solves for and sees no part of a set where that is 0; a Groebner basis sees every part.
+Gaussian elimination divides by pivots and misses the part of a set where a pivot is 0; a Groebner basis does not.
 """
 
 from __future__ import annotations
@@ -20,25 +20,25 @@ from dofkit.exact.ring.program import false_without_value
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions.tree import Expr
 
-#: Unknowns, degree and terms of what is looked at.
+#: Bounds on the input: unknowns in all, degree and number of terms of each polynomial.
 MAX_UNKNOWNS, MAX_DEGREE, MAX_LENGTH = 12, 6, 40
-#: Polynomials of a basis, terms and bits of each: past that it is given up.
+#: Bounds on a basis: its polynomials, the terms and the bits of each. Beyond them there is no answer.
 LIMITS = (60, 200, 400)
-#: Parameters stand for numbers up to this size.
+#: Parameters are replaced by random integers up to this size.
 LARGEST = 10**4
 
-#: Relations are combined while their coefficients fit a matrix of this many entries.
+#: Bound on the entries of the matrix of coefficients in `echelon_by_degree`.
 COMBINED_ENTRIES = 20_000
 
 Poly = Any
 
 
 def dimension_of(canon: Canon, generators: Sequence[Poly], moving: Sequence[int]) -> int | None:
-    """Return the dimension of the complex points at which polynomials of a canonical ring vanish, -1 where none do.
+    """Return the dimension of the set of complex points at which polynomials ``generators`` vanish; -1 if it is empty.
 
-    Parameters are generic; ``moving``: the generators that are coordinates. It is that of the ideal of leading
-    monomials: the largest number of unknowns of which no leading monomial is a product. None where other functions
-    than sines and cosines of single coordinates occur, or where it would take long.
+    None if other functions than sines and cosines of single coordinates occur, or if the basis grows too large.
+    ``moving`` are the indices of the ring's generators that are coordinates; parameters are generic. The dimension is
+    the largest number of unknowns such that no leading monomial is a product of these unknowns alone.
     """
     integral = _integer_polynomials(canon, generators, moving)
     basis = None if integral is None else _basis(integral[0])
@@ -55,7 +55,7 @@ def dimension_of(canon: Canon, generators: Sequence[Poly], moving: Sequence[int]
 
 @false_without_value
 def have_complex_points(relations: Sequence[Expr], positive: frozenset[Expr]) -> bool:
-    """Return whether relations are known to be satisfied at some complex point; parameters are generic."""
+    """Return whether relations are proved to be satisfied at some complex point; parameters are generic."""
     symbols = {s for e in relations for s in e.symbols if s.args[0] != "parameter"}
     canon, quotients = quotients_of(relations, positive)
     moving = [k for s in symbols if (k := canon.ring.var_index(s)) is not None]
@@ -66,7 +66,7 @@ def have_complex_points(relations: Sequence[Expr], positive: frozenset[Expr]) ->
 def _integer_polynomials(
     canon: Canon, generators: Sequence[Poly], moving: Sequence[int]
 ) -> tuple[list[Poly], int, int] | None:
-    """Return polynomials over the integers, their number of unknowns, and that of coordinates they do not mention."""
+    """Return (polynomials over Z, their number of unknowns, number of coordinates that do not occur), or None."""
     ring = canon.ring
     used = sorted({i for p in generators for i in canon.generators_in(p)})
     if any(len(p) > MAX_LENGTH or p.total_degree() > MAX_DEGREE for p in generators):
@@ -80,13 +80,13 @@ def _integer_polynomials(
     place = {i: k for k, i in enumerate(kept)}
     ctx = fmpz_mpoly_ctx.get([f"u{k}" for k in range(len(kept))], Ordering.degrevlex)
     gens = ctx.gens()
-    polynomials = [ctx.from_dict(_whole(p, kept, values)) for p in generators]
+    polynomials = [ctx.from_dict(_integer_terms(p, kept, values)) for p in generators]
     circles = [gens[place[c]] ** 2 + gens[place[s]] ** 2 - 1 for c, s in pairs]
     return [*polynomials, *circles], len(kept), len(moving) - len(seen)
 
 
 def _unknowns(ring: Ring, used: Sequence[int], moving: Sequence[int]) -> list[int] | None:
-    """Return the generators that are unknown: coordinates, cosines and sines of angles; None where there are others."""
+    """Return the generators that are coordinates, or cosines and sines of other coordinates; None if others occur."""
     kept: set[int] = set()
     for i in used:
         var = ring.vars[i]
@@ -103,7 +103,7 @@ def _unknowns(ring: Ring, used: Sequence[int], moving: Sequence[int]) -> list[in
 
 
 def _constants(ring: Ring, others: Sequence[int], rng: random.Random) -> dict[int, fmpq]:
-    """Random values of parameters and functions of them: a cosine and its sine are a point of the circle."""
+    """Return random values of parameters and of functions of them; a cosine and its sine are a point of the circle."""
     values = dict[int, fmpq]()
     for i in others:
         var = ring.vars[i]
@@ -117,19 +117,19 @@ def _constants(ring: Ring, others: Sequence[int], rng: random.Random) -> dict[in
 
 
 def _angle(ring: Ring, index: int) -> int | None:
-    """Return the coordinate of which a generator is the cosine or sine."""
+    """Return the generator index of the angle of a cosine or sine; None if the angle is not a single symbol."""
     return ring.var_index(ring.vars[index].key[0])
 
 
-def _whole(p: Poly, kept: Sequence[int], values: Mapping[int, fmpq]) -> dict[tuple[int, ...], int]:
-    """Return the terms of a polynomial of the canonical ring, times a number, with ``values`` for what is not kept."""
+def _integer_terms(p: Poly, kept: Sequence[int], values: Mapping[int, fmpq]) -> dict[tuple[int, ...], int]:
+    """Return {exponents of ``kept`` generators: integer coefficient} of a multiple of p, with ``values`` of others."""
     terms = p.subs({f"v{i}": value for i, value in values.items()}).to_dict()
     scale = lcm(*(int(c.q) for c in terms.values()))
     return {tuple(int(powers[-1 - i]) for i in kept): int(c * scale) for powers, c in terms.items()}
 
 
 def _basis(polynomials: Sequence[Poly]) -> list[Poly] | None:
-    """Return a Groebner basis in degree reverse lexicographic order; None where it would be too large."""
+    """Return a Groebner basis in degree reverse lexicographic order; None if it exceeds `LIMITS`."""
     nonzero = [p for p in polynomials if p != 0]
     if not nonzero:
         return []
@@ -142,9 +142,9 @@ def _basis(polynomials: Sequence[Poly]) -> list[Poly] | None:
 
 
 def echelon_by_degree(relations: Sequence[Expr], positive: frozenset[Expr]) -> tuple[Expr, ...] | None:
-    """Return an echelon form of the numerators, or None where it is too large.
+    """Return polynomials in echelon form with the linear span of the relations' numerators; None if too large.
 
-    Terms of the highest degree are eliminated first: two circles meet on a line.
+    Terms of the highest degree are eliminated first: for two circles one of the polynomials is their radical line.
     """
     try:
         canon, quotients = quotients_of(relations, positive)

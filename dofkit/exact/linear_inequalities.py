@@ -1,6 +1,6 @@
 """Linear equations and inequalities over the rationals: a solution, or a proof that there is none.
 
-Which of the two it is comes from a simplex method in exact arithmetic; what it finds is checked by itself.
+A simplex method in exact arithmetic decides which of the two; its solution or its multipliers are then checked.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from flint import fmpq, fmpq_mat
 
 from dofkit.base.deadline import check
 
-#: Entries of a matrix of equations that is eliminated, and of a tableau that is worked through.
+#: Bounds on the entries of the matrix of equations, and of the simplex tableau.
 MAX_EQUATIONS, MAX_TABLEAU = 1_000_000, 250_000
 
 Vector = tuple[fmpq, ...]
@@ -39,7 +39,7 @@ def _dot(a: Sequence[fmpq], b: Sequence[fmpq]) -> fmpq:
 
 
 def solution(conditions: Sequence[LinearCondition]) -> Vector | Literal[False] | None:
-    """Return a point at which all conditions hold, False where there is none (proved), None where they are too many."""
+    """Return a point that satisfies all conditions; False if there is provably none, None if they are too many."""
     n = len(conditions[0].coefficients) if conditions else 0
     equations = [c for c in conditions if c.sense == "="]
     if max(len(equations), n) * (n + 1) > MAX_EQUATIONS:
@@ -62,19 +62,19 @@ def solution(conditions: Sequence[LinearCondition]) -> Vector | Literal[False] |
 
 
 def _solutions(equations: Sequence[LinearCondition], n: int) -> fmpq_mat | None:
-    """Return the matrix M of the solutions x = M (z, 1) of equations, z free; None where there are none (Gauss)."""
+    """Return a matrix M such that x = M (z, 1), z free, are all solutions of ``equations``; None if there is none."""
     reduced, rank = fmpq_mat([[*e.coefficients, e.constant] for e in equations] or [[ZERO] * (n + 1)]).rref()
-    line = {next(c for c in range(n + 1) if reduced[r, c] != 0): r for r in range(rank)}
-    if n in line:
+    row_of = {next(c for c in range(n + 1) if reduced[r, c] != 0): r for r in range(rank)}
+    if n in row_of:
         return None
-    free = [c for c in range(n) if c not in line]
+    free = [c for c in range(n) if c not in row_of]
     units = [[fmpq(int(c == f)) for f in (*free, n)] for c in range(n)]
-    rows = [[-reduced[line[c], f] for f in (*free, n)] if c in line else units[c] for c in range(n)]
+    rows = [[-reduced[row_of[c], f] for f in (*free, n)] if c in row_of else units[c] for c in range(n)]
     return fmpq_mat(n, len(free) + 1, [v for row in rows for v in row])
 
 
 def _alternative(conditions: Sequence[LinearCondition], n: int) -> Vector | Literal[False] | None:
-    """Return a solution of a_i . x + b_i >= 0, some of them > 0, or False where there is none [Motzkin1936].
+    """Return a solution x of inequalities a_i . x + b_i >= 0 (or > 0); False if there is none [Motzkin1936].
 
     Either there are l_i >= 0 and s >= 0 with sum l_i a_i = 0, sum l_i b_i + s = 0 and s + (the strict l_i) = 1, which
     no x allows; or a linear function (y, u, v) is at most 0 on all columns (a_i, b_i, [i strict]) and on (0, 1, 1) and
@@ -92,14 +92,14 @@ def _alternative(conditions: Sequence[LinearCondition], n: int) -> Vector | Lite
 
 
 def _phase_one(columns: Sequence[Vector], rows: int) -> tuple[list[fmpq], list[fmpq] | None]:
-    """Return non-negative weights of the columns with the sum (0, ..., 0, 1).
+    """Return (non-negative weights w with sum of w_j column_j = (0, ..., 0, 1), None).
 
-    Where there are none, also a linear function that is at most 0 on every column and positive on that sum. The first
-    column of negative cost enters, and of equals the first leaves, which ends [Bland1977].
+    If there are none, return instead of None a linear function that is at most 0 on every column and positive on
+    (0, ..., 0, 1). The simplex method with Bland's rule, which terminates [Bland1977].
     """
     number = len(columns)
-    units = [tuple(ONE if i == k else ZERO for i in range(rows)) for k in range(rows)]
-    every, basis = [*columns, *units], list(range(number, number + rows))
+    artificial_columns = [tuple(ONE if i == k else ZERO for i in range(rows)) for k in range(rows)]
+    every, basis = [*columns, *artificial_columns], list(range(number, number + rows))
     while True:
         check()
         inverse = fmpq_mat([[every[j][r] for j in basis] for r in range(rows)]).inv()

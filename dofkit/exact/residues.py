@@ -1,6 +1,6 @@
 """Numbers, matrices and polynomials over GF(p), with primes of 61 bits on every platform.
 
-FLINT's words hold such a prime where a limb has 64 bits; where it has 32 (WebAssembly), its integers modulo p do.
+FLINT's `nmod` types are used where a machine word has 64 bits; where it has 32 (WebAssembly), its `fmpz_mod` types.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ else:
         return Residue(value, _context(p))
 
     def residue_matrix(*entries_and_modulus: Any) -> Any:
-        """Return the matrix modulo p: of its rows, or of the numbers of rows and columns and the entries; last is p."""
+        """Return a matrix modulo p; call with (rows, p) or (number of rows, number of columns, entries, p)."""
         *entries, p = entries_and_modulus
         return ResidueMatrix(*entries, _context(p))
 
@@ -36,12 +36,12 @@ else:
 
 
 def modulus(value: Any) -> int:
-    """Return the p of a number, a matrix or a polynomial modulo p."""
+    """Return p for a number, a matrix or a polynomial modulo p."""
     return int(value.modulus()) if hasattr(value, "modulus") else int(0 * value - 1) + 1  # minus one, plus one
 
 
 def null_vectors(matrix: Any) -> list[list[Any]]:
-    """Return a basis of the vectors that a matrix sends to 0: one for each column that depends on those before it.
+    """Return a basis of the kernel of a matrix modulo p: one vector for each column that depends on earlier columns.
 
     >>> null_vectors(residue_matrix([[1, 2, 0], [0, 0, 1]], 7))
     [[5, 1, 0]]

@@ -1,6 +1,6 @@
 """The unknowns of relations over GF(p), and a relation as a polynomial in one of them.
 
-A root is an unknown with root^d = radicand, a basic angle an unknown point of the circle, by the tangent of its half.
+A root is an unknown with root^d = radicand; the unknown of a basic angle is the tangent of half of it (`circle`).
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from dofkit.exact.residues import Residue, ResiduePolynomial, residue_polynomial
 from dofkit.exact.ring.program import ADD, VAR, Var, raising_no_value, reachable, value_of
 from dofkit.exact.ring.ring import Ring
 
-#: Denominators past this degree are reduced; quotients past this one are given up.
+#: A quotient is reduced if its denominator exceeds the degree `LOW`; reduced ones beyond `LARGEST` raise NoValueError.
 LOW, LARGEST = 48, 4096
 
 
@@ -54,12 +54,12 @@ class Rational:
         return self._pair(other) * Rational(self.bottom, self.top)
 
     def numerator(self) -> Any:
-        """In lowest terms."""
+        """Return the numerator in lowest terms."""
         return self.top // self.top.gcd(self.bottom)
 
 
 def _lowest(top: Any, bottom: Any) -> Rational:
-    """A quotient, in lowest terms where it is large. Raises NoValueError where it stays too large to go on with."""
+    """Return a quotient, in lowest terms if it is large; raises NoValueError if it exceeds `LARGEST` then."""
     if bottom.degree() <= LOW:
         return Rational(top, bottom)
     check()
@@ -70,27 +70,28 @@ def _lowest(top: Any, bottom: Any) -> Rational:
     return Rational(top, bottom)
 
 
-Unit = tuple[str, int]
+#: ("var", generator index), or ("angle", the smaller index of cosine and sine).
+Unknown = tuple[str, int]
 
 
-def unit_of(ring: Ring, index: int) -> Unit:
-    """Return the unknown that a generator belongs to: sin and cos are one."""
+def unknown_of(ring: Ring, index: int) -> Unknown:
+    """Return the unknown of a generator; a cosine and its sine have the same one."""
     var = ring.vars[index]
     return ("angle", min(index, var.partner)) if var.kind in ("cos", "sin") else ("var", index)
 
 
-def units_in(ring: Ring, node: int) -> frozenset[Unit]:
-    """Return the unknowns of a relation."""
-    units = set()
+def unknowns_in(ring: Ring, node: int) -> frozenset[Unknown]:
+    """Return the unknowns of a relation, given as a node."""
+    unknowns = set()
     for i in reachable(ring, [node], through_generators=False):
         op, payload = ring.code[i]
         if op == VAR and ring.vars[payload].kind != "sign" and not stands_for_number(ring, payload):
-            units.add(unit_of(ring, payload))
-    return frozenset(units)
+            unknowns.add(unknown_of(ring, payload))
+    return frozenset(unknowns)
 
 
 def stands_for_number(ring: Ring, index: int) -> bool:
-    """Return whether a generator stands for one number: pi, roots and angles of numbers."""
+    """Return whether a generator is a constant: pi, and functions of numbers."""
     var = ring.vars[index]
     if var.kind in ("symbol", "call"):
         return False
@@ -98,7 +99,7 @@ def stands_for_number(ring: Ring, index: int) -> bool:
 
 
 def root_relations(ring: Ring, relations: list[int]) -> list[int]:
-    """root^d - radicand for every root that the relations reach."""
+    """Return the nodes of root^d - radicand for every root in the relations, and for roots in those radicands."""
     equations, seen = [], set()
     pending = list(relations)
     while pending:
@@ -116,18 +117,18 @@ def root_relations(ring: Ring, relations: list[int]) -> list[int]:
 
 
 @raising_no_value
-def univariate(ring: Ring, node: int, unit: Unit, point: FieldPoint) -> ResiduePolynomial:
-    """Return the numerator of a relation as a polynomial in one unknown. Raises NoValueError."""
+def univariate(ring: Ring, node: int, unknown: Unknown, point: FieldPoint) -> ResiduePolynomial:
+    """Return the numerator of a relation as a polynomial in one unknown, the others at ``point``; or NoValueError."""
     check()
     x = residue_polynomial([0, 1], point.p)
     constant_one = residue_polynomial([1], point.p)
-    if unit[0] == "angle":
+    if unknown[0] == "angle":
         below = 5 * (constant_one + x * x)
         cos, sin = (Rational(top, below) for top in circle(x, constant_one))
-        var = ring.vars[unit[1]]
+        var = ring.vars[unknown[1]]
         pair = {var.index: cos if var.kind == "cos" else sin, var.partner: sin if var.kind == "cos" else cos}
     else:
-        pair = {unit[1]: Rational(x, constant_one)}
+        pair = {unknown[1]: Rational(x, constant_one)}
     result = value_along(ring, node, pair, point)
     top: ResiduePolynomial = (
         result.numerator() if isinstance(result, Rational) else residue_polynomial([result], point.p)
@@ -136,12 +137,12 @@ def univariate(ring: Ring, node: int, unit: Unit, point: FieldPoint) -> ResidueP
 
 
 def value_along(ring: Ring, node: int, pair: dict[int, Rational], point: FieldPoint) -> Any:
-    """Return the value of a relation where some generators are functions of one unknown. Raises NoValueError."""
+    """Return the value of a relation at ``point``, with the generators in ``pair`` as functions of one unknown."""
     return value_of(ring, _PointAlong(ring, pair, point), node, through_generators=False)
 
 
 class _PointAlong(NamedTuple):
-    """A point of which some generators are functions of one unknown; the arguments of others are not looked at."""
+    """A ``point`` whose generators in ``pair`` are functions of one unknown; those without a value get a random one."""
 
     ring: Ring
     pair: dict[int, Rational]
@@ -162,11 +163,11 @@ class _PointAlong(NamedTuple):
 
 
 def roots_of(polynomial: ResiduePolynomial) -> list[Residue]:
-    """Return the roots of a polynomial over GF(p); none of 0."""
+    """Return the roots of a polynomial over GF(p); an empty list for the polynomial 0."""
     return [] if polynomial.is_zero() else [root for root, _ in polynomial.roots()]
 
 
-def circle(w: Any, unit: Any) -> tuple[Any, Any]:
-    """5 (1 + w^2) times cos and sin of 2 atan(w) + atan(4/3): the point that no w gives is no special one."""
-    cos, sin = unit - w * w, 2 * w
+def circle(w: Any, constant_one: Any) -> tuple[Any, Any]:
+    """Return 5 (1 + w^2) times cos and sin of 2 atan(w) + atan(4/3): the point without a w is not a quarter turn."""
+    cos, sin = constant_one - w * w, 2 * w
     return 3 * cos - 4 * sin, 4 * cos + 3 * sin

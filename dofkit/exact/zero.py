@@ -1,4 +1,4 @@
-"""Is an expression identically zero, can non-zero be trusted, and which of the two one-sided engines may be asked?"""
+"""Is an expression identically zero, and are the generators of its ring independent?"""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
 
-#: ``field``: exact arithmetic at random points modulo random primes, where zero can be trusted. ``balls``: interval
-#: arithmetic at real points, where non-zero is a proof.
+#: ``field``: arithmetic at random points modulo random primes; a zero is probably right. ``balls``: interval arithmetic
+#: at real points; a value that is not zero is a proof.
 Engine = Literal["field", "balls"]
 Engines = frozenset[Engine]
 
@@ -29,9 +29,9 @@ BALLS: Engines = frozenset(("balls",))
 BOTH: Engines = FIELD | BALLS
 
 
-#: Bits of the balls that must hold 0 before anything is taken for 0.
+#: An expression is taken for 0 only if balls of all these bits contain 0.
 PRECISIONS = (256, 1024)
-#: Random places at which balls are taken, and draws of points over GF(p).
+#: Number of random real points for balls, and of attempts at random points over GF(p).
 STARTS, TRIES = 8, 60
 
 
@@ -48,10 +48,10 @@ def is_proved_zero(e: Expr, positive: frozenset[Expr]) -> bool:
 def zero_and_verdict(e: Expr, positive: frozenset[Expr], engines: Engines = BOTH) -> tuple[bool | None, Verdict]:
     """Return whether the expression is zero identically, and how certain that is.
 
-    None where one engine alone cannot decide it, or where the expression has no value at any point that was tried.
-    Zero in the canonical ring is a proof; so is a value that is not zero there, or at a point over GF(p) where the
-    generators are independent, or a ball at some real point that excludes 0. What is 0 at random points over GF(p) is
-    probably zero [SchwartzZippel]; what no ball distinguishes from 0 is zero numerically.
+    None if one engine on its own cannot decide it, or if the expression has no value at any point that was tried.
+    Proofs are: the canonical form is 0; the value at a point over GF(p) is not 0 and the generators are independent; a
+    ball at a real point excludes 0. An expression that is 0 at random points over GF(p) is probably zero
+    [SchwartzZippel]; one whose balls all contain 0 is zero numerically.
     """
     if e.op == "num":
         return e.is_zero, "proved"
@@ -76,7 +76,7 @@ def zero_and_verdict(e: Expr, positive: frozenset[Expr], engines: Engines = BOTH
 
 
 def _balls(ring: Ring, node: int, positive: frozenset[Expr], precisions: Sequence[int] = PRECISIONS) -> Iterator[arb]:
-    """Yield the value of a node at random real points, at one precision after another."""
+    """Yield the balls of a node at random real points, for each of the ``precisions`` in bits."""
     bits = fixed_bits()
     for precision in precisions if bits is None else (bits,):
         for seed in range(STARTS):
@@ -85,12 +85,12 @@ def _balls(ring: Ring, node: int, positive: frozenset[Expr], precisions: Sequenc
 
 
 def _has_value(ring: Ring, node: int, positive: frozenset[Expr]) -> bool:
-    """Return whether the node has a value at one of the real points that are tried."""
+    """Return whether the node has a value at one of the random real points."""
     return any(ball.is_finite() for ball in _balls(ring, node, positive, PRECISIONS[:1]))
 
 
 def _by_one_engine(ring: Ring, node: int, positive: frozenset[Expr], engines: Engines) -> tuple[bool | None, Verdict]:
-    """Return what one engine alone decides: a ball proves only that a value is not zero."""
+    """Return the value of `zero_and_verdict` if one engine is used on its own."""
     if "balls" in engines:
         if excludes_zero(ring, node, positive):
             return False, "proved"
@@ -113,7 +113,7 @@ def excludes_zero(ring: Ring, node: int, positive: frozenset[Expr]) -> bool:
 
 
 def _zero_at_points(ring: Ring, node: int, points: int = 3) -> bool | None:
-    """Return whether the node is zero at so many random points over GF(p), or None where too few were found."""
+    """Return whether the node is zero at ``points`` random points over GF(p); None if it has values at fewer."""
     seen = 0
     for seed in range(TRIES):
         try:
@@ -127,7 +127,7 @@ def _zero_at_points(ring: Ring, node: int, points: int = 3) -> bool | None:
     return None
 
 
-#: Entries of a matrix that tells whether arguments are independent.
+#: Bound on the entries of the matrix in `_independent_arguments`.
 MOST_TERMS = 20_000
 INVERSE = ("asin", "atan", "atan2")
 
@@ -135,7 +135,7 @@ INVERSE = ("asin", "atan", "atan2")
 def odd_constants(ring: Ring, named: bool = False) -> bool:
     """Return whether constants occur that may be related: nested roots, inverse functions, logarithms, e and pi.
 
-    ``named``: parameters are constants too, and several roots of them may be related, or one of a square.
+    With ``named``, parameters are constants too; several roots of them may be related, or one root of a square.
     """
     constant = [v for v in ring.vars if all(named and s.args[0] == "parameter" for s in ring.var_expr[v.index].symbols)]
     radicands = [ring.var_expr[v.index].args[0] for v in constant if _root_of_more(v)]
@@ -144,11 +144,11 @@ def odd_constants(ring: Ring, named: bool = False) -> bool:
 
 
 def independent_generators(ring: Ring) -> bool:
-    """Return whether the generators are algebraically independent up to the relations that the ring knows.
+    """Return whether the generators are algebraically independent up to the relations of the ring; False if unknown.
 
-    Symbols, sines, cosines and exponentials of different terms are [Ax1971], and so are unknown functions, square
-    roots of different primes and one root of what is linear in a symbol, so no power itself, and one transcendental
-    constant. False says that a relation may have been missed: other roots, inverse functions, logarithms, constants.
+    Symbols and the sines, cosines and exponentials of independent arguments are independent [Ax1971]; so are, together
+    with them, unknown functions, roots of primes, one root of an expression of degree 1 in a symbol (which is
+    no power), and one transcendental constant. Other roots, inverse functions and logarithms may be related.
     """
     roots = 0
     for var in ring.vars:
@@ -163,9 +163,9 @@ def independent_generators(ring: Ring) -> bool:
 
 
 def _one_constant(ring: Ring) -> bool:
-    """Return whether there is at most one transcendental constant: pi, exp or an angle of one rational number.
+    """Return whether there is at most one constant other than a root: pi, or functions of one rational number.
 
-    These are transcendental [Lindemann1882]; of two of them it is not known, or they are related as e and e^1000 are.
+    These are transcendental [Lindemann1882]; two of them may be related (e and e^1000), or it is not known.
     """
     constants = [v for v in ring.vars if not ring.var_expr[v.index].symbols]
     kinds = {
@@ -177,15 +177,15 @@ def _one_constant(ring: Ring) -> bool:
 
 
 def _is_rational(e: Expr) -> bool:
-    """Return a product of numbers that are not 0, as written."""
+    """Return whether ``e`` is written as a product of nonzero numbers."""
     return all(part.op == "num" and not part.is_zero for part in (e.args if e.op == "mul" else (e,)))
 
 
 def independent_on_set(ring: Ring, relations: Sequence[object]) -> bool:
-    """Return the same where some relations hold.
+    """Return `independent_generators` on the set where some relations are satisfied.
 
-    There arguments may be related that are not related as written: of few of them a point tells (`characters`); of
-    more only what is equal, or a sum, so that no other argument may occur than a symbol.
+    There, arguments may be related that are independent as expressions. A `Character` finds relations of up to
+    `MOST_REDUCED` arguments; if there are more, False unless all arguments are symbols.
     """
     return independent_generators(ring) and not (
         relations and any(_out_of_reach(ring, kind) for kind in ("cos", "exp"))
@@ -203,9 +203,9 @@ def _of_symbol(var: Var) -> bool:
 
 @false_without_value
 def _independent_arguments(ring: Ring, kind: str) -> bool:
-    """Return whether the exponents, or the angles, are linearly independent over Q modulo constants [Ax1971].
+    """Return whether the arguments of one kind (exp, cos) are linearly independent over Q modulo constants [Ax1971].
 
-    They are put over one denominator L: then so are their numerators together with L. False where they grow too large.
+    That is, L and the numerators over a common denominator L are linearly independent. False if they are too large.
     """
     moving = [v for v in ring.vars if v.kind == kind and ring.var_expr[v.index].symbols]
     if len(moving) < 2 or all(_of_symbol(v) for v in moving):
@@ -224,7 +224,7 @@ def _independent_arguments(ring: Ring, kind: str) -> bool:
 
 
 def _root_of_more(var: Var) -> bool:
-    """Return a root of something else than a prime number."""
+    """Return whether a generator is a root of anything but a number."""
     return var.kind == "root" and not isinstance(var.key[0], Expr)
 
 
@@ -234,9 +234,9 @@ def _linear_somewhere(e: Expr) -> bool:
     return any(not slope.is_zero and s not in slope.symbols for s, slope in slopes)
 
 
-# The chance of an error at random points
+# The probability of an error at random points
 
-#: Bits of the primes, less one; of what is looked for among arguments of exponentials and angles (see `characters`).
+#: Bits of the primes, minus one; bits b of the probability 2^-b that a `Character` finds an accidental relation.
 PRIME, RELATIONS = 60, 30
 
 
@@ -245,10 +245,10 @@ Degrees = tuple[int, int]
 
 
 def degree_bound(ring: Ring, nodes: Sequence[int], degree_of: Callable[[int], int] | None = None) -> int:
-    """Return a bound of the degrees of numerators and denominators, in symbols and independent values of functions.
+    """Return a bound on the degrees of the nodes' numerators and denominators in the generators' random numbers.
 
-    Sines and cosines are functions on a curve of the second degree, a root is the power of another root, unless
-    ``degree_of`` gives the degrees of generators by their numbers.
+    Sines and cosines have the degree 2, and d-th roots the degree d, unless ``degree_of`` gives the degree of a
+    generator by its index.
     """
     most: dict[int, Degrees] = {}
     for i in reversed(reachable(ring, nodes, through_generators=False)):
@@ -271,16 +271,16 @@ def degree_bound(ring: Ring, nodes: Sequence[int], degree_of: Callable[[int], in
 
 
 def _of_sum(terms: Sequence[Degrees]) -> Degrees:
-    """Over the product of all denominators."""
+    """Return the degrees of a sum over the product of all denominators."""
     below = sum(bottom for _, bottom in terms)
     return max(top + below - bottom for top, bottom in terms), below
 
 
 def error_bits(ring: Ring, nodes: Sequence[int], size: int) -> int:
-    """b with a chance below 2^-b that a minor, not 0, is 0 at a random point over GF(p) [SchwartzZippel].
+    """Return b such that a nonzero minor is 0 at a random point over GF(p) with probability < 2^-b [SchwartzZippel].
 
-    Of ``size`` rows of the nodes' derivatives it has at most so many times twice their degree. Where several
-    exponentials or angles occur, relations among their arguments are found by chance with 2^-30.
+    The minor has ``size`` rows of the nodes' derivatives, so its degree is at most 2 ``size`` times theirs. With
+    several exponentials or angles, accidental relations of their arguments have the probability 2^-`RELATIONS`.
     """
     bits = PRIME - (2 * max(1, size) * max(1, degree_bound(ring, nodes))).bit_length()
     several = sum(var.kind in ("exp", "cos") for var in ring.vars) > 1

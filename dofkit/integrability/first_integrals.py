@@ -1,11 +1,11 @@
-"""First integrals of a system of forms: functions f with df in the span I of its rows, found together.
+"""First integrals of a system of forms: functions f with df in the span I of its rows.
 
 f is a combination of few products of the block's own functions (coordinates, sines, exponentials, parameters) with
 rational coefficients. X f = 0 for every X in D = ker I is linear in the coefficients; it is imposed along one random
-curve over GF(p), or at random points on the geometric equations, and the solutions are read as rationals. An integral
-is returned only if it holds identically: the bordered minors of df under the rows vanish in the canonical ring (modulo
-a geometric equation, if there is one), or, where that grows too large or there are several of them, at fresh points
-modulo fresh primes.
+curve over GF(p), or at random points on the geometric equations, and the coefficients are reconstructed as rationals.
+An integral is returned only after a test: the bordered minors of df and the rows are 0 in the canonical ring (modulo a
+geometric equation, if there is one), or, if these are too large or there are several equations, at new points modulo
+other primes.
 """
 
 from __future__ import annotations
@@ -33,11 +33,11 @@ from dofkit.integrability.integrals.search import arranged, upright
 from dofkit.integrability.pfaffian_system import Codistribution
 from dofkit.relations.normal.semidefinite import fraction
 
-#: Products of up to so many functions, so many products, and so many functions in them at most.
+#: Bounds on the factors of a product, on the number of products, and on the functions in them.
 MAX_DEGREE, MAX_PRODUCTS, MAX_FUNCTIONS = 3, 170, 12
-#: Equations more than unknowns; fresh points at which an integral is checked where the minors are not written out.
+#: Number of equations beyond that of unknowns; new points at which an integral is tested without minors.
 SPARE, CHECKS = 6, 4
-#: Rows of the bordered minors that are written out; the largest numbers in a coefficient of an integral.
+#: Bound on the rows of bordered minors; bound on numerators and denominators of coefficients.
 MAX_ROWS, LARGEST = 5, 1 << 20
 
 Monomial = tuple[int, ...]
@@ -45,17 +45,14 @@ Monomial = tuple[int, ...]
 
 @dataclass(frozen=True)
 class FirstIntegral:
-    """f, constant along all motions; ``identically``: proved so in the canonical ring."""
+    """A function constant along all motions; ``identically``: this is proved in the canonical ring."""
 
     expr: Expr
     identically: bool
 
 
 def first_integrals(forms: Codistribution, number: int) -> list[FirstIntegral]:
-    """Return up to ``number`` independent f with df in the span of the rows, the simplest first.
-
-    None of them is a consequence of the geometric equations.
-    """
+    """Return up to ``number`` first integrals, independent of each other and of geometric equations, simplest first."""
     search = IntegralSearch(forms)
     integrals: list[FirstIntegral] = []
     bordered: BorderedMinors | None = None
@@ -67,7 +64,7 @@ def first_integrals(forms: Codistribution, number: int) -> list[FirstIntegral]:
             if search.is_independent(f, [k.expr for k in integrals]):
                 bordered = bordered or BorderedMinors(search.forms, search.points[0].frame)
                 identical = bordered.vanish(f)
-                if identical or (identical is None and search.holds(f)):
+                if identical or (identical is None and search.is_constant(f)):
                     integrals.append(FirstIntegral(arranged(upright(f)), bool(identical)))
                 if len(integrals) == number:
                     return integrals
@@ -76,7 +73,7 @@ def first_integrals(forms: Codistribution, number: int) -> list[FirstIntegral]:
 
 @dataclass(frozen=True)
 class FormSample:
-    """A point over GF(p), or a curve: the functions' values, their gradients by column, a basis of D, and the rows."""
+    """Values at a point over GF(p) or along a curve: of functions (``at``), their gradients, a basis of D, and rows."""
 
     point: FieldPoint
     frame: Pivots
@@ -87,7 +84,7 @@ class FormSample:
     _products: dict[Monomial, tuple[Scalar, list[Scalar]]] = field(default_factory=dict)
 
     def product(self, m: Monomial) -> tuple[Scalar, list[Scalar]]:
-        """Return a product of functions, and its rate along each vector of the basis: (f g)' = f' g + f g'."""
+        """Return (value of a product of functions, its derivatives along the vectors of the basis)."""
         value_and_rates = self._products.get(m)
         if value_and_rates is None:
             last = self.at[m[-1]]
@@ -99,8 +96,8 @@ class FormSample:
             self._products[m] = value_and_rates
         return value_and_rates
 
-    def across(self, row: int) -> list[Residue] | None:
-        """Return a velocity that only ``row`` forbids, or None where the row depends on the others."""
+    def transversal(self, row: int) -> list[Residue] | None:
+        """Return a velocity that all rows except ``row`` allow; None if the row depends on the others."""
         others = [r for i, r in enumerate(self.matrix) if i != row]
         n, unit = len(self.matrix[row]), self.point.number(Fraction(1))
         if others:
@@ -111,7 +108,7 @@ class FormSample:
 
 
 class IntegralSearch:
-    """The functions of some forms that are constant along D = ker I, among products of the functions in them."""
+    """The search for functions that are constant along D = ker I, among products of the functions in the forms."""
 
     def __init__(self, forms: Codistribution) -> None:
         self.forms = _with_all_symbols(forms)
@@ -121,10 +118,10 @@ class IntegralSearch:
         self.constant = {i for i in self.functions if not _moves(self.ring.var_expr[i])}
         self.solver = TriangularSolver(self.ring, list(chart.nodes)) if chart.nodes else None
         self.points: list[FormSample] = []
-        self._drawn = 0
+        self._attempts = 0
 
     def monomials(self, degree: int) -> list[Monomial]:
-        """Return products of up to ``degree`` functions, simple ones first; sines occur once (sin^2 = 1 - cos^2)."""
+        """Return products of up to ``degree`` functions, simple ones first; a sine at most once (sin^2 = 1 - cos^2)."""
         monomials: list[Monomial] = []
         for size in range(1, degree + 1):
             for m in combinations_with_replacement(self.functions, size):
@@ -147,16 +144,13 @@ class IntegralSearch:
             equations += [list(row) for row in zip(*columns, strict=True)]
             number += 1
         p = self.points[0].point.p
-        for weights in null_vectors(residue_matrix(equations, p)):  # each one's last monomial, from simple to hard
+        for weights in null_vectors(residue_matrix(equations, p)):  # ordered by their last monomials, simple ones first
             f = self._combination(monomials, weights, p)
             if f is not None:
                 yield f
 
     def _along_curve(self, monomials: Sequence[Monomial]) -> list[list[Residue]]:
-        """Return the rates of the products along D as series on one random curve, a row for each coefficient.
-
-        No rows where a function has no series there.
-        """
+        """Return the equations X f = 0 as the coefficients of series along one random curve; [] without series."""
         sample = self.sample(0)
         if sample is None:
             return []
@@ -172,32 +166,32 @@ class IntegralSearch:
         return [[along[i].coefficient(k) for along in rates] for i in range(len(curve.basis)) for k in range(order)]
 
     def slope(self, f: Expr, sample: FormSample, v: Sequence[Residue]) -> Scalar:
-        """Return df on a vector at a point."""
+        """Return df(v) for a vector v at a point."""
         return pairing(self._gradient(f, sample), [v])[0]
 
     def is_independent(self, f: Expr, integrals: Sequence[Expr]) -> bool:
-        """Return whether df is independent of the geometric equations and of the integrals that are known."""
+        """Return whether df is independent of the geometric equations and of the differentials of ``integrals``."""
         sample = self.points[0]
         rows = [list(r) for r in sample.matrix[: self.forms.finite]]
         rows += [self._gradient(e, sample) for e in (*integrals, f)]
         return rank_of(rows, sample.point.p) > rank_of(rows[:-1], sample.point.p)
 
     def sample(self, number: int) -> FormSample | None:
-        """Return one of the points, all modulo one prime, or None where so many are not found."""
+        """Return the sample with this number, all modulo one prime; None if too few points are found."""
         while len(self.points) <= number:
             check()
-            self._drawn += 1
-            if self._drawn > 4 * MAX_PRODUCTS:
+            self._attempts += 1
+            if self._attempts > 4 * MAX_PRODUCTS:
                 return None
-            sample = _sample_at(self.forms, self._point(3 * self._drawn))
+            sample = _sample_at(self.forms, self._point(3 * self._attempts))
             if sample is not None and not sample.basis:
                 return None
             if sample is not None and (not self.points or sample.point.p == self.points[0].point.p):
                 self.points.append(sample)
         return self.points[number]
 
-    def holds(self, f: Expr) -> bool:
-        """Return whether X f = 0 for D at fresh points, modulo other primes."""
+    def is_constant(self, f: Expr) -> bool:
+        """Return whether X f = 0 for all X in D at `CHECKS` new points, modulo other primes."""
         checked = 0
         for k in range(6 * CHECKS):
             sample = _sample_at(self.forms, self._point(7000 + k))
@@ -219,7 +213,7 @@ class IntegralSearch:
         return pose_point(self.forms.chart, {}, seed) if self.solver is None else self.solver.draw(seed)
 
     def _combination(self, monomials: Sequence[Monomial], weights: Sequence[Residue], p: int) -> Expr | None:
-        """Return the combination with the small fractions that the weights are modulo p, or None if one is none."""
+        """Return the combination with rational coefficients equal to the weights modulo p; None if one is too large."""
         terms = []
         for m, weight in zip(monomials, weights, strict=True):
             if weight:
@@ -231,7 +225,7 @@ class IntegralSearch:
 
 
 def _with_all_symbols(forms: Codistribution) -> Codistribution:
-    """Return the same forms with a function for every column, also for those that no coefficient mentions."""
+    """Return the forms in a chart with a generator for every column, also if no coefficient mentions it."""
     ring = forms.chart.ring
     for s in forms.chart.symbols:
         ring.node(s)
@@ -245,7 +239,7 @@ def _moves(e: Expr) -> bool:
 
 
 def _sample_at(forms: Codistribution, point: FieldPoint | None) -> FormSample | None:
-    """Return the forms at a point, or None where there is none or a function has no value at it."""
+    """Return the sample at a point; None if there is no point, or a function has no value there."""
     if point is None:
         return None
     try:
@@ -256,18 +250,18 @@ def _sample_at(forms: Codistribution, point: FieldPoint | None) -> FormSample | 
 
 
 def _sample_of(
-    forms: Codistribution, base: FieldPoint, frame: Pivots, place: FieldPoint | SeriesPoint
+    forms: Codistribution, base: FieldPoint, frame: Pivots, point: FieldPoint | SeriesPoint
 ) -> FormSample | None:
-    """Return the forms at a point or along a curve through it, or None where a function has no value or series."""
+    """Return the sample at ``base``, or along a curve through it; None if a function has no value or series."""
     ring, columns = forms.chart.ring, forms.chart.columns
-    unit = place.number(Fraction(1))
+    unit = point.number(Fraction(1))
     try:
-        at = values(ring, place)
+        at = values(ring, point)
         matrix = forms.rows.matrix(at, unit * 0)
         basis = kernel(matrix, frame, unit * 0) if frame.free else []
         gradients = []
         for v, node in zip(ring.vars, ring.var_node, strict=True):
-            g = gradient(ring, at, place, [(node, unit)]) if _moves(ring.var_expr[v.index]) else {}
+            g = gradient(ring, at, point, [(node, unit)]) if _moves(ring.var_expr[v.index]) else {}
             gradients.append({i: g[c] for i, c in enumerate(columns) if c in g})
         return FormSample(base, frame, [at[node] for node in ring.var_node], gradients, basis, matrix)
     except NoValueError:
@@ -275,12 +269,12 @@ def _sample_of(
 
 
 def is_short(forms: Codistribution) -> bool:
-    """Return whether there are few forms and one geometric equation at most, so that minors can be written out."""
+    """Return whether there are few forms and at most one geometric equation, so that minors can be computed."""
     return len(forms.chart.nodes) <= 1 and len(forms.rows.entries) <= MAX_ROWS
 
 
 class BorderedMinors:
-    """The minors of some independent rows bordered by another one, in the canonical ring."""
+    """The minors of the independent rows of a frame together with another row, in the canonical ring."""
 
     def __init__(self, forms: Codistribution, frame: Pivots) -> None:
         self.forms, self.chart, self.frame = forms, forms.chart, frame
@@ -288,10 +282,9 @@ class BorderedMinors:
         self._cofactors: dict[int, dict[int, Poly]] = {}
 
     def vanish(self, f: Expr) -> bool | None:
-        """Return whether df depends on the forms: all minors of the forms together with df are 0.
+        """Return whether df depends on the forms identically: all minors of the forms together with df are 0.
 
-        None where the minors are too long to be written out, and where one is not 0 but there are geometric
-        equations, on which it may vanish.
+        None if the minors are too large, or if one is not 0 but may be 0 on the geometric equations.
         """
         ring, symbols = self.chart.ring, self.chart.symbols
         if not is_short(self.forms):
@@ -301,9 +294,9 @@ class BorderedMinors:
         return None if self.chart.nodes and vanishes is False else vanishes
 
     def is_combination(self, row: Mapping[int, int], on_relation: bool) -> bool | None:
-        """Return whether a row, its nodes by column, is a combination of the rows wherever their minor is not 0.
+        """Return whether a row {column: node} is a combination of the rows wherever their minor is not 0.
 
-        ``on_relation``: where the only geometric equation is satisfied. None where minors have no value or are long.
+        ``on_relation``: only where the single geometric equation is satisfied. None if minors are undefined or large.
         """
         if len(self.frame.rows) > MAX_ROWS:
             return None
@@ -314,7 +307,7 @@ class BorderedMinors:
 
     @false_without_value
     def are_involutive(self, forms: Sequence[Mapping[Expr, Expr]]) -> bool:
-        """Return whether d(omega)(X, Y) = 0 for all X and Y that the rows annihilate, by identities [Frobenius1877]."""
+        """Return whether d(omega)(X, Y) = 0 is an identity for all forms omega and X, Y in D [Frobenius1877]."""
         derivatives = [exterior_derivative({s: form.get(s, ex.ZERO) for s in self.chart.symbols}) for form in forms]
         nodes = [{k: self.chart.ring.node(e) for k, e in enumerate(d.values())} for d in derivatives]
         canon = self._current_canon()
@@ -329,13 +322,13 @@ class BorderedMinors:
         )
 
     def _current_canon(self) -> Canon:
-        """The canonical ring with all generators that there are by now."""
+        """Return the canonical ring, computed again if the ring has new generators."""
         if len(self.canon.gens) < len(self.chart.ring.vars):
             self.canon, self._cofactors = Canon(self.chart.ring), {}
         return self.canon
 
     def _of(self, nodes: Mapping[int, int], on_relation: bool) -> Iterator[Poly]:
-        """Yield the minors, one for each free column, on request modulo a geometric equation. Raises NoValueError."""
+        """Yield the minors, one for each free column (``on_relation``: modulo the equation); raises NoValueError."""
         canon = self._current_canon()
         relation = canon.quotient(self.chart.nodes[0])[0] if on_relation and len(self.chart.nodes) == 1 else None
         row = polynomials(canon, nodes, len(self.chart.symbols))
@@ -359,10 +352,10 @@ class BorderedMinors:
 
 
 def integral_by_row(forms: Codistribution, integrals: Sequence[FirstIntegral]) -> dict[int, FirstIntegral]:
-    """Return an integral for every row that it can stand for: with the other rows it implies the row.
+    """Return {row: an integral that can replace it}: together with the other rows it implies the row.
 
-    f can stand for a row where df is not in the span of the others; a row takes one that no other has, if there is one,
-    and that mentions the same symbols.
+    f can replace a row if df is not in the span of the other rows. Preferred is an integral that no other row has, then
+    one with the most similar symbols.
     """
     search = IntegralSearch(forms)
     sample = search.sample(0) if integrals else None
@@ -370,10 +363,10 @@ def integral_by_row(forms: Codistribution, integrals: Sequence[FirstIntegral]) -
         return {}
     moving, chosen = frozenset(forms.chart.symbols), dict[int, FirstIntegral]()
     for row in range(forms.finite, len(forms.rows.entries)):
-        across = sample.across(row)
-        fitting = [f for f in integrals if across and search.slope(f.expr, sample, across) != 0]
+        transversal = sample.transversal(row)
+        possible = [f for f in integrals if transversal and search.slope(f.expr, sample, transversal) != 0]
         mentioned = {forms.chart.symbols[c] for c in forms.rows.entries[row]}
-        apart = {f: (f in chosen.values(), len(mentioned ^ (f.expr.symbols & moving))) for f in fitting}
-        if fitting:
-            chosen[row] = min(fitting, key=apart.__getitem__)
+        cost = {f: (f in chosen.values(), len(mentioned ^ (f.expr.symbols & moving))) for f in possible}
+        if possible:
+            chosen[row] = min(possible, key=cost.__getitem__)
     return chosen

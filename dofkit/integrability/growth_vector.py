@@ -1,10 +1,10 @@
-"""The growth vector of D = ker I: dimensions of D_1 = D and D_k+1 = D_k + [D, D_k] at a generic point.
+"""The growth vector of D = ker I: dimensions of D_1 = D and D_{k+1} = D_k + [D, D_k] at a generic point.
 
-Along a curve of X the brackets ad_X^j B, j < k, span a subspace S_k of D_k. It is all of D_k where one more derivative,
-across the curve, finds nothing new: if D_j = S_j for j <= k near the point, then D_k+1 = S_k + [D, ad_X^(k-1) B], for
-the brackets with ad_X^j B, j < k - 1, lie in D_k already; so S_k+1 = D_k+1 if and only if [b, ad_X^(k-1) B] lies in
-S_k+1 for a random b in D. The derivative across is the curve's variation, the derivative by a dual number.
-Where one curve is not enough, S_k is what several span together.
+Let B be a frame of D. Along a curve of a random field X in D the brackets ad_X^j B, j < k, span a subspace S_k of D_k.
+It is tested whether S_k = D_k: if D_j = S_j for j <= k near the point, then D_{k+1} = S_k + [D, ad_X^(k-1) B], because
+the brackets with ad_X^j B, j < k - 1, are in D_k already; so S_{k+1} = D_{k+1} if and only if [b, ad_X^(k-1) B] is in
+S_{k+1} for a random field b in D. Its derivative transversal to the curve is a variation of the curve, computed with
+dual numbers. If one curve is not sufficient, S_k is the span of the brackets of several.
 """
 
 from __future__ import annotations
@@ -28,12 +28,12 @@ from dofkit.integrability.lie_algebra import (
     some_columns,
 )
 
-#: Curves tried before the flag is undecided.
+#: Bound on the number of curves.
 MAX_CURVES = 24
 
 
 class Dual:
-    """f + e g with e^2 = 0, f and g series along the curve; ``du`` None stands for 0."""
+    """The dual number re + e du with e^2 = 0, for series ``re`` and ``du`` along the curve; None for du = 0."""
 
     __slots__ = ("du", "re")
 
@@ -69,7 +69,7 @@ class Dual:
         return total
 
     def inverse(self) -> Dual:
-        """1/(f + e g) = 1/f - e g/f^2."""
+        """Return 1/(f + e g) = 1/f - e g/f^2."""
         below = self.re.inverse()
         return Dual(below, None if self.du is None else -(self.du * below * below))
 
@@ -84,7 +84,7 @@ class Dual:
 
 @dataclass(frozen=True)
 class DualPoint:
-    """Symbols with their variation; every other generator's variation follows by the chain rule."""
+    """A curve with the variation of ``symbols`` (series by generator); that of others is by the chain rule."""
 
     point: SeriesPoint
     flow: AdmissibleCurve
@@ -107,6 +107,7 @@ class DualPoint:
         return Dual(value, total)
 
     def _slopes(self, var: Var, plain: Sequence[Series]) -> list[tuple[int, Series]]:
+        """Return (argument, derivative of the generator by it), as series."""
         if var.index >= 0:
             return partials(self.flow.rows.ring, var, self.flow.at, self.point)
         name, orders, key = var.key
@@ -119,32 +120,32 @@ class DualPoint:
 
 @dataclass(frozen=True)
 class Variation:
-    """What changes across the curve, for a random field b = sum beta_l B_l with constant beta.
+    """Derivatives at the curve's point for a random field b = sum beta_l B_l with constant beta.
 
-    ``coefficients[k]`` is (b . grad) V_k at the point, a matrix (columns, fields); ``slope`` is grad b there.
+    ``coefficients[k]`` is (b . grad) V_k, a matrix (columns, fields), V_k as in `AdmissibleCurve`; ``slope`` is grad b.
     """
 
     coefficients: MatrixSeries
     slope: Matrix
 
     def bracket(self, flow: AdmissibleCurve, k: int) -> Matrix:
-        """[b, V_k] at the point: (b . grad) V_k - (grad b) V_k."""
+        """Return [b, V_k] = (b . grad) V_k - (grad b) V_k at the point."""
         return self.coefficients[k] - self.slope * flow.pulled[k]
 
 
 def variation(flow: AdmissibleCurve) -> Variation:
-    """The variation in a random direction of D."""
+    """Return the variation of a curve for a random field in D."""
     start = flow.full_frame[0] * random_column(flow, len(flow.frame.free))
     return Variation(varied_frame(flow, start), _slope(flow, start))
 
 
 def random_column(flow: AdmissibleCurve, size: int) -> Matrix:
-    """Random numbers, one below the other."""
+    """Return a column of random numbers."""
     return flow.numbers.matrix(size, 1, [flow.base.number(flow.base.rng.randrange(1, 1 << 12)) for _ in range(size)])
 
 
 def varied_frame(flow: AdmissibleCurve, start: Matrix) -> MatrixSeries:
-    """(start . grad) V_k at the point: the derivative by the curve's start, the controls kept."""
+    """Return (start . grad) V_k at the point for all k: the derivative by the curve's starting point, same controls."""
     numbers, order = flow.numbers, flow.order
     moved = _path_variation(flow, start)
     series = [Series(numbers.polynomial([m[i, 0] for m in moved]), order) for i in range(len(flow.path))]
@@ -154,7 +155,7 @@ def varied_frame(flow: AdmissibleCurve, start: Matrix) -> MatrixSeries:
 
 
 def _path_variation(flow: AdmissibleCurve, start: Matrix) -> MatrixSeries:
-    """The variation of the path: eta' = S eta."""
+    """Return the variation eta of the path, with eta' = S eta."""
     moved = [start]
     for k in range(flow.order):
         moved.append(product_coefficient(flow.full_slope, moved, k) * (1 / flow.base.number(k + 1)))
@@ -162,6 +163,7 @@ def _path_variation(flow: AdmissibleCurve, start: Matrix) -> MatrixSeries:
 
 
 def _frame_variation(flow: AdmissibleCurve, at: list[Any], point: DualPoint, moved: list[Series]) -> MatrixSeries:
+    """Return the variation of V = Psi B, given that of the path (``moved``) and of the program's values (``at``)."""
     n, order, frame = len(flow.path), flow.order, flow.frame
     ring = flow.rows.ring
     velocity = [Dual(v, m.derivative()) for v, m in zip(flow.velocities(), moved, strict=True)]
@@ -171,24 +173,21 @@ def _frame_variation(flow: AdmissibleCurve, at: list[Any], point: DualPoint, mov
     )
     rows = flow.by_coefficient([[at[row[c]].du if c in row else None for c in range(n)] for row in flow.frame_rows], n)
     of_dependent = [some_columns(m, frame.dependent, flow.numbers) for m in rows]
-    bent = flow.lifted(lambda k: -(first[k] + product_coefficient(of_dependent, flow.slope, k)), order)
-    turned = flow.lifted(lambda k: -product_coefficient(rows, flow.full_frame, k), order)
-    full_bent, full_turned = (
-        [flow.over_all_columns(m, None) for m in bent],
-        [flow.over_all_columns(m, None) for m in turned],
-    )
+    slope = flow.dependent_series(lambda k: -(first[k] + product_coefficient(of_dependent, flow.slope, k)), order)
+    frames = flow.dependent_series(lambda k: -product_coefficient(rows, flow.full_frame, k), order)
+    full_slope, full_frame = ([flow.over_all_columns(m, None) for m in series] for series in (slope, frames))
     back = [flow.back[0] * (flow.sample * 0)]
     for k in range(order - 1):
-        total = product_coefficient(back, flow.full_slope, k) + product_coefficient(flow.back, full_bent, k)
+        total = product_coefficient(back, flow.full_slope, k) + product_coefficient(flow.back, full_slope, k)
         back.append(total * (-1 / flow.base.number(k + 1)))
     return [
-        product_coefficient(back, flow.full_frame, k) + product_coefficient(flow.back, full_turned, k)
+        product_coefficient(back, flow.full_frame, k) + product_coefficient(flow.back, full_frame, k)
         for k in range(order)
     ]
 
 
 def _slope(flow: AdmissibleCurve, direction: Matrix) -> Matrix:
-    """grad b at the point, for the field b = sum beta_l B_l with constant beta: A_d grad b_d = -grad(A b)."""
+    """Return grad b at the point for the field b = sum beta_l B_l with constant beta: A_d grad b_d = -grad(A b)."""
     rows, base = flow.rows, flow.base
     at = values(rows.ring, base)
     gradients = [
@@ -204,10 +203,7 @@ def _slope(flow: AdmissibleCurve, direction: Matrix) -> Matrix:
 def spanning_curves(
     rows: FormRows, frame: Pivots, base: Any, span: Span
 ) -> tuple[list[AdmissibleCurve], tuple[int, ...] | None]:
-    """Return curves that span every D_k together, and the dimensions; None where no number of curves was enough.
-
-    D_k: the span of the admissible fields and their brackets of at most k of them; the largest has ``span.dimension``.
-    """
+    """Return curves whose S_k together span D_k, and the dimensions of all D_k, or None if some D_k is not reached."""
     full = span.dimension
     curves: list[tuple[AdmissibleCurve, Variation]] = []
     rounds_without_gain = 0
@@ -217,7 +213,7 @@ def spanning_curves(
         flow.follow(span.dimensions.index(full) + 2)
         curves.append((flow, variation(flow)))
         before, dimensions = dimensions, _dimensions([f for f, _ in curves], full)
-        if _complete(curves, dimensions, full):
+        if _are_sufficient(curves, dimensions, full):
             return [f for f, _ in curves], dimensions
         rounds_without_gain = rounds_without_gain + 1 if dimensions == before else 0
         if rounds_without_gain == 2:
@@ -226,7 +222,7 @@ def spanning_curves(
 
 
 def _dimensions(flows: Sequence[AdmissibleCurve], terminal: int | None = None) -> tuple[int, ...]:
-    """Return the dimensions of S_1, S_2, ... up to the Lie algebra's own, if that is known."""
+    """Return the dimensions of S_1, S_2, ..., up to the dimension ``terminal`` of the Lie algebra, if it is known."""
     vectors: list[tuple[Scalar, ...]] = []
     dimensions: list[int] = []
     for k in range(min(f.order for f in flows)):
@@ -237,28 +233,33 @@ def _dimensions(flows: Sequence[AdmissibleCurve], terminal: int | None = None) -
     return tuple(dimensions)
 
 
-def _complete(curves: Sequence[tuple[AdmissibleCurve, Variation]], dimensions: Sequence[int], terminal: int) -> bool:
-    """Return whether no bracket across the curves leaves S_k+1, for every k before the Lie algebra is reached."""
+def _are_sufficient(
+    curves: Sequence[tuple[AdmissibleCurve, Variation]], dimensions: Sequence[int], terminal: int
+) -> bool:
+    """Return whether S_k = D_k for all k, and the last dimension is that of the Lie algebra (``terminal``).
+
+    For every k the brackets of a random field in D with the V_{k-1} of each curve have to be in S_{k+1}.
+    """
     flows = [f for f, _ in curves]
     vectors = [v for f in flows for v in columns_of(f.pulled[0])]
     for k in range(1, len(dimensions)):
         vectors += [v for f in flows for v in columns_of(f.pulled[k])]
-        across = [v for f, w in curves for v in columns_of(w.bracket(f, k - 1))]
-        if rank_over([*vectors, *across], flows[0].sample) > dimensions[k]:
+        brackets = [v for f, w in curves for v in columns_of(w.bracket(f, k - 1))]
+        if rank_over([*vectors, *brackets], flows[0].sample) > dimensions[k]:
             return False
     return dimensions[-1] == terminal
 
 
-#: Brackets up to this length are examined at a point that is not generic; and curves.
+#: Bounds on the length of brackets, and on the number of curves, at a point that is not generic.
 LONGEST, CURVES = 5, 12
 
 
 def growth_at(rows: FormRows, frame: Pivots, point: FieldPoint, largest: int) -> tuple[int, ...]:
-    """Return dimensions of D, D + [D, D], ... at a point that need not be generic, up to the ``largest`` elsewhere.
+    """Return the certain dimensions of D, D + [D, D], ... at a point that need not be generic.
 
-    The values of ad_X^k B for many X span all brackets of length k + 1 up to length 3, and up to length 4 in two fields
-    (there the multilinear part of the free Lie algebra is generated by such elements); beyond, only a dimension that
-    cannot grow is certain.
+    The values of ad_X^k B for many X span all brackets of length k + 1 up to length 3, and up to length 4 for two
+    fields (there the multilinear part of the free Lie algebra is generated by such elements). Longer brackets are
+    certain only if the dimension reaches that at generic points (``largest``).
     """
     certain = 4 if len(frame.free) == 2 else 3
     flows: list[AdmissibleCurve] = []
@@ -274,9 +275,9 @@ def growth_at(rows: FormRows, frame: Pivots, point: FieldPoint, largest: int) ->
 
 
 def derived_flag(rows: FormRows, frame: Pivots, base: Any, span: Span) -> tuple[int, ...] | None:
-    """The ranks of I, I', I'', ... down to the largest integrable part; None where they are not certain.
+    """Return the ranks of I, I', I'', ... down to the largest integrable part; None if they are not certain.
 
-    I' holds the forms of I whose differential vanishes modulo I, so it annihilates D + [D, D], and so on with
+    I' consists of the forms of I whose differential is 0 modulo I, so that it annihilates D + [D, D], and so on with
     D^(j+1) = D^(j) + [D^(j), D^(j)]: brackets of random fields of D^(j) are added until they add nothing.
     """
     n, terminal = len(rows.columns), span.dimension
@@ -296,7 +297,7 @@ def derived_flag(rows: FormRows, frame: Pivots, base: Any, span: Span) -> tuple[
 
 
 def _derived(flows: Sequence[AdmissibleCurve], dimensions: Sequence[int], step: int) -> int | None:
-    """dim of S_step + [S_step, S_step]; None where that is none of S_step+1, S_step+2, ..."""
+    """Return the dimension of S_step + [S_step, S_step]; None if this is not one of the later S_k."""
     if step == 1:
         return dimensions[1]
     layers = [[v for f in flows for v in columns_of(f.pulled[k])] for k in range(len(dimensions))]
@@ -316,7 +317,7 @@ def _derived(flows: Sequence[AdmissibleCurve], dimensions: Sequence[int], step: 
 
 
 def _random_bracket(flows: Sequence[AdmissibleCurve], step: int) -> tuple[Scalar, ...]:
-    """[Y, Z] at the point for random fields of S_step."""
+    """Return [Y, Z] at the point for random fields Y, Z of S_step."""
     weights = [[[random_column(f, f.pulled[k].ncols()) for k in range(step)] for f in flows] for _ in range(2)]
     values_at = [_combined([f.pulled for f in flows], w) for w in weights]
     moved = [_combined([varied_frame(f, values_at[1 - i]) for f in flows], weights[i]) for i in range(2)]
@@ -324,7 +325,7 @@ def _random_bracket(flows: Sequence[AdmissibleCurve], step: int) -> tuple[Scalar
 
 
 def _combined(series: Sequence[MatrixSeries], weights: Sequence[Sequence[Matrix]]) -> Matrix:
-    """Return the sum of all layers of all series, each times its weight; layers without a weight are left out."""
+    """Return the sum of the coefficients of all series, each times its weight; those without a weight are left out."""
     total = None
     for layers, factors in zip(series, weights, strict=True):
         for layer, w in zip(layers, factors, strict=False):

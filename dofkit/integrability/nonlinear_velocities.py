@@ -1,14 +1,13 @@
-"""Relations nonlinear in the velocities: velocity freedom, whether the velocities bend, and what others make of them.
+"""Relations nonlinear in the velocities: velocity freedom, curvature of the set of velocities, and holonomy labels.
 
-At a configuration the allowed velocities are a set C inside the solutions D of the linear relations. What they
-generate by brackets is what the smallest affine space around C generates: where that is all of D, the Lie algebra of D
-tells what integrates, and no relation in use is linear in disguise, because C would then lie in less.
+At a configuration the admissible velocities are a set C inside the solutions D of the linear relations. C is called
+curved if its affine hull is D. Then C and D generate the same Lie algebra, which decides which relations are
+integrable, and no nonlinear relation is equivalent to a linear one, because C would then lie in a smaller space.
 
-Together with the others such a relation f(q, qdot, t) = 0 reads as a linear form, and may be integrable then; but it
-is implied by geometric equations only where it holds for all velocities that those leave. With I^(inf) the largest
-integrable part, f is holonomic in the system iff it vanishes on every velocity (dt = 1) in the kernel of I^(inf) at a
-generic configuration, which is the Lie algebra of the admissible velocities [HermannNagano]; for a linear f that says
-that its form lies in I^(inf).
+Modulo the other relations, a relation f(q, qdot, t) = 0 may be equivalent to a linear form. With I^(inf) the largest
+integrable subsystem, f is holonomic in the system iff it vanishes on every velocity (dt = 1) in the kernel of I^(inf)
+at a generic configuration, which is the Lie algebra of the admissible velocities [HermannNagano]; for a linear f this
+means that its form lies in I^(inf).
 """
 
 from __future__ import annotations
@@ -47,12 +46,12 @@ from dofkit.relations.velocity_reductions import RewrittenRow
 
 #: Derivatives of curves are taken up to this order.
 MAX_ORDER = 8
-#: Real states that are looked for, until one agrees with that over GF(p).
+#: Random starts of the search for a real state whose ranks are those over GF(p).
 SEEDS = 4
 
 NO_VELOCITIES = "no velocities satisfying the constraints were found"
 SINGULAR = "the velocities that satisfy the constraints form a singular set"
-PARTS = (
+DIFFERENT_RANKS = (
     "real velocities and those over GF(p) disagree about the rank: the set of admissible velocities has "
     "several components"
 )
@@ -66,11 +65,10 @@ FLAT = "the admissible velocities form linear subspaces, which were not written 
 
 
 def set_velocity_freedom(block: Block, setting: Setting, result: Answer) -> None:
-    """Set the velocity freedom to the rank of the Jacobian by the velocities, at states of motion.
+    """Set in ``result`` the velocity freedom, n minus the rank of the Jacobian by the velocities at a generic state.
 
-    The ranks: by coordinates and velocities (``whole``), by velocities, and of the geometric equations. The witness has
-    such velocities at its time. Constraints that determine all velocities integrate: one equation where others leave a
-    curve, or several on a component.
+    Also set whether the set of velocities is curved, the witness and the verdict; all undecided, with a reason, where
+    a test fails. Constraints that determine the direction of motion are integrable: freedom 0, all labels holonomic.
     """
     if not block.nonlinear or result.velocity_dof is None:
         return
@@ -84,33 +82,30 @@ def set_velocity_freedom(block: Block, setting: Setting, result: Answer) -> None
     if real is None or sample is None:
         _undecided(result, NO_VELOCITIES)
         return
-    whole, moving, finite = states.ranks(sample)
-    if not _moves_at_reference(block, setting, result, moving):
+    by_all, by_velocity, finite = states.ranks(sample)
+    if not _moves_at_reference(block, setting, result, by_velocity):
         _undecided(result, AT_REFERENCE)
     elif not real.certain:
         _undecided(result, SINGULAR)
-    elif states.ranks(real.point) != (whole, moving, finite):
-        _undecided(result, PARTS)
-    elif whole - moving != finite:
+    elif states.ranks(real.point) != (by_all, by_velocity, finite):
+        _undecided(result, DIFFERENT_RANKS)
+    elif by_all - by_velocity != finite:
         _undecided(result, HIDDEN)
-    elif not (bends := _bends(states, real.point)) and moving < len(block.coordinates):
+    elif not (curved := _are_curved(states, real.point)) and by_velocity < len(block.coordinates):
         _undecided(result, FLAT)
     else:
-        result.curved, result.argument = bends, "states of motion" if bends else "line field"
+        result.curved, result.argument = curved, "states of motion" if curved else "line field"
         result.witness = of_real_point(states.places, real)
-        result.velocity_dof = len(block.coordinates) - moving
+        result.velocity_dof = len(block.coordinates) - by_velocity
         full = ball_part(states.by_velocity(real.point, states.moving)).rank == len(block.rows)
         result.verdict = weakest(result.verdict, "numeric" if point is None else "proved" if full else "probable")
-        if not bends:
+        if not curved:
             result.dof, result.about = 0, "component" if len(block.nonlinear) > 1 else result.about
             result.labels = dict.fromkeys(result.labels, HolonomyLabel(True, result.verdict, "line"))
 
 
 def _rows_at_reference(block: Block, setting: Setting, result: Answer) -> tuple[Row, ...] | None:
-    """What the relations say of velocities at the reference; None where that is not on the set now.
-
-    Raises NoValueError.
-    """
+    """Return the relations between velocities at the reference; None if it does not satisfy the geometric equations."""
     configuration = {**(setting.reference or {}), ex.TIME: ex.ZERO}
     relations = [e for kind in state_relations(block.rows, result.hidden) for e in kind]
     if any(not is_zero(substitute(g, configuration), setting.positive) for g in relations if not velocities_of(g)):
@@ -119,24 +114,24 @@ def _rows_at_reference(block: Block, setting: Setting, result: Answer) -> tuple[
 
 
 @false_without_value
-def _moves_at_reference(block: Block, setting: Setting, result: Answer, moving: int) -> bool:
-    """Return whether real velocities at the reference are as regular as elsewhere; True without a reference on the set.
+def _moves_at_reference(block: Block, setting: Setting, result: Answer, by_velocity: int) -> bool:
+    """Return whether real velocities at the reference configuration have the generic rank ``by_velocity``.
 
-    xdot^2 + ydot^2 = z zdot^2 has them where z > 0, and leaves all at rest where z < 0.
+    True if there is no reference or it is not on the set. Example: xdot^2 + ydot^2 = z zdot^2 can move only if z > 0.
     """
     if setting.reference is None:
         return True
     rows = _rows_at_reference(block, setting, result)
     if not rows:
         return rows is None
-    there = States(block.coordinates, rows, (), replace(setting, reference=None))
-    return any(there.ranks(point)[1] == moving for point in there.certain(SEEDS))
+    states = States(block.coordinates, rows, (), replace(setting, reference=None))
+    return any(states.ranks(point)[1] == by_velocity for point in states.certain(SEEDS))
 
 
 def _real(states: States, point: FieldPoint | None, result: Answer) -> RealPoint | None:
-    """A real state, on the same part of the set as the one over GF(p) where one is found.
+    """Return a real state, if possible a certified one with the ranks of ``point``, the state over GF(p); or None.
 
-    Unknown functions may be chosen so that there is one.
+    Where an unknown function occurs, also lower the verdict in ``result`` and add a reason.
     """
     calls = any(v.kind == "call" for v in states.ring.vars)
     ranks = None if point is None else states.ranks(point)
@@ -157,31 +152,33 @@ def _real(states: States, point: FieldPoint | None, result: Answer) -> RealPoint
 
 
 def _undecided(result: Answer, why: str) -> None:
-    """Nothing is known of the freedom; of the constraints, only that real velocities satisfy them where they do."""
+    """Set the freedoms, the verdict and all non-holonomic labels in ``result`` to undecided, and add the reason."""
     result.velocity_dof, result.dof, result.verdict = None, None, "undecided"
     result.consistent = result.consistent if why == FLAT else None
     result.reasons.append(why)
-    # velocities that lie in less than the linear relations leave may make more integrable, never less
+    # in a smaller space of velocities than D other constraints may become integrable, but none stops being so
     for i, label in result.labels.items():
         if label.holonomic is False:
             result.labels[i] = HolonomyLabel(None, "undecided", why)
 
 
 @false_without_value
-def _bends(states: States, point: BallPoint) -> bool:
-    """Return whether the allowed velocities span the affine space that the linear relations cut out.
+def _are_curved(states: States, point: BallPoint) -> bool:
+    """Return whether the affine hull of the admissible velocities is the space D that the linear relations leave.
 
-    The derivatives of curves through a velocity lie in the smallest affine space around them; balls prove how many are
-    independent.
+    Derivatives of curves of velocities are parallel to the hull; balls prove how many of them are independent.
     """
     rows = states.by_velocity(point, states.moving)
-    wanted = len(states.velocities) - ball_part(rows[: len(states.linear)]).rank
-    return ball_part(_derivatives(states, rows, point, wanted)).rank == wanted
+    dimension = len(states.velocities) - ball_part(rows[: len(states.linear)]).rank
+    return ball_part(_derivatives(states, rows, point, dimension)).rank == dimension
 
 
 @raising_no_value
-def _derivatives(states: States, rows: list[list[arb]], point: BallPoint, wanted: int) -> list[list[arb]]:
-    """Tangents, and higher derivatives of curves in random directions, at the allowed velocity of a state."""
+def _derivatives(states: States, rows: list[list[arb]], point: BallPoint, dimension: int) -> list[list[arb]]:
+    """Return tangents of the set of velocities at a state, and higher derivatives of curves in random directions.
+
+    The curves are computed only if the tangents are fewer than ``dimension``.
+    """
     part = ball_part(rows)
     columns = [-1 if c is None else c for c in states.velocities]
     frame = Pivots(
@@ -189,7 +186,7 @@ def _derivatives(states: States, rows: list[list[arb]], point: BallPoint, wanted
     )
     free, zero = len(frame.free), arb(0)
     vectors: list[list[arb]] = kernel(rows, frame, zero)
-    missing = wanted - free
+    missing = dimension - free
     if not free or missing <= 0:
         return vectors
     manifold = Manifold(states.ring, states.moving, columns, frame, point)
@@ -201,7 +198,7 @@ def _derivatives(states: States, rows: list[list[arb]], point: BallPoint, wanted
     return vectors
 
 
-#: Velocities of the Lie algebra that are tried at a point, and states at which a reduction is checked.
+#: Random velocities of the Lie algebra used at a point, and the number of states at which a reduction is checked.
 VECTORS, CHECKED = 3, 2
 
 NOT_EQUIVALENT = (
@@ -212,12 +209,13 @@ NO_VELOCITY = "no velocities were found at which it could be compared"
 
 
 def blocks_of(slot: RewrittenRow, blocks: Sequence[Block]) -> list[int]:
-    """The numbers of the blocks that a reduced relation has to do with."""
+    """Return the indices of the blocks that share a coordinate with a rewritten relation."""
     names = set(coordinates_of(slot.written.piece)).union(*(coordinates_of(r.piece) for r in slot.rows))
     return [k for k, block in enumerate(blocks) if names & set(block.coordinates)]
 
 
 def _joint_block(slot: RewrittenRow, blocks: Sequence[Block], numbers: Sequence[int]) -> Block:
+    """Return the blocks ``numbers`` joined into one, with the coordinates of the relation as written added."""
     names = dict.fromkeys(c for k in numbers for c in blocks[k].coordinates)
     names |= dict.fromkeys(sorted(coordinates_of(slot.written.piece)))
     return joined(names, [blocks[k] for k in numbers])
@@ -226,24 +224,25 @@ def _joint_block(slot: RewrittenRow, blocks: Sequence[Block], numbers: Sequence[
 def with_reductions_checked(
     rewritten: Sequence[RewrittenRow], blocks: Sequence[Block], answers: Sequence[Answer], setting: Setting
 ) -> list[Answer]:
-    """Return the answers, undecided where the states that its reduction leaves do not satisfy a relation as written.
+    """Return the answers, undecided for the blocks whose states do not satisfy a relation that was rewritten.
 
-    A reduction writes a relation more simply, such as (xdot - ydot)^2 = 0 as xdot = ydot. Blocks without a state cannot
-    leave one, and are not checked.
+    Relations are rewritten more simply, such as (xdot - ydot)^2 = 0 as xdot = ydot; at states of the rewritten rows the
+    relation as written must be 0. Blocks that are not consistent have no state, and are not checked.
     """
     checked = list(answers)
     for row in rewritten:
         numbers = blocks_of(row, blocks)
-        if any(not checked[k].consistent for k in numbers) or _holds(row, blocks, numbers, checked, setting):
+        if any(not checked[k].consistent for k in numbers) or _is_satisfied(row, blocks, numbers, checked, setting):
             continue
         for k in numbers:
             checked[k] = Answer(None, verdict="undecided", reasons=[*checked[k].reasons, NOT_EQUIVALENT])
     return checked
 
 
-def _holds(
+def _is_satisfied(
     slot: RewrittenRow, blocks: Sequence[Block], numbers: Sequence[int], answers: Sequence[Answer], setting: Setting
 ) -> bool:
+    """Return whether the relation as written is 0 at states of its blocks, over GF(p) or else real; False without."""
     joint, f = _joint_block(slot, blocks, numbers), slot.written.piece
     if not isinstance(f, Nonlinear):
         return True
@@ -251,18 +250,18 @@ def _holds(
     try:
         states = States(joint.coordinates, joint.rows, hidden, setting, [f.expr])
         node = states.extra[f.expr]
-        seen = [value_at(states.ring, p, node) for k in range(CHECKED) if (p := states.draw(k + 1)) is not None]
-        if not seen or not all(v is not None and vanishes(v) for v in seen):
-            seen = [value_at(states.ring, p, node) for p in states.certain(CHECKED)]
+        numbers_at = [value_at(states.ring, p, node) for k in range(CHECKED) if (p := states.draw(k + 1)) is not None]
+        if not numbers_at or not all(v is not None and vanishes(v) for v in numbers_at):
+            numbers_at = [value_at(states.ring, p, node) for p in states.certain(CHECKED)]
     except (OutOfTimeError, ArithmeticError):
         return False
-    return bool(seen) and all(v is not None and vanishes(v) for v in seen)
+    return bool(numbers_at) and all(v is not None and vanishes(v) for v in numbers_at)
 
 
 def label_modulo_others(
     slot: RewrittenRow, blocks: Sequence[Block], answers: Sequence[Answer], setting: Setting
 ) -> tuple[HolonomyLabel, Answer]:
-    """Whether a reduced relation is a consequence of geometric equations, and the answer of the blocks it touches."""
+    """Return the label of a rewritten relation, and the combined answer of the blocks that share its coordinates."""
     numbers = blocks_of(slot, blocks)
     touched = [answers[k] for k in numbers]
     weak = max(touched, key=lambda a: VERDICTS.index(a.verdict), default=Answer(argument="nothing constrains"))
@@ -286,7 +285,7 @@ def label_modulo_others(
 
 
 def _why_not_holonomic(slot: RewrittenRow, blocks: Sequence[Block], answers: Sequence[Answer]) -> str:
-    """Return why a relation rewritten with the help of others is not holonomic."""
+    """Return the reason, for the report, why a relation rewritten modulo others is not holonomic."""
     if not slot.rows:
         return (
             "It is implied by the other constraints, which are not integrable, and is not a consequence of "
@@ -313,23 +312,23 @@ def _why_not_holonomic(slot: RewrittenRow, blocks: Sequence[Block], answers: Seq
 
 
 def _on_the_kernel(f: Expr, joint: Block, hidden: Sequence[Expr], setting: Setting) -> HolonomyLabel:
-    """Return whether f vanishes on the kernel of the largest integrable part."""
+    """Return the label of f: holonomic if it vanishes on the kernel of I^(inf) of the joint block."""
     forms = codistribution(joint, setting, hidden, [f])
     variety = find(forms.chart, setting.pose)
     ring = forms.chart.ring
     node = ring.node(f)
-    good = [(p, s) for p in variety.samples if (s := span_at(forms, p)) is not None]
-    seen = [v for p, s in good for v in _values_on_span(forms, s.span, p, node)]
-    if seen and all(v == 0 for v in seen):
+    sampled = [(p, s) for p in variety.samples if (s := span_at(forms, p)) is not None]
+    numbers = [v for p, s in sampled for v in _values_on_span(forms, s.span, p, node)]
+    if numbers and all(v == 0 for v in numbers):
         return HolonomyLabel(True, "probable")
-    rank = len(good[0][1].frame.rows) if good else None
+    rank = len(sampled[0][1].frame.rows) if sampled else None
     if any(not v.contains(0) for v in _real_values(forms, variety, rank, node)):
         return HolonomyLabel(False, "proved")
     return HolonomyLabel(None, "undecided", NO_VELOCITY)
 
 
 def _real_values(forms: Codistribution, variety: Variety, rank: int | None, node: int) -> Iterator[arb]:
-    """Values of f at a certified real point."""
+    """Yield values of f at random velocities of the Lie algebra at a certified real point, if there is one."""
     real = variety.real
     if rank is None or real is None or not real.certain:
         return
@@ -339,7 +338,7 @@ def _real_values(forms: Codistribution, variety: Variety, rank: int | None, node
 
 
 def _values_on_span(forms: Codistribution, span: Span, point: FieldPoint | BallPoint, node: int) -> Iterator[Scalar]:
-    """Values of a node at random velocities of a span, with dt = 1 where time is a column."""
+    """Yield values of a node at random velocities in the span, scaled to dt = 1 if time is a column."""
     symbols, zero = forms.chart.symbols, point.number(ex.ZERO.args[0])
     for _ in range(VECTORS):
         weights = [point.number(ex.num(point.rng.randrange(1, 1 << 12)).args[0]) for _ in span.vectors]
@@ -357,7 +356,7 @@ def _values_on_span(forms: Codistribution, span: Span, point: FieldPoint | BallP
 
 
 def _moving(ring: Ring, point: FieldPoint | BallPoint, moved: dict[Expr, Scalar]) -> FieldPoint | BallPoint:
-    """The same configuration with other velocities."""
+    """Return the point with the velocities ``moved`` in place of its own."""
     if isinstance(point, BallPoint):
         return BallPoint({**point.symbols, **moved}, point.seed)
     other = point.copy()

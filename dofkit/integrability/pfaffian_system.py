@@ -1,10 +1,10 @@
-"""A block's relations as one-forms, and the hidden equations that they force.
+"""A block's relations as one-forms, and the hidden equations that they imply.
 
-I is spanned by the differentials of the geometric equations and by the Pfaffian forms. If lambda A = 0 for the
-coordinates' columns A and lambda b is not 0 for the time column b, the rows imply (lambda b) dt = 0, so motion through
-an interval of time needs a geometric equation that nobody wrote (x + y = t with xdot + ydot = z forces z = 1):
-prolongation in the sense of Cartan. The locus is where the largest minors of [A b] vanish; their common factor is the
-relation (single minors carry factors of A of their own).
+The rows are the differentials of the geometric equations and the Pfaffian forms: a matrix [A b], with the coordinates'
+columns A and the time column b. If lambda A = 0 and lambda b is not 0, they imply (lambda b) dt = 0, so motion through
+an interval of time is possible only on the locus lambda b = 0, a hidden geometric equation (x + y = t with
+xdot + ydot = z implies z = 1); this is Cartan's prolongation. The locus is where the largest minors of [A b] vanish.
+Their common factor is the hidden equation; a single minor may have factors that are minors of A.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ from dofkit.relations.setting import Setting
 
 @dataclass
 class Codistribution:
-    """The rows of a block as one-forms over a chart: finite differentials, then Pfaffian forms."""
+    """The rows of a block as one-forms over a chart: ``finite`` differentials of equations, then Pfaffian forms."""
 
     chart: Chart
     rows: FormRows
@@ -44,16 +44,17 @@ class Codistribution:
 
     @property
     def n(self) -> int:
-        """The coordinates, time apart."""
+        """The number of coordinates, without time."""
         return self.chart.coordinates
 
 
 def codistribution(
     block: Block, setting: Setting, extra: Sequence[Expr], more: Sequence[Expr] = (), on: Sequence[Expr] | None = None
 ) -> Codistribution:
-    """Return dg for every geometric equation (those ``extra`` included), then the Pfaffian forms.
+    """Return the one-forms of a block: dg for its geometric equations and the ``extra`` ones, then its Pfaffian forms.
 
-    ``more`` is evaluated too; the points of the chart satisfy the relations ``on``, by default the finite ones.
+    ``more``: further expressions for the chart to evaluate. ``on``: the equations that its points satisfy, by default
+    the geometric ones.
     """
     finite = [r.piece.expr for r in block.finite if isinstance(r.piece, Finite)] + list(extra)
     timed = uses_time(block) or any(ex.TIME in e.symbols for e in (*extra, *(on or ())))
@@ -75,21 +76,20 @@ def codistribution(
 
 
 def linear_rows(block: Block, forms: Codistribution) -> Iterator[tuple[int, Row, int]]:
-    """(number, row, its place among the forms) of the block's rows that are no nonlinear relations of velocities."""
+    """Yield (number, row, index of its one-form) for the block's rows that are not nonlinear in the velocities."""
     number_finite = len(block.finite)
     for i, row in enumerate(r for r in block.rows if not isinstance(r.piece, Nonlinear)):
         yield i, row, i if i < number_finite else i + forms.finite - number_finite
 
 
 def first_order_freedom(block: Block, setting: Setting, reference: Mapping[Expr, Expr]) -> tuple[int | None, bool]:
-    """Velocities that the rows allow at the reference configuration, and whether that is proved.
+    """Return the velocity freedom at the reference configuration, and whether it is proved.
 
-    None where it is not on the variety, or numbers there may be related in a way that is not known. Else a rank over
-    GF(p) is not too large; of as many rows it is not too small.
+    None where the reference does not satisfy the equations, or constants may satisfy an unknown relation. A rank over
+    GF(p) is never too large, so it is proved if it is the number of rows.
     """
     forms = codistribution(block, setting, ())
-    there = {**reference, ex.TIME: ex.ZERO}
-    point = point_at(forms.chart, there, 3) if "field" in setting.engines else None
+    point = point_at(forms.chart, {**reference, ex.TIME: ex.ZERO}, 3) if "field" in setting.engines else None
     if point is None or odd_constants(forms.chart.ring, named=True):
         return None, False
     matrix = forms.rows.matrix(values(forms.chart.ring, point), point.number(ex.ZERO.args[0]))
@@ -97,14 +97,14 @@ def first_order_freedom(block: Block, setting: Setting, reference: Mapping[Expr,
     return forms.n - rank, rank == len(matrix)
 
 
-#: Choices of columns that are looked at, and minors that are divided out of each other.
+#: Most choices of columns that are tried, most minors whose common factor is computed, and their largest size.
 MAX_CHOICES, MAX_MINORS, MAX_SIZE = 400, 12, 8
-#: Alternatives in which several hidden relations hold together that are looked at.
+#: Most combinations of branches of several hidden relations.
 MAX_TOGETHER = 12
 
 
 def confinements(forms: Codistribution, variety: Variety) -> tuple[tuple[Expr, ...], ...] | None:
-    """Ways in which motion is confined where dt lies in the span of the rows; None where it does not."""
+    """Return the alternatives of `hidden_relation`; None if dt is not in the span of the rows or there is no point."""
     if len(forms.chart.symbols) == forms.n:
         return None
     real = variety.real.point if variety.real is not None and variety.real.certified else None
@@ -116,24 +116,24 @@ def confinements(forms: Codistribution, variety: Variety) -> tuple[tuple[Expr, .
         matrix = forms.rows.matrix(values(forms.chart.ring, point), zero)
     except NoValueError:
         return None
-    free = rank_over([row[: forms.n] for row in matrix], zero) == rank_over(matrix, zero)
-    return None if free else hidden_relation(forms.rows, forms.n, point)
+    has_motion = rank_over([row[: forms.n] for row in matrix], zero) == rank_over(matrix, zero)
+    return None if has_motion else hidden_relation(forms.rows, forms.n, point)
 
 
 def prolong(alternatives: Sequence[Sequence[Expr]], setting: Setting) -> tuple[tuple[Expr, ...], ...] | None:
-    """Return the branches on which the relations of some alternative vanish together, ``((),)`` for no alternatives.
+    """Return the branches of all alternatives: tuples of equations that together satisfy all relations of one.
 
-    Empty where no alternative can vanish, None where there are too many branches, or it is not known.
+    ``((),)`` for no alternatives; empty if no alternative can be satisfied; None if too many or undecided.
     """
     if not alternatives:
         return ((),)
     options = [_joint_branches(alternative, setting) for alternative in alternatives]
-    every = [branches for branches in options if branches is not None]
-    return tuple(dict.fromkeys(b for branches in every for b in branches)) if len(every) == len(options) else None
+    decided = [branches for branches in options if branches is not None]
+    return tuple(dict.fromkeys(b for branches in decided for b in branches)) if len(decided) == len(options) else None
 
 
 def _joint_branches(relations: Sequence[Expr], setting: Setting) -> list[tuple[Expr, ...]] | None:
-    """The branches on which all of some relations hold; None where they are too many or it is not known."""
+    """Return the branches of the common zero set of some relations, empty if there is none; None if undecided."""
     options = []
     for relation in relations:
         if never_vanishes(relation, setting.positive):
@@ -149,55 +149,53 @@ def _joint_branches(relations: Sequence[Expr], setting: Setting) -> list[tuple[E
 
 
 def hidden_relation(rows: FormRows, n: int, point: Point) -> tuple[tuple[Expr, ...], ...]:
-    """Return the alternatives for the largest minors with the time column: the common factor vanishes, or quotients.
+    """Return two ways for all largest minors with the time column to be 0: the common factor is, or all quotients are.
 
-    Each alternative is a tuple of expressions that vanish together. None is known where the minors grow too large.
-
-    ``n`` is the number of coordinate columns; time is column n. Which minors are not 0 is decided at a generic
-    point of the variety.
+    Each is a tuple of expressions that are 0 together. Empty if the minors are too large. ``n``: the index
+    of the time column. ``point``: a generic one, which decides what minors are not 0 identically.
     """
     at = values(rows.ring, point)
     zero = at[0] * 0
     numbers = rows.matrix(at, zero)
-    chosen: list[int] = []
+    independent: list[int] = []
     for r, row in enumerate(numbers):
-        if rank_over([*(numbers[k] for k in chosen), row], zero) > len(chosen):
-            chosen.append(r)
-    size = len(chosen)
+        if rank_over([*(numbers[k] for k in independent), row], zero) > len(independent):
+            independent.append(r)
+    size = len(independent)
     if size > MAX_SIZE:
         return ()
     canon = Canon(rows.ring)
     common: Any = None
     minors: list[Any] = []
-    looked: list[tuple[int, ...]] = []
+    chosen_columns: list[tuple[int, ...]] = []
     try:
-        table = [polynomials(canon, rows.entries[r], n + 1) for r in chosen]
+        table = [polynomials(canon, rows.entries[r], n + 1) for r in independent]
         for columns in islice(combinations(range(n), size - 1), MAX_CHOICES):
             check()
-            picked = (*columns, n)
-            if rank_over([[numbers[r][c] for c in picked] for r in chosen], zero) < size:
+            with_time = (*columns, n)
+            if rank_over([[numbers[r][c] for c in with_time] for r in independent], zero) < size:
                 continue
-            minor = determinant(canon, [[row[c] for c in picked] for row in table])
+            minor = determinant(canon, [[row[c] for c in with_time] for row in table])
             common = minor if common is None else common.gcd(minor)
             minors.append(minor)
-            looked.append(columns)
+            chosen_columns.append(columns)
             if len(minors) == MAX_MINORS or minor.is_constant():
                 break
         if common is None:
             return ()
         quotients = tuple(dict.fromkeys(canon.to_expr(divided(m, common)) for m in minors))
-        forced = divided(common, _content(canon, table, looked, common))
+        forced = divided(common, _content(canon, table, chosen_columns, common))
         return ((canon.to_expr(forced),), quotients)
     except NoValueError:
         return ()
 
 
-def _content(canon: Canon, table: Sequence[Sequence[Any]], looked: Sequence[Sequence[int]], common: Any) -> Any:
-    """Return the factor that a common factor of minors shares with all their cofactors of the time column.
+def _content(canon: Canon, table: Sequence[Sequence[Any]], chosen_columns: Sequence[Sequence[int]], common: Any) -> Any:
+    """Return the greatest common divisor of ``common`` and all cofactors of the time column in the minors.
 
-    Where it vanishes A loses rank, and nothing is forced: lambda A = 0 for the cofactors without it as well.
+    It is divided out, because where it is 0 only A loses rank, which implies no equation.
     """
-    for columns in looked:
+    for columns in chosen_columns:
         for rows in combinations(table, len(columns)):
             if common.is_constant() or not columns:
                 return common**0

@@ -1,6 +1,7 @@
-"""Freedom and labels of a block with differential relations from points over GF(p), held against a ball.
+"""The freedom of a block with differential relations and the labels of its rows, over GF(p) or with balls.
 
-Labels at a generic point are those of the component on which it was found [HermannNagano].
+D is the kernel of the rows, I^(inf) their largest integrable subsystem: the annihilator of the Lie algebra of D.
+A row is holonomic if it is in I^(inf). Labels are valid on the component of the generic point [HermannNagano].
 """
 
 from __future__ import annotations
@@ -37,25 +38,25 @@ from dofkit.relations.blocks import Block
 from dofkit.relations.normal.pieces import Finite, Pfaffian
 from dofkit.relations.setting import Setting
 
-#: Lie algebras are certified with balls up to so many columns; that brackets stay in D, by identities of so many rows.
+#: Lie algebras are certified with balls up to so many columns; D is proved involutive by identities up to so many rows.
 CERTIFIED_COLUMNS, MAX_FORMS = 16, 3
 
 
 @dataclass(frozen=True)
 class SampledForms:
-    """A block's rows at points over GF(p), ``samples``: the largest Lie algebra found stands for the generic one.
+    """A block's rows at points over GF(p), ``samples``; the largest Lie algebra among them counts as the generic one.
 
-    ``whole``: more is asked for than labels, so that identities are worth their time.
+    ``use_identities``: whether proofs by identities, which take longer, are tried (when more than labels is requested).
     """
 
     block: Block
     forms: Codistribution
     samples: Sequence[tuple[FieldPoint, SampledSpan]]
-    whole: bool
+    use_identities: bool
 
     @cached_property
     def trusted(self) -> bool:
-        """Whether functions that occur are known to be independent: GF(p) sees every relation among them."""
+        """Whether what is 0 at random points over GF(p) is an identity: the functions that occur are independent."""
         return independent_on_set(self.forms.chart.ring, self.forms.chart.nodes)
 
     @cached_property
@@ -69,17 +70,17 @@ class SampledForms:
 
     @property
     def sampled(self) -> SampledSpan:
-        """What is known there."""
+        """The frame, the matrix and the Lie algebra at `point`."""
         return self._largest[1]
 
     @property
     def columns(self) -> int:
-        """Coordinates, and time where it occurs."""
+        """The number of columns: coordinates, and time where it occurs."""
         return len(self.forms.chart.symbols)
 
     @property
     def rank(self) -> int:
-        """Independent rows."""
+        """The number of independent rows."""
         return len(self.sampled.frame.rows)
 
     @property
@@ -89,9 +90,9 @@ class SampledForms:
 
     @cached_property
     def is_involutive(self) -> bool:
-        """Whether brackets of fields that the frame's rows allow are allowed, of several fields by identities."""
+        """Whether D is closed under brackets: a line field always is; otherwise True only if identities prove it."""
         frame, allowed = self.sampled.frame, self.columns - self.rank
-        if allowed <= 1 or self.sampled.span.dimension > allowed or self.rank > MAX_FORMS or not self.whole:
+        if allowed <= 1 or self.sampled.span.dimension > allowed or self.rank > MAX_FORMS or not self.use_identities:
             return allowed <= 1
         rows = [r.piece for _, r, k in linear_rows(self.block, self.forms) if k in frame.rows]
         forms = [dict(p.items()) for p in rows if isinstance(p, Pfaffian)]
@@ -99,11 +100,11 @@ class SampledForms:
 
     @cached_property
     def rank_finite(self) -> int:
-        """Independent differentials of geometric equations."""
+        """The number of independent differentials of geometric equations."""
         return rank_of(self.sampled.matrix[: self.forms.finite], self.point.p)
 
 
-#: A Lie algebra and the matrix of the rows, over numbers whose being not 0 is proved.
+#: A Lie algebra and the matrix of the rows at a point, in numbers for which a value other than 0 is proved not to be 0.
 Certificate = tuple[Span, Sequence[Sequence[Scalar]]]
 
 
@@ -111,12 +112,12 @@ def field_labels(
     block: Block,
     forms: Codistribution,
     variety: Variety,
-    good: list[tuple[FieldPoint, SampledSpan]],
+    samples: list[tuple[FieldPoint, SampledSpan]],
     result: Answer,
     setting: Setting,
 ) -> None:
-    """Freedom and labels from points over GF(p), held against a ball where there is one."""
-    forms_at_points = SampledForms(block, forms, good, setting.grows)
+    """Set freedoms, labels and verdict in ``result`` from points over GF(p), certified by a ball where there is one."""
+    forms_at_points = SampledForms(block, forms, samples, setting.grows)
     if not forms_at_points.trusted and "balls" not in setting.engines:
         result.verdict = "undecided"
         result.reasons.append("the functions that occur may satisfy an identity that points over GF(p) do not detect")
@@ -143,7 +144,7 @@ def field_labels(
     result.argument = "Lie algebra, certified" if result.verdict == "proved" else "Lie algebra at points"
     rows = forms.rows.entries
     result.bits = error_bits(forms.chart.ring, [node for row in rows for node in row.values()], len(rows))
-    if any(s.span.dimension != forms_at_points.sampled.span.dimension for _, s in good):
+    if any(s.span.dimension != forms_at_points.sampled.span.dimension for _, s in samples):
         result.verdict = weakest(result.verdict, "probable")
         result.reasons.append("the freedom differs between points; the generic value is given")
     _set_labels(forms_at_points, proof_of, result)
@@ -151,21 +152,20 @@ def field_labels(
 
 
 def _set_freedom(forms_at_points: SampledForms, result: Answer, setting: Setting) -> None:
-    """n - rank velocities, n - rank I^(inf) freedoms, and where they are asked for the growth and the derived flag."""
+    """Set velocity freedom n - rank, freedom n - rank I^(inf), and if requested growth vector and derived flag."""
     forms, point, sampled = forms_at_points.forms, forms_at_points.point, forms_at_points.sampled
     result.matrix, result.modulus = sparse(sampled.matrix), point.p
     result.method = "Lie algebra along a curve over GF(p)"
     result.velocity_dof = forms.n - forms_at_points.rank
     result.dof = forms.n - forms_at_points.integrable
-    asked = setting.grows and sampled.span.grows_at_once
-    if asked:
-        span = sampled.span
+    span = sampled.span
+    if setting.grows and span.grows_at_once:
         result.growth = span.growth or spanning_curves(forms.rows, sampled.frame, point, span)[1]
     result.derived = derived_flag(forms.rows, sampled.frame, point, sampled.span) if setting.flag else None
 
 
 def _set_labels(forms_at_points: SampledForms, proof_of: Certificate | None, result: Answer) -> None:
-    """The label of every row, finite ones and forms; where one is undecided, so is the freedom."""
+    """Set the label of every row, geometric or Pfaffian; if one is undecided, the freedom is set to undecided too."""
     for i, row, place in linear_rows(forms_at_points.block, forms_at_points.forms):
         if isinstance(row.piece, Finite):
             result.labels[i] = HolonomyLabel(True, "proved")
@@ -179,10 +179,9 @@ def _set_labels(forms_at_points: SampledForms, proof_of: Certificate | None, res
 
 
 def certificate(forms_at_points: SampledForms, variety: Variety) -> Certificate | None:
-    """A span and a matrix whose non-zero values are proved not to be 0.
+    """Return the certificate: over GF(p) if functions are independent and no geometric equation occurs; else in balls.
 
-    Where the generators are known to be independent and no geometric equation relates them, what is not 0 at a
-    point over GF(p) is not 0 as a function; else balls at a real point, up to `CERTIFIED_COLUMNS`.
+    None without a certain real point, with more than `CERTIFIED_COLUMNS` columns, or at a singular point.
     """
     real = variety.real
     if real is None or not real.certain:
@@ -195,9 +194,10 @@ def certificate(forms_at_points: SampledForms, variety: Variety) -> Certificate 
 
 
 def _depend_identically(forms_at_points: SampledForms, proof_of: Certificate | None, on_relation: bool) -> bool:
-    """Return whether each row that depends on others is a combination of these, by identities and near a point.
+    """Return whether each row that depends on others is proved, by identities, to be a combination of these.
 
-    ``on_relation``: where the only geometric equation is satisfied; else everywhere.
+    ``on_relation``: only where the single geometric equation is satisfied; else everywhere. The minor by which the
+    identities divide must not be 0 in the certificate ``proof_of``.
     """
     forms, sampled, p = forms_at_points.forms, forms_at_points.sampled, forms_at_points.point.p
     for i, support in echelon(sparse(sampled.matrix), p, supports=True).supports.items():
@@ -213,11 +213,11 @@ def _depend_identically(forms_at_points: SampledForms, proof_of: Certificate | N
 def _rank_verdict(
     forms_at_points: SampledForms, proof_of: Certificate | None, result: Answer, setting: Setting
 ) -> Verdict:
-    """How certain the rank and the Lie algebra's dimension are.
+    """Return how certain the rank of the rows and the dimension of the Lie algebra are: proved or probable.
 
-    Independent rows have their rank certified by the ball, others depend on them by identities. The dimension is not
-    too large by a certificate of the ball; not too small where it is everything, where D is a line or involutive, and
-    where as many rows integrate by themselves, or integrals are known, as the Lie algebra leaves directions out.
+    The ball certifies that rank and dimension are not smaller; identities, that the rank is not larger. The dimension
+    is not larger if it is that of the space, if D is a line or involutive, or if as many rows are integrable alone, or
+    as many first integrals are found, as the Lie algebra has codimension.
     """
     sampled, rank, n = forms_at_points.sampled, forms_at_points.rank, forms_at_points.columns
     if proof_of is None or proof_of[0].dimension != sampled.span.dimension:
@@ -228,43 +228,41 @@ def _rank_verdict(
         return "proved"
     rows = linear_rows(forms_at_points.block, forms_at_points.forms)
     forms = [r.piece for _, r, k in rows if isinstance(r.piece, Pfaffian) and k in sampled.frame.rows]
-    wanted = n - sampled.span.dimension - (rank - len(forms))
-    spare = len(forms) - wanted
-    unproved = islice((f for f in forms if proof(f, setting.positive) is None), spare + 1) if spare >= 0 else forms
-    if (spare >= 0 and len([*unproved]) <= spare) or forms_at_points.is_involutive:
+    integrable = n - sampled.span.dimension - (rank - len(forms))
+    spare = len(forms) - integrable  # so many forms need no proof that they are integrable
+    unproved = islice((f for f in forms if proof(f, setting.positive) is None), max(spare + 1, 0))
+    if len([*unproved]) <= spare or forms_at_points.is_involutive:
         return "proved"
     number = forms_at_points.integrable - forms_at_points.rank_finite
-    possible = forms_at_points.whole and result.trusted and is_short(forms_at_points.forms)
-    integrals = first_integrals(forms_at_points.forms, number) if possible else []
+    may_integrate = forms_at_points.use_identities and result.trusted and is_short(forms_at_points.forms)
+    integrals = first_integrals(forms_at_points.forms, number) if may_integrate else []
     return "proved" if sum(f.identically for f in integrals) == number else "probable"
 
 
 def _label(place: int, forms_at_points: SampledForms, proof_of: Certificate | None, identical: bool) -> HolonomyLabel:
-    """Return whether the row annihilates the Lie algebra of D, so is in the largest integrable part [HermannNagano].
+    """Return the label of the row ``place``: holonomic if it annihilates the Lie algebra of D [HermannNagano].
 
-    Rows that leave a line, or an involutive D, are all in it, and what depends on them by an identity.
+    Proved where D is a line or involutive, because then I^(inf) contains all independent rows of the frame, and the
+    rows that depend on them identically.
     """
     zero = [all(v == 0 for v in pairing(s.matrix[place], s.span.vectors)) for _, s in forms_at_points.samples]
     if all(zero):
         line = forms_at_points.columns - forms_at_points.rank <= 1
-        counted = line or identical or place in forms_at_points.sampled.frame.rows
-        sure = proof_of is not None and counted and forms_at_points.is_involutive
+        in_rows = line or identical or place in forms_at_points.sampled.frame.rows
+        sure = proof_of is not None and in_rows and forms_at_points.is_involutive
         return HolonomyLabel(True, "proved" if sure else "probable", "line" if line else "")
     disagree = "exact arithmetic and certified intervals disagree: an identity between functions was not detected"
+    undecided = HolonomyLabel(None, "undecided", disagree)
     if proof_of is None:
-        return (
-            HolonomyLabel(False, "probable") if forms_at_points.trusted else HolonomyLabel(None, "undecided", disagree)
-        )
+        return HolonomyLabel(False, "probable") if forms_at_points.trusted else undecided
     span, matrix = proof_of
-    if not all(map(vanishes, pairing(matrix[place], span.vectors))):
-        return HolonomyLabel(False, "proved")
-    return HolonomyLabel(None, "undecided", disagree)
+    return undecided if all(map(vanishes, pairing(matrix[place], span.vectors))) else HolonomyLabel(False, "proved")
 
 
 def _modulo_the_others(place: int, sampled: SampledSpan, p: int) -> bool:
-    """Return whether the row is in the sum of the largest integrable part and the other rows, but not in their span.
+    """Return whether the row is in the sum of I^(inf) and the span of the other rows, but not in that span.
 
-    It is in that sum where it vanishes on all vectors of the Lie algebra on which the other rows vanish.
+    It is in the sum if it vanishes on all vectors of the Lie algebra on which the other rows vanish.
     """
     others = [row for i, row in enumerate(sampled.matrix) if i != place]
     if not others or rank_of(others, p) == rank_of(sampled.matrix, p):
@@ -276,7 +274,7 @@ def _modulo_the_others(place: int, sampled: SampledSpan, p: int) -> bool:
 
 
 def integrable_names(forms: Codistribution, point: FieldPoint, span: Span) -> tuple[str, ...]:
-    """Dependent coordinates: pivots of the annihilator of the Lie algebra at a point."""
+    """Return the names of the dependent coordinates: pivots of the annihilator of the Lie algebra at a point."""
     if not span.vectors:
         return tuple(str(s.args[1]) for s in forms.chart.symbols if s != ex.TIME)
     rows = null_vectors(residue_matrix([[int(v) for v in vector] for vector in span.vectors], point.p))
@@ -284,12 +282,15 @@ def integrable_names(forms: Codistribution, point: FieldPoint, span: Span) -> tu
 
 
 def ball_labels(block: Block, forms: Codistribution, real: RealPoint, result: Answer) -> Span | None:
-    """Set labels from a real point, where what a tiny ball contains 0 of is taken for 0; return its Lie algebra."""
+    """Set freedoms, labels and verdict from balls at a real point, and return its Lie algebra; None if it is singular.
+
+    A ball that contains 0 counts as 0, so that a result is at best numeric unless no such ball matters.
+    """
     at = values(forms.chart.ring, real.point)
     matrix = forms.rows.matrix(at, arb(0))
     part = ball_part(matrix)
     rank = part.rank
-    total, n = len(forms.chart.symbols), forms.n
+    total, n = len(forms.chart.symbols), forms.n  # columns with and without time
     lie_algebra = ball_span(forms, rank, real.point)
     if lie_algebra is None or part.gap < CLEAR:
         result.verdict, result.consistent = "undecided", None
@@ -297,7 +298,7 @@ def ball_labels(block: Block, forms: Codistribution, real: RealPoint, result: An
         return None
     span, _ = lie_algebra
     reached = span.dimension == total - forms.finite
-    brackets = ball_part(span.vectors)  # pivots fall anyway: what is left of the Lie algebra lies below them by less
+    brackets = ball_part(span.vectors)  # a missed bracket may be smaller than the last pivot by the usual ratio `fall`
     gap = part.gap if reached else min(part.gap, brackets.gap / brackets.fall)
     result.verdict, result.method = "numeric", "Lie algebra along a curve with balls"
     result.argument, result.gap = "Lie algebra with balls", gap
@@ -329,38 +330,42 @@ def ball_labels(block: Block, forms: Codistribution, real: RealPoint, result: An
 
 
 def reference_points(forms: Codistribution, reference: Mapping[Expr, Expr]) -> list[FieldPoint] | None:
-    """Return the reference configuration (t = 0) over GF(p), one point per sample; none if an equation is not 0 there.
+    """Return `SAMPLES` points over GF(p) at the reference configuration (t = 0), other symbols random.
 
-    None where it has no point over GF(p): numbers there may be related in a way that is not known.
+    Empty if it does not satisfy the geometric equations; None if it cannot be written over GF(p), or constants occur
+    that may satisfy an unknown relation.
     """
     points = [pose_point(forms.chart, {**reference, ex.TIME: ex.ZERO}, 11 + k) for k in range(SAMPLES)]
-    drawn = [point for point in points if point is not None]
-    if len(drawn) < SAMPLES or odd_constants(forms.chart.ring, named=True):
+    defined = [point for point in points if point is not None]
+    if len(defined) < SAMPLES or odd_constants(forms.chart.ring, named=True):
         return None
-    return drawn if all(on_variety(forms.chart, point) for point in drawn) else []
+    return defined if all(on_variety(forms.chart, point) for point in defined) else []
 
 
 def span_at_reference(forms: Codistribution, reference: Mapping[Expr, Expr]) -> tuple[FieldPoint, SampledSpan] | None:
-    """Return the reference configuration over GF(p) and the Lie algebra there; None where it has no such point."""
+    """Return a point over GF(p) at the reference configuration and the Lie algebra there; None if there is none."""
     points = reference_points(forms, reference) if "field" in forms.chart.setting.engines else None
-    sampled = span_at(forms, points[0], True) if points else None
+    sampled = span_at(forms, points[0], special=True) if points else None
     return (points[0], sampled) if points and sampled else None
 
 
 def set_at_reference(forms: Codistribution, reference: tuple[FieldPoint, SampledSpan], result: Answer) -> None:
-    """Set what the reference has of its own: dependent coordinates; no matrix if rows that others need lose rank."""
-    point, here = reference
-    result.dependent = integrable_names(forms, point, here.span)
-    kept = echelon(result.matrix, result.modulus).independent
-    if rank_of([here.matrix[k] for k in kept], point.p) < len(kept):
+    """Set in ``result`` the dependent coordinates at the reference; clear its matrix if the rows have lower rank there.
+
+    The matrix, that at a generic point, would then give wrong dependences there.
+    """
+    point, sampled = reference
+    result.dependent = integrable_names(forms, point, sampled.span)
+    independent = echelon(result.matrix, result.modulus).independent
+    if rank_of([sampled.matrix[k] for k in independent], point.p) < len(independent):
         result.matrix = []
 
 
 def is_exceptional(forms: Codistribution, reference: tuple[FieldPoint, SampledSpan], rank: int, span: Span) -> bool:
-    """Return whether the rows or the Lie algebra are smaller at the reference configuration than elsewhere.
+    """Return whether the rank of the rows or the dimension of the Lie algebra is smaller at the reference.
 
-    Several leaves, or one of smaller dimension, can pass through such a configuration [HermannNagano]. Rows count by
-    what they say of velocities: where only the dt term remains no motion passes.
+    Several leaves, or one of smaller dimension, can pass through such a configuration [HermannNagano]. The rank is that
+    of the coordinates' columns: a row with only a dt term excludes motion instead of restricting velocities.
     """
-    point, here = reference
-    return rank_of([row[: forms.n] for row in here.matrix], point.p) < rank or here.span.dimension < span.dimension
+    point, at = reference
+    return rank_of([row[: forms.n] for row in at.matrix], point.p) < rank or at.span.dimension < span.dimension

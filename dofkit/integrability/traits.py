@@ -1,4 +1,4 @@
-"""What one piece says by itself: whether time occurs in it, catastatic, exact, and a proof that a form integrates."""
+"""Labels of one piece on its own (scleronomic, catastatic, exact), and proofs that one form is integrable."""
 
 from __future__ import annotations
 
@@ -29,10 +29,10 @@ from dofkit.relations.setting import Setting
 
 @dataclass(frozen=True)
 class Traits:
-    """The labels of one piece.
+    """The labels of one piece on its own, each with its certainty.
 
-    ``timeless``: t does not occur explicitly; ``catastatic`` is None for what holds no velocities or is an inequality,
-    ``exact`` for what is not Pfaffian.
+    ``timeless``: t does not occur explicitly (scleronomic). ``catastatic``: admits zero velocity; None for geometric
+    equations and inequalities. ``exact``: the form is closed as written; None for all but Pfaffian pieces.
     """
 
     timeless: TraitAnswer
@@ -41,7 +41,7 @@ class Traits:
 
 
 def traits_of(piece: Clause, positive: frozenset[Expr], engines: Engines = BOTH) -> Traits:
-    """Return all labels that a piece carries by itself."""
+    """Return the labels of a piece."""
     without_t = timeless(piece, positive, engines)
     if isinstance(piece, Nonlinear):
         return Traits(without_t, _is_cone(piece.expr, positive, engines))
@@ -51,10 +51,10 @@ def traits_of(piece: Clause, positive: frozenset[Expr], engines: Engines = BOTH)
 
 
 def timeless(piece: Clause, positive: frozenset[Expr], engines: Engines = BOTH) -> TraitAnswer:
-    """Return whether t does not occur explicitly, once removable factors are taken out, and how certain that is.
+    """Return whether the set that a piece describes is the same at all times, and how certain that is.
 
-    A piece is the zero set of a function of coordinates, velocities and time, or the side of it where the function is
-    positive. What is left of t in the function does not matter where the set is the same at all times.
+    The set is where a function of coordinates, velocities and time is 0, or for an inequality where it is positive.
+    Factors without zeros are removed first, so that t may occur in them.
     """
     e = piece.rate if isinstance(piece, Pfaffian) else piece.expr
     if ex.TIME not in e.symbols:
@@ -67,12 +67,13 @@ def timeless(piece: Clause, positive: frozenset[Expr], engines: Engines = BOTH) 
     answers = [_is_still(f, sided, positive, engines) for f in factors]
     if (False, "proved") in answers:
         return False, "proved"
+    # factors that have no zero do not count
     kept = [answer for f, answer in zip(factors, answers, strict=True) if not no_solution([f], positive)]
     return all_of(kept) if not sided or not kept else (None, "undecided")
 
 
 def _is_still(f: Expr, sided: bool, positive: frozenset[Expr], engines: Engines) -> TraitAnswer:
-    """Return whether the zero set of a factor is the same at all times: df/dt = 0 on it, where it is regular."""
+    """Return whether the zero set of a factor f is the same at all times: df/dt = 0 on it, where it is regular."""
     moving = [s for s in f.symbols if s.args[0] in ("coordinate", "velocity")]
     if not moving:
         return None, "undecided"
@@ -80,10 +81,10 @@ def _is_still(f: Expr, sided: bool, positive: frozenset[Expr], engines: Engines)
 
 
 def _factors_left(e: Expr, sided: bool, positive: frozenset[Expr]) -> list[Expr]:
-    """Return the factors of the numerator, over the rationals, without those that can be taken out.
+    """Return the factors of e's numerator over the rationals, without those that do not matter for its zero set.
 
-    Those have no zero, or of an equation cannot rest at 0: analytic functions of time alone, which vanish at single
-    instants only [IsolatedZeros], and declared functions, which are generic, together with another factor.
+    Removed are factors with t that never vanish and, from an equation with other factors, analytic functions of time
+    alone, which vanish only at single instants [IsolatedZeros], and declared functions, which are generic.
     """
     try:
         canon, [(top, _)] = quotients_of([e], positive)
@@ -104,7 +105,7 @@ def _is_of_time_alone(e: Expr) -> bool:
 
 
 def _is_cone(e: Expr, positive: frozenset[Expr], engines: Engines) -> TraitAnswer:
-    """Return whether e = 0 is homogeneous in the velocities where it holds: v . de/dv = 0 there (Euler)."""
+    """Return whether the velocities with e = 0 form a cone: v . de/dv = 0 on e = 0 (Euler); then it is catastatic."""
     radial = ex.add(*(v * diff(e, v) for v in sorted(velocities_of(e), key=repr)))
     return (True, "proved") if _is_homogeneous(e) else vanishes_on(e, radial, positive, engines, velocities_of(e))
 
@@ -114,12 +115,12 @@ def vanishes_on(
 ) -> TraitAnswer:
     """Return whether ``slope`` = 0 wherever g = 0, and how certain that is.
 
-    A certified point where it is not is a proof that it is not. With ``regular_in``, for a slope along a direction, g
-    must not be stationary in these symbols there: otherwise that slope does not tell whether the set is the same along
-    it. What one factor, one branch of a root or one sign of an absolute value shows is not claimed of others.
+    ``slope`` is a derivative of g along a direction. With ``regular_in``, only points count at which g has a non-zero
+    derivative by one of these symbols, because at singular points the slope is 0 in any case. True only if g is
+    irreducible and analytic, since the random point lies on one factor, and on one branch of every root and sign.
     """
-    still, sure = zero_and_verdict(slope, positive, engines)
-    if still:
+    identical, sure = zero_and_verdict(slope, positive, engines)
+    if identical:
         return (True, sure) if is_analytic(g, [ex.TIME], positive) else (None, "undecided")
     slopes = [diff(g, s) for s in sorted(regular_in or (), key=repr)]
     ring = Ring([g, slope, *slopes], positive)
@@ -129,25 +130,25 @@ def vanishes_on(
         at = [] if point is None else values(ring, point)
         if at and at[rate] == 0:
             regular = not others or any(at[k] != 0 for k in others)
-            whole = regular and is_analytic(g, g.symbols, positive) and _is_irreducible(g, positive)
-            return (True, "probable") if whole else (None, "undecided")
+            generic = regular and is_analytic(g, g.symbols, positive) and _is_irreducible(g, positive)
+            return (True, "probable") if generic else (None, "undecided")
     except NoValueError:
         return None, "undecided"
     if "balls" not in engines:
         certain = point is not None and independent_on_set(ring, [node])
         return (False, "probable") if certain else (None, "undecided")
     real = _real_point(ring, node, g, positive)
-    apart = real is not None and _is_apart(ring, real, rate, others)
-    if real is not None and apart and real.certified:
+    nonzero = real is not None and _is_nonzero(ring, real, rate, others)
+    if real is not None and nonzero and real.certified:
         return False, "proved"
-    return (False, "numeric") if point is not None and apart else (None, "undecided")
+    return (False, "numeric") if point is not None and nonzero else (None, "undecided")
 
 
 @false_without_value
 def _is_irreducible(g: Expr, positive: frozenset[Expr]) -> bool:
-    """Return whether g has one factor over the rationals; False where it is too large to be factored.
+    """Return whether g's numerator is proved to be irreducible; False if it is too large to be factored.
 
-    Roots of numbers may make factors that are none over the rationals: x^2 + sqrt(2) x (1 - t) - 2 t is a product.
+    False also with roots of numbers: x^2 + sqrt(2) x (1 - t) - 2 t is a product, but not over the rationals.
     """
     canon, [(top, _)] = quotients_of([g], positive)
     numbers = any(
@@ -165,14 +166,14 @@ def _real_point(ring: Ring, node: int, g: Expr, positive: frozenset[Expr]) -> Re
     return real or RealSearch(ring, [node], sorted(g.symbols, key=repr), positive).search()
 
 
-def _is_apart(ring: Ring, real: RealPoint, rate: int, others: list[int]) -> bool:
-    """Return whether a number is not 0 at a point, and one of the others, where there are any, is not either."""
+def _is_nonzero(ring: Ring, real: RealPoint, rate: int, others: list[int]) -> bool:
+    """Return whether the node ``rate``, and one of ``others`` if there are any, is certainly not 0 at a real point."""
     at = values(ring, real.point)
     return not at[rate].contains(0) and (not others or any(not at[k].contains(0) for k in others))
 
 
 def _is_homogeneous(e: Expr) -> bool:
-    """Return whether an expression, as it is written, is homogeneous in the velocities."""
+    """Return whether an expression is, as written, homogeneous in the velocities."""
     try:
         differential_degree(substitute(e, {v: ex.differential(str(v.args[1])) for v in velocities_of(e)}))
     except TextError:
@@ -181,7 +182,7 @@ def _is_homogeneous(e: Expr) -> bool:
 
 
 def exact(form: Pfaffian, positive: frozenset[Expr], engines: Engines = BOTH) -> TraitAnswer:
-    """Closed as written: d(omega) = 0 in (q, t). Not integrability: x dy - y dx integrates and is not closed."""
+    """Return whether d(omega) = 0 in (q, t) for the form as written. x dy - y dx is integrable, but not closed."""
     sure: Verdict = "proved"
     for (s, a), (u, b) in combinations(form.components.items(), 2):
         closed, verdict = zero_and_verdict(diff(b, s) - diff(a, u), positive, engines)
@@ -193,7 +194,7 @@ def exact(form: Pfaffian, positive: frozenset[Expr], engines: Engines = BOTH) ->
 
 @dataclass(frozen=True)
 class Integrability:
-    """``proved``: the form is integrable and why is in ``reason``; ``factor`` and ``integral`` as text where found."""
+    """Whether a form is proved integrable, the reason as text, and the integrating factor and integral if found."""
 
     proved: bool
     reason: str = ""
@@ -202,7 +203,10 @@ class Integrability:
 
 
 def integrability(form: Pfaffian, positive: frozenset[Expr], alone: bool | None) -> Integrability:
-    """What can be proved of one form that is integrable alone as far as is known (``alone``)."""
+    """Return the proof, if any, that a form is integrable; ``alone``: whether it is by numbers, None if undecided.
+
+    An integral is searched for only if there is a proof or ``alone`` is True; if it is False nothing is tried.
+    """
     if alone is False:
         return Integrability(False)
     reason = proof(form, positive)
@@ -214,6 +218,7 @@ def integrability(form: Pfaffian, positive: frozenset[Expr], alone: bool | None)
 
 
 def _ring(form: Pfaffian, positive: frozenset[Expr]) -> Ring:
+    """Return a ring with the coefficients of the form."""
     ring = Ring([e for _, e in form.items()], positive)
     for _, e in form.items():
         ring.node(e)
@@ -221,7 +226,7 @@ def _ring(form: Pfaffian, positive: frozenset[Expr]) -> Ring:
 
 
 def proof(form: Pfaffian, positive: frozenset[Expr]) -> str | None:
-    """Why the form integrates by itself, where that is proved; else None."""
+    """Return the reason why the form is integrable on its own, or None where that is not proved."""
     if exact(form, positive) == (True, "proved"):  # [PoincareLemma]
         return "it is closed, so locally it is the differential of a function"
     if len(form.components) <= 2:  # [Frobenius1877]
@@ -232,14 +237,13 @@ def proof(form: Pfaffian, positive: frozenset[Expr]) -> str | None:
 
 
 def is_curved(form: Pfaffian, setting: Setting) -> bool:
-    """Return whether d(omega) ^ omega is proved not to be 0 on an open dense set: alone the form does not integrate."""
+    """Return whether d(omega) ^ omega is proved non-zero on an open dense set, so the form alone is not integrable."""
     analytic = all(is_analytic(e, e.symbols, setting.positive) for _, e in form.items())
-    asked = analytic and setting.engines == BOTH
-    return asked and (False, "proved") in _curvature(form, setting.positive)
+    return analytic and setting.engines == BOTH and (False, "proved") in _curvature(form, setting.positive)
 
 
 def _curvature(form: Pfaffian, positive: frozenset[Expr]) -> Iterator[TraitAnswer]:
-    """Yield whether d(omega) ^ omega is 0, component by component [Frobenius1877]."""
+    """Yield for every component of d(omega) ^ omega whether it is 0 [Frobenius1877]."""
     for (s, a), (u, b), (w, c) in combinations(form.components.items(), 3):
         total = a * (diff(c, u) - diff(b, w))
         total += b * (diff(a, w) - diff(c, s))

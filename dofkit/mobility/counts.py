@@ -1,10 +1,9 @@
-"""Counts of mobility by textbook formulas, and why each is off where it is.
+"""Counts of mobility by textbook formulas, and the reason if they differ from the true freedom.
 
 f = N d - k counts coordinates and equations, with d(d+1)/2 for a rigid body. Gruebler and Kutzbach count bodies and
-joints: M = D(N - 1 - j) + f_1 + ... + f_j with D = 3 in the plane and 6 in space takes every loop to close by D
-independent conditions. The motions that the joints of a loop allow span a space of some dimension at most D (their
-screws), and where it is smaller the loop closes by fewer: all hinges parallel or through one point give 3, Bennett's
-four give 3 [GrueblerKutzbach] [Bennett1903].
+joints: M = D(N - 1 - j) + f_1 + ... + f_j with D = 3 in the plane and 6 in space assumes that every loop has D
+independent closure conditions. It has only as many as the joint screws (twists that the joints allow) of the loop are
+independent: 3 if all hinges are parallel or meet in one point, 3 for Bennett's four [GrueblerKutzbach] [Bennett1903].
 """
 
 from __future__ import annotations
@@ -21,16 +20,16 @@ from dofkit.mobility.placement import TURNS, Located, Member, Placement, rows_of
 from dofkit.report import ConstraintEntry, Count, Mobility
 from dofkit.system import DRIVE, GROUND, System
 
-#: More loops than this are not looked at one by one, and more than these are not listed.
+#: Bounds on the loops that are analysed one by one, and on those that are listed.
 MOST_LOOPS, MOST_TOLD = 60, 4
 
-#: Where the connections are drawn, once it is asked for.
-Drawing = Callable[[], Placement | None]
+#: A function that computes the placement at the reference configuration.
+PlacementMaker = Callable[[], Placement | None]
 
 
 @dataclass(frozen=True)
 class CountedJoint:
-    """A constraint between two bodies, or a body and the ground: ``freedom`` without its drive."""
+    """A joint (a constraint) between two bodies, or a body and the ground; ``freedom``: its own, without its drive."""
 
     constraint: int
     first: str
@@ -40,7 +39,7 @@ class CountedJoint:
 
 
 def joints_of(system: System, equations: Sequence[int]) -> list[CountedJoint]:
-    """Return the constraints that count as joints; ``equations`` of every constraint."""
+    """Return the constraints that count as joints; ``equations``: the number of equations of every constraint."""
     moving = set(system.bodies)
     whole = freedom_of_body(system)
     joints = []
@@ -55,7 +54,7 @@ def joints_of(system: System, equations: Sequence[int]) -> list[CountedJoint]:
 
 
 def without_drives(system: System) -> System | None:
-    """Return the system with every drive of a joint released; None where no joint is driven."""
+    """Return the system with every drive of a joint released; None if no joint is driven."""
     driven = {c.constraint for c in system.connections if c.driven}
     if not driven:
         return None
@@ -75,9 +74,9 @@ def freedom_of_body(system: System) -> int:
 
 
 def kutzbach_count(
-    system: System, equations: Sequence[int], others: int, freedom: int | None, drawn: Drawing
+    system: System, equations: Sequence[int], others: int, freedom: int | None, placed: PlacementMaker
 ) -> Mobility | None:
-    """Return the count beside the velocity freedom; ``others``: equations of joints and finite ones, all counted."""
+    """Return Kutzbach's count and why it differs from ``freedom``; ``others``: number of all equations to count."""
     joints = joints_of(system, equations)
     if not joints:
         return None
@@ -97,12 +96,12 @@ def kutzbach_count(
         formula=formula,
         kutzbach=kutzbach,
         freedom=freedom,
-        differs=None if freedom is None or freedom == kutzbach else _why(system, joints, kutzbach, freedom, drawn),
+        differs=None if freedom is None or freedom == kutzbach else _why(system, joints, kutzbach, freedom, placed),
     )
 
 
 def _terms(system: System, joints: Sequence[CountedJoint], equations: int) -> list[tuple[str, int, str]]:
-    """(sign, number, what it counts) of what is counted besides."""
+    """Return the nonzero (sign, number, what it counts) of further terms of the count."""
     driven = sum(j.driven for j in joints)
     owned = freedom_of_body(system) * len(system.bodies) + system.dimension * len(system.particles)
     further = len(system.coordinates) - owned
@@ -115,30 +114,31 @@ def _terms(system: System, joints: Sequence[CountedJoint], equations: int) -> li
     return [term for term in terms if term[1]]
 
 
-def _why(system: System, joints: Sequence[CountedJoint], kutzbach: int, freedom: int, drawn: Drawing) -> str:
+def _why(system: System, joints: Sequence[CountedJoint], kutzbach: int, freedom: int, placed: PlacementMaker) -> str:
+    """Return why the freedom differs from the count."""
     if freedom < kutzbach:
         return (
             "the equations remove more degrees of freedom than their number, because of this special configuration or "
             "because differential constraints integrate"
         )
-    placement = drawn()
-    said = "" if placement is None else _of_screws(system, joints, freedom, placement)
+    placement = placed()
+    cause = "" if placement is None else _of_screws(system, joints, freedom, placement)
     more = freedom - kutzbach
     start = f"{more} of the equations that are counted as independent {verb(more, 'depends', 'depend')} on the others"
-    return f"{start}: {said}" if said else start
+    return f"{start}: {cause}" if cause else start
 
 
-def _of_screws(system: System, joints: Sequence[CountedJoint], freedom: int, drawn: Placement) -> str:
-    """What the joints' screws say: the dimension of their span, all together or loop by loop."""
+def _of_screws(system: System, joints: Sequence[CountedJoint], freedom: int, placement: Placement) -> str:
+    """Return a reason by the dimension of the span of the joint screws, of all joints or loop by loop."""
     whole, d = freedom_of_body(system), system.dimension
     names = [c.name for c in system.constraints]
-    screws = {j: allowed(drawn.located[j.constraint], d, drawn.p) for j in joints}
-    span = rank_of_rows([s for j in joints for s in screws[j]], drawn.p)
-    alone = len(system.constraints) == len(joints)
+    screws = {j: allowed(placement.located[j.constraint], d, placement.p) for j in joints}
+    span = rank_of_rows([s for j in joints for s in screws[j]], placement.p)
+    only_joints = len(system.constraints) == len(joints)
     bodies, total = len(system.bodies), sum(j.freedom for j in joints)
     driven = sum(j.driven for j in joints)
     count = span * (bodies - len(joints)) + total - driven
-    if span < whole and alone and count == freedom:
+    if span < whole and only_joints and count == freedom:
         numbers = f"{span}({bodies + 1} - 1 - {len(joints)}) + {total}{f' - {driven}' if driven else ''} = {count}"
         return (
             f"the joint screws form a {span}-system, not a {whole}-system; "
@@ -147,7 +147,7 @@ def _of_screws(system: System, joints: Sequence[CountedJoint], freedom: int, dra
     closures = []
     loops = _loops(joints)
     for loop in loops[:MOST_LOOPS]:
-        span = rank_of_rows([s for j in loop for s in screws[j]], drawn.p)
+        span = rank_of_rows([s for j in loop for s in screws[j]], placement.p)
         if span < whole:
             closures.append(_closure([names[j.constraint] for j in loop], loop, span, whole))
     more = f"; and {many(len(closures) - MOST_TOLD, 'more loop')}" if len(closures) > MOST_TOLD else ""
@@ -157,7 +157,7 @@ def _of_screws(system: System, joints: Sequence[CountedJoint], freedom: int, dra
 
 
 def _closure(names: Sequence[str], loop: Sequence[CountedJoint], span: int, whole: int) -> str:
-    """Return what is said of a loop whose screws span fewer dimensions than those of a body."""
+    """Return the sentence on a loop whose screws have the rank ``span``, less than the ``whole`` of a body."""
     if len(loop) == 2 and all(j.freedom == span for j in loop):
         return f"{names[0]} and {names[1]} allow the same bodies the same motions"
     conditions = many(span, "condition")
@@ -165,7 +165,7 @@ def _closure(names: Sequence[str], loop: Sequence[CountedJoint], span: int, whol
 
 
 def allowed(joint: Located, dimension: int, p: int) -> list[SparseRow]:
-    """A basis of the twists that a joint allows the second body against the first, at the world's origin modulo p."""
+    """Return a basis of the twists that a joint allows its last body relative to the other, at the origin, modulo p."""
     size = dimension + TURNS[dimension]
     ground, free = Member(None), Member(0, (0,) * dimension)
     bodies = [m for m in joint.members if m.column is not None]
@@ -179,7 +179,7 @@ def allowed(joint: Located, dimension: int, p: int) -> list[SparseRow]:
 
 
 def _kernel(rows: Sequence[SparseRow], size: int, p: int) -> list[SparseRow]:
-    """Return a basis of the vectors on which few rows modulo p vanish."""
+    """Return a basis of the kernel of sparse rows modulo p."""
     matrix = residue_matrix([[row.get(c, 0) for c in range(size)] for row in rows] or [[0] * size], p)
     return [{c: int(v) for c, v in enumerate(vector) if v} for vector in null_vectors(matrix)]
 
@@ -208,7 +208,7 @@ def _loops(joints: Sequence[CountedJoint]) -> list[list[CountedJoint]]:
 
 @dataclass(frozen=True)
 class CountedFacts:
-    """What the count is compared with."""
+    """The numbers with which f = N d - k is compared, such as those of ``written`` and ``hidden`` equations."""
 
     written: int
     dof: int | None
@@ -218,7 +218,7 @@ class CountedFacts:
 
 
 def count(system: System, facts: CountedFacts) -> Count:
-    """Return the count of all geometric equations as written, with d(d+1)/2 coordinates for a rigid body."""
+    """Return the textbook count f = N d - k of all geometric equations as written, and why it differs."""
     coordinates = len(system.coordinates)
     naive = coordinates - facts.written
     independent = None if facts.dof is None else coordinates - facts.dof
@@ -267,15 +267,14 @@ def why(system: System, facts: CountedFacts, naive: int) -> str | None:
             else f"only {independent} of the {facts.written} geometric equations {verb(independent)} independent: "
             "a dependent equation removes no degree of freedom"
         )
-        complete = complete_sets(system)
-        reasons += complete
+        reasons += complete_sets(system)
     if facts.dof < naive:
         reasons += _why_fewer(facts)
     return "; ".join(reasons)
 
 
 def _why_fewer(facts: CountedFacts) -> list[str]:
-    """Return what removes degrees of freedom besides the geometric equations as written."""
+    """Return reasons for less freedom than the count of the geometric equations as written."""
     forms = [e for e in facts.entries if e.form in ("pfaffian", "nonlinear")]
     integrable = [e.name for e in forms if e.holonomic]
     reasons = []
@@ -296,7 +295,7 @@ def _why_fewer(facts: CountedFacts) -> list[str]:
 
 
 def complete_sets(system: System) -> list[str]:
-    """Return the complete sets of N > d+1 linked particles, of whose links only N d - d(d+1)/2 are independent."""
+    """Return sentences on complete sets of N > d+1 linked particles: only N d - d(d+1)/2 links are independent."""
     d = system.dimension
     sentences = []
     for constraint in system.constraints:

@@ -1,14 +1,14 @@
-"""The freedom in general position: the same connections at random places, beside those of the reference configuration.
+"""The freedom in general position: of the same connections at random places instead of those of the reference.
 
-Links between particles are counted by their graph. Everything else is a rank modulo p at random places and
-directions; relations written as texts keep what they say up to a constant. A rank at a random point is at most the
-generic one, and equal to it but for a chance of degree/p [SchwartzZippel].
+Links between particles are counted by their graph. Everything else is a rank modulo p at random places and directions;
+of relations given as formulas only a constant changes. A rank at a random point is at most the generic one, and equal
+to it except with a probability of at most degree/p [SchwartzZippel].
 
-Blocks that are graphs of links between particles are answered by the graph. Every row is |A - B|^2 = L with an L of its
-own: one that was left out, so it is what it is where all particles stand in general position, or the square of a
-parameter. Where the links of prescribed lengths are independent, an open set of lengths is met in general position. The
-lengths are then a regular value [Sard1942], and all configurations that have them are a manifold whose dimension is the
-coordinates less the generic rank.
+Blocks that are graphs of links between particles are analysed by the graph. Every row is |A - B|^2 = L with its own L:
+either a length that was not given, which is determined by the particles in general position, or the square of a
+parameter. If the links with parameters are independent, an open set of lengths occurs in general position. The lengths
+are then a regular value [Sard1942], and all configurations with them are a manifold whose dimension is the number of
+coordinates minus the generic rank.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ from dofkit.relations.normal.pieces import Finite
 from dofkit.relations.setting import Setting
 from dofkit.system import System
 
-#: Random points that are tried.
+#: Attempts at random points.
 DRAWS = 40
 Pair = tuple[str, str]
 DIFFERENTIAL = "differential constraints have no general position, so no generic count is given"
@@ -46,7 +46,7 @@ NOWHERE = "the equations have no value at the random positions that were tried"
 
 @dataclass(frozen=True)
 class General:
-    """``rank``: of the geometric equations in general position; None where it was not counted, and ``why``."""
+    """The ``rank`` of the geometric equations in general position; None if it was not computed (``why``)."""
 
     rank: int | None
     verdict: Verdict = "undecided"
@@ -54,7 +54,7 @@ class General:
 
 
 def in_general_position(system: System, rows: Sequence[Row], setting: Setting) -> General:
-    """Return the rank of the geometric equations ``rows`` with all given geometry random."""
+    """Return the rank of the geometric equations ``rows`` with random positions and directions."""
     if any(not isinstance(row.piece, Finite) for row in rows):
         return General(None, why=DIFFERENTIAL)
     pairs = linked_particles(system) if "cheapest" in setting.reductions else None
@@ -74,14 +74,15 @@ def linked_particles(system: System) -> list[tuple[int, Pair]] | None:
 
 
 def _of_rows(system: System, finite: Sequence[Row], setting: Setting) -> General:
-    written = _as_texts(system, finite)
+    """Return the rank of connections and formulas at random positions."""
+    written = _as_formulas(system, finite)
     if written and any(r.chart == "euler" for r in system.rotations):
         return General(None, why=ANGLES)
     for seed in range(DRAWS):
-        drawn = _random_drawing(system, written, setting, seed)
-        if drawn is None:
+        random_rows = _at_random_places(system, written, setting, seed)
+        if random_rows is None:
             continue
-        placement, rows = drawn
+        placement, rows = random_rows
         for connection in placement.located:
             check()
             conditions = rows_of(connection) or [] if connection.facts.placed else []
@@ -91,16 +92,16 @@ def _of_rows(system: System, finite: Sequence[Row], setting: Setting) -> General
     return General(None, why=NOWHERE)
 
 
-def _as_texts(system: System, rows: Sequence[Row]) -> list[Row]:
-    """Return the rows that no connection's geometry says: equations, surfaces, profiles, strings."""
+def _as_formulas(system: System, rows: Sequence[Row]) -> list[Row]:
+    """Return the rows that are not given by a connection's geometry: equations, surfaces, profiles, strings."""
     placed = {c.constraint for c in system.connections if c.facts.placed}
     return [row for row in rows if row.constraint not in placed]
 
 
-def _random_drawing(
+def _at_random_places(
     system: System, written: Sequence[Row], setting: Setting, seed: int
 ) -> tuple[Placement, list[SparseRow]] | None:
-    """Random places, and the rows of what is written as texts there; None where those have no value."""
+    """Return (random placement, rows of the formulas ``written`` there); None if these have no value there."""
     if not written:
         return general_placement(system, prime_for(1, (), seed), seed), []
     ring = Ring([row.piece.expr for row in written if isinstance(row.piece, Finite)], setting.positive)
@@ -118,21 +119,21 @@ def _random_drawing(
 
 
 def _values(system: System, placement: Placement) -> Mapping[Expr, int]:
-    """Where everything stands; spatial bodies are turned by nothing (g = 0)."""
-    stands = dict(placement.places)
-    stands |= {name: placement.members[name].start or () for name in system.bodies}
+    """Return {coordinate: its value} for the positions in a placement; spatial bodies are not rotated (g = 0)."""
+    position_of = dict(placement.places)
+    position_of |= {name: placement.members[name].start or () for name in system.bodies}
     positions = {ex.coordinate(n): 0 for r in system.rotations for n in r.names}
-    taken: dict[str, int] = {}
+    axis_of: dict[str, int] = {}
     for c in system.coordinates:
         if c.owner is not None and c.role in ("x", "y", "z"):
-            k = taken[c.owner] = taken.get(c.owner, -1) + 1
-            positions[ex.coordinate(c.name)] = stands[c.owner][k]
+            k = axis_of[c.owner] = axis_of.get(c.owner, -1) + 1
+            positions[ex.coordinate(c.name)] = position_of[c.owner][k]
     return positions
 
 
 @raising_no_value
 def _slopes(system: System, ring: Ring, nodes: Sequence[int], point: FieldPoint) -> list[SparseRow]:
-    """Return the rows by the coordinates; the rate of a body's Gibbs vector at 0 is half of its angular velocity."""
+    """Return the gradients of nodes, in columns of twists: a Gibbs vector's rate at 0 is half the angular velocity."""
     at = values(ring, point)
     unit = point.number(ex.ONE.args[0])
     gibbs = {n for r in system.rotations for n in r.names}
@@ -156,7 +157,7 @@ METHOD = "graph of rigid links"
 
 
 def framework_answer(block: Block, setting: Setting) -> Answer | None:
-    """Return the answer to a block of links in general position; None for any other."""
+    """Return the answer of a block of links in general position; None for other blocks."""
     pairs = _pairs(block, setting)
     if pairs is None:
         return None
@@ -182,10 +183,7 @@ def framework_answer(block: Block, setting: Setting) -> Answer | None:
 
 
 def unprescribed_links(system: System) -> list[tuple[int, Pair]] | None:
-    """The ends of every link, with its constraint, of a system that is nothing but links whose lengths were left out.
-
-    Each then has a length of its own that nothing prescribes. None for any other system.
-    """
+    """Return (constraint, ends) of every link of a system that consists of links without given lengths; else None."""
     if system.reference is not None or system.tolerance is not None or not system.constraints:
         return None
     particles, links = frozenset(system.particles), system.links
@@ -200,7 +198,7 @@ def unprescribed_links(system: System) -> list[tuple[int, Pair]] | None:
 
 
 def _pairs(block: Block, setting: Setting) -> list[Pair] | None:
-    """Return the ends of the link that each row is; None where one is no link with a length of its own."""
+    """Return the ends of the links that the rows are; None if a row is not a link with its own length."""
     if setting.reference is not None or setting.tolerance is not None or block.conditions or not block.rows:
         return None
     of, places = _places(block.coordinates, setting)
@@ -224,12 +222,12 @@ def _pairs(block: Block, setting: Setting) -> list[Pair] | None:
 
 
 def _unprescribed(setting: Setting) -> frozenset[Expr]:
-    """Squared lengths that nothing prescribes."""
+    """Return the parameters for lengths (and other geometry) that are not given."""
     return frozenset(setting.generic) - setting.pose.keys()
 
 
 def _only(e: Expr, ends: set[str]) -> Expr | None:
-    """Return the one symbol beside some coordinates, which are all that occur."""
+    """Return the one symbol of ``e`` that is not a coordinate, if its coordinates are just ``ends``; else None."""
     if len(e.symbols) != len(ends) + 1 or coordinates_in(e) != ends:
         return None
     others = [s for s in e.symbols if s.args[0] != "coordinate"]
@@ -237,12 +235,12 @@ def _only(e: Expr, ends: set[str]) -> Expr | None:
 
 
 def _is_length(symbol: Expr, row: Row, setting: Setting) -> bool:
-    """Return whether a parameter is the length of a link, as it stands."""
+    """Return whether a link has the square of this parameter as its squared length."""
     return [d.squared for d in setting.distances.get(row.constraint, ())] == [ex.power(symbol, ex.TWO)]
 
 
 def _places(coordinates: Iterable[str], setting: Setting) -> tuple[dict[str, str | None], dict[str, list[str]]]:
-    """(the particle of every coordinate, the coordinates of every particle that has all of them)."""
+    """Return ({coordinate: its particle}, {particle: its coordinates, if all are in the block})."""
     owner = {c.name: c.owner for c in setting.roles if c.role in ("x", "y", "z")}
     of = {name: owner.get(name) for name in coordinates}
     columns: dict[str, list[str]] = {}

@@ -1,13 +1,13 @@
-"""Trees of joints: joint coordinates where joints alone hold the bodies, and joints that close no loop (bridges).
+"""Joint coordinates of systems whose bodies form trees of joints, and joints that close no loop (bridges).
 
-Let a joint with f freedoms be the only connection between bodies S, the ground not among them, and all others. The
-constraints on S by itself do not change when all of S is moved as one body. So every configuration of the system is one
-of the others, one of S up to rigid motions, and any value q of the joint: M = M_others x (M_S / SE(d)) x J, with J the
-joint's own manifold of dimension f, and the map from there is a diffeomorphism. So the joint's d(d+1)/2 - f equations
-are independent of all others, everywhere, whatever M_others and M_S are; and so on for every bridge, one after another.
+Let a joint with f freedoms be the only connection between bodies S, without the ground, and all others. The constraints
+within S do not change when all of S is moved as one body. So every configuration of the system consists of one of the
+others, one of S up to rigid motions, and a value q of the joint: M = M_others x (M_S / SE(d)) x J, with J the joint's
+own manifold of dimension f, and the map from there is a diffeomorphism. So the joint's d(d+1)/2 - f equations are
+independent of all others, everywhere, whatever M_others and M_S are; and so on for every bridge, one after another.
 
-A text refers to fixed places, so that what it names is fixed to the ground; so is what any other constraint names that
-is not known to stay the same when all its members are moved together.
+A formula refers to fixed places, so that its coordinates are connected to the ground; so are those of any constraint
+that is not known to be invariant when all its members are moved together.
 """
 
 from __future__ import annotations
@@ -22,10 +22,10 @@ from dofkit.system import GROUND, Connection, Constraint, System
 
 
 def tree_coordinates(system: System) -> list[str] | None:
-    """An independent choice, in the order written; None where bodies form no tree of joints, or a factor is no number.
+    """Return names of independent coordinates of a tree of joints, in the order of the scene; None if it is no tree.
 
-    Of a coupling the joint that it names first depends on the others. What hangs on nothing has its first body's own
-    coordinates, and what nothing joins its own.
+    They are joint coordinates, without the first joint of each coupling; the coordinates of the first body of each part
+    that is not connected to the ground; and those of no body. None also if a factor of a coupling is not a number.
     """
     joints = system.joints
     if not joints or not _is_tree(system, joints):
@@ -33,53 +33,53 @@ def tree_coordinates(system: System) -> list[str] | None:
     rows = [dict(row) for row in _coupled(system)]
     if len(rows) != sum(bool(c.rates) for c in system.connections):
         return None
-    told_by_others = _first_of_each(rows)
+    dependent = _first_of_each(rows)
     names = [f"{system.constraints[c.constraint].name}.{what}" for c in joints for what in c.facts.freedoms]
-    return [name for name in (*names, *_floating(system, joints)) if name not in told_by_others]
+    return [name for name in (*names, *_floating(system, joints)) if name not in dependent]
 
 
 def _is_tree(system: System, joints: Sequence[Connection]) -> bool:
-    """Return whether every joint joins what was apart, and there is nothing else but couplings and bounds."""
+    """Return whether the joints form a forest, undriven, and all other constraints are couplings and inequalities."""
     of_joints = {c.constraint for c in joints}
     for index, c in enumerate(system.connections):
         if index in of_joints or c.rates:
             continue
         if any(relation.sense == "=" for relation in system.constraints[index].relations):
             return False
-    apart: nx.utils.UnionFind[str] = nx.utils.UnionFind()
+    trees: nx.utils.UnionFind[str] = nx.utils.UnionFind()
     for c in joints:
-        if len(c.members) != 2 or c.driven or apart[c.members[0]] == apart[c.members[1]]:
+        if len(c.members) != 2 or c.driven or trees[c.members[0]] == trees[c.members[1]]:
             return False
-        apart.union(*c.members)
+        trees.union(*c.members)
     return True
 
 
 def _floating(system: System, joints: Sequence[Connection]) -> Iterator[str]:
-    """Coordinates of the first body of what the ground does not hold, and of what no joint joins."""
-    held: nx.utils.UnionFind[str] = nx.utils.UnionFind()
+    """Yield coordinates of the first body of each tree without the ground, and coordinates of no body."""
+    trees: nx.utils.UnionFind[str] = nx.utils.UnionFind()
     for c in joints:
-        held.union(*c.members)
-    roots = {held[GROUND]}
+        trees.union(*c.members)
+    roots = {trees[GROUND]}
     names_of: dict[str | None, list[str]] = {}
     for q in system.coordinates:
         names_of.setdefault(q.owner, []).append(q.name)
     for name in system.bodies:
-        if held[name] not in roots:
-            roots.add(held[name])
+        if trees[name] not in roots:
+            roots.add(trees[name])
             yield from names_of.get(name, ())
     bodies = frozenset(system.bodies)
     yield from (q.name for q in system.coordinates if q.owner not in bodies)
 
 
 def _coupled(system: System) -> Iterator[dict[str, Fraction]]:
-    """Yield the factors of each coupling by what they belong to; nothing of one whose factors are no numbers."""
+    """Yield {joint coordinate: factor} for each coupling, except those with a factor that is not a number."""
     for c in system.connections:
         if c.rates and all(rate.slope.op == "num" for rate in c.rates):
             yield {rate.name: rate.slope.args[0] for rate in c.rates}
 
 
 def _first_of_each(rows: list[dict[str, Fraction]]) -> set[str]:
-    """What the rows determine from the others: of each the first that no row before it determined."""
+    """Return the names for which the rows are solved: for each the first that remains after elimination."""
     pivots: dict[str, dict[str, Fraction]] = {}
     for row in rows:
         for name, pivot in pivots.items():
@@ -93,49 +93,47 @@ def _first_of_each(rows: list[dict[str, Fraction]]) -> set[str]:
 
 # Bridges
 
-#: A node of the graph: a body, a particle, the ground, a coordinate that is nobody's, or a constraint by its number.
+#: A node of the graph: a body, a particle, the ground, ("coordinate", name) without owner, or a constraint's number.
 Node = Hashable
 
 
 class Bridges(NamedTuple):
-    """The ``joints`` that close no loop, and the constraints that hold ``afloat``: without these joints nothing ties
-    them to the ground, so that they hold after any motion of all their bodies as one.
-    """
+    """The ``joints`` that close no loop; constraints ``afloat`` are connected to the ground by these joints only."""
 
     joints: frozenset[int] = frozenset()
     afloat: frozenset[int] = frozenset()
 
 
 def bridges(system: System) -> Bridges:
-    """Return the joints that close no loop, of those of a drawing in fractions, by numbers; none without a drawing."""
+    """Return the bridges among the joints whose geometry is given by rational numbers, as constraint numbers."""
     if system.dimension == 1:
         return Bridges()
-    joints = {c.constraint: c.members for c in system.joints if _is_drawn(c, system)}
+    joints = {c.constraint: c.members for c in system.joints if _has_rational_geometry(c, system)}
     graph = _graph(system, joints)
     ends = _ends_of_bridges(graph)
-    apart = frozenset(i for i in joints if ends[i] == len(graph.adj[i]))
-    graph.remove_nodes_from(apart)
+    bridging = frozenset(i for i in joints if ends[i] == len(graph.adj[i]))
+    graph.remove_nodes_from(bridging)
     grounded = nx.node_connected_component(graph, GROUND) if GROUND in graph else set()
-    return Bridges(apart, frozenset(i for i in graph if isinstance(i, int)) - grounded)
+    return Bridges(bridging, frozenset(i for i in graph if isinstance(i, int)) - grounded)
 
 
 def _graph(system: System, joints: Mapping[int, Sequence[Node]]) -> nx.Graph[Node]:
-    """What connects which members, from every constraint to all that it connects.
+    """Return the graph with an edge from every constraint to each member that it connects.
 
-    One between coordinates that are nobody's is left out: with all that holds these too it ends at the ground.
+    A constraint on coordinates without owner only is left out, as it is connected to the ground with all their others.
     """
     owners: dict[str, Node] = {q.name: q.owner or ("coordinate", q.name) for q in system.coordinates}
     connected = {c.constraint: c for c in system.connections}
     graph: nx.Graph[Node] = nx.Graph()
     for i, constraint in enumerate(system.constraints):
-        nodes = joints.get(i) or _held(constraint, connected.get(i), owners)
+        nodes = joints.get(i) or _connected_members(constraint, connected.get(i), owners)
         if not all(isinstance(node, tuple) or node == GROUND for node in nodes):
             graph.add_edges_from((i, node) for node in nodes)
     return graph
 
 
 def _ends_of_bridges(graph: nx.Graph[Node]) -> Counter[Node]:
-    """Of how many bridges each node is an end: of those of leaves, peeled off one after another, and of the others."""
+    """Return {node: number of bridges (edges in no cycle) that end there}; leaves are removed first, one by one."""
     degrees = dict(graph.degree)
     leaves = [node for node, degree in degrees.items() if degree == 1]
     ends: Counter[Node] = Counter()
@@ -151,16 +149,16 @@ def _ends_of_bridges(graph: nx.Graph[Node]) -> Counter[Node]:
     return ends
 
 
-def _is_drawn(c: Connection, system: System) -> bool:
-    """Return whether an undriven joint of two bodies is drawn in fractions, as its bodies are."""
+def _has_rational_geometry(c: Connection, system: System) -> bool:
+    """Return whether a joint is undriven, joins two bodies, and its and their geometry are rational numbers."""
     if len(c.members) != 2 or c.driven or c.number is not None:
         return False
     vectors = (*c.places, *c.directions, *(system.starts.get(member, ()) for member in c.members))
     return all(vector is not None and all(part.op == "num" for part in vector) for vector in vectors)
 
 
-def _held(constraint: Constraint, c: Connection | None, owners: Mapping[str, Node]) -> set[Node]:
-    """What a constraint that is no such joint holds together: the ground too, unless all may move as one."""
+def _connected_members(constraint: Constraint, c: Connection | None, owners: Mapping[str, Node]) -> set[Node]:
+    """Return the members that a constraint connects, with the ground unless it is invariant when all move as one."""
     members: set[Node] = set() if c is None else {*c.members}
     named = {owners[name] for name in constraint.mentioned if name in owners}
     facts = constraint.facts

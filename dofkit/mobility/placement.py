@@ -1,8 +1,8 @@
-"""Connections with numbers, at the reference or in general position: linear relations between velocities.
+"""Connections with numbers for their geometry, at the reference or in general position, and their velocity relations.
 
-Numbers are integers that stand for GF(p), or floats. A body has the velocity v of the point of it that stands at
-``start``, and the angular velocity w: its point at a moves by v + w x (a - start). Columns are v, then w, of every
-member in order. No angles occur: a singular choice of coordinates is no singularity here.
+Numbers are integers modulo p, or floats. A body has the velocity v of its point at ``start``, and the angular velocity
+w: its point at a has the velocity v + w x (a - start). Columns are v, then w, of every member in order. Angles do not
+occur, so that singularities of angle coordinates do not either.
 """
 
 from __future__ import annotations
@@ -24,9 +24,9 @@ from dofkit.expressions.tree import Expr
 from dofkit.relations.setting import NamedRows
 from dofkit.system import GROUND, Connection, DrawnPoint, JointRate, Kinematics, System, TypeFacts
 
-#: Random numbers are below this where there is no prime.
+#: Bound on random numbers if there is no prime.
 FREE = 1000
-#: Draws of one drawing modulo a prime.
+#: Attempts at a point modulo a prime where the reference has a value.
 DRAWS = 20
 
 NumberTuple = tuple[Any, ...]
@@ -35,9 +35,9 @@ Vector = tuple[Expr, ...]
 
 @dataclass(frozen=True)
 class Placement:
-    """``located``: the system's connections in order, with numbers modulo ``p`` (floats if that is 0).
+    """The system's connections with numbers (``located``), in order; ``p``: the modulus, 0 for floats.
 
-    ``places`` are those of the particles.
+    ``members``: bodies, particles and ground by name; ``places``: the positions of particles.
     """
 
     p: int
@@ -47,10 +47,10 @@ class Placement:
 
 
 def drawn_placement(system: System, positive: frozenset[Expr]) -> Placement | None:
-    """The connections where they are drawn, roots and angles as exact numbers modulo p; what is not given is random."""
-    wanted = _wanted(system)
-    ring = Ring([e for e in wanted if e.op != "num"], positive)
-    nodes = {e: ring.node(e) for e in wanted}
+    """Return the placement at the reference configuration modulo p, with random values for missing geometry."""
+    geometry = _geometry_of(system)
+    ring = Ring([e for e in geometry if e.op != "num"], positive)
+    nodes = {e: ring.node(e) for e in geometry}
     for seed in range(DRAWS):
         point = field_point([ring], seed)
         try:
@@ -58,25 +58,29 @@ def drawn_placement(system: System, positive: frozenset[Expr]) -> Placement | No
             numbers = {e: int(at[node]) for e, node in nodes.items()}
         except NoValueError:
             continue
-        return _placement(system, _Drawn(point.p, numbers))
+        return _placement(system, _ReferenceNumbers(point.p, numbers))
     return None
 
 
 def measured_placement(system: System) -> Placement | None:
-    """Return the reference in floating point, lengths in units of the scene's size; None where it holds parameters."""
-    numbers = {e: approximate(e) for e in _wanted(system)}
-    if None in numbers.values():
+    """Return the placement at the reference configuration in floats, lengths in units of the scene's size.
+
+    None if the geometry contains parameters. Directions are divided by the size as well, which does not matter.
+    """
+    approximate_of = {e: approximate(e) for e in _geometry_of(system)}
+    numbers = {e: value / system.size for e, value in approximate_of.items() if value is not None}
+    if len(numbers) < len(approximate_of):
         return None
-    return _placement(system, _Drawn(0, {e: float(v or 0) / system.size for e, v in numbers.items()}, system.size))
+    return _placement(system, _ReferenceNumbers(0, numbers, system.size))
 
 
 def general_placement(system: System, p: int, seed: int = 0) -> Placement:
-    """The same connections with everything given in general position: random, but what is one point stays one."""
-    return _placement(system, _General(p, system, seed))
+    """Return the placement with random geometry, in which points that coincide by definition still coincide."""
+    return _placement(system, _RandomNumbers(p, system, seed))
 
 
-class _Drawn:
-    """The numbers of the reference, in units of ``size``; a particle that is not drawn stands at one random place."""
+class _ReferenceNumbers:
+    """The numbers of the reference, divided by ``size``; a particle without a position has a random one."""
 
     def __init__(self, p: int, numbers: Mapping[Expr, Any], size: float = 1.0) -> None:
         self.p, self._numbers, self._size = p, numbers, size
@@ -101,20 +105,20 @@ class _Drawn:
         return self._elsewhere[point.carrier]
 
     def number(self, drawn: Expr | None, by_turn: bool) -> Any:
-        """A screw's advance by radian holds pi, which is no number of GF(p): any factor will do."""
+        """Return a number of a connection; a screw's pitch times any factor, because 2 pi is no number of GF(p)."""
         if drawn is None:
             return 0
         scaled: Any = self._numbers[drawn] * (self._turn if by_turn else 1)
         return scaled % self.p if self.p else scaled
 
     def factor(self, rate: JointRate) -> Any:
-        """Of a rate about or along a direction in units of the size: of angles with displacements as they are."""
+        """Return the factor of a rate in a coupling, for lengths (and directions) in units of the size."""
         ratio: Any = self._numbers[rate.factor]
         return ratio % self.p if self.p else ratio * self._size ** (1 + bool(rate.direction) + rate.slides)
 
 
-class _General:
-    """Random numbers; a point of a member, or of members that a joint holds together there, has one place."""
+class _RandomNumbers:
+    """Random numbers; a point of a member has one position, also as a point of other members joined there."""
 
     def __init__(self, p: int, system: System, seed: int) -> None:
         self.p = p
@@ -153,12 +157,15 @@ class _General:
         return self._rng.randrange(1, self.p)
 
 
+_NumberSource = _ReferenceNumbers | _RandomNumbers
+
+
 def _key(point: DrawnPoint) -> Hashable:
     return point.carrier if point.particle else (point.carrier, point.at)
 
 
-def _wanted(system: System) -> set[Expr]:
-    """Return every number of the reference configuration."""
+def _geometry_of(system: System) -> set[Expr]:
+    """Return every expression in the geometry of the reference configuration."""
     vectors: list[Vector | None] = [*system.starts.values()]
     numbers = [c.number for c in system.connections if c.number is not None]
     for c in system.connections:
@@ -168,7 +175,8 @@ def _wanted(system: System) -> set[Expr]:
     return {*numbers, *(part for vector in vectors if vector is not None for part in vector)}
 
 
-def _placement(system: System, numbers: _Drawn | _General) -> Placement:
+def _placement(system: System, numbers: _NumberSource) -> Placement:
+    """Return the placement with the numbers of a source."""
     d = system.dimension
     first: dict[str, int] = {}
     for k, c in enumerate(system.coordinates):
@@ -182,7 +190,7 @@ def _placement(system: System, numbers: _Drawn | _General) -> Placement:
     return Placement(numbers.p, members, located, places)
 
 
-def _located_connection(c: Connection, members: Mapping[str, Member], numbers: _Drawn | _General, d: int) -> Located:
+def _located_connection(c: Connection, members: Mapping[str, Member], numbers: _NumberSource, d: int) -> Located:
     wanted = max(len(c.directions), c.facts.directions)
     return Located(
         c.facts,
@@ -198,9 +206,9 @@ def _located_connection(c: Connection, members: Mapping[str, Member], numbers: _
 
 
 def _part(
-    facts: TypeFacts, rate: JointRate, members: Mapping[str, Member], numbers: _Drawn | _General, d: int
+    facts: TypeFacts, rate: JointRate, members: Mapping[str, Member], numbers: _NumberSource, d: int
 ) -> tuple[Callable[[Kinematics], LinearRow], Any, Located]:
-    """One joint of a coupling."""
+    """Return (rate, factor, joint) of one joint of a coupling."""
     pair = tuple(members[m] for m in rate.members)
     place = numbers.place(rate.members[0], rate.place, d)
     directions = (numbers.vector(rate.direction, d),) if rate.direction else ()
@@ -215,7 +223,7 @@ TURNS = {1: 0, 2: 1, 3: 3}
 
 @dataclass(frozen=True)
 class Member:
-    """A body or a particle: its first column (None: the ground), and where its origin stands (None: it cannot turn)."""
+    """A body or particle: its first ``column`` (None: the ground), and its origin ``start`` (None: no rotation)."""
 
     column: int | None
     start: tuple[Any, ...] | None = None
@@ -223,9 +231,9 @@ class Member:
 
 @dataclass(frozen=True)
 class Located:
-    """A connection with numbers: points that belong to members, places, directions, the screw's pitch or the ratio.
+    """A connection with numbers: points of members, places, directions, and the ``number`` (a screw's pitch, a ratio).
 
-    ``couplings``: of a coupling the rate of each joint, its factor, and the joint alone.
+    ``couplings``: for a coupling the (rate, factor, joint) of each joint.
     """
 
     facts: TypeFacts
@@ -239,24 +247,24 @@ class Located:
     couplings: tuple[tuple[Callable[[Kinematics], LinearRow], Any, Located], ...] = ()
 
     def shift(self) -> list[LinearRow]:
-        """How the second body's point at the joint moves against the first's; anywhere, where they do not turn."""
+        """Return the velocity of the second body's point at the joint relative to the first body's."""
         first, second = self.members[:2]
         d = self.dimension
         place = self.places[0] if self.places else (0,) * d
         return less(velocity(second, place, d), velocity(first, place, d))
 
     def turn(self) -> list[LinearRow]:
-        """Return the angular velocity of the second body against the first."""
+        """Return the angular velocity of the second body relative to the first."""
         return less(self.spin(1), self.spin(0))
 
     def slip(self) -> list[LinearRow]:
-        """How the first point moves against the other member, or the ground."""
+        """Return the velocity of the first point relative to the other member, or the ground."""
         point, at = self.points[0]
         carrier = next((m for m in self.members if m is not point), Member(None))
         return less(velocity(point, at, self.dimension), velocity(carrier, at, self.dimension))
 
     def velocity(self, k: int) -> list[LinearRow]:
-        """Of the point number ``k``."""
+        """Return the velocity of the point number ``k``."""
         return velocity(*self.points[k], self.dimension)
 
     def origin(self, k: int) -> list[LinearRow]:
@@ -270,7 +278,7 @@ class Located:
 
 
 def rows_of(located: Located) -> list[LinearRow] | None:
-    """The linear relations of a connection, in the order of its scalar equations; None for a type without any here."""
+    """Return the velocity relations of a connection, one for each of its equations; None for a type without them."""
     facts = located.facts
     if facts.velocities is None:
         return None
@@ -281,7 +289,7 @@ def rows_of(located: Located) -> list[LinearRow] | None:
 
 
 def velocity(member: Member, at: Numbers, dimension: int) -> list[LinearRow]:
-    """Return the velocity of the member's point at a place, a row a component: v + w x (at - start)."""
+    """Return the velocity v + w x (at - start) of the member's point at a place, one row for each component."""
     first = member.column
     if first is None:
         return [{} for _ in range(dimension)]
@@ -299,7 +307,7 @@ def velocity(member: Member, at: Numbers, dimension: int) -> list[LinearRow]:
 
 
 def spin(member: Member, dimension: int) -> list[LinearRow]:
-    """Return the angular velocity, a row a component."""
+    """Return the angular velocity of a member, one row for each component; none for particles and the ground."""
     if member.column is None or member.start is None:
         return [{} for _ in range(TURNS[dimension])]
     return [{member.column + dimension + i: 1} for i in range(TURNS[dimension])]
@@ -310,10 +318,10 @@ def spin(member: Member, dimension: int) -> list[LinearRow]:
 
 @dataclass(frozen=True)
 class RowsAtReference:
-    """The rows of joints at the reference configuration, from their geometry alone: no equation is written.
+    """The rows of joints at the reference configuration, computed from their geometry without writing equations.
 
-    The columns of a body are those of its twist: w is twice the rate of a Gibbs vector that is 0, and the rate of an
-    angle of the plane. So the rows depend on each other, and on columns, as those of the relations do.
+    The columns of a body are those of its twist: w is twice the rate of a Gibbs vector that is 0, or the rate of an
+    angle in the plane. So the rows have the same dependences as those of the relations.
     """
 
     system: System
@@ -321,7 +329,7 @@ class RowsAtReference:
 
     @cached_property
     def _joints(self) -> tuple[Connection, ...]:
-        """The joints with complete geometry whose motion nothing prescribes."""
+        """The undriven joints with complete geometry."""
         return tuple(c for c in self.system.connections if self._is_plain(c))
 
     @cached_property
@@ -339,7 +347,7 @@ class RowsAtReference:
         return frozenset(r.body for r in self.system.rotations if r.chart == "euler")
 
     def rows_of_joints(self, constraints: Iterable[int]) -> NamedRows | None:
-        """Return rows mod p at the reference; None if any constraint is not a plain joint drawn there."""
+        """Return rows modulo p at the reference; None if a constraint is not an undriven joint with given geometry."""
         if self._placement is None:
             return None
         names = [q.name for q in self.system.coordinates]

@@ -1,7 +1,7 @@
-"""What is special about a drawing: lines that are parallel or meet in one point, points on a line, plane or conic.
+"""Special positions in the geometry of dependent constraints: lines that are parallel or meet in one point, and so on.
 
-Looked for among the constraints of one dependent set. Over GF(p) a determinant that vanishes does so exactly, but for
-a chance of degree/p; of measured numbers (p = 0, lengths in units of the scene's size) within the tolerance.
+They are searched among the constraints of one dependent set. A determinant that is 0 modulo p is exactly 0, except with
+a probability of at most degree/p; with floats (p = 0, in units of the scene's size) it is so within the tolerance.
 """
 
 from __future__ import annotations
@@ -17,9 +17,9 @@ from dofkit.expressions.text import to_text
 from dofkit.mobility.placement import Placement
 from dofkit.system import GROUND, Connection, System
 
-#: More lines or points than this are not compared.
+#: Bound on the lines or points that are compared.
 MOST = 40
-#: Points that a conic passes through, whatever they are.
+#: Any so many points are on a conic.
 CONIC = 5
 _OTHERWISE = (
     "the cause is not parallel or concurrent lines: a loop has special proportions, or is symmetric or overconstrained"
@@ -27,8 +27,8 @@ _OTHERWISE = (
 
 
 @dataclass(frozen=True)
-class DrawnLine:
-    """A line of the reference with what it is called, and the points between which it is a bar."""
+class NamedLine:
+    """A line of the reference configuration with its name in sentences, and its ``ends`` if it is a bar."""
 
     name: str
     through: tuple[Any, ...]
@@ -48,7 +48,7 @@ class Geometry:
         return all((n % p == 0) if p else abs(n) <= self._tolerance for n in numbers)
 
     def unit(self, n: Numbers) -> tuple[Any, ...]:
-        """Of length 1, where lengths are measured."""
+        """Return a vector with length 1 if numbers are floats; unchanged modulo p."""
         if self.placement.p:
             return tuple(n)
         size = sum(v * v for v in n) ** 0.5
@@ -57,22 +57,22 @@ class Geometry:
     def parallel(self, a: Numbers, b: Numbers) -> bool:
         return self.zero(*_wedge(a, b))
 
-    def on(self, line: DrawnLine, point: Numbers) -> bool:
-        return self.parallel(line.direction, _less(point, line.through))
+    def on(self, line: NamedLine, point: Numbers) -> bool:
+        return self.parallel(line.direction, _difference(point, line.through))
 
-    def meet(self, a: DrawnLine, b: DrawnLine) -> bool:
-        """Return whether two lines of space have a point in common, perhaps at infinity."""
-        return self.zero(_dot(_less(b.through, a.through), cross(a.direction, b.direction)))
+    def meet(self, a: NamedLine, b: NamedLine) -> bool:
+        """Return whether two lines in space are in one plane, so that they meet or are parallel."""
+        return self.zero(_dot(_difference(b.through, a.through), cross(a.direction, b.direction)))
 
-    def concurrent(self, a: DrawnLine, b: DrawnLine, c: DrawnLine) -> bool:
-        """Three lines of the plane through one point, or parallel: their coordinates are dependent."""
+    def concurrent(self, a: NamedLine, b: NamedLine, c: NamedLine) -> bool:
+        """Return whether three lines in the plane meet in one point, or are parallel (dependent coordinates)."""
         return self.zero(_dot(_line(a), cross(_line(b), _line(c))))
 
 
 def special_facts(
     system: System, placement: Placement, sets: Sequence[Sequence[int]], tolerance: float = 0.0
 ) -> list[str]:
-    """What is special in each dependent set of constraints, as text; each once."""
+    """Return sentences on what is special in each dependent set of constraints."""
     geometry = Geometry(system, placement, tolerance)
     facts: list[str] = []
     for members in sets:
@@ -82,7 +82,7 @@ def special_facts(
 
 
 def _of_texts(g: Geometry, members: Sequence[int]) -> Iterator[str]:
-    """Equations among joints and links: general position leaves them as they are, and they cease to fit."""
+    """Yield a sentence if a set contains formulas and other constraints: these fit at the reference only."""
     texts = [g.names[i] for i in members if g.system.constraints[i].facts.written]
     if texts and len(texts) < len(members):
         yield (
@@ -102,14 +102,14 @@ def _facts_of_set(g: Geometry, members: Sequence[Connection]) -> Iterator[str]:
     yield from _of_points(g, members)
 
 
-def _axes(g: Geometry, members: Sequence[Connection]) -> Iterator[DrawnLine]:
+def _axes(g: Geometry, members: Sequence[Connection]) -> Iterator[NamedLine]:
     for c in members:
         at = g.placement.located[c.constraint]
         if g.system.dimension == 3 and c.facts.axial and at.places:
-            yield from (DrawnLine(g.names[c.constraint], at.places[0], g.unit(n)) for n in at.directions)
+            yield from (NamedLine(g.names[c.constraint], at.places[0], g.unit(n)) for n in at.directions)
 
 
-def _of_axes(g: Geometry, axes: Sequence[DrawnLine]) -> Iterator[str]:
+def _of_axes(g: Geometry, axes: Sequence[NamedLine]) -> Iterator[str]:
     classes = _classes(axes, lambda a, b: g.parallel(a.direction, b.direction))
     alike = [c for c in classes if len(c) > 1]
     for same in alike:
@@ -125,16 +125,16 @@ def _of_axes(g: Geometry, axes: Sequence[DrawnLine]) -> Iterator[str]:
         yield f"the axes of {_names_of([a for a in axes if any(a is b for b in through)])} meet in one point"
 
 
-def _in_one_plane(g: Geometry, axes: Sequence[DrawnLine]) -> bool:
+def _in_one_plane(g: Geometry, axes: Sequence[NamedLine]) -> bool:
     first = axes[0]
     other = next(a for a in axes if not g.parallel(first.direction, a.direction))
     normal = cross(first.direction, other.direction)
-    return all(g.zero(_dot(normal, a.direction), _dot(normal, _less(a.through, first.through))) for a in axes)
+    return all(g.zero(_dot(normal, a.direction), _dot(normal, _difference(a.through, first.through))) for a in axes)
 
 
-def _through_one_point(g: Geometry, axes: Sequence[DrawnLine]) -> list[DrawnLine]:
-    """The most axes of space, no two parallel, that meet each other and do not lie in one plane, or at one point."""
-    best: list[DrawnLine] = []
+def _through_one_point(g: Geometry, axes: Sequence[NamedLine]) -> list[NamedLine]:
+    """Return the most ``axes`` in space, no two of them parallel, that meet in one point; [] for fewer than 3."""
+    best: list[NamedLine] = []
     for a, b in combinations(axes, 2):
         if not g.meet(a, b):
             continue
@@ -148,7 +148,7 @@ def _through_one_point(g: Geometry, axes: Sequence[DrawnLine]) -> list[DrawnLine
 
 def _of_slides(g: Geometry, members: Sequence[Connection]) -> Iterator[str]:
     slides = [
-        DrawnLine(g.names[c.constraint], (), g.unit(at.directions[0]))
+        NamedLine(g.names[c.constraint], (), g.unit(at.directions[0]))
         for c in members
         if c.facts.slides and (at := g.placement.located[c.constraint]).directions
     ]
@@ -165,12 +165,12 @@ def _of_slides(g: Geometry, members: Sequence[Connection]) -> Iterator[str]:
         yield f"{_names_of(slides)} slide parallel to one plane"
 
 
-def _links(g: Geometry, members: Sequence[Connection]) -> Iterator[DrawnLine]:
+def _links(g: Geometry, members: Sequence[Connection]) -> Iterator[NamedLine]:
     """Yield the links between points, those of rigid sets, and in the plane the normals of contacts."""
     for c in members:
         at = g.placement.located[c.constraint]
         if c.facts.contact and g.system.dimension == 2:
-            yield DrawnLine(
+            yield NamedLine(
                 f"the normal of {g.names[c.constraint]}", at.points[0][1], g.unit(perpendicular(at.directions[0])[0])
             )
         if not c.facts.bars:
@@ -178,13 +178,13 @@ def _links(g: Geometry, members: Sequence[Connection]) -> Iterator[DrawnLine]:
         for (k, p), (m, q) in combinations(enumerate(at.points), 2):
             ends = (_name_of_point(c, k), _name_of_point(c, m))
             name = "-".join(ends) if c.facts.complete else g.names[c.constraint]
-            direction = _less(q[1], p[1])
+            direction = _difference(q[1], p[1])
             if not g.zero(*direction):
-                yield DrawnLine(name, p[1], g.unit(direction), frozenset(ends))
+                yield NamedLine(name, p[1], g.unit(direction), frozenset(ends))
 
 
-def _bars(g: Geometry, connections: Sequence[Connection]) -> Iterator[DrawnLine]:
-    """Bodies of the plane with hinges at two places."""
+def _bars(g: Geometry, connections: Sequence[Connection]) -> Iterator[NamedLine]:
+    """Yield the lines through the two hinges of bodies in the plane."""
     hinges: dict[str, dict[str, tuple[Any, ...]]] = {}
     for c in connections:
         if g.system.dimension == 2 and c.facts.axial:
@@ -194,23 +194,23 @@ def _bars(g: Geometry, connections: Sequence[Connection]) -> Iterator[DrawnLine]
     for name, places in hinges.items():
         if name != GROUND and len(places) == 2:
             (end, p), (other, q) = places.items()
-            yield DrawnLine(name, p, g.unit(_less(q, p)), frozenset((end, other)))
+            yield NamedLine(name, p, g.unit(_difference(q, p)), frozenset((end, other)))
 
 
 def _coincident_hinges(g: Geometry, connections: Sequence[Connection]) -> Iterator[str]:
-    """Two hinges of the plane that coincide in the reference configuration and share no body."""
+    """Yield one sentence on the first two hinges in the plane that coincide at the reference and share no body."""
     hinges = [c for c in connections if c.facts.axial and g.system.dimension == 2]
     for a, b in combinations(hinges[:MOST], 2):
         place, other = (g.placement.located[c.constraint].places[0] for c in (a, b))
-        if not set(a.members) & set(b.members) and g.zero(*_less(place, other)):
+        if not set(a.members) & set(b.members) and g.zero(*_difference(place, other)):
             yield f"{g.names[a.constraint]} and {g.names[b.constraint]} coincide in the reference configuration"
             return
 
 
-def _of_bars(g: Geometry, bars: Sequence[DrawnLine], members: Sequence[Connection]) -> Iterator[str]:
+def _of_bars(g: Geometry, bars: Sequence[NamedLine], members: Sequence[Connection]) -> Iterator[str]:
     for same in _classes(bars, lambda a, b: g.parallel(a.direction, b.direction)):
-        apart = [c[0] for c in _classes(same, lambda a, b: g.on(a, b.through))]
-        if len(apart) > 2:
+        different = [c[0] for c in _classes(same, lambda a, b: g.on(a, b.through))]
+        if len(different) > 2:
             yield f"{_names_of(same)} are parallel"
     if g.system.dimension == 2:
         for triple in combinations(bars[:MOST], 3):
@@ -229,7 +229,7 @@ def _of_bars(g: Geometry, bars: Sequence[DrawnLine], members: Sequence[Connectio
 
 
 def _of_points(g: Geometry, members: Sequence[Connection]) -> Iterator[str]:
-    """All points of links in one plane of space, or on one conic of the plane [BolkerRoth1980]."""
+    """Yield a sentence if ends of links are on a line or plane in space, or a conic in the plane [BolkerRoth1980]."""
     points: dict[str, tuple[Any, ...]] = {}
     for c in members:
         at = g.placement.located[c.constraint]
@@ -238,7 +238,7 @@ def _of_points(g: Geometry, members: Sequence[Connection]) -> Iterator[str]:
     if len(points) > MOST:
         return
     first, *further = points.values() or [()]
-    arms = [g.unit(_less(q, first)) for q in further]
+    arms = [g.unit(_difference(q, first)) for q in further]
     if g.system.dimension == 3 and len(points) > 3:
         line = next((n for a, b in combinations(arms, 2) if not g.zero(*(n := cross(a, b)))), None)
         if line is None:
@@ -261,9 +261,9 @@ def _text(place: Sequence[Any] | None) -> str:
     return "?" if place is None else f"({', '.join(to_text(part) for part in place)})"
 
 
-def _classes(lines: Sequence[DrawnLine], same: Callable[[DrawnLine, DrawnLine], bool]) -> list[list[DrawnLine]]:
-    """Lines that are the same in some respect, together."""
-    classes: list[list[DrawnLine]] = []
+def _classes(lines: Sequence[NamedLine], same: Callable[[NamedLine, NamedLine], bool]) -> list[list[NamedLine]]:
+    """Return the lines in classes of an equivalence relation ``same``."""
+    classes: list[list[NamedLine]] = []
     for line in lines:
         alike = next((c for c in classes if same(c[0], line)), None)
         if alike is None:
@@ -273,11 +273,11 @@ def _classes(lines: Sequence[DrawnLine], same: Callable[[DrawnLine, DrawnLine], 
     return classes
 
 
-def _names_of(lines: Sequence[DrawnLine]) -> str:
+def _names_of(lines: Sequence[NamedLine]) -> str:
     return series(list(dict.fromkeys(line.name for line in lines)))
 
 
-def _less(a: Numbers, b: Numbers) -> tuple[Any, ...]:
+def _difference(a: Numbers, b: Numbers) -> tuple[Any, ...]:
     return tuple(p - q for p, q in zip(a, b, strict=True))
 
 
@@ -289,7 +289,7 @@ def _wedge(a: Numbers, b: Numbers) -> list[Any]:
     return [a[i] * b[j] - a[j] * b[i] for i, j in combinations(range(len(a)), 2)]
 
 
-def _line(line: DrawnLine) -> tuple[Any, ...]:
-    """Return the coordinates (a, b, c) of the line a x + b y + c = 0 of the plane."""
+def _line(line: NamedLine) -> tuple[Any, ...]:
+    """Return the coordinates (a, b, c) of the line a x + b y + c = 0 in the plane."""
     (x, y), (u, v) = line.through, line.direction
     return (v, -u, u * y - v * x)

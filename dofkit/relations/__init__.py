@@ -1,23 +1,23 @@
-"""Equations over the reals: what does each equation say, and which equations have to be looked at together?
+"""Equations over the reals: what is the real zero set of each, and which equations have to be analysed together?
 
 Types
-    A `Normal` (`normal.pieces`) is the real zero set of one equation: branches of pieces, each finite (f(q, t) = 0),
-    Pfaffian (a(q, t) dq + b dt = 0) or nonlinear in the velocities, with the conditions under which the equation, as
-    it was written, has a value. `Reduced` has all of a constraint. A `Block` (`blocks`) has rows that share
-    coordinates; an `Answer` (`answer`) is what the engines found of a block; the `Setting` (`setting`) is what they may
-    assume, with the table of what need not be modelled and the reason why no answer changes.
+    A `Normal` (`normal.pieces`) is the real zero set of one equation: branches, each a list of pieces that are
+    satisfied together. A piece is finite (f(q, t) = 0), Pfaffian (a(q, t) dq + b dt = 0), nonlinear in the velocities,
+    or a condition under which the equation as written has a value. `Reduced` is a constraint with the normal forms of
+    its equations. A `Row` is a piece with its constraint; a `Block` (`blocks`) is a set of rows that share coordinates;
+    an `Answer` (`answer`) is the result of the engines for a block. The `Setting` (`setting`) is what they may assume,
+    with the table of reductions: what may be left out of the model, and why no answer changes.
 
-Mechanisms, in the order in which an equation meets them
-    1. `normal` finds the zero set. `zero_set` splits powers, products and sums of squares as written, and
+Mechanisms, in the order in which they are applied to an equation
+    1. `normal` computes the zero set. `zero_set` splits powers, products and sums of squares as written, and
        `polynomial_zeros` the factors of the numerator otherwise; `semidefinite` proves signs [Sylvester1852]; `domain`
-       tells absolute values and roots apart by the signs of their arguments; `normal_form` splits relations quadratic
-       in the velocities whose discriminant is a square. What has no such form stays as it is.
+       resolves absolute values and roots by cases; `normal_form` splits relations quadratic in the velocities whose
+       discriminant is a square. An equation that has no such form is not changed.
     2. `normal.no_solution` proves that equations and inequalities have no real solution, by linear conditions on their
-       terms (`sign_claims`) [Motzkin1936] and by resultants, or that an inequality is satisfied somewhere, by a point.
-    3. `velocity_reductions` substitutes what linear equations determine into relations nonlinear in the velocities.
-    4. `blocks` separates what shares no coordinate and gives every integrated form dC = 0 its constant as a
-       coordinate; `normal.pieces` recognises equations that are equal up to names; a `Chart` has the program that the
-       engines run on a block. `linear_relations` solves linear and explicit equations.
+       terms (`sign_claims`) [Motzkin1936] and by resultants, or that an inequality is satisfied at some point.
+    3. `velocity_reductions` substitutes the solutions of linear equations into relations nonlinear in the velocities.
+    4. `blocks` separates rows that share no coordinate; `normal.pieces` recognises equations that are equal up to
+       names; a `Chart` has the program that the engines run on a block. `linear_relations` solves linear equations.
 
-Handed on: blocks, each with its program and its conditions. Nothing is dropped without a condition that says where.
+Result: blocks. A rewritten equation carries the conditions under which it is equivalent to the original one.
 """

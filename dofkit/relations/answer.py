@@ -1,4 +1,4 @@
-"""What is known of one block, and what the engines may assume of it."""
+"""The result of the engines for one block (`Answer`), and which constraints depend on which (`Redundancies`)."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ from dofkit.exact.matrices.sparse import SparseRow, Supports
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Block
 
-#: The chance of an error at points over GF(p) is below 2 to the minus this; ratios that tell 0 from not 0 are larger.
+#: The probability of an error over GF(p) is below 2^-BITS; singular values that count as 0 are smaller by GAP.
 BITS, GAP = 30, 1e3
 
 
 @dataclass(frozen=True)
 class HolonomyLabel:
-    """Whether a row is a consequence of geometric equations, how certain, and why.
+    """Whether a row is a consequence of geometric equations, how certain this is, and why.
 
-    ``modulo``: it is none, but one of geometric equations together with the other rows.
+    ``modulo``: the row is not, but it is a consequence of geometric equations together with the other rows.
     """
 
     holonomic: bool | None
@@ -39,7 +39,7 @@ class RealRows(NamedTuple):
 
 
 class Size(NamedTuple):
-    """What was computed with: coordinates, geometric equations, and one-forms that were tested for integrability."""
+    """Numbers of coordinates, geometric equations, and one-forms tested for integrability, in the model of a block."""
 
     coordinates: int = 0
     relations: int = 0
@@ -47,7 +47,7 @@ class Size(NamedTuple):
 
 
 class FollowedClasses(NamedTuple):
-    """Relations ``left_out``, and the ``coordinates`` of those that were followed, ``spared`` fewer than these have."""
+    """Number of relations ``left_out`` of the analysis of finite motions, of ``coordinates`` used there, and saved."""
 
     left_out: int = 0
     coordinates: int = 0
@@ -55,7 +55,7 @@ class FollowedClasses(NamedTuple):
 
 
 class AnsweredPart(NamedTuple):
-    """Of a block that joints without loops hold together: what they hold, answered by itself."""
+    """A part of a block whose other rows are joints that close no loop, with its own answer."""
 
     block: Block
     answer: Answer
@@ -66,25 +66,25 @@ DEFECTS = logging.getLogger("dofkit.defects")
 
 @dataclass
 class Answer:
-    """What is known of a block. Numbers are None where undecided; ``reasons`` say why.
+    """The result of the engines for a block. Numbers are None if undecided; ``reasons`` say why.
 
-    ``matrix``: the rows (in the block's order) over the coordinates and time at a generic point over GF(p), for
-    redundancy; ``supports``: where something else than the matrix tells what depends on what; ``hidden`` the geometric
-    equations that the differential ones force, ``hidden_branches`` those on each of several branches; ``doubt``:
-    functions or numbers occur that may be related in a way that GF(p) does not show; ``late``: no time was left;
-    ``conflict``: a minimal set of constraints that cannot hold together, where the proof shows one;
-    ``linear``: every relation is linear with rational coefficients, and all of them were eliminated exactly;
-    ``looked``: what was looked at of the relations; ``size``: of the model that was computed with; ``about``: of which
-    points it is; ``argument``: by which row of the table, with a chance of error below 2^-``bits``, or a ``gap``;
-    ``witness``: a certified configuration, as text, and ``real`` the rows there; ``first_order_sure``: is the
-    number of velocities at the reference proved? ``exists``: and that the relations hold there at all times?
-    ``trusted``: is what is not 0 over GF(p) known not to be 0? ``identical``: do dependent rows depend on the others in
-    their supports by identities? ``kind``: the same for blocks that are each other's up
-    to names, whose coordinates then correspond place by place; None for one that was not compared. ``answered_parts``:
-    what was answered apart, all other rows being independent of each other and of these; None where the whole was
-    looked at together, and only then is there a ``matrix``; ``most``: where the freedom is not known, what it is proved
-    not to exceed; ``separating``: expressions each of which may vanish on every component that is as large, and not on
-    others; ``one_branch``: that of one of several branches, of which others may integrate to something else.
+    The claim: ``verdict``, ``argument`` (a key of the table of arguments), ``bits`` (probability of error below
+    2^-bits), ``gap`` (of singular values), ``about`` (the points for which it is valid), and ``most`` (a proved bound
+    on the freedom, if this is not known). ``labels``: by row. ``witness``: a certified configuration, as text;
+    ``real``: the Jacobian there. ``instantaneous``: velocity freedom at the reference, proved if
+    ``first_order_sure``; ``exists``: it is proved that the reference satisfies the relations at all times.
+    ``matrix``: the rows (hidden ones after the finite ones) over coordinates and time at a generic point modulo
+    ``modulus``; ``supports``: computes dependences if these are not those of the matrix; ``identical``: dependent rows
+    are combinations of their supports identically; ``dependent``: coordinates that the rows can be solved for;
+    ``degenerate``: the rank of the rows is not that of the set. ``hidden``: geometric equations implied by the
+    differential ones, ``hidden_branches``: those of each of several branches. ``curved``: the admissible velocities
+    form no linear spaces. ``growth``, ``derived``: growth vector and derived flag. ``doubt``: functions or numbers
+    may be related unnoticed over GF(p); ``trusted``: what is not 0 over GF(p) is known not to be 0. ``late``: time
+    ran out. ``conflict``: a minimal contradictory set of constraints, if the proof gives one. ``linear``: all
+    relations were eliminated exactly. ``looked``, ``size``: of the analysis and of the model. ``kind``: equal for
+    blocks that are equal up to names, coordinate by coordinate. ``answered_parts``: parts analysed separately, the
+    other rows being independent of each other and of them; otherwise None. ``separating``: expressions that may vanish
+    on all components of the largest dimension and not on others. ``one_branch``: other branches may differ.
     """
 
     consistent: bool | None = True
@@ -129,7 +129,7 @@ class Answer:
 
     @property
     def claim(self) -> Claim:
-        """How certain the freedom is, or that there is none; undecided, and logged as a defect, without an argument."""
+        """How certain the freedom or the contradiction is; undecided, and logged as a defect, without an argument."""
         if self.argument is None and self.verdict != "undecided":
             DEFECTS.error("an answer that is %s names no argument (method: %s)", self.verdict, self.method)
             return OPEN
@@ -137,27 +137,26 @@ class Answer:
 
     @property
     def first_order(self) -> Claim:
-        """How certain the velocities at the reference are."""
+        """How certain ``instantaneous`` is, the velocity freedom at the reference."""
         if self.instantaneous is None:
             return OPEN
         sure: Verdict = "numeric" if self.verdict == "numeric" else "proved" if self.first_order_sure else "probable"
         return Claim(sure, "rank at the reference", self.bits, self.gap, "reference")
 
 
-#: Of what the freedom tells, and of what is seen as it is written.
+#: Claims of results obtained by counting from the freedom, and by identities of the equations as written.
 COUNTED, IDENTITY = Claim("proved", "count"), Claim("proved", "identity")
 
 
 @dataclass(frozen=True)
 class Redundancies:
-    """Which constraints of some that share coordinates depend on which, by their numbers.
+    """Which constraints, of a set that shares coordinates, depend on which; constraints are given by number.
 
-    ``independent``: how many equations of each are independent of those before; ``redundant``: a maximal redundant
-    set; ``groups``: (nullity, members); ``circuits``: what a redundant one depends on; ``undecided``: of which it
-    is not known whether they are redundant.
-    ``equations``: which scalar equations of a constraint follow from those before them, where that is known.
-    ``uncounted``: constraints of which it is not known how many of their equations do; ``seen``: of which some were
-    seen in numbers to do. ``claim``: of what is redundant and of how many equations are independent, given the freedom.
+    ``independent``: how many equations of each are independent of those before them; ``redundant``: a maximal
+    redundant set; ``groups``: (nullity, members); ``circuits``: the constraints that imply a redundant one;
+    ``undecided``: constraints that may be redundant. ``equations``: the numbers of the equations of each that are
+    implied by those before them, if known; ``uncounted``: constraints for which their number is not known; ``seen``:
+    constraints some of whose equations are implied by numerical evidence. ``claim``: of all this, given the freedom.
     """
 
     independent: dict[int, int]
@@ -176,16 +175,16 @@ class Redundancies:
         return {*self.independent, *self.undecided, *self.uncounted} - {*self.redundant}
 
     def has_dependent_equations(self, sizes: Sequence[int]) -> bool:
-        """Return whether an equation is known to follow from others; ``sizes``: the equations of each constraint."""
+        """Return whether an equation may be implied by others; ``sizes``: numbers of equations by constraint."""
         return bool(self.uncounted) or any(count < sizes[i] for i, count in self.independent.items())
 
     def without(self, needed: set[int]) -> Redundancies:
-        """Return the same where some constraints are needed because of other equations of theirs."""
+        """Return a copy in which constraints ``needed`` are not redundant (because of equations in other blocks)."""
         redundant = [i for i in self.redundant if i not in needed]
         circuits = {i: c for i, c in self.circuits.items() if i not in needed}
         return replace(self, redundant=redundant, circuits=circuits)
 
 
 def undecided_dependence(constraints: Iterable[int]) -> Redundancies:
-    """Return that nothing is known of these constraints."""
+    """Return a result in which everything about these constraints is undecided."""
     return Redundancies({}, undecided=tuple(sorted(set(constraints))))

@@ -1,4 +1,4 @@
-"""Relations that share coordinates in blocks, and a block as the engines see it: its program, relations, columns."""
+"""Blocks of rows that share coordinates, and the `Chart` of a block: its program, relations and columns."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from dofkit.relations.setting import Reductions, Setting
 
 
 class Row(NamedTuple):
-    """One scalar equation after reduction, or a condition: which constraint wrote it, and what it says."""
+    """A piece (a scalar equation or a condition) with the number of the constraint from which it comes."""
 
     constraint: int
     piece: Finite | Pfaffian | Nonlinear | DomainCondition
@@ -27,9 +27,9 @@ class Row(NamedTuple):
 
 @dataclass(frozen=True)
 class Block:
-    """Coordinates that belong together, and the rows on them (finite ones first, then as written).
+    """Coordinates connected by rows, and these rows (finite ones first, otherwise in the order of the scene).
 
-    ``conditions``: where the rows say what they say.
+    ``conditions``: the rows are equivalent to the original equations where these are satisfied.
     """
 
     coordinates: tuple[str, ...]
@@ -50,7 +50,7 @@ class Block:
 
 
 def coordinates_of(piece: Clause) -> frozenset[str]:
-    """Every coordinate a piece mentions, in coefficients, velocities and differentials too; of a joint all of them."""
+    """Return the coordinates that occur in a piece, in coefficients and differentials too; of a joint, all its own."""
     if isinstance(piece, JointEquation):
         return piece.joint.mentioned
     if isinstance(piece, Pfaffian):
@@ -59,9 +59,9 @@ def coordinates_of(piece: Clause) -> frozenset[str]:
 
 
 def split(coordinates: Sequence[str], rows: Sequence[Row]) -> tuple[list[Block], list[str]]:
-    """(blocks, coordinates that nothing touches). Rows without coordinates are blocks of their own.
+    """Return (blocks, coordinates that occur in no row). A row without coordinates is a block.
 
-    Two rows share a block if they share a coordinate anywhere, coefficients included; conditions are rows here.
+    Two rows, or a row and a condition, are in one block if they share a coordinate anywhere, coefficients included.
     """
     touched = [coordinates_of(row.piece) for row in rows]
     place = {c: k for k, c in enumerate(coordinates)}
@@ -77,7 +77,7 @@ def split(coordinates: Sequence[str], rows: Sequence[Row]) -> tuple[list[Block],
 
 
 def _linked(rows: Sequence[Row], touched: Sequence[frozenset[str]]) -> Iterator[Iterable[Hashable]]:
-    """What joins rows: the coordinates that they mention, and the joint, of which one equation names them for all."""
+    """Yield what joins each row to others: its coordinates, or its joint, with the first equation's coordinates."""
     grouped: set[int] = set()
     for row, mentioned in zip(rows, touched, strict=True):
         if not isinstance(row.piece, JointEquation):
@@ -93,7 +93,7 @@ def _all(sets: Iterable[frozenset[str]]) -> frozenset[str]:
 
 
 def blocks_of(coordinates: Sequence[str], rows: Sequence[Row], reductions: Reductions) -> tuple[list[Block], list[str]]:
-    """`split` as far as the reductions in use allow: else all rows are one block, and it holds every coordinate."""
+    """Return `split`; without the reduction "blocks" all are joined, without "untouched" no coordinate is apart."""
     blocks, untouched = split(coordinates, rows)
     place = {c: k for k, c in enumerate(coordinates)}
     if "blocks" not in reductions and len(blocks) > 1:
@@ -110,7 +110,7 @@ def _is_no_equation(row: Row) -> bool:
 
 
 def joined(coordinates: Iterable[str], blocks: Sequence[Block]) -> Block:
-    """Return several blocks as one, on some coordinates."""
+    """Return one block with these ``coordinates``, and the rows and conditions of several blocks."""
     rows = sorted((r for b in blocks for r in b.rows), key=_is_no_equation)
     return Block(tuple(coordinates), tuple(rows), tuple(dict.fromkeys(c for b in blocks for c in b.conditions)))
 
@@ -139,9 +139,9 @@ def depends_on_time(piece: Clause) -> bool:
 
 
 def is_measured(block: Block, setting: Setting) -> bool:
-    """Return whether measured numbers enter a block: geometry, or positions of particles and bodies.
+    """Return whether numbers with a tolerance occur in a block: geometry, or positions of particles and bodies.
 
-    Texts on coordinates that belong to no particle and no body, or to one without a position, hold no such numbers.
+    Equations given as formulas have exact numbers, unless a coordinate is that of a placed particle or body.
     """
     if setting.tolerance is None:
         return False
@@ -155,10 +155,10 @@ def is_measured(block: Block, setting: Setting) -> bool:
 
 @dataclass(frozen=True)
 class Chart:
-    """A block's ring, its geometric equations and its columns: coordinates, then time where it occurs.
+    """The ``ring`` (program) of a block; ``nodes`` compute its geometric equations ``relations``.
 
-    ``columns`` are generator indices (-1: the symbol occurs nowhere); ``unknowns`` are the symbols that a real search
-    moves: coordinates and generic geometry. ``relations`` are what the nodes compute.
+    ``symbols`` are the coordinates, then time if it occurs, and ``columns`` their generator indices (-1 if a symbol
+    does not occur); ``unknowns`` are the symbols that a real search varies: coordinates and unnamed parameters.
     """
 
     ring: Ring
@@ -171,23 +171,23 @@ class Chart:
 
     @property
     def coordinates(self) -> int:
-        """The number of columns that are coordinates."""
+        """The number of coordinates, which are the first columns."""
         return sum(s.args[0] == "coordinate" for s in self.symbols)
 
     @property
     def time(self) -> int | None:
-        """The number of the column that is time."""
+        """The index of the column of time; None if there is none."""
         return self.symbols.index(ex.TIME) if ex.TIME in self.symbols else None
 
     @property
     def scales(self) -> list[float]:
-        """The size by which each column is measured: places by the scale of lengths."""
+        """The unit of each column: the scene's size for positions x, y, z, otherwise 1."""
         places = {c.name for c in self.setting.roles if c.role in ("x", "y", "z")}
         return [self.setting.size if s.args[-1] in places else 1.0 for s in self.symbols]
 
 
 def aliases(block: Block, finite: Sequence[Expr]) -> dict[Expr, Expr]:
-    """Return the coordinates that geometric equations give explicitly (theta = w t), if they stand inside functions."""
+    """Return {coordinate: value} for coordinates inside functions that geometric equations solve for (theta = w t)."""
     if not finite:
         return {}
     inside = {s for e in (*expressions(block), *finite) for s in _inside_functions(e)}
@@ -207,10 +207,10 @@ def _inside_functions(e: Expr) -> frozenset[Expr]:
 
 
 def make_chart(block: Block, setting: Setting, extra: Sequence[Expr] = (), more: Sequence[Expr] = ()) -> Chart:
-    """The ring of a block with its geometric equations and ``extra`` ones; ``more`` is evaluated too."""
+    """Return the chart of a block and ``extra`` geometric equations; ``more`` are other expressions to evaluate."""
     finite = [r.piece.expr for r in block.finite if isinstance(r.piece, Finite)] + list(extra)
     everything = [*expressions(block), *extra, *more]
-    alias = aliases(block, finite) if block.forms or block.nonlinear else {}
+    alias = aliases(block, finite) if block.forms or block.nonlinear else {}  # only rows in velocities need them
     ring = Ring(everything, setting.positive, alias)
     nodes = tuple(ring.node(g) for g in finite)
     for e in everything:

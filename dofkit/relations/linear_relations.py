@@ -1,4 +1,4 @@
-"""Relations that are solved exactly: linear ones over the rationals, and those that give a coordinate explicitly."""
+"""Relations that are solved exactly: linear ones over the rationals, and others for a coordinate that occurs once."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
 
-#: A value of more terms than this is put only into relations that it leaves below so many nodes.
+#: A value of more than `SHORT` terms is substituted only into relations that stay below `MAX_NODES` nodes.
 SHORT, MAX_NODES = 4, 200
 
 Terms = dict[Expr, Fraction]
 
 
 def linear(e: Expr) -> Terms | None:
-    """``e`` as a sum of numbers times symbols (`ONE` for the constant); None where it is not one."""
+    """Return {symbol: number} for a linear expression, `ONE` standing for the constant; None if it is not linear."""
     terms: Terms = {}
     for term in e.args if e.op == "add" else (e,):
         factor, remainder = ex.number_and_rest(term)
@@ -31,18 +31,17 @@ def linear(e: Expr) -> Terms | None:
     return terms
 
 
-# Relations that give a coordinate
+# Relations that are solved for a coordinate
 
-#: The coordinates that a relation may be solved for, with their coefficients.
+#: A function that returns the coordinates for which a relation may be solved, with their coefficients.
 Coefficients = Callable[[Expr], Mapping[Expr, Expr]]
 
 
 class Explicit(NamedTuple):
-    """Relations that give a coordinate each as a function of others, and the others, with these put in.
+    """Relations solved for one coordinate each, and the other relations after substitution (``implicit``).
 
-    ``explicit``: each coordinate with the relation that gives it, in the order in which they were solved;
-    ``values``: what it gives, free of the coordinates solved for before; ``implied``: numbers of relations that are
-    satisfied where the others are.
+    ``explicit``: {coordinate: the relation solved for it}, in the order of solving; ``values``: {coordinate: its
+    value}, free of the coordinates solved for before; ``implied``: numbers of relations that the others imply.
     """
 
     explicit: dict[Expr, Expr]
@@ -52,25 +51,28 @@ class Explicit(NamedTuple):
 
     @property
     def contradictory(self) -> bool:
-        """Whether a linear equation between parameters and numbers is left, which generic parameters do not satisfy."""
+        """Whether ``implicit`` has a linear equation of parameters and numbers only: generic ones violate it."""
         of_parameters = (g for g in self.implicit if all(s.args[0] == "parameter" for s in g.symbols))
         return any(linear(g) is not None for g in of_parameters)
 
     @property
     def by_others(self) -> dict[Expr, Expr]:
-        """The coordinates as functions of those that are not solved for."""
+        """{coordinate solved for: its value as a function of the coordinates not solved for}."""
         result: dict[Expr, Expr] = {}
         for s in reversed(self.values):
             result[s] = substitute(self.values[s], result)
         return result
 
     def implies(self, e: Expr) -> bool | None:
-        """Return whether a linear relation is a sum of these; None where it may be by those that give no coordinate."""
+        """Return whether the solved relations imply a linear one; None if ``implicit`` ones might help to do so."""
         return substitute(e, self.by_others).is_zero or (None if self.implicit else False)
 
 
 def constant_coefficients(g: Expr) -> dict[Expr, Expr]:
-    """Return the coordinates that stand once in a sum, times what holds no coordinate and is generically not 0."""
+    """Return {coordinate: coefficient} for coordinates that occur once in a sum, in the first degree.
+
+    Coefficients contain no coordinate and are generically not 0.
+    """
     terms = g.args if g.op == "add" else (g,)
     times = Counter(s for t in terms for s in t.symbols)
     result = {}
@@ -84,21 +86,21 @@ def constant_coefficients(g: Expr) -> dict[Expr, Expr]:
 
 
 def number_coefficients(g: Expr) -> dict[Expr, Expr]:
-    """Return the coordinates that stand once in a sum, times a number."""
+    """Return the `constant_coefficients` that are numbers."""
     return {s: c for s, c in constant_coefficients(g).items() if c.op == "num"}
 
 
 def _is_generic(e: Expr) -> bool:
-    """No coordinate in it, and 0 at single moments, or for special parameters, at most."""
+    """Return whether ``e`` has no coordinate, and is 0 only at isolated times or for special parameters."""
     if any(s.args[0] == "coordinate" for s in e.symbols):
         return False
     return e.op in ("num", "sym") or (is_identically_zero(e) is False and is_analytic(e, e.symbols))
 
 
 def explicit_relations(relations: Iterable[Expr], coefficients: Coefficients = constant_coefficients) -> Explicit:
-    """Return the relations that give a coordinate, one after another, and what is left of the others.
+    """Return the relations solved one after another, each for a coordinate, and the others after substitution.
 
-    Those go first whose coordinate stands in no other; then one that few mention is put into these.
+    Relations whose coordinate occurs in no other come first; then coordinates that occur in few other relations.
     """
     remaining = dict(enumerate(relations))
     implied = [i for i, g in remaining.items() if g.is_zero]
@@ -140,20 +142,20 @@ def explicit_relations(relations: Iterable[Expr], coefficients: Coefficients = c
 
 
 def solve_linear(relations: Sequence[Expr]) -> Explicit:
-    """Return the solution of the linear ones among some relations; ``implied`` counts in ``relations``."""
+    """Return the solution of the linear ones among ``relations``; ``implied`` are indices in ``relations``."""
     numbers = [i for i, g in enumerate(relations) if linear(g) is not None]
     solved = explicit_relations([relations[i] for i in numbers], number_coefficients)
     return solved._replace(implied=tuple(numbers[k] for k in solved.implied))
 
 
 def _value(g: Expr, s: Expr, slope: Expr) -> Expr:
-    """Return the value of a coordinate at which a relation vanishes that holds it in one term."""
+    """Return the value of a coordinate ``s`` by a relation in which it occurs in one term, ``slope`` s."""
     others = (t for t in (g.args if g.op == "add" else (g,)) if s not in t.symbols)
     return ex.add(*(ex.mul(ex.MINUS_ONE / slope, t) for t in others))
 
 
 def _fits(value: Expr, others: Sequence[Expr]) -> bool:
-    """Return whether a value is a short sum, or leaves the relations linear, or small, that it is put into."""
+    """Return whether a value may be substituted into ``others``: it is a short sum, or they stay linear or small."""
     terms = linear(value)
     if terms is not None and (len(terms) <= SHORT or all(linear(e) is not None for e in others)):
         return True

@@ -1,4 +1,4 @@
-"""What the engines may assume of the symbols of a system, which of them may be asked, and what is asked."""
+"""What the engines may assume about the symbols of a system, which engines to use, and which questions to answer."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ ReductionName = Literal[
 ]  # fmt: skip
 Reductions = frozenset[ReductionName]
 
-#: What is left out of the model, and why no answer changes.
+#: What each reduction leaves out of the model, and why no answer changes.
 REDUCTIONS: Mapping[ReductionName, str] = {
     "untouched": "coordinates that no relation mentions: the set is a product with a line for each of them",
     "blocks": "zeros between equations that share no coordinate: the set is a product, the codistribution a direct sum",
@@ -33,7 +33,7 @@ REDUCTIONS: Mapping[ReductionName, str] = {
     "cheapest": "coordinates, where generic rigid links between particles are answered by counting in their graph",
 }
 
-#: All of them: what is in use unless something else is asked for.
+#: All reductions, the default.
 ALL: Reductions = frozenset(REDUCTIONS)
 
 
@@ -46,16 +46,15 @@ class NamedRows(NamedTuple):
 
 @dataclass(frozen=True)
 class Setting:
-    """What the engines may assume of the symbols, which of them may be asked, and what is asked beyond the labels.
+    """What the engines may assume about the symbols, which ``engines`` and ``reductions`` they use, and the questions.
 
-    ``grows``: the growth vector; ``flag``: the derived flag.
-    ``distances``: those that constraints hold, by constraint, in a world of ``dimension``; ``links``: the particles
-    that rigid links join, by constraint; ``reductions``: those in use;
-    ``geometric``: those that are no texts, whose numbers are measured where there is a ``tolerance``; then ``arms`` are
-    the vectors from the bodies' origins to their material points at the scene's centre. ``tilts``: the second of the
-    Euler angles of bodies whose angles texts name; where its sine is 0 the other two turn alike. ``bridges``: the
-    joints that close no loop; ``afloat``: the constraints that nothing else ties to the ground. ``joint_rows``: of
-    constraints at the reference, where the geometry of joints alone tells them.
+    ``grows``, ``flag``: whether to compute growth vectors and derived flags. ``positive`` symbols are > 0; ``generic``
+    parameters have no name; ``pose`` has the given initial values; ``size`` is the unit of length. Constraints are
+    given by number: ``distances`` that they fix, in a world of ``dimension``; pairs of particles joined by rigid
+    ``links``; ``geometric`` ones, not written as formulas, whose numbers have the ``tolerance``; ``bridges``, joints
+    that close no loop; ``afloat`` ones, connected to the ground by nothing else. ``arms``: vectors from bodies' origins
+    to their material points at the scene's centre. ``tilts``: the second Euler angles of bodies whose angles occur in
+    formulas (gimbal lock where the sine is 0). ``joint_rows``: gives the rows of constraints at the reference, or None.
     """
 
     positive: frozenset[Expr]

@@ -1,4 +1,4 @@
-"""Relations in the presence of others: nonlinear in the velocities beside linear ones, and two sides of a boundary."""
+"""Relations nonlinear in the velocities reduced by linear ones, and pairs of opposite conditions made equations."""
 
 from __future__ import annotations
 
@@ -22,19 +22,22 @@ from dofkit.relations.normal.normal_form import linear_form, normalise, velociti
 from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian
 from dofkit.relations.normal.zero_set import never_vanishes
 
-#: The most alternatives into which nonlinear relations are split, and rounds of reduction.
+#: Bounds on the number of alternatives and of rounds of reduction.
 MAX_ALTERNATIVES, MAX_ROUNDS = 16, 6
 
 
 def rate(g: Expr) -> Expr:
-    """dg/dt along a motion, for a geometric equation."""
+    """Return the time derivative of g(q, t) along a motion."""
     moving = sorted((s for s in g.symbols if s.args[0] == "coordinate"), key=repr)
     terms = [diff(g, s) * ex.velocity(str(s.args[1])) for s in moving]
     return ex.add(*terms, diff(g, ex.TIME))
 
 
 def with_boundaries(rows: Sequence[Row]) -> list[Row]:
-    """The rows with u = 0 in place of the conditions u >= 0 and -u >= 0, as the later one's."""
+    """Return the rows with u = 0 in place of two conditions u >= 0 and -u >= 0, as a row of the later constraint.
+
+    This is done only if u is linear in the velocities, or contains none.
+    """
     kept: dict[int, Row] = {}
     sides: dict[frozenset[tuple[Expr, Fraction]], int] = {}
     for place, row in enumerate(rows):
@@ -53,7 +56,7 @@ def with_boundaries(rows: Sequence[Row]) -> list[Row]:
 
 @dataclass(frozen=True)
 class RewrittenRow:
-    """A row as it was written and what it says together with the others: no row where it says nothing new."""
+    """A row ``written``, and the ``rows`` that replace it given the others: none if it is implied by them."""
 
     written: Row
     rows: tuple[Row, ...]
@@ -64,10 +67,10 @@ class RewrittenRow:
 
 
 class Alternative(NamedTuple):
-    """All rows on one choice of branches, in the order in which they were written.
+    """All ``rows`` on one choice of branches, in the order of the scene.
 
-    ``slots``: what became of each row, where a relation nonlinear in the velocities is among them; ``reduced``: of
-    those that were nonlinear and are so no more; ``divided``: to rewrite one, what may vanish somewhere was divided by.
+    ``slots``: the replacement of each row; ``reduced``: the slots of rows that are no longer nonlinear; ``divided``:
+    whether an expression that may vanish was divided by.
     """
 
     rows: list[Row]
@@ -77,16 +80,16 @@ class Alternative(NamedTuple):
 
     @classmethod
     def of(cls, slots: tuple[RewrittenRow, ...], divided: bool) -> Alternative:
-        """Return the alternative with these rows."""
+        """Return the alternative with these replacements of rows."""
         linear = (s for s in slots if not s.unchanged and not any(isinstance(r.piece, Nonlinear) for r in s.rows))
         return cls([row for slot in slots for row in slot.rows], slots, tuple(linear), divided)
 
 
 def alternatives_of(rows: Sequence[Row], positive: frozenset[Expr]) -> list[Alternative]:
-    """Return the rows with nonlinear ones reduced by the linear ones that share coordinates with them.
+    """Return the alternatives (choices of branches) of the rows, nonlinear rows being reduced by linear ones.
 
-    Velocities that the linear rows give are put into the nonlinear ones, which may then split into linear ones:
-    xdot^2 + ydot^2 = zdot^2 with y = 2 x is zdot = +-sqrt(5) xdot. What is new is used in the next round.
+    The linear rows are solved for velocities, which are substituted into the nonlinear rows; these may then split into
+    linear ones, used in the next round: xdot^2 + ydot^2 = zdot^2 with y = 2 x is zdot = +-sqrt(5) xdot.
     """
     alternatives, done = [Alternative.of(tuple(RewrittenRow(r, (r,)) for r in rows), False)], list[Alternative]()
     for _ in range(MAX_ROUNDS):
@@ -104,15 +107,13 @@ def alternatives_of(rows: Sequence[Row], positive: frozenset[Expr]) -> list[Alte
 
 
 def _step(alternative: Alternative, positive: frozenset[Expr]) -> list[Alternative] | None:
-    """The alternatives that one more reduction leaves; None where nothing is left to do."""
+    """Return the alternatives after one more reduction; None if no nonlinear row changes."""
     rows = alternative.rows
     if not any(isinstance(r.piece, Nonlinear) for r in rows):
         return None
-    answer = {id(r): _ways(r, rows, positive) for r in rows if isinstance(r.piece, Nonlinear)}
-    by_linear, divided = (
-        {i: rewriting.alternatives for i, rewriting in answer.items()},
-        any(rewriting.divided for rewriting in answer.values()),
-    )
+    rewritings = {id(r): _rewritten(r, rows, positive) for r in rows if isinstance(r.piece, Nonlinear)}
+    by_linear = {i: rewriting.alternatives for i, rewriting in rewritings.items()}
+    divided = any(rewriting.divided for rewriting in rewritings.values())
     if all(len(result) == 1 and len(result[0]) == 1 and id(result[0][0]) in by_linear for result in by_linear.values()):
         return None
     options: list[list[RewrittenRow]] = []
@@ -126,16 +127,16 @@ def _step(alternative: Alternative, positive: frozenset[Expr]) -> list[Alternati
 
 
 class _Rewriting(NamedTuple):
-    """The branches of a row; was there a division by what may vanish?"""
+    """The branches of a row; ``divided``: whether an expression that may vanish was divided by."""
 
     alternatives: list[tuple[Row, ...]]
     divided: bool = False
 
 
-def _ways(row: Row, rows: Sequence[Row], positive: frozenset[Expr]) -> _Rewriting:
-    """A nonlinear row with coordinates put in that the finite rows give, and then velocities that linear ones do.
+def _rewritten(row: Row, rows: Sequence[Row], positive: frozenset[Expr]) -> _Rewriting:
+    """Return a nonlinear row after substituting coordinates solved by finite rows and velocities by linear ones.
 
-    What was divided by may vanish where the rows hold: what is left says all only where it is linear, which is checked.
+    If a divisor may vanish, the result is used only if it is linear; otherwise the velocities are not substituted.
     """
     if not isinstance(row.piece, Nonlinear):
         return _Rewriting([(row,)])
@@ -153,7 +154,7 @@ def _ways(row: Row, rows: Sequence[Row], positive: frozenset[Expr]) -> _Rewritin
         except NoValueError:  # what was put in leaves 0 to a power, which has no value
             return _Rewriting([(row,)])
         divided = not all(never_vanishes(d, positive) for d in divisors)
-        alternatives = [b for b in result if not b] or result  # the branch that says nothing holds the others
+        alternatives = [b for b in result if not b] or result  # a branch without rows contains the others
         if not (divided and any(isinstance(r.piece, Nonlinear) for w in alternatives for r in w)):
             return _Rewriting(alternatives, divided)
     return _Rewriting([(row,)] if there == row.piece.expr else _branches(row, there, (), positive))
@@ -162,7 +163,7 @@ def _ways(row: Row, rows: Sequence[Row], positive: frozenset[Expr]) -> _Rewritin
 def _without_divisors(
     written: Expr, changed: Expr, divisors: Sequence[Expr], positive: frozenset[Expr]
 ) -> tuple[Expr, tuple[DomainCondition, ...]]:
-    """What a row reads as without what an elimination divided by, and where the row as it was written has a value."""
+    """Return the numerator of ``changed`` and the conditions for a value of ``written``, if there are divisors."""
     if not divisors:
         return changed, ()
     try:
@@ -176,21 +177,21 @@ def _without_divisors(
 def _branches(
     row: Row, changed: Expr, within: Sequence[DomainCondition], positive: frozenset[Expr]
 ) -> list[tuple[Row, ...]]:
-    """What a row says that now reads ``changed`` = 0."""
+    """Return the branches of ``changed`` = 0 as rows, with conditions ``within``; for an empty set the row 1 = 0."""
     normal = normalise(changed, positive, True)
     alternatives = [tuple(Row(row.constraint, p) for p in (*b, *within)) for b in normal.branches]
     return alternatives or [(Row(row.constraint, Finite(ex.ONE)),)]
 
 
 def _rows_near(row: Row, rows: Sequence[Row]) -> list[Row]:
-    """The finite and linear rows that are joined to a row through coordinates."""
+    """Return the finite and linear rows that are connected to a row through coordinates."""
     others = [r for r in rows if not isinstance(r.piece, Nonlinear)]
     blocks, _ = split(sorted({name for r in others for name in coordinates_of(r.piece)}), others)
     return [r for b in blocks if not coordinates_of(row.piece).isdisjoint(b.coordinates) for r in b.rows]
 
 
 def _rates_of(rows: Sequence[Row]) -> list[Expr]:
-    """What finite and linear rows say of velocities."""
+    """Return expressions linear in the velocities that vanish by the finite and linear rows."""
     rates = []
     for r in rows:
         if isinstance(r.piece, Finite):
@@ -201,7 +202,7 @@ def _rates_of(rows: Sequence[Row]) -> list[Expr]:
 
 
 def eliminated(e: Expr, linear: Sequence[Expr]) -> tuple[Expr, list[Expr]]:
-    """``e`` with the velocities that the linear relations give put in, and what was divided by."""
+    """Return (``e`` after substituting the velocities for which ``linear`` can be solved, the divisors used)."""
     remaining, divisors = list(linear), list[Expr]()
     while remaining:
         relation = remaining.pop(0)
@@ -217,7 +218,7 @@ def eliminated(e: Expr, linear: Sequence[Expr]) -> tuple[Expr, list[Expr]]:
 
 
 def _pivot(relation: Expr) -> tuple[Expr, Expr] | None:
-    """A velocity of a linear relation with a coefficient that is not identically 0; numbers first."""
+    """Return (velocity, coefficient) with a number as coefficient, or else one not identically 0; None if none."""
     result = [(v, diff(relation, v)) for v in velocities_of(relation)]
     for v, c in result:
         if c.op == "num" and not c.is_zero:

@@ -1,7 +1,7 @@
 """Which constraints depend on which: redundant ones, groups, circuits, by rank over GF(p).
 
-A row is a scalar equation's differential at a generic point; finite rows come before differential ones,
-because only a geometric equation fixes the constant. Dependent sets of constraints are those whose rows are.
+A row is the differential of a scalar equation at a generic point. Finite rows come before differential ones, because
+only a geometric equation fixes the constant. A set of constraints is dependent if their rows are.
 """
 
 from __future__ import annotations
@@ -12,27 +12,26 @@ from dataclasses import dataclass
 
 from dofkit.base.deadline import check
 from dofkit.base.verdicts import Claim, together
-from dofkit.classification.dependence.implication import Everywhere, NearDrawing
+from dofkit.classification.dependence.implication import Everywhere, NearReference
 from dofkit.classification.dependence.minimal_sets import SufficientSets, largest_redundant_set, minimal_set
 from dofkit.exact.matrices.sparse import SparseRow, Supports, components, echelon, rank_of_rows, transposed, vanishing
 from dofkit.relations.answer import BITS, Redundancies
 
-#: Sets of constraints are searched exhaustively up to this many members of a group.
+#: Groups of up to so many constraints are searched exhaustively.
 SEARCHED = 12
-#: Rows that depend on each other at points over GF(p).
+#: The claim of dependences of rows at points over GF(p).
 ROWS = Claim("probable", "rows at a point", bits=BITS)
-#: Up to this many are removed one after the other; then so many are given back, one at a time.
+#: Bound on the members of a group for the greedy search, and on the number of its exchanges.
 REMOVED, EXCHANGES = 60, 200
 
 
 @dataclass(frozen=True)
 class OwnedRows:
-    """The matrix of a block, without zeros: ``owners[i]`` wrote row i, ``finite[i]`` tells a finite row.
+    """The matrix of a block: row i belongs to the constraint ``owners[i]``, and is one of a geometric equation if
+    ``finite[i]``, namely of its scalar equation ``equations[i]`` (-1 if not known).
 
-    ``equations[i]`` is the number of the scalar equation that row i is of; -1 where it is not known.
-    ``supports``: what each row depends on, of those before it, where something else than the matrix tells it.
-    ``implication`` tells what rows say of each other; without it what is dependent is taken to follow; ``claim``: of
-    what depends on what.
+    ``supports`` computes, for each dependent row, the rows before it on which it depends, if this is not by the matrix.
+    ``implication`` tests implications; without it a dependent row counts as implied. ``claim``: of the dependences.
     """
 
     matrix: Sequence[SparseRow]
@@ -41,11 +40,11 @@ class OwnedRows:
     p: int
     equations: Sequence[int] = ()
     supports: Supports | None = None
-    implication: NearDrawing | Everywhere | None = None
+    implication: NearReference | Everywhere | None = None
     claim: Claim = ROWS
 
     def of(self, owners: frozenset[int] | set[int], finite_only: bool = False) -> list[SparseRow]:
-        """The rows that some constraints wrote."""
+        """Return the rows of some constraints."""
         return [
             row
             for row, owner, finite in zip(self.matrix, self.owners, self.finite, strict=True)
@@ -54,7 +53,7 @@ class OwnedRows:
 
 
 def analyse(matrices: Sequence[OwnedRows], needed: Collection[int] = ()) -> Redundancies:
-    """Redundant constraints, groups and circuits of blocks that share constraints; the ``needed`` are not redundant."""
+    """Return the redundancies in blocks that share constraints; those in ``needed`` are not redundant."""
     order = _order(matrices)
     bases = [_Basis(part) for part in matrices]
     kept = Counter(b.owners[i] for b in bases for i in b.pivots)
@@ -64,9 +63,9 @@ def analyse(matrices: Sequence[OwnedRows], needed: Collection[int] = ()) -> Redu
     groups = _groups(bases)
     redundant: list[int] = []
     for _, members in groups:
-        redundant += _droppable(matrices, [o for o in order if o in members and o not in needed], bases)
-    open_ = set[int]().union(*(b.open for b in bases))
-    decided = [owner for owner in redundant if owner not in open_]
+        redundant += _largest_redundant(matrices, [o for o in order if o in members and o not in needed], bases)
+    undecided = set[int]().union(*(b.undecided for b in bases))
+    decided = [owner for owner in redundant if owner not in undecided]
     circuits = {owner: _circuit(matrices, order, owner, bases) for owner in decided}
     uncounted = tuple(sorted(set[int]().union(*(b.uncounted for b in bases))))
     equations = {o: e for o, e in _equations(matrices, bases).items() if o not in uncounted}
@@ -77,29 +76,29 @@ def analyse(matrices: Sequence[OwnedRows], needed: Collection[int] = ()) -> Redu
 
 
 def _equations(matrices: Sequence[OwnedRows], bases: Sequence[_Basis]) -> dict[int, tuple[int, ...]]:
-    """The scalar equations all of whose rows follow from those before them, a constraint each."""
-    follows_of: dict[int, dict[int, bool]] = {}
+    """Return {constraint: its scalar equations all of whose rows depend on rows before them}."""
+    is_dependent: dict[int, dict[int, bool]] = {}
     for part, basis in zip(matrices, bases, strict=True):
         for i, (owner, equation) in enumerate(zip(part.owners, part.equations, strict=False)):
-            of_owner = follows_of.setdefault(owner, {})
+            of_owner = is_dependent.setdefault(owner, {})
             of_owner[equation] = of_owner.get(equation, True) and i in basis.supports
     return {
-        owner: tuple(sorted(e for e, follows in result.items() if follows))
-        for owner, result in follows_of.items()
+        owner: tuple(sorted(e for e, dependent in result.items() if dependent))
+        for owner, result in is_dependent.items()
         if -1 not in result
     }
 
 
 class _Basis:
-    """The first independent rows, finite ones before differential ones, and the others in terms of them."""
+    """``pivots``: the first independent rows, finite ones first; ``supports``: for the others, those they depend on."""
 
     def __init__(self, rows: OwnedRows) -> None:
         self._rows = rows
         self.owners = rows.owners
         basis = self._by_elimination(rows) if rows.supports is None else self._from_supports(rows, rows.supports)
         self.pivots, self.supports = basis
-        #: Constraints of which it is not known what they follow from, or how many equations from those before.
-        self.open: set[int] = set()
+        #: Constraints for which it is undecided what implies them, or how many of their equations earlier ones imply.
+        self.undecided: set[int] = set()
         self.uncounted: set[int] = set()
         self.implication = rows.implication
         if rows.implication is not None:
@@ -110,29 +109,29 @@ class _Basis:
             self.circuits.setdefault(self.owners[i], set()).update(self.owners[j] for j in support)
 
     def _enlarge(self, sets: SufficientSets, finite: Sequence[bool]) -> None:
-        """Every support made large enough to imply its row.
+        """Enlarge every support until it implies its row.
 
-        Where it takes what was written later, the row does not follow from those before it, but maybe a later one does.
+        If this needs rows of a later constraint, neither constraint is counted: the other row may be the implied one.
         """
         for i, support in self.supports.items():
             result = sets.enough(i, support)
             if result is None:
-                self.open.add(self.owners[i])
+                self.undecided.add(self.owners[i])
             else:
                 self.supports[i] = result
                 later = {o for k in result if (o := self.owners[k]) > self.owners[i] and finite[k] == finite[i]}
                 self.uncounted |= {self.owners[i], *later} if later else set()
 
     def implies(self, kept: set[int], owner: int) -> bool:
-        """Return whether the rows of some constraints imply those of another one that depend on others."""
-        answer = self.implication
-        if answer is None:
+        """Return whether the rows of the constraints ``kept`` imply the dependent rows of ``owner``."""
+        implication = self.implication
+        if implication is None:
             return True
         others = self._first_rows(kept)
-        return all(answer.follows(i, others) for i in self.supports if self.owners[i] == owner)
+        return all(implication.follows(i, others) for i in self.supports if self.owners[i] == owner)
 
     def _first_rows(self, kept: set[int]) -> list[int]:
-        """The first independent rows of some constraints: also those that are no pivots with those of others."""
+        """Return the first independent rows of the constraints ``kept``; some may not be pivots of the block."""
         if self._rows.supports is not None:
             return [i for i in self.pivots if self.owners[i] in kept]
         numbers = [i for i in _by_kind(self._rows) if self.owners[i] in kept]
@@ -152,19 +151,19 @@ class _Basis:
 
 
 def _by_kind(rows: OwnedRows) -> list[int]:
-    """The rows by their numbers, finite ones before differential ones, and as written."""
+    """Return the numbers of the rows, finite ones first, in the order of their constraints."""
     return sorted(range(len(rows.matrix)), key=lambda i: (not rows.finite[i], rows.owners[i], i))
 
 
 def _order(matrices: Sequence[OwnedRows]) -> list[int]:
-    """Constraints whose rows are all finite first, each part as written."""
+    """Return the constraints in order, those whose rows are all finite before the others."""
     owners = sorted({o for part in matrices for o in part.owners})
     differential = {o for part in matrices for o, f in zip(part.owners, part.finite, strict=True) if not f}
     return [o for o in owners if o not in differential] + [o for o in owners if o in differential]
 
 
 def _groups(bases: Sequence[_Basis]) -> list[tuple[int, list[int]]]:
-    """Constraints joined by circuits of rows."""
+    """Return (nullity, members) for the sets of constraints that are connected by circuits of rows."""
     circuits = [{b.owners[i], *(b.owners[j] for j in support)} for b in bases for i, support in b.supports.items()]
     extra = Counter(b.owners[i] for b in bases for i in b.supports)
     groups = []
@@ -175,7 +174,7 @@ def _groups(bases: Sequence[_Basis]) -> list[tuple[int, list[int]]]:
 
 
 def _spans(matrices: Sequence[OwnedRows], kept: set[int], everything: set[int]) -> bool:
-    """Return whether the kept constraints imply the others, finite ones by finite ones: a rate fixes no constant."""
+    """Return whether the rows of ``kept`` span those of ``everything``, and the finite ones the finite ones."""
     return all(
         rank_of_rows(part.of(kept, only), part.p) == rank_of_rows(part.of(everything, only), part.p)
         for part in matrices
@@ -183,46 +182,46 @@ def _spans(matrices: Sequence[OwnedRows], kept: set[int], everything: set[int]) 
     )
 
 
-def _droppable(matrices: Sequence[OwnedRows], members: list[int], bases: Sequence[_Basis]) -> list[int]:
-    """As many constraints of a group as can go together; of several choices the last in the order.
+def _largest_redundant(matrices: Sequence[OwnedRows], members: list[int], bases: Sequence[_Basis]) -> list[int]:
+    """Return a largest redundant set among ``members``, of several the last in the order.
 
-    Modulo 2 stands only which rows depend on which (balls tell no more): then those that add nothing to those before.
+    In large groups, for single rows, and for dependency patterns modulo 2 (from balls), it is the set of constraints
+    all of whose rows depend on rows before them.
     """
     unweighted = any(p.p == 2 for p in matrices) and len(members) > SEARCHED
     rows_of = Counter(o for p in matrices for o in p.owners)
     if unweighted or len(members) > REMOVED or all(rows_of[o] == 1 for o in members):
         kept_of = set().union(*(b.pivot_owners for b in bases))
         return [o for o in members if o not in kept_of]
-    within = _Dispensable(matrices, members)
+    dual = _DualMatroid(matrices, members)
     if len(members) > SEARCHED:
-        return _exchanged(within, members, rows_of)
-    return largest_redundant_set(reversed(members), within.can_go).members
+        return _exchanged(dual, members, rows_of)
+    return largest_redundant_set(reversed(members), dual.are_redundant).members
 
 
-def _exchanged(within: _Dispensable, members: Sequence[int], rows_of: Mapping[int, int]) -> list[int]:
-    """Return what can go of many constraints: the last or the smallest first, then one is given back where two can go.
+def _exchanged(dual: _DualMatroid, members: Sequence[int], rows_of: Mapping[int, int]) -> list[int]:
+    """Return a redundant set that cannot be enlarged, by a greedy search, improved by exchanging one for two members.
 
-    Constraints of several equations are no matroid: no constraint can be added to the answer, but another answer may
-    be larger.
+    A larger one may exist: constraints of several equations are not a matroid.
     """
     small_first = sorted(members, key=lambda o: (rows_of[o], -members.index(o)))
-    dropped = max((within.greedy(order, []) for order in (list(reversed(members)), small_first)), key=len)
-    back = iter(dropped)
+    redundant = max((dual.greedy(order, []) for order in (list(reversed(members)), small_first)), key=len)
+    exchangeable = iter(redundant)
     for _ in range(EXCHANGES):
         check()
-        if (owner := next(back, None)) is None:
+        if (owner := next(exchangeable, None)) is None:
             break
-        larger = within.greedy([o for o in small_first if o != owner], [o for o in dropped if o != owner])
-        if len(larger) > len(dropped):
-            dropped, back = larger, iter(larger)
-    return dropped
+        larger = dual.greedy([o for o in small_first if o != owner], [o for o in redundant if o != owner])
+        if len(larger) > len(redundant):
+            redundant, exchangeable = larger, iter(larger)
+    return redundant
 
 
-class _Dispensable:
-    """Which of some constraints can go together.
+class _DualMatroid:
+    """The dual matroid of the rows of some constraints, represented by the matrix of their linear dependences.
 
-    Rows can go without loss of rank where they are independent in the dual matroid, whose matrix is that of the sums
-    of rows that are 0 [Whitney1935]: as many rows at most as there are such sums, however many rows there are.
+    Rows can be removed without loss of rank if they are independent in it [Whitney1935]; it has as many rows as there
+    are dependences, however many rows there are.
     """
 
     def __init__(self, matrices: Sequence[OwnedRows], members: Sequence[int]) -> None:
@@ -238,25 +237,25 @@ class _Dispensable:
                     of.setdefault(part.owners[i], []).append(column)
                 self._tables.append((of, len(sums), part.p))
 
-    def can_go(self, owners: Sequence[int]) -> bool:
-        """Return whether the others imply these, finite ones by finite ones only: a rate does not fix a constant."""
+    def are_redundant(self, owners: Sequence[int]) -> bool:
+        """Return whether the rows of the others span those of ``owners``, and the finite ones the finite ones."""
         for of, most, p in self._tables:
             rows = [row for owner in owners for row in of.get(owner, ())]
             if len(rows) > most or rank_of_rows(rows, p) < len(rows):
                 return False
         return True
 
-    def greedy(self, order: Iterable[int], gone: Sequence[int]) -> list[int]:
-        """Return what can go besides ``gone``, one after the other."""
-        dropped = list(gone)
+    def greedy(self, order: Iterable[int], redundant: Sequence[int]) -> list[int]:
+        """Return the set ``redundant`` enlarged, in ``order``, by constraints with which it stays redundant."""
+        larger = list(redundant)
         for owner in order:
-            if owner not in dropped and self.can_go([*dropped, owner]):
-                dropped.append(owner)
-        return dropped
+            if owner not in larger and self.are_redundant([*larger, owner]):
+                larger.append(owner)
+        return larger
 
 
 def _circuit(matrices: Sequence[OwnedRows], order: list[int], owner: int, bases: Sequence[_Basis]) -> list[int]:
-    """A minimal set of other constraints on which a redundant one depends, of those before it where that can be."""
+    """Return a minimal set of other constraints that imply a redundant one, of those before it if possible."""
     if not any(owner in b.pivot_owners for b in bases):
         supports = set().union(*(b.circuits.get(owner, set()) for b in bases)) - {owner}
         if len(supports) < 2 or len(supports) > SEARCHED:

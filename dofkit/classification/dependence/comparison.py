@@ -1,9 +1,8 @@
-"""Comparisons of an answer with what was asked for: multiples, gradients on the same set, inequalities.
+"""Comparisons of submitted constraints with wanted ones: multiples, gradients on the same set, inequalities.
 
-Two equations state the same where one is a number times the other. What is no polynomial in coordinates, parameters,
-sines, cosines and exponentials is not compared so: a root or a quotient may have no value where its multiple has one.
-a sqrt(P) + b = 0 is one branch of b^2 = a^2 P, on which a b <= 0; where the other constraints state that, the root
-loses nothing.
+Two equations are equivalent if one is a number times the other. This is tested only for polynomials in coordinates,
+parameters, sines, cosines and exponentials: a root or a quotient may have no value where its multiple has one.
+a sqrt(P) + b = 0 is the branch a b <= 0 of b^2 = a^2 P, and equivalent to it if other constraints imply a b <= 0.
 """
 
 from __future__ import annotations
@@ -45,41 +44,41 @@ _ENTIRE = frozenset({"symbol", "cos", "sin", "exp", "pi"})
 
 
 def same_up_to_numbers(submitted: Sequence[Reduced], wanted: Sequence[Reduced], positive: frozenset[Expr]) -> bool:
-    """Return whether every submitted equation is a number times a wanted one, as written, and each of those is met.
+    """Return whether every submitted equation, as written, is a number times a wanted one, and every wanted one occurs.
 
-    True is a proof that they say the same and are as regular; False says nothing.
+    True proves that the sets are equivalent and equally regular; False: not proved.
     """
     if _as_written(submitted) == _as_written(wanted):
         return True
-    asked = [_terms(n) for r in wanted for n in r.normals]
-    answer = [terms for r in submitted for terms in _written(r)]
-    if not answer or [] in asked or [] in answer:
+    wanted_terms = [_terms(n) for r in wanted for n in r.normals]
+    submitted_terms = [terms for r in submitted for terms in _written(r)]
+    if not submitted_terms or [] in wanted_terms or [] in submitted_terms:
         return False
-    table = [[_proportional(terms_of_one, other, positive) for other in asked] for terms_of_one in answer]
-    return all(map(any, table)) and all(any(row[k] for row in table) for k in range(len(asked)))
+    table = [[_proportional(terms, other, positive) for other in wanted_terms] for terms in submitted_terms]
+    return all(map(any, table)) and all(any(row[k] for row in table) for k in range(len(wanted_terms)))
 
 
 def _as_written(constraints: Sequence[Reduced]) -> set[tuple[frozenset[Expr], frozenset[Requirement]]]:
-    """The left sides of the equations e = 0, each with -e, and where they have a value."""
+    """Return the equations e = 0 as ({e, -e}, conditions for a value of e)."""
     relations = (e for r in constraints for e in r.constraint.relations)
     return {(frozenset((e.expr, -e.expr)), frozenset(e.domain)) for e in relations}
 
 
 def _entire(ring: Ring) -> bool:
-    """Return whether all of its nodes have a value everywhere."""
+    """Return whether all nodes of a ring have a value everywhere."""
     kinds = {var.kind for var in ring.vars}
     return kinds <= _ENTIRE and not any(op == POW and p[1] < 0 for op, p in ring.code)
 
 
 def _written(r: Reduced) -> list[list[tuple[str, Expr]]]:
-    """The equations of a constraint, each as `_terms` has it; one without terms where any was reduced."""
+    """Return `_terms` of each equation of a constraint; [[]] if any equation was changed by its normal form."""
     if len(r.normals) != len(r.constraint.relations) or any(n.notes for n in r.normals):
         return [[]]
     return [_terms(n) for n in r.normals]
 
 
 def _terms(normal: Normal) -> list[tuple[str, Expr]]:
-    """g of g = 0 under no name, or a form's coefficients by coordinate; none of what has branches or conditions."""
+    """Return [("", g)] for g = 0, the (coordinate, coefficient) pairs of a form; [] for branches and conditions."""
     if len(normal.branches) != 1 or len(normal.branches[0]) != 1:
         return []
     (piece,) = normal.branches[0]
@@ -104,13 +103,13 @@ def _proportional(a: Sequence[tuple[str, Expr]], b: Sequence[tuple[str, Expr]], 
     return all(x * d == y * c for x, y in result for c, d in leading[:1])
 
 
-#: Choices of branches on which gradients are looked at.
+#: Bound on the choices of branches on which gradients are compared.
 MAX_BRANCHES = 16
 
 
 @dataclass(frozen=True)
 class Regularity:
-    """The relations of others, those that were asked for, and the constraints of an answer with the same solutions."""
+    """Submitted constraints with the same solutions as the wanted ones, together with the ``others``."""
 
     others: Sequence[Normal]
     wanted: Sequence[Reduced]
@@ -119,43 +118,45 @@ class Regularity:
     coordinates: Sequence[str]
 
     def irregular(self) -> bool | None:
-        """Return whether the answer's gradient loses rank where that of what was asked for does not, or None."""
-        answer, asked = ([n for r in some for n in r.normals] for some in (self.submitted, self.wanted))
-        nonlinear = any(isinstance(p, Nonlinear) for n in (*answer, *asked) for p in n.pieces)
-        if _lost(answer, nonlinear) and not _lost(asked, nonlinear):
+        """Return whether submitted gradients lose rank where wanted ones do not; None if undecided."""
+        submitted, wanted = ([n for r in some for n in r.normals] for some in (self.submitted, self.wanted))
+        nonlinear = any(isinstance(p, Nonlinear) for n in (*submitted, *wanted) for p in n.pieces)
+        if _is_power(submitted, nonlinear) and not _is_power(wanted, nonlinear):
             return True
-        if any(isinstance(p, Pfaffian) for n in (*answer, *asked) for p in n.pieces):
-            choices = list(cartesian(*(n.branches for n in asked if n.branches)))[:MAX_BRANCHES]
+        if any(isinstance(p, Pfaffian) for n in (*submitted, *wanted) for p in n.pieces):
+            choices = list(cartesian(*(n.branches for n in wanted if n.branches)))[:MAX_BRANCHES]
             return any(self._flat(self.submitted, c) and not self._flat(self.wanted, c) for c in choices)
-        branches = list(cartesian(*(n.branches for n in (*self.others, *asked) if n.branches)))
+        branches = list(cartesian(*(n.branches for n in (*self.others, *wanted) if n.branches)))
         regular = {self._as_regular(choice) for choice in branches[:MAX_BRANCHES]}
         if False in regular:
             return True
         return None if None in regular or len(branches) > MAX_BRANCHES else False
 
     def _as_regular(self, choice: Sequence[Sequence[Piece]]) -> bool | None:
-        """Return whether the answer's gradients span as much as those that were asked for, on one branch."""
+        """Return whether the submitted gradients have at least the rank of the wanted ones on one branch, or None."""
         finite = [[p for p in branch if isinstance(p, Finite)] for branch in choice]
         others = len([n for n in self.others if n.branches])
         before = [p.expr for branch in finite[:others] for p in branch]
         wanted = [p.expr for branch in finite[others:] for p in branch]
         if not wanted:
             return True
-        raw, asked = ([e.expr for r in some for e in r.constraint.relations] for some in (self.submitted, self.wanted))
+        raw, raw_wanted = (
+            [e.expr for r in some for e in r.constraint.relations] for some in (self.submitted, self.wanted)
+        )
         ranks = self._ranks([*chain(*finite)], [*before, *raw], [*before, *wanted])
-        if ranks is not None and ranks[0] < ranks[1]:  # as written, what was asked for may lose rank here too
-            ranks = self._ranks([*chain(*finite)], [*before, *raw], [*before, *asked])
+        if ranks is not None and ranks[0] < ranks[1]:  # the wanted equations as written may lose rank here too
+            ranks = self._ranks([*chain(*finite)], [*before, *raw], [*before, *raw_wanted])
         return None if ranks is None else ranks[0] >= ranks[1]
 
     def _flat(self, some: Sequence[Reduced], choice: Sequence[Sequence[Piece]]) -> bool:
         return any(_is_flat(r, choice, self.setting.positive) for r in some)
 
     def _ranks(self, on: Sequence[Finite], *sets: Sequence[Expr]) -> list[int] | None:
-        """The ranks of the gradients of sets of expressions at a generic point of the set where ``on`` vanish."""
+        """Return the ranks of the gradients of sets of expressions at a generic point of ``on`` = 0; None if none."""
         blocks, _ = split(self.coordinates, [Row(0, p) for p in on])
         rows = tuple(row for b in blocks for row in b.rows)
-        whole = Block(tuple(n for n in self.coordinates if any(n in b.coordinates for b in blocks)), rows)
-        chart = make_chart(whole, self.setting, more=list(chain(*sets)))
+        joined = Block(tuple(n for n in self.coordinates if any(n in b.coordinates for b in blocks)), rows)
+        chart = make_chart(joined, self.setting, more=list(chain(*sets)))
         result = find(chart, {}, 7)
         nodes = [[chart.ring.node(e) for e in s] for s in sets]
         try:
@@ -172,17 +173,20 @@ class Regularity:
         return [ball_part(j).rank for j in slopes]
 
 
-def _lost(normals: Sequence[Normal], nonlinear: bool) -> bool:
-    """Return whether a relation was a power or a sum of squares: in exponentials, or ``nonlinear`` in the velocities.
+def _is_power(normals: Sequence[Normal], nonlinear: bool) -> bool:
+    """Return whether a relation was a power or a sum of squares, in exponentials or ``nonlinear`` in the velocities.
 
-    At points of those no gradients are looked at.
+    Gradients of such relations are not compared at points.
     """
     powers = [n for n in normals if not {POWER_NOTE, SQUARES_NOTE}.isdisjoint(n.notes)]
     return any(nonlinear or EXPONENT_NOTE in n.notes for n in powers)
 
 
 def _is_flat(r: Reduced, choice: Sequence[Sequence[Piece]], positive: frozenset[Expr]) -> bool:
-    """Return whether the slopes of a relation by all velocities are 0 on forms, as a square's are, or have no value."""
+    """Return whether the derivatives of relations by all velocities are 0 (as a square's are), or have no value.
+
+    They are taken where the forms of a choice of branches are 0.
+    """
     written = [in_velocities(e.expr)[0] for e in r.constraint.relations]
     slopes = [diff(e, v) for e in written for v in velocities_of(e)]
     if not slopes:
@@ -194,32 +198,31 @@ def _is_flat(r: Reduced, choice: Sequence[Sequence[Piece]], positive: frozenset[
         return True
 
 
-#: Random points at which signs are compared, and how far out they lie.
+#: Number of random points at which signs are compared, and the sizes of their values.
 POINTS, SCALES = 24, (1, 1, 10, 1000)
-#: The same near the boundaries: so many points for each value that one of the two sides has there.
+#: Near the boundaries: number of points for each small value of one of the two expressions, and these values.
 NEAR, SHIFTS = 2, tuple(Fraction(sign, 10**digits) for digits in (2, 15) for sign in (1, -1))
 
 
 def same_side(a: Inequality, b: Inequality, others: Sequence[Normal], setting: Setting) -> bool | None:
-    """Return whether a >= 0 and b >= 0 agree at all configurations that the others allow; None if undecided.
+    """Return whether a >= 0 and b >= 0 are equivalent at all configurations that the others allow; None if undecided.
 
-    The signs differ at some point (a ball proves it), or agree at all that are drawn, some of them near the boundaries,
-    and the boundaries are the same.
-    Where the others leave the boundary only, all of space is looked at. Nothing is proved where only the boundaries
-    differ, as of x >= 0 and x (x - 1)^2 >= 0, or only whether they are included.
+    False if the signs differ at some point; True if they agree at all random points, some near the boundaries, and the
+    boundaries are the same sets. None if only the boundaries differ (x >= 0 and x (x - 1)^2 >= 0), or whether they are
+    included. If the others allow the boundary only, they are ignored.
     """
     if a == b:
         return True
     finite = [p.expr for n in others for p in n.pieces if isinstance(p, Finite)]
-    seen = list(_signs(a.expr, b.expr, finite, setting))
-    if not seen and others:
+    signs = list(_signs(a.expr, b.expr, finite, setting))
+    if not signs and others:
         return same_side(a, b, (), setting)
     near = (x.expr - ex.num(shift) for x in (a, b) for shift in SHIFTS)
     close = (pair for g in near for pair in _signs(a.expr, b.expr, [*finite, g], setting, NEAR))
-    if any(first != other for first, other in chain(seen, close)):
+    if any(first != other for first, other in chain(signs, close)):
         return False
-    sides = [follows(_boundary(x), [*others, _boundary(y)], setting) for x, y in ((a, b), (b, a))]
-    return True if seen and all(sides) and a.strict == b.strict else None
+    same_boundary = [follows(_boundary(x), [*others, _boundary(y)], setting) for x, y in ((a, b), (b, a))]
+    return True if signs and all(same_boundary) and a.strict == b.strict else None
 
 
 def _boundary(q: Inequality) -> Normal:
@@ -229,7 +232,7 @@ def _boundary(q: Inequality) -> Normal:
 def _signs(
     a: Expr, b: Expr, finite: Sequence[Expr], setting: Setting, points: int = POINTS
 ) -> Iterator[tuple[bool, bool]]:
-    """(a > 0, b > 0) at random points, where both are certain."""
+    """Yield (a > 0, b > 0) at random points with ``finite`` = 0 at which both signs are certain."""
     ring = Ring([a, b, *finite], setting.positive, {})
     nodes = [ring.node(g) for g in finite]
     first, second = ring.node(a), ring.node(b)
@@ -252,26 +255,26 @@ def _point(ring: Ring, nodes: Sequence[int], symbols: Sequence[Expr], setting: S
     rng = random.Random(f"dofkit side {seed}")
     scale = SCALES[seed % len(SCALES)]
 
-    def drawn(s: Expr) -> arb:
+    def random_value(s: Expr) -> arb:
         size = rng.randint(1, 2**20)
         number = arb(size if s in setting.positive or rng.random() < 0.5 else -size) / 2**19
         return number if s.args[0] == "parameter" else number * scale
 
-    return BallPoint({s: drawn(s) for s in symbols}, seed)
+    return BallPoint({s: random_value(s) for s in symbols}, seed)
 
 
 _ROOT = ex.parameter("value of a root")
 
 
 def bounds(wanted: Sequence[Normal], others: Sequence[Reduced]) -> list[Inequality]:
-    """The inequalities of others about coordinates of what is wanted."""
+    """Return the inequalities of ``others`` that mention a coordinate of the wanted geometric equations."""
     symbols = {s for n in wanted for p in n.pieces if isinstance(p, Finite) for s in p.expr.symbols}
     moving = {s for s in symbols if s.args[0] == "coordinate"}
     return [q for r in others for q in r.inequalities if moving & q.expr.symbols]
 
 
 def unsound(submitted: Sequence[Reduced], sound: Sequence[bool | None]) -> list[Expr]:
-    """The equations as written that do not follow; none where they are not one for each relation."""
+    """Return the submitted expressions that are not ``sound`` (implied); none if there is not one for each relation."""
     written = [relation.expr for r in submitted for relation in r.constraint.relations]
     return [e for e, s in zip(written, sound, strict=True) if not s] if len(written) == len(sound) else []
 
@@ -279,7 +282,7 @@ def unsound(submitted: Sequence[Reduced], sound: Sequence[bool | None]) -> list[
 def loses_nothing(
     e: Expr, wanted: Sequence[Normal], others: Sequence[Normal], sides: Iterable[Inequality], setting: Setting
 ) -> bool:
-    """Return whether e = 0, with one root, is all that is ``wanted`` within the inequalities; False says nothing."""
+    """Return whether e = 0, with one root, is equivalent to ``wanted`` given the inequalities; False: not proved."""
     rooted = _by_root(e)
     if rooted is None:
         return False
@@ -292,7 +295,7 @@ def loses_nothing(
 
 
 def _by_root(e: Expr) -> tuple[Expr, Expr, Expr] | None:
-    """(a, b, P) where e is a sqrt(P) + b, with no other root."""
+    """Return (a, b, P) for e = a sqrt(P) + b with no other root; None if e is not so."""
     roots = {n for n in ex.nodes(e) if n.op == "pow" and n.args[1] == HALF}
     if len(roots) != 1:
         return None

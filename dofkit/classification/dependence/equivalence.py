@@ -1,8 +1,8 @@
-"""Is an answer the same constraint as the one that was asked for, in the presence of the scene's others?
+"""Are submitted constraints equivalent to the wanted ones, in the presence of the scene's others?
 
-With O the other constraints, F those asked for and G the answer: they say the same where O and F imply G, and O and G
-imply F. What else there is, is distinguished: the same set, but irregular there (the gradient vanishes on it), one
-branch, weaker, stronger, different, empty, differentiated, integrated with or without its constant.
+With O the other constraints, F the wanted and G the submitted ones: they are equivalent if O and F imply G, and O and G
+imply F. Otherwise `Sameness` distinguishes: the same set, but irregular (the gradient vanishes on it), one branch,
+weaker, stronger, different, empty, differentiated, integrated with or without its constant.
 """
 
 from __future__ import annotations
@@ -37,14 +37,14 @@ from dofkit.relations.normal.pieces import UNDONE_NOTE, Finite, Normal, Pfaffian
 from dofkit.relations.setting import Setting
 from dofkit.system import System
 
-#: The share of the time that is left in which an answer may be found impossible.
+#: Share of the remaining time for the test whether the submitted constraints are consistent.
 POSSIBLE = 0.3
 #: Functions whose values are angles.
 ANGLES = frozenset({"asin", "acos", "atan", "atan2"})
 
 
 class Sameness(Enum):
-    """How an answer compares with the constraints that were asked for; the value is a stable code."""
+    """How submitted constraints compare with the wanted ones; the values are stable codes."""
 
     SAME = "SAME"
     IRREGULAR = "IRREGULAR"
@@ -60,7 +60,7 @@ class Sameness(Enum):
 
 
 class Leaves(Enum):
-    """What geometric equations are together with forms: leaves through every point, one leaf, or neither."""
+    """Whether geometric equations describe all leaves of forms (a leaf through every point), one leaf, or neither."""
 
     ALL = "ALL"
     ONE = "ONE"
@@ -70,7 +70,7 @@ class Leaves(Enum):
 
 @dataclass(frozen=True)
 class Compared:
-    """What was found; ``met``: for every constraint asked for, does it follow from what is right in the answer?"""
+    """The result of `compare`; ``met``: for each wanted constraint, whether the right submitted equations imply it."""
 
     sameness: Sameness
     met: tuple[bool, ...] = ()
@@ -83,9 +83,9 @@ def compare(
     constants: frozenset[str] = frozenset(),
     engines: Engines = BOTH,
 ) -> Compared:
-    """Compare the constraints of ``system`` numbered ``answer`` with those numbered ``asked``.
+    """Compare the constraints of ``system`` numbered ``answer`` (submitted) with those numbered ``asked`` (wanted).
 
-    ``constants``: parameters that the answer brought with it, as constants of integration; ``engines`` decide.
+    ``constants``: parameters introduced by the answer as constants of integration; ``engines``: those to use.
     """
     with precise_for(system.longest):
         return _comparison(system, asked, answer, constants, engines).result()
@@ -94,16 +94,16 @@ def compare(
 def is_integral(system: System, asked: Sequence[int], answer: Sequence[int]) -> bool | None:
     """Return whether the constraints ``answer`` are geometric equations to which those numbered ``asked`` integrate.
 
-    Are the differentials of the answer and the forms the same in the presence of the others? None: undecided.
+    Their differentials must be equivalent to the forms in the presence of the others. None if undecided.
     """
     with precise_for(system.longest):
         return _comparison(system, asked, answer, frozenset()).integrates()
 
 
 def leaves(system: System, asked: Sequence[int], answer: Sequence[int], constants: frozenset[str]) -> Leaves:
-    """Return whether the forms ``asked`` vanish on what the answer describes, and that is as large as they allow.
+    """Return whether the equations ``answer`` describe leaves of the forms ``asked``: integral manifolds of full size.
 
-    ``constants``: coordinates of ``system`` that other constraints keep still; the leaves are numbered by them.
+    ``constants``: coordinates of ``system`` that other constraints fix; their values label the leaves.
     """
     with precise_for(system.longest):
         return _comparison(system, asked, answer, frozenset()).leaves(constants)
@@ -120,7 +120,7 @@ def _comparison(
 
 @dataclass(frozen=True)
 class Equivalence:
-    """An answer, ``submitted``, with the constraints that are ``wanted``, in the ``context`` of all others."""
+    """The ``submitted`` constraints and the ``wanted`` ones, in the ``context`` of all others."""
 
     system: System
     setting: Setting
@@ -130,7 +130,7 @@ class Equivalence:
     constants: frozenset[str]
 
     def result(self) -> Compared:
-        """What the answer is."""
+        """Return how the submitted constraints compare with the wanted ones."""
         if any(r.inequalities for r in (*self.wanted, *self.submitted)):
             return self._unilateral()
         if same_up_to_numbers(self.submitted, self.wanted, self.setting.positive):
@@ -139,7 +139,7 @@ class Equivalence:
         kept = [g for g, s in zip(self._answer, sound, strict=True) if s is True]
         met = [self._follow(r.normals, kept) for r in self.wanted]
         if None in sound or None in met:
-            # What was decided may be enough to say that the answer is none.
+            # The submitted constraints may be inconsistent even if the implications are undecided.
             return Compared(Sameness.UNDECIDED) if self._possible else self._empty
         answer = tuple(bool(m) for m in met)
         if all(answer) and all(sound):
@@ -175,12 +175,12 @@ class Equivalence:
 
     @cached_property
     def _sound(self) -> list[bool | None]:
-        """Which relations of the answer follow from what was asked for."""
+        """For each submitted relation, whether the wanted constraints imply it."""
         return [follows(g, [*self._others, *self._all_wanted], self.setting) for g in self._answer]
 
-    def _follow(self, what: Sequence[Normal], premises: Sequence[Normal]) -> bool | None:
-        """Return whether the relations all follow from the others and the premises."""
-        return all_of(follows(n, [*self._others, *premises], self.setting) for n in what)
+    def _follow(self, relations: Sequence[Normal], premises: Sequence[Normal]) -> bool | None:
+        """Return whether the context and the premises imply all relations; None if undecided."""
+        return all_of(follows(n, [*self._others, *premises], self.setting) for n in relations)
 
     @property
     def _empty(self) -> Compared:
@@ -188,48 +188,46 @@ class Equivalence:
 
     @cached_property
     def _possible(self) -> bool:
-        """Return whether the others and the answer can be satisfied together."""
+        """Whether the context and the submitted constraints are not known to be inconsistent."""
         with part(POSSIBLE):
             return unless_late(lambda: self._with(self.submitted).consistent is not False, True)
 
     def _with(self, constraints: Sequence[Reduced]) -> Outcome:
+        """Return the outcome of the context with some constraints."""
         return solve([*self.context, *constraints], self.setting)
 
     def _too_strong(self) -> Sameness:
-        """The answer implies what was asked for, and more."""
+        """Return how the submitted constraints compare with the wanted ones, given that they imply these and more."""
         if not self._possible:
             return Sameness.EMPTY
         integrated = self._integrated()
         if integrated is not None:
             return integrated
-        mine, asked = self._with(self.submitted), self._with(self.wanted)
-        if None in (mine.dof, asked.dof, mine.velocity_dof, asked.velocity_dof):
+        submitted, wanted = self._with(self.submitted), self._with(self.wanted)
+        if None in (submitted.dof, wanted.dof, submitted.velocity_dof, wanted.velocity_dof):
             return Sameness.UNDECIDED
-        if (mine.dof, mine.velocity_dof) != (asked.dof, asked.velocity_dof):
+        if (submitted.dof, submitted.velocity_dof) != (wanted.dof, wanted.velocity_dof):
             return Sameness.STRONGER
         if all(r.constraint.facts.half_turns for r in self.wanted):
             return Sameness.SAME
         if _turned(self.submitted, self._answer):
             return Sameness.UNDECIDED
         sides = bounds(self._all_wanted, self.context)
-        lost = unsound(self.submitted, self._sound) if sides else []
-        whole = [loses_nothing(e, self._all_wanted, self._others, sides, self.setting) for e in lost]
-        return Sameness.BRANCH if not sides else Sameness.SAME if whole and all(whole) else Sameness.UNDECIDED
+        unimplied = unsound(self.submitted, self._sound) if sides else []
+        same = [loses_nothing(e, self._all_wanted, self._others, sides, self.setting) for e in unimplied]
+        return Sameness.BRANCH if not sides else Sameness.SAME if same and all(same) else Sameness.UNDECIDED
 
     # differentials
 
     def _differentiated(self) -> bool | None:
-        """Return whether the answer is obtained by differentiating the geometric equations that were asked for.
-
-        None where that was not decided.
-        """
+        """Return whether the submitted relations are the wanted geometric equations, differentiated; or None."""
         finite = _finite(self._all_wanted)
         if not finite or any(isinstance(p, Finite) for n in self._answer for p in n.pieces):
             return False
         return self._follow([_differential(g) for g in finite], self._answer)
 
     def _integrated(self) -> Sameness | None:
-        """Return how the answer states in geometric equations what was asked for in forms; None if it does not."""
+        """Return with or without a constant the wanted forms are integrated, or undecided; None if they are not."""
         integrates = self.integrates()
         if not integrates:
             return None if integrates is False else Sameness.UNDECIDED
@@ -238,51 +236,51 @@ class Equivalence:
         return Sameness.INTEGRATED if all(constants_in) else Sameness.WITHOUT_CONSTANT
 
     def integrates(self) -> bool | None:
-        """Return whether the answer is finite, and its differentials are the forms that were asked for.
+        """Return whether the submitted relations are geometric and their differentials equivalent to the wanted forms.
 
-        Geometric equations among what was asked for follow from the answer itself. None where that was not decided.
+        Wanted geometric equations have to be implied by the submitted ones. None if undecided.
         """
         finite = _finite(self._answer)
-        standing = [n for n in self._all_wanted if all(isinstance(p, Finite) for p in n.pieces)]
-        moving = [n for n in self._all_wanted if n not in standing]
-        if not moving or not finite or len(finite) != len(self._answer):
+        geometric = [n for n in self._all_wanted if all(isinstance(p, Finite) for p in n.pieces)]
+        forms = [n for n in self._all_wanted if n not in geometric]
+        if not forms or not finite or len(finite) != len(self._answer):
             return False
         rates = [_differential(g) for g in finite]
-        answer = self._follow(rates, self._all_wanted)
-        answer = self._follow(standing, self._answer) if answer else answer
-        return self._follow(moving, [*standing, *rates]) if answer else answer
+        implied = self._follow(rates, self._all_wanted)
+        implied = self._follow(geometric, self._answer) if implied else implied
+        return self._follow(forms, [*geometric, *rates]) if implied else implied
 
     def leaves(self, constants: frozenset[str]) -> Leaves:
-        """Leaves of the forms: they vanish there, and as many velocities are free as the forms leave.
+        """Return whether the submitted equations describe leaves: the forms vanish there, with equal velocity freedom.
 
-        Where there are other forms, one of several constants may be that of another integral: that is undecided. So is
-        what vanishes on one branch of the others only.
+        Undecided if one of several constants may be that of an integral of other forms, or if the forms vanish on one
+        branch of the others only.
         """
         finite = _finite(self._answer)
         if not finite or len(finite) != len(self._answer):
-            whole = all(isinstance(p, Finite) for n in self._answer for p in n.pieces)
-            return Leaves.OPEN if whole and self._answer else Leaves.NONE
+            geometric = all(isinstance(p, Finite) for n in self._answer for p in n.pieces)
+            return Leaves.OPEN if geometric and self._answer else Leaves.NONE
         if not self._possible:
             return Leaves.NONE
         named = {str(s.args[1]) for g in finite for s in g.symbols if s.args[0] == "coordinate"}
         moving = {q for n in self._all_wanted for q in _moved(n)}
-        answer = self._follow(self._all_wanted, self._answer)
-        if not answer:
+        vanish = self._follow(self._all_wanted, self._answer)
+        if not vanish:
             borrowed = len(named & constants) > 1 and any(_moved(n) - constants for n in self._others)
             on_branches = (self._follow(self._all_wanted, [*self._answer, *b]) for b in _branches_of(self._others))
-            nowhere = answer is False and not borrowed and all(a is False for a in on_branches)
+            nowhere = vanish is False and not borrowed and all(a is False for a in on_branches)
             return Leaves.NONE if nowhere else Leaves.OPEN
-        mine, asked = self._with(self.submitted), self._with(self.wanted)
-        if mine.velocity_dof is None or asked.velocity_dof is None:
+        submitted, wanted = self._with(self.submitted), self._with(self.wanted)
+        if submitted.velocity_dof is None or wanted.velocity_dof is None:
             return Leaves.OPEN
-        if mine.velocity_dof != asked.velocity_dof:
+        if submitted.velocity_dof != wanted.velocity_dof:
             return Leaves.NONE
         if len(moving) > 1 and len(named - constants) < 2:
             return Leaves.OPEN
         return Leaves.ALL if named & constants else Leaves.ONE
 
     def _regularity(self) -> Sameness:
-        """The same set: is the answer's gradient as good there, on every branch?"""
+        """Return SAME, IRREGULAR or UNDECIDED for the same set, by the ranks of the gradients on every branch."""
         names = [c.name for c in self.system.coordinates]
         result = Regularity(self._others, self.wanted, self.submitted, self.setting, names).irregular()
         return Sameness.UNDECIDED if result is None else Sameness.IRREGULAR if result else Sameness.SAME
@@ -290,7 +288,7 @@ class Equivalence:
     # inequalities
 
     def _unilateral(self) -> Compared:
-        """Inequalities are the same where they leave the same side of the same boundary."""
+        """Return the comparison if there are inequalities: equivalent ones have the same side of the same boundary."""
         if equations := [*self._answer, *self._all_wanted]:
             region = any(b and all(isinstance(p, DomainCondition) for p in b) for n in equations for b in n.branches)
             if region:  # abs(x) = x is x >= 0
@@ -310,12 +308,12 @@ class Equivalence:
 
 
 def _moved(normal: Normal) -> set[str]:
-    """The coordinates whose differentials occur in the forms of a normal."""
+    """Return the coordinates whose differentials occur in the forms of a normal form."""
     return {q for p in normal.pieces if isinstance(p, Pfaffian) for q in p.coefficients}
 
 
 def _branches_of(normals: Sequence[Normal]) -> list[list[Normal]]:
-    """Choices of one branch of each; none where there is one choice only."""
+    """Return the choices of one branch of each, at most `MAX_BRANCHES`; an empty list if there is only one."""
     choices = islice(cartesian(*(n.branches for n in normals if n.branches)), MAX_BRANCHES)
     chosen = [[Normal((branch,)) for branch in choice] for choice in choices]
     return chosen if len(chosen) > 1 else []
@@ -326,7 +324,7 @@ def _normals(constraints: Sequence[Reduced]) -> list[Normal]:
 
 
 def _finite(normals: Sequence[Normal]) -> list[Expr]:
-    """The geometric equations of normals with one branch; none where something else occurs."""
+    """Return the expressions of geometric equations with one branch; an empty list if anything else occurs."""
     pieces = [p for n in normals for p in n.pieces]
     if any(len(n.branches) != 1 for n in normals) or not all(isinstance(p, Finite) for p in pieces):
         return []
@@ -334,14 +332,14 @@ def _finite(normals: Sequence[Normal]) -> list[Expr]:
 
 
 def _differential(g: Expr) -> Normal:
-    """dg as a Pfaffian form."""
+    """Return the relation dg = 0."""
     moving = sorted((s for s in g.symbols if s.args[0] == "coordinate"), key=repr)
     slopes = {str(s.args[1]): diff(g, s) for s in moving}
     return Normal(((Pfaffian({n: e for n, e in slopes.items() if not e.is_zero}, diff(g, ex.TIME)),),))
 
 
 def _turned(submitted: Sequence[Reduced], answer: Sequence[Normal]) -> bool:
-    """Return whether an angle of velocities was undone: theta = atan(dy/dx) may be meant for every theta."""
+    """Return whether an angle of velocities was inverted: theta = atan(dy/dx) may be meant for every theta."""
     written = (relation.expr for r in submitted for relation in r.constraint.relations)
     undone = any(UNDONE_NOTE in note for n in answer for note in n.notes)
     return undone and any(not e.functions.isdisjoint(ANGLES) for e in written)

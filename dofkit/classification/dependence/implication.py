@@ -1,8 +1,8 @@
-"""What is implied by what: is a relation satisfied at every state of motion that other constraints leave?
+"""Implication: is a relation satisfied at every state of motion that other constraints allow?
 
-Asked on every choice of the others' branches, at generic states over GF(p); where one of those does not satisfy the
-relation and complex solutions may be meant, at real states with balls. What is finite is implied by geometric equations
-only, the hidden ones included: a rate does not fix the constant.
+It is tested on every choice of the others' branches, at generic states over GF(p); if one of these does not satisfy the
+relation but may be complex only, at real states with balls. A geometric equation can be implied only by geometric
+equations, hidden ones included, because a differential does not fix the constant.
 """
 
 from __future__ import annotations
@@ -35,35 +35,35 @@ from dofkit.relations.normal.pieces import Finite, Nonlinear, Normal, Pfaffian, 
 from dofkit.relations.setting import Setting
 from dofkit.relations.velocity_reductions import MAX_ALTERNATIVES, Alternative, alternatives_of
 
-#: What the others imply at drawn states.
+#: The claim of an implication tested at random states.
 IMPLIED = Claim("probable", "implication", bits=BITS)
-#: No coordinate has this name.
+#: The name of an auxiliary coordinate, which no scene has.
 SLACK = "_s"
 RELATIONS = (Finite, Pfaffian, Nonlinear)
-#: Choices of branches that are looked at, and states on each.
+#: Bound on the choices of branches, and number of random states on each.
 MAX_CHOICES, STATES = 16, 4
-#: States where a root is drawn on the way: the set may fall into parts, and all of these miss half of it once in 2^40.
+#: Number of states if a root is chosen at random: all miss one half of a set that falls into two with chance 2^-40.
 PARTED_STATES = 40
-#: Real states that are looked at where a relation may hold on one part of the set and fail on another.
+#: Number of real states if a relation may be satisfied on one component of the set and not on another.
 MANY_STATES = 16
 
 
-class AskedBranch(NamedTuple):
-    """What is 0 on one branch of a relation, and the conditions on which it holds."""
+class ImpliedBranch(NamedTuple):
+    """One branch of the relation that is tested: expressions that are 0, and conditions."""
 
     relations: tuple[Expr, ...]
     conditions: tuple[DomainCondition, ...]
 
 
 def follows(normal: Normal, others: Sequence[Normal], setting: Setting) -> bool | None:
-    """Return whether a relation is satisfied on every branch of the others; None if undecided."""
+    """Return whether a relation is satisfied wherever the others are, on all their branches; None if undecided."""
     relation = branches_at_reference(normal, setting)
     if conditional(relation):
         return None
     choices = list(cartesian(*(branches_at_reference(o, setting).branches for o in others)))
     if len(choices) > MAX_CHOICES:
         return None
-    answer: list[bool | None] = []
+    on_alternatives: list[bool | None] = []
     for choice in choices:
         rows = [Row(k, p) for k, b in enumerate(choice) for p in b]
         alternatives = alternatives_of(rows, setting.positive)
@@ -71,17 +71,17 @@ def follows(normal: Normal, others: Sequence[Normal], setting: Setting) -> bool 
             return None
         for alternative in alternatives:
             check()
-            answer.append(_on(alternative, relation, setting))
-            if answer[-1] is False:
+            on_alternatives.append(_on(alternative, relation, setting))
+            if on_alternatives[-1] is False:
                 return False
-    return all_of(answer)
+    return all_of(on_alternatives)
 
 
 def _on(alternative: Alternative, relation: Normal, setting: Setting) -> bool | None:
-    """Return whether one of the relation's branches is satisfied wherever the rows are.
+    """Return whether the relation is satisfied wherever the rows of an alternative are; None if undecided.
 
-    None where it is on some branches of the relations hidden in the rows, and on others not: of those through the
-    reference configuration, if there are any.
+    None also if it is satisfied on some branches of the hidden relations and not on others; only those through the
+    reference configuration count, if there are any.
     """
     here = replace(setting, reference=None, pose={}, grows=False, flag=False)
     names = sorted({n for r in alternative.rows for n in coordinates_of(r.piece)})
@@ -95,22 +95,22 @@ def _on(alternative: Alternative, relation: Normal, setting: Setting) -> bool | 
     hidden = [[g for branch in choice for g in branch] for choice in choices]
     if setting.reference is not None and len(hidden) > 1:
         hidden = [h for h in hidden if passes_reference([*map(Finite, h)], setting)] or hidden
-    held = {_on_hidden(alternative, relation, answers, h, here) for h in hidden}
-    return held.pop() if len(held) == 1 else None
+    satisfied = {_on_hidden(alternative, relation, answers, h, here) for h in hidden}
+    return satisfied.pop() if len(satisfied) == 1 else None
 
 
 def _on_hidden(
     alternative: Alternative, relation: Normal, answers: Sequence[Answer], hidden: Sequence[Expr], setting: Setting
 ) -> bool | None:
-    """Return whether one of the relation's branches is satisfied wherever the rows and hidden relations are."""
+    """Return whether the relation is satisfied wherever the rows and hidden relations are; None if undecided."""
     domain = [r.piece for r in alternative.rows if isinstance(r.piece, DomainCondition)]
     branches = [
-        AskedBranch(
+        ImpliedBranch(
             tuple(p.rate if isinstance(p, Pfaffian) else p.expr for p in b if isinstance(p, RELATIONS)),
             tuple(p for p in b if isinstance(p, DomainCondition) and p not in domain),
         )
         for b in relation.branches
-        if not _beyond(b, alternative.rows, hidden, setting)
+        if not _is_empty(b, alternative.rows, hidden, setting)
     ]
     still = all(isinstance(p, Finite) for p in relation.pieces)
     written = [s.written.piece.expr for s in alternative.slots if isinstance(s.written.piece, Nonlinear) and not still]
@@ -121,58 +121,55 @@ def _on_hidden(
     try:
         states = States(sorted(moving), alternative.rows, hidden, setting, [*more, *written], still)
         smaller = any(a.degenerate or a.dof is None for a in answers)
-        held = _vanishes_on_states(states, branches, written, domain, smaller)
+        satisfied = _vanishes_on_states(states, branches, written, domain, smaller)
     except (OutOfTimeError, ArithmeticError):
         return None
-    if held and still and all(isinstance(r.piece, Finite) for r in alternative.rows):
+    if satisfied and still and all(isinstance(r.piece, Finite) for r in alternative.rows):
         return _on_all_components(alternative.rows, branches, setting)
-    return held if held or all(a.consistent for a in answers) else None
+    return satisfied if satisfied or all(a.consistent for a in answers) else None
 
 
-def _on_all_components(rows: Sequence[Row], branches: Sequence[AskedBranch], setting: Setting) -> bool | None:
-    """Return whether no component of a set of geometric equations is known on which all branches fail.
+def _on_all_components(rows: Sequence[Row], branches: Sequence[ImpliedBranch], setting: Setting) -> bool | None:
+    """Return whether the relation is satisfied on components that random states may have missed; True if not tested.
 
-    Drawn states may miss one: two minors of a matrix imply the third, but not where the column that they share is 0.
-    The branches fail at a complex point where s g = 1 has a solution [Rabinowitsch1929]; that is certified at a real
-    one, and undecided where none is found. True also where the ideal is too large to tell.
+    Example: two minors of a matrix imply the third, but not where the column that they share is 0. The relation fails
+    at a complex point if s g = 1 has a solution [Rabinowitsch1929]; False if it fails at a certified real point, None
+    if no real one is found. True also if the ideal is too large.
     """
     relations = [r.piece.expr for r in rows if isinstance(r.piece, Finite)]
     if not explicit_relations(relations).implicit:
         return True
-    answer: list[bool | None] = [True]
+    on_choices: list[bool | None] = [True]
     for choice in cartesian(*(b.relations for b in branches)):
         beyond = ex.mul(ex.coordinate(SLACK), *choice) - ex.ONE
         if not have_complex_points([*relations, beyond], setting.positive):
             continue
         names = {str(s.args[1]) for g in (*relations, beyond) for s in g.symbols if s.args[0] == "coordinate"}
         states = States(sorted(names), [*rows, Row(0, Finite(beyond))], (), setting, (), True)
-        answer.append(None if next(states.certain(STATES), None) is None else False)
-    return all_of(answer)
+        on_choices.append(None if next(states.certain(STATES), None) is None else False)
+    return all_of(on_choices)
 
 
-def _beyond(branch: Sequence[Piece], rows: Sequence[Row], hidden: Sequence[Expr], setting: Setting) -> bool:
-    """Return whether the conditions of a branch are satisfied nowhere where some rows are."""
-    asked = [p for p in branch if isinstance(p, DomainCondition)]
+def _is_empty(branch: Sequence[Piece], rows: Sequence[Row], hidden: Sequence[Expr], setting: Setting) -> bool:
+    """Return whether the conditions of a branch are proved to be false wherever the rows are satisfied."""
+    conditions = [p for p in branch if isinstance(p, DomainCondition)]
     finite = [r.piece.expr for r in rows if isinstance(r.piece, Finite)]
-    return bool(asked) and hold_nowhere([*finite, *hidden], asked, setting.positive)
+    return bool(conditions) and hold_nowhere([*finite, *hidden], conditions, setting.positive)
 
 
 def _undefined(relation: Normal, names: Sequence[str], rows: Sequence[Row], setting: Setting) -> bool:
-    """Return whether a logarithm has no value at some configuration of the rows; True is certified.
-
-    Where u > 0 does not hold, u = -s^2 for some s.
-    """
-    standing = [r for r in rows if isinstance(r.piece, Finite)]
-    asked, theirs = (
+    """Return whether the relation requires u > 0 (as a logarithm does) and u = -s^2 at a certified configuration."""
+    finite = [r for r in rows if isinstance(r.piece, Finite)]
+    required, required_by_rows = (
         {c.expr for p in pieces if isinstance(p, Finite) for c in conditions_of(p.expr, setting.positive) if c.strict}
-        for pieces in (relation.pieces, [r.piece for r in standing])
+        for pieces in (relation.pieces, [r.piece for r in finite])
     )
-    moved = {*names, *(str(s.args[1]) for u in asked for s in u.symbols if s.args[0] == "coordinate")}
-    for u in sorted(asked - theirs, key=repr):
+    coordinates = {*names, *(str(s.args[1]) for u in required for s in u.symbols if s.args[0] == "coordinate")}
+    for u in sorted(required - required_by_rows, key=repr):
         beyond = ex.add(u, ex.power(ex.coordinate(SLACK), ex.num(2)))
-        if no_solution([*(r.piece.expr for r in standing if isinstance(r.piece, Finite)), beyond], setting.positive):
+        if no_solution([*(r.piece.expr for r in finite if isinstance(r.piece, Finite)), beyond], setting.positive):
             continue
-        states = States([*sorted(moved), SLACK], [*standing, Row(0, Finite(beyond))], (), setting, (), True)
+        states = States([*sorted(coordinates), SLACK], [*finite, Row(0, Finite(beyond))], (), setting, (), True)
         if next(states.certain(2), None) is not None:
             return True
     return False
@@ -180,41 +177,41 @@ def _undefined(relation: Normal, names: Sequence[str], rows: Sequence[Row], sett
 
 def _vanishes_on_states(
     states: States,
-    branches: Sequence[AskedBranch],
+    branches: Sequence[ImpliedBranch],
     written: Sequence[Expr],
     domain: Sequence[DomainCondition],
     smaller: bool,
 ) -> bool | None:
-    """Return whether a branch is satisfied at every state that is drawn, where the ``domain`` conditions are.
+    """Return whether some branch is satisfied at every random state, given the ``domain`` conditions.
 
-    ``smaller``: over the reals the set may be smaller than over GF(p), where nothing is refuted then. Nor is it where
-    the set may have parts without real points.
+    First at states over GF(p). One of them refutes only if the real set is certainly as large (not ``smaller``) and has
+    no component without real points; otherwise real states decide. None if there are too few of these.
     """
     many = STATES if states.rational else PARTED_STATES
-    asked = any(b.conditions for b in branches)
-    seen = list[bool | None]()
+    conditional = any(b.conditions for b in branches)
+    over_field = list[bool | None]()
     for k in range(many):
         p = states.draw(k)
         if p is not None and _all_vanish(states, p, written):
-            seen.append(_any([_all_vanish(states, p, b.relations) for b in branches]))
-            if seen[-1] is False:
+            over_field.append(_any([_all_vanish(states, p, b.relations) for b in branches]))
+            if over_field[-1] is False:
                 break
     plain = not written and not domain and states.independent and not smaller
-    if plain and False in seen and states.rational:
+    if plain and False in over_field and states.rational:
         return False
-    if seen and all(seen) and not asked and not states.chosen:
+    if over_field and all(over_field) and not conditional and not states.chosen:
         return True
-    answer = list[bool | None]()
-    for real in states.certain(MANY_STATES if asked or False in seen else STATES):
+    at_real = list[bool | None]()
+    for real in states.certain(MANY_STATES if conditional or False in over_field else STATES):
         if _all_vanish(states, real, written) and all(_satisfied(states, real, c) is not False for c in domain):
-            answer.append(_some_hold(states, real, branches))
-        if False in answer:
+            at_real.append(_some_hold(states, real, branches))
+        if False in at_real:
             return False
-    return True if answer and all(answer) and (len(answer) > 1 or not seen) else None
+    return True if at_real and all(at_real) and (len(at_real) > 1 or not over_field) else None
 
 
-def _some_hold(states: States, point: BallPoint, branches: Sequence[AskedBranch]) -> bool | None:
-    """Return whether one of the branches vanishes where its conditions hold; None where a ball does not decide."""
+def _some_hold(states: States, point: BallPoint, branches: Sequence[ImpliedBranch]) -> bool | None:
+    """Return whether one of the branches, with its conditions, is satisfied at a real state; None if undecided."""
     return _any(
         [
             all_of((_all_vanish(states, point, b.relations), *(_satisfied(states, point, c) for c in b.conditions)))
@@ -224,17 +221,18 @@ def _some_hold(states: States, point: BallPoint, branches: Sequence[AskedBranch]
 
 
 def _any(answers: Sequence[bool | None]) -> bool | None:
+    """Return True if one is True, otherwise None if one is None, otherwise False."""
     return True if True in answers else None if None in answers else False
 
 
 def _all_vanish(states: States, point: FieldPoint | BallPoint, expressions: Sequence[Expr]) -> bool | None:
-    """Return whether the expressions are 0 at a state (or a ball holds 0); None where one has no value."""
+    """Return whether the expressions are 0 at a state (or their balls contain 0); None if one has no value."""
     result = [value_at(states.ring, point, states.extra[e]) for e in expressions]
     return all_of(None if v is None else vanishes(v) for v in result)
 
 
 def _satisfied(states: States, point: BallPoint, condition: DomainCondition) -> bool | None:
-    """Return whether a condition is satisfied at a real state; None where a ball does not decide."""
+    """Return whether a condition is satisfied at a real state; None if its ball contains 0."""
     value = value_at(states.ring, point, states.extra[condition.expr])
     if value is None or value.contains(0):
         return None
@@ -243,7 +241,7 @@ def _satisfied(states: States, point: BallPoint, condition: DomainCondition) -> 
 
 @dataclass(frozen=True)
 class BlockImplication:
-    """The rows of a block, and which of them share coordinates."""
+    """Implications between the rows of a block, which are given by their numbers."""
 
     block: Block
     setting: Setting
@@ -261,63 +259,66 @@ class BlockImplication:
         return users
 
     def adjacent_rows(self, rows: Iterable[int]) -> set[int]:
-        """The rows that share a coordinate with some rows, those among them."""
+        """Return the rows that share a coordinate with some of ``rows``, these included."""
         named = frozenset[str]().union(*(self._coordinates[i] for i in rows))
         return set[int]().union(*(self._users[name] for name in named))
 
     def linearly(self, row: int, others: Sequence[int]) -> bool | None:
-        """Return whether a linear relation is a combination of others over Q; None if not all are linear."""
+        """Return whether a linear relation is a combination of others over Q; None if not all of them are linear."""
         pieces = [self.block.rows[i].piece for i in (*others, row)]
         relations = [p.expr for p in pieces if isinstance(p, Finite) and linear(p.expr) is not None]
         return solve_linear(relations[:-1]).implies(relations[-1]) if len(relations) == len(pieces) else None
 
 
-class NearDrawing(BlockImplication):
-    """Of geometric equations satisfied at the reference: what they imply near it. The others are independent there."""
+class NearReference(BlockImplication):
+    """Implications between geometric equations near the reference, at which they are satisfied.
+
+    The premises ``others`` have to be independent there.
+    """
 
     @cached_property
     def _relations(self) -> ImpliedRelations:
         return ImpliedRelations(make_chart(self.block, self.setting), self.setting.reference or {})
 
     def follows(self, row: int, others: Sequence[int]) -> bool | None:
-        """Return whether a relation that is dependent at the reference vanishes near it where the others do."""
+        """Return whether a relation that is dependent at the reference is implied by the others near it, or None."""
         answer = self.linearly(row, others)
         return self._relations.follows(row, others) if answer is None else answer
 
     def seems(self, row: int, others: Sequence[int]) -> bool:
-        """Return whether it vanishes to some order near the reference."""
+        """Return whether the relation vanishes to some order near the reference where the others do."""
         answer = self.linearly(row, others)
         return bool(self._relations.follows(row, others, False) if answer is None else answer)
 
     def needed(self, row: int, others: Sequence[int]) -> list[int]:
-        """Those with a multiplier that is not 0 all along a curve of the set."""
+        """Return the others whose multiplier in the relation is not 0 all along a curve of the set."""
         return self._relations.needed(row, others)
 
     def imply(self, others: Sequence[int], rows: Sequence[int], a: Answer) -> bool:
-        """Return whether some relations imply others near the reference, by those that are independent there."""
+        """Return whether the relations ``others`` (those independent at the reference) imply ``rows`` near it."""
         result = echelon([a.matrix[i] for i in others], a.modulus).independent
         pivots = [others[k] for k in result]
         return all(self.follows(i, pivots) for i in rows)
 
     def seem_to_imply(self, others: Sequence[int], rows: Sequence[int]) -> bool:
-        """Return whether others are satisfied at all sampled points near the reference at which some relations are."""
+        """Return whether ``rows`` are satisfied at all sampled points near the reference at which ``others`` are."""
         return self._relations.seem_to_follow(rows, others)
 
     def is_orbit(self, rows: Sequence[int], dof: int | None) -> bool:
-        """Return whether the set of ``dof`` dimensions that some relations leave is an orbit near the reference.
+        """Return whether the set of some relations, of dimension ``dof``, is an orbit of rigid motions.
 
-        It is a union of orbits of rigid motions, finitely many of that dimension, and all pass through the reference.
+        It is a union of orbits; those of this dimension are finitely many, and pass through the reference.
         """
         return dof is not None and self._relations.rigid(rows) == dof
 
 
 class Everywhere(BlockImplication):
-    """Of any rows: what is satisfied at every state of motion that the others leave, on all parts of their set."""
+    """Implications between any rows, at all states of motion that the premises ``others`` allow."""
 
     def follows(self, row: int, others: Sequence[int]) -> bool | None:
-        """Return whether what a row says is satisfied wherever the others are.
+        """Return whether a dependent row is satisfied wherever the others are; None if undecided.
 
-        A row that depends on others at a generic point follows there, where no other row shares a coordinate with them.
+        If no other row shares a coordinate with these, the dependence at a generic point is sufficient.
         """
         answer = self.linearly(row, others)
         if answer is not None:
@@ -328,20 +329,20 @@ class Everywhere(BlockImplication):
         return follows(alone[row], [alone[i] for i in others], self.setting)
 
     def seems(self, row: int, others: Sequence[int]) -> bool:
-        """The same: there is no shorter way."""
+        """Return whether `follows` is true; there is no quicker test."""
         return self.follows(row, others) is True
 
     def needed(self, row: int, others: Sequence[int]) -> list[int]:
-        """All: which are needed is not seen at once."""
+        """Return all others; there is no quick way to see which are needed."""
         del row
         return list(others)
 
 
-def implication_of(block: Block, a: Answer, setting: Setting) -> NearDrawing | Everywhere:
-    """By what the block was answered: its drawing, or generic points."""
-    return NearDrawing(block, setting) if is_drawn(block, a, setting) else Everywhere(block, setting)
+def implication_of(block: Block, a: Answer, setting: Setting) -> NearReference | Everywhere:
+    """Return the implications near the reference if the block was analysed there, otherwise those everywhere."""
+    return NearReference(block, setting) if is_at_reference(block, a, setting) else Everywhere(block, setting)
 
 
-def is_drawn(block: Block, a: Answer, setting: Setting) -> bool:
-    """Return whether all rows are finite, and were answered at the reference."""
+def is_at_reference(block: Block, a: Answer, setting: Setting) -> bool:
+    """Return whether all rows are finite and the answer is about the reference configuration."""
     return setting.reference is not None and a.instantaneous is not None and len(block.finite) == len(block.rows)

@@ -1,4 +1,4 @@
-"""What is redundant because it is satisfied at every state of motion that the others leave, on all their branches."""
+"""Redundant constraints by implication: satisfied at every state that the others allow; and minimal conflicts."""
 
 from __future__ import annotations
 
@@ -17,22 +17,19 @@ from dofkit.relations.answer import BITS, Redundancies, undecided_dependence
 from dofkit.relations.normal.pieces import Finite, Normal, Reduced
 from dofkit.relations.setting import Setting
 
-#: Constraints of one set that are tried one by one, and seconds spent on leaving constraints out.
+#: Bound on the constraints of a set that is analysed, and seconds for the search of redundant ones.
 MAX_CHOICES, LEAVING_SECONDS = 40, 5.0
 
 
 def implied(reduced: Sequence[Reduced], setting: Setting, numbers: Sequence[int]) -> Redundancies:
-    """By implication; undecided where the constraints are too many or there is no time left for them."""
+    """Return the redundancies among ``numbers`` by implication; undecided if these are too many or time runs out."""
     if len(numbers) > MAX_CHOICES:
         return undecided_dependence(numbers)
     return unless_late(partial(_by_implication, reduced, setting, numbers), undecided_dependence(numbers))
 
 
 def _by_implication(reduced: Sequence[Reduced], setting: Setting, numbers: Sequence[int]) -> Redundancies:
-    """A constraint is redundant where every state of motion that the others leave, on all their branches, satisfies it.
-
-    The last in the order goes first; where more can go together in its place, they do.
-    """
+    """Return the redundancies: a largest set of constraints that the others imply on all their branches, last first."""
     rows = [b for i in numbers for n in reduced[i].normals for b in n.branches]
     exchange = len(rows) == len(numbers) and all(len(b) == 1 for b in rows)
     with limited(LEAVING_SECONDS):
@@ -54,7 +51,7 @@ def _equation_by_equation(
     """Return the number of independent equations of each constraint, and the dependent groups among ``kept``.
 
     Each of ``numbers`` is compared with those before it, configuration-level ones first. ``kept`` are constraints none
-    of which is implied by the others. A group: the number of implied equations, and the constraints that take part.
+    of which is implied by the others. A group is (number of implied equations, constraints concerned).
     """
     order = sorted(numbers, key=lambda i: any(not isinstance(p, Finite) for n in reduced[i].normals for p in n.pieces))
     independent: dict[int, int] = {}
@@ -73,7 +70,7 @@ def _equation_by_equation(
 
 @dataclass
 class _Implied:
-    """Constraints that can be left out because the others imply them; the sets that were found to be redundant."""
+    """Tests whether sets of constraints are implied by the others of ``numbers``, and remembers redundant sets."""
 
     reduced: Sequence[Reduced]
     setting: Setting
@@ -83,19 +80,19 @@ class _Implied:
     def in_time(self, choice: Sequence[int]) -> bool | None:
         """Return whether the constraints outside ``choice`` imply all in it; None if undecided or out of time.
 
-        What the others imply together with a constraint that they imply, they imply without it.
+        If all but the last one of ``choice`` are known to be redundant together, only the last one is tested.
         """
         kept = [j for j in self.numbers if j not in choice]
-        asked = choice[-1:] if frozenset(choice[:-1]) in self._redundant else choice
-        follow = (constraint_follows(self.reduced, i, kept, self.setting) for i in asked)
-        answer = unless_late(lambda: all_of(follow), None)
-        if answer:
+        tested = choice[-1:] if frozenset(choice[:-1]) in self._redundant else choice
+        follow = (constraint_follows(self.reduced, i, kept, self.setting) for i in tested)
+        redundant = unless_late(lambda: all_of(follow), None)
+        if redundant:
             self._redundant.add(frozenset(choice))
-        return answer
+        return redundant
 
 
 def _equations_implied(reduced: Sequence[Reduced], i: int, before: Sequence[int], setting: Setting) -> list[Normal]:
-    """The equations of a constraint that follow from constraints before it and its own earlier ones."""
+    """Return the equations of constraint i that the constraints ``before`` and its earlier equations imply."""
     premises = [n for j in before for n in reduced[j].normals]
     implied = []
     for n in reduced[i].normals:
@@ -115,7 +112,7 @@ def constraint_follows(reduced: Sequence[Reduced], i: int, others: Sequence[int]
 def _needed(
     reduced: Sequence[Reduced], normals: Sequence[Normal], others: Sequence[int], setting: Setting
 ) -> list[int]:
-    """A minimal set of the others that some equations follow from."""
+    """Return a minimal set of the others that implies some equations."""
 
     def imply(kept: Sequence[int]) -> bool:
         premises = [n for k in kept for n in reduced[k].normals]
@@ -124,30 +121,30 @@ def _needed(
     return minimal_set(others, imply)
 
 
-#: Seconds spent on leaving constraints out.
+#: Seconds for the search of a minimal conflict.
 CONFLICT_SECONDS = 5.0
-#: Without any one of them the others can be satisfied.
-MINIMAL, LEFT_OUT = Claim("proved", "leaving out"), Claim("probable", "leaving out", bits=BITS)
+#: The claims that a conflict is minimal: without any one constraint the others are consistent.
+MINIMAL, PROBABLY_MINIMAL = Claim("proved", "leaving out"), Claim("probable", "leaving out", bits=BITS)
 
 
 class Conflict(NamedTuple):
-    """Constraints that cannot hold together; ``claim``: none of them can be left out."""
+    """Constraints that contradict each other; ``claim``: that the set is minimal."""
 
     members: list[int]
     claim: Claim = OPEN
 
 
 def conflict(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome) -> Conflict:
-    """Constraints that cannot hold together, none of which can be left out: a deletion filter, the last written first.
+    """Return a minimal set of constraints that contradict each other, by a deletion filter, the last written first.
 
-    What is left out must leave the others proved to be inconsistent, so the set conflicts also where some of the
-    checks are undecided; it is then perhaps not minimal.
+    A constraint is left out only if the others are proved to be inconsistent. If a check is undecided, the set still
+    conflicts, but is perhaps not minimal.
     """
     if outcome.impossible:
         return Conflict([outcome.impossible[0]], MINIMAL)
     plain = replace(setting, grows=False, flag=False)
-    guilty = next(b for b, a in zip(outcome.blocks, outcome.answers, strict=True) if a.consistent is False)
-    kept = sorted({row.constraint for row in guilty.rows})
+    inconsistent = next(b for b, a in zip(outcome.blocks, outcome.answers, strict=True) if a.consistent is False)
+    kept = sorted({row.constraint for row in inconsistent.rows})
     members = next(a.conflict for a in outcome.answers if a.consistent is False)
     if members and set(members) <= set(kept):
         return Conflict(list(members), MINIMAL)
@@ -157,11 +154,11 @@ def conflict(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome) -> 
     with limited(CONFLICT_SECONDS):
         kept = minimal_set(kept, sets.inconsistent_in_time, len(kept) // 2 or 1)
     satisfied = {sets.satisfied(kept[:k] + kept[k + 1 :]) for k in range(len(kept))}
-    return Conflict(kept, OPEN if OPEN in satisfied else LEFT_OUT if LEFT_OUT in satisfied else MINIMAL)
+    return Conflict(kept, OPEN if OPEN in satisfied else PROBABLY_MINIMAL if PROBABLY_MINIMAL in satisfied else MINIMAL)
 
 
 class ConstraintSets:
-    """Sets of a system's constraints, with what was found of each."""
+    """Tests the consistency of sets of a system's constraints, and remembers the results."""
 
     def __init__(self, reduced: Sequence[Reduced], setting: Setting) -> None:
         self.reduced, self.answered = reduced, AnsweredBlocks(setting)
@@ -171,20 +168,20 @@ class ConstraintSets:
         """Return whether some constraints are proved, or as good as proved, to be inconsistent."""
         key = tuple(numbers)
         if key not in self._answers:
-            self._answers[key] = self._looked(numbers)
+            self._answers[key] = self._solved(numbers)
         return self._answers[key][0] is False
 
     def inconsistent_in_time(self, numbers: Sequence[int]) -> bool:
-        """Return whether some constraints are inconsistent; False also where there is no time to tell."""
+        """Return whether some constraints are inconsistent; False also if time runs out."""
         return bool(numbers) and unless_late(partial(self.inconsistent, numbers), False)
 
     def satisfied(self, numbers: Sequence[int]) -> Claim:
-        """Return how certain it was, when some constraints were examined, that they are satisfied somewhere."""
+        """Return how certain it is that some constraints, tested before, are consistent; undecided if not tested."""
         consistent, proved = self._answers.get(tuple(numbers), (None, False))
-        return OPEN if consistent is not True else MINIMAL if proved else LEFT_OUT
+        return OPEN if consistent is not True else MINIMAL if proved else PROBABLY_MINIMAL
 
-    def _looked(self, numbers: Sequence[int]) -> tuple[bool | None, bool]:
-        """(consistent, proved)."""
+    def _solved(self, numbers: Sequence[int]) -> tuple[bool | None, bool]:
+        """Return (whether some constraints are consistent, whether this is proved)."""
         some = [r if i in set(numbers) else Reduced(r.constraint, (), ()) for i, r in enumerate(self.reduced)]
         result = solve(some, self.answered.setting, self.answered)
         return result.consistent, all(a.exists or a.verdict == "proved" for a in result.answers)

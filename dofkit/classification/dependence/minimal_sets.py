@@ -1,12 +1,12 @@
-"""Sets of constraints by an oracle that tells what a set implies: minimal sets, and largest sets that are redundant.
+"""Searches for minimal sufficient sets and largest redundant sets, given a function (oracle) that tests one set.
 
-The oracle is a rank, an implication or a proof of a contradiction; the search is the same for all of them. What a set
-suffices for, every larger set suffices for, and what can be left out together can be left out one by one.
+The oracle is a rank, an implication or a proof of a contradiction. It has to be monotone: every set larger than a
+sufficient one is sufficient, and every subset of a redundant set is redundant.
 
-Rows of a block that are dependent at a point need not imply each other. Three points on a line: the first two distances
-give the third infinitesimally, and not nearby. A form with a coefficient that is 0 on the set is another form at its
-points: where y = 0, dx - y dz is dx. So a row's support is asked whether it implies the row, and else all independent
-rows are, less those that are not needed.
+Rows of a block that are dependent at a point need not imply each other. For three points on a line the differential of
+the third distance depends on the other two, but these do not imply the distance nearby. A form with a coefficient that
+is 0 on the set is another form there: where y = 0, dx - y dz is dx. So `SufficientSets` tests whether a row's support
+implies the row, and otherwise searches among all independent rows.
 """
 
 from __future__ import annotations
@@ -17,15 +17,15 @@ from itertools import combinations
 from typing import NamedTuple, TypeVar
 
 from dofkit.base.deadline import check
-from dofkit.classification.dependence.implication import Everywhere, NearDrawing
+from dofkit.classification.dependence.implication import Everywhere, NearReference
 
 T = TypeVar("T")
 
 
 def minimal_set(members: Sequence[T], suffices: Callable[[list[T]], object], chunk: int = 1) -> list[T]:
-    """Return the members of a set that suffices without those that can be left out, the last left out first.
+    """Return a minimal subset of ``members`` that suffices, by leaving out members, the last ones first.
 
-    ``chunk``: so many are left out at once at first, then half as many, down to single ones (a deletion filter).
+    ``chunk``: the number that is left out at once at first, then half as many, down to single ones (deletion filter).
     """
     kept = list(members)
     while chunk:
@@ -38,7 +38,7 @@ def minimal_set(members: Sequence[T], suffices: Callable[[list[T]], object], chu
 
 
 class RedundantSet(NamedTuple):
-    """The largest set that can be left out, and the members of which it is undecided whether they can be."""
+    """The largest set that can be left out, and the members for which it is undecided whether they can be."""
 
     members: list[int]
     undecided: list[int]
@@ -47,76 +47,75 @@ class RedundantSet(NamedTuple):
 def largest_redundant_set(
     members: Iterable[int], is_redundant: Callable[[Sequence[int]], bool | None], exchange: bool = False
 ) -> RedundantSet:
-    """Return as many members as can be left out together, of several choices the last ones.
+    """Return a largest redundant set, of several one with the first of ``members``.
 
-    ``exchange``: no set that cannot be enlarged is smaller than another (a matroid), so none larger is searched.
+    ``exchange``: redundant sets have the exchange property of a matroid, so that the greedy search is sufficient;
+    otherwise all larger sets are tested as well.
     """
-    single, gone, undecided = list[int](), list[int](), list[int]()
+    single, redundant, undecided = list[int](), list[int](), list[int]()
     for member in members:
         alone = is_redundant([member])
-        together = is_redundant([*gone, member]) if alone and gone else alone
+        together = is_redundant([*redundant, member]) if alone and redundant else alone
         single += [member] if alone else []
-        gone += [member] if together else []
+        redundant += [member] if together else []
         undecided += [member] if together is None else []
-    while len(gone) < len(single) and not exchange:
-        asked = ((choice, is_redundant(choice)) for choice in combinations(single, len(gone) + 1))
-        larger, answer = next(((choice, answer) for choice, answer in asked if answer is not False), ((), False))
+    while len(redundant) < len(single) and not exchange:
+        tested = ((choice, is_redundant(choice)) for choice in combinations(single, len(redundant) + 1))
+        larger, answer = next(((choice, answer) for choice, answer in tested if answer is not False), ((), False))
         if not answer:
             undecided += larger
             break
-        gone = list(larger)
-    return RedundantSet(sorted(gone), sorted(set(undecided) - set(gone)))
+        redundant = list(larger)
+    return RedundantSet(sorted(redundant), sorted(set(undecided) - set(redundant)))
 
 
-#: Rows that are taken into all questions about one block; what is undecided then stays so.
+#: Bound on the premises in all tests of one block; later tests fail.
 WORK = 1500
 
 
 @dataclass
 class SufficientSets:
-    """The ``pivots``, independent rows that others depend on, each of the constraint ``owners`` tells."""
+    """Searches for sets of rows that imply a row; ``pivots`` are independent rows, ``owners`` the rows' constraints."""
 
-    implication: NearDrawing | Everywhere
+    implication: NearReference | Everywhere
     owners: Sequence[int]
     pivots: Sequence[int]
-    _asked: int = 0
+    _work: int = 0
 
     def enough(self, row: int, support: Sequence[int]) -> list[int] | None:
-        """Pivots of which the row follows: its support where that is enough; else the rows of a minimal set of
-        constraints, written before it where such are enough. None where no such set was found.
+        """Return pivots that imply the row: its support, or the rows of a minimal set of constraints; None if none.
+
+        The set is searched among constraints written before the row first.
         """
-        if self._ask(support) and self.implication.follows(row, support):
+        if self._within_work(support) and self.implication.follows(row, support):
             return list(support)
         before = [i for i in self.pivots if self.owners[i] <= self.owners[row]]
         for among in (before, self.pivots):
-            if not self._ask(among) or not self.implication.seems(row, among):
+            if not self._within_work(among) or not self.implication.seems(row, among):
                 continue
             fewer = self.implication.needed(row, among)
-            if len(fewer) < len(among) and self._ask(fewer) and self.implication.follows(row, fewer):
+            if len(fewer) < len(among) and self._within_work(fewer) and self.implication.follows(row, fewer):
                 return sorted(fewer)
             fewer = self._fewest(row, among, fewer)
-            return fewer if self._ask(fewer) and self.implication.follows(row, fewer) else None
+            return fewer if self._within_work(fewer) and self.implication.follows(row, fewer) else None
         return None
 
-    def _ask(self, rows: Sequence[int]) -> bool:
-        """Return whether one more question about so many rows may be asked."""
+    def _within_work(self, premises: Sequence[int]) -> bool:
+        """Count one more test with these premises, and return whether it is within `WORK`."""
         check()
-        self._asked += len(rows) + 1
-        return self._asked <= WORK
+        self._work += len(premises) + 1
+        return self._work <= WORK
 
     def _fewest(self, row: int, rows: Sequence[int], needed: Sequence[int]) -> list[int]:
-        """Rows of which the row follows, less those of constraints without which it does too, the last written first.
-
-        Those ``needed`` stay.
-        """
-        staying = {self.owners[i] for i in (row, *needed)}
-        spare = sorted({self.owners[i] for i in rows} - staying)
+        """Return the rows of a minimal set of constraints that seem to imply a row, with those of ``needed`` rows."""
+        kept = {self.owners[i] for i in (row, *needed)}
+        spare = sorted({self.owners[i] for i in rows} - kept)
 
         def rows_of(owners: Sequence[int]) -> list[int]:
-            return [i for i in rows if self.owners[i] in staying or self.owners[i] in owners]
+            return [i for i in rows if self.owners[i] in kept or self.owners[i] in owners]
 
         def suffice(owners: Sequence[int]) -> bool:
             fewer = rows_of(owners)
-            return self._ask(fewer) and self.implication.seems(row, fewer)
+            return self._within_work(fewer) and self.implication.seems(row, fewer)
 
         return rows_of(minimal_set(spare, suffice, len(spare) // 2 or 1))

@@ -1,4 +1,4 @@
-"""Which constraints of a system are redundant: by rank, over branches, by leaving out, and copies."""
+"""Which constraints of a system are redundant: by rank, by implication over branches, by removal, and copies."""
 
 from __future__ import annotations
 
@@ -23,16 +23,16 @@ from dofkit.relations.normal.domain import DomainCondition, is_always_satisfied
 from dofkit.relations.normal.pieces import Finite, Inequality, Nonlinear, Normal, Reduced
 from dofkit.relations.setting import Setting
 
-#: Functions that may state one branch only.
+#: Functions, besides algebraic ones, with which redundancy by rank is tested on all components.
 BRANCHED = ("abs", "exp", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh")
-#: The blocks that hold rows of a constraint, with their answers, by its number.
+#: {constraint: (block, answer) of the blocks with rows of it}.
 BlocksOf = dict[int, list[tuple[Block, Answer]]]
 
 
 def redundancies(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome) -> list[Redundancies]:
-    """Part by part, by the rank of the rows; where that does not measure dependence, by what is implied by what.
+    """Return the redundancies of each set of constraints that share coordinates: by rank, or by implication.
 
-    Where there is no time or no way to tell, the constraints concerned are undecided.
+    Constraints for which time runs out, or no method is sound, are undecided.
     """
     result = _void(reduced)
     if not outcome.consistent:
@@ -42,37 +42,38 @@ def redundancies(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome)
     for block, a in outcome.answered_parts:
         for i in dict.fromkeys(r.constraint for r in block.rows):
             blocks[i].append((block, a))
-    apart = outcome.bridged
-    result += [_independent(apart)] if apart else []
-    for numbers in _connected(reduced, outcome, apart):
+    bridged = outcome.bridged
+    result += [_independent(bridged)] if bridged else []
+    for numbers in _connected(reduced, outcome, bridged):
         work = partial(_of_part, reduced, setting, blocks, numbers)
         result += unless_late(work, [undecided_dependence(numbers)])
     return [_within_domain(r, reduced, setting) for r in result]
 
 
 def _within_domain(r: Redundancies, reduced: Sequence[Reduced], setting: Setting) -> Redundancies:
-    """Return the same about a component where what is redundant has no value, as it was written, at some points."""
-    asked = {c for i in r.redundant for c in reduced[i].domain() if not is_always_satisfied(c, setting.positive)}
-    if not asked:
+    """Return ``r``, about a component only if a redundant constraint as written has no value at some points."""
+    required = {c for i in r.redundant for c in reduced[i].domain() if not is_always_satisfied(c, setting.positive)}
+    if not required:
         return r
-    needed = {c for i, other in enumerate(reduced) if i not in r.redundant for c in other.domain()}
-    return r if asked <= needed else _within(r, "component")
+    by_others = {c for i, other in enumerate(reduced) if i not in r.redundant for c in other.domain()}
+    return r if required <= by_others else _within(r, "component")
 
 
 def _is_region(r: Reduced) -> bool:
-    """Return whether all equations of a constraint only state where they are satisfied."""
+    """Return whether all equations of a constraint are satisfied on regions (see `_is_conditional`)."""
     return bool(r.normals) and all(map(_is_conditional, r.normals))
 
 
 def _is_conditional(n: Normal) -> bool:
-    """Return whether an equation only states where it is satisfied, on all its branches."""
+    """Return whether all branches of an equation consist of conditions only, as those of abs(x) = x do."""
     return bool(n.branches) and all(b and all(isinstance(p, DomainCondition) for p in b) for b in n.branches)
 
 
 def all_needed(dependent: Sequence[Redundancies], reduced: Sequence[Reduced], outcome: Outcome) -> list[Redundancies]:
-    """With no equation too many, what was undecided is needed, where every equation takes one freedom at most.
+    """Return the redundancies with undecided constraints as needed, given that no equation is surplus.
 
-    One that says several things (a sum of squares), hidden relations or a singular set may hide that another follows.
+    They are unchanged if an equation may remove several freedoms (a sum of squares), if there are hidden relations, or
+    if the set is singular.
     """
     several = any(len(b) > 1 for r in reduced for n in r.normals for b in n.branches)
     if several or any(a.hidden or a.degenerate for a in outcome.answers):
@@ -84,12 +85,12 @@ def all_needed(dependent: Sequence[Redundancies], reduced: Sequence[Reduced], ou
     return answer
 
 
-def _connected(reduced: Sequence[Reduced], outcome: Outcome, apart: Collection[int]) -> list[list[int]]:
-    """The constraints in use but those ``apart``, those together that share coordinates."""
+def _connected(reduced: Sequence[Reduced], outcome: Outcome, bridged: Collection[int]) -> list[list[int]]:
+    """Return the sets of constraints connected by coordinates, without copies and joints that close no loop."""
     used: list[int] = []
     names: list[frozenset[str]] = []
     for i, r in enumerate(reduced):
-        if i in apart:
+        if i in bridged:
             continue
         every = [p for n in r.normals for b in n.branches for p in b]
         pieces = every if _is_region(r) else [p for p in every if not isinstance(p, Inequality | DomainCondition)]
@@ -102,7 +103,7 @@ def _connected(reduced: Sequence[Reduced], outcome: Outcome, apart: Collection[i
 def _of_part(
     reduced: Sequence[Reduced], setting: Setting, blocks: BlocksOf, numbers: Sequence[int]
 ) -> list[Redundancies]:
-    """Of constraints that share coordinates: those that take freedom away, then those that hold on whole regions."""
+    """Return the redundancies of connected constraints; those satisfied on regions are undecided."""
     regions = [i for i in numbers if _is_region(reduced[i])]
     if not regions:
         return _of_relations(reduced, setting, blocks, numbers)
@@ -115,7 +116,7 @@ def _of_part(
 def _of_relations(
     reduced: Sequence[Reduced], setting: Setting, blocks_of: BlocksOf, numbers: Sequence[int]
 ) -> list[Redundancies]:
-    """Of constraints that share coordinates: by implication where rank does not measure dependence, else by rank."""
+    """Return the redundancies of connected constraints by rank if this is sound, otherwise by implication."""
     blocks = list({id(block): (block, a) for i in numbers for block, a in blocks_of.get(i, ())}.values())
     if _each_takes_one(reduced, numbers, blocks):
         return [_independent({i: reduced[i].equations for i in numbers})]
@@ -144,12 +145,12 @@ def _of_relations(
 
 
 def _within(r: Redundancies, scope: About) -> Redundancies:
-    """Return the same about fewer points."""
+    """Return the redundancies with a claim about the points of ``scope`` at most."""
     return replace(r, claim=replace(r.claim, about=least(r.claim.about, scope)))
 
 
 def _undecided_redundancy(r: Redundancies) -> Redundancies:
-    """Return what remains where constraints are redundant by rank at one point, and may be needed elsewhere."""
+    """Return ``r`` with its redundant constraints undecided, because they may be needed at other points."""
     independent = {i: k for i, k in r.independent.items() if i not in r.redundant}
     return Redundancies(independent, undecided=tuple(r.redundant), claim=r.claim)
 
@@ -157,12 +158,11 @@ def _undecided_redundancy(r: Redundancies) -> Redundancies:
 def _scope(
     reduced: Sequence[Reduced], setting: Setting, numbers: Sequence[int], by_rank: Sequence[Redundancies]
 ) -> About | Literal[False] | None:
-    """Return for which points the redundancy by rank is valid; False where it fails on some component.
+    """Return for which points the redundancy by rank is valid; False if it fails on some component, None if undecided.
 
     x^2 + y^2 = 1, x = 1, y = 0: the first two have one gradient at the solution, but without x = 1 there is x = -1.
-    Only few algebraic equations are examined on all components, which may miss one; so the answer is about the
-    component on which the rank was taken. Where forms occur, geometric equations are compared with each other:
-    of sin(z) = 0 and z = 0 the first is redundant. None: undecided.
+    Only few algebraic equations are examined on all components, and these may miss one, so that the claim is about the
+    component at which the rank was computed. If there are forms, geometric equations are compared with each other.
     """
     dropped = {i for r in by_rank for i in r.redundant}
     if setting.reference is not None:
@@ -182,17 +182,17 @@ def _scope(
 
 
 def _as_free(implied: Redundancies, reduced: Sequence[Reduced], blocks: Sequence[tuple[Block, Answer]]) -> Redundancies:
-    """Return what was counted, where it agrees with the freedom that the equations take away.
+    """Return redundancies by implication with numbers of independent equations that agree with the freedom.
 
-    No more equations are independent than take freedom away, and the groups hold all others. Where the order in which
-    equations imply each other says otherwise, their rows are counted, at the points where the freedom was determined:
-    none of what is satisfied on a whole region; of x z = 0 and z = 0 one, though neither is implied by those before it.
+    The independent equations must be as many as freedoms are removed, and the groups must account for the others. If
+    they do not agree, rows are counted instead, at the points where the freedom was determined: of x z = 0 and z = 0
+    one, although the second is not implied by the first. If this fails too, the numbers are unknown.
     """
     if implied.undecided or any(a.velocity_dof is None for _, a in blocks):
         return implied
-    taken = sum(len(block.coordinates) - (a.velocity_dof or 0) for block, a in blocks)
+    removed = sum(len(block.coordinates) - (a.velocity_dof or 0) for block, a in blocks)
     equations = sum(reduced[i].equations for i in implied.independent)
-    if sum(implied.independent.values()) <= taken and _hold_the_others(implied, equations):
+    if sum(implied.independent.values()) <= removed and _account_for_others(implied, equations):
         return implied
     matrices = [OwnedRows(a.matrix, removal.owners_of(b), _finite_rows(b), a.modulus) for b, a in blocks]
     complete = all(len(part.matrix) == len(part.owners) for part in matrices)
@@ -202,13 +202,14 @@ def _as_free(implied: Redundancies, reduced: Sequence[Reduced], blocks: Sequence
     independent = {i: by_rank.independent.get(i, 0) for i in implied.independent}
     counted = replace(implied, independent=independent, groups=[*by_rank.groups, *idle], equations={})
     members = {i for _, group in counted.groups for i in group}
-    if sum(independent.values()) == taken and members >= {*implied.redundant} and _hold_the_others(counted, equations):
+    agree = sum(independent.values()) == removed and _account_for_others(counted, equations)
+    if agree and members >= {*implied.redundant}:
         return counted
     return replace(implied, independent={}, uncounted=tuple(implied.independent))
 
 
-def _hold_the_others(dependence: Redundancies, equations: int) -> bool:
-    """Return whether the groups hold as many equations as are not independent."""
+def _account_for_others(dependence: Redundancies, equations: int) -> bool:
+    """Return whether the nullities of the groups add up to the number of equations that are not independent."""
     return sum(nullity for nullity, _ in dependence.groups) >= equations - sum(dependence.independent.values())
 
 
@@ -217,26 +218,26 @@ def _finite_rows(block: Block) -> list[bool]:
 
 
 def _agreed(dependent: Sequence[Redundancies]) -> list[Redundancies]:
-    """A constraint of several equations is redundant only where all of them are, whatever block they are in."""
+    """Return redundancies in which a constraint is redundant only if it is needed in none of them."""
     return [r.without(set().union(*(other.needed for other in dependent))) for r in dependent]
 
 
 def _measured_by_rank(
     reduced: Sequence[Reduced], setting: Setting, numbers: Sequence[int], blocks: Sequence[tuple[Block, Answer]]
 ) -> bool:
-    """Return whether the rank measures dependence: one branch, and nothing nonlinear or hidden."""
+    """Return whether dependence is a deficiency of rank: there is one branch, and nothing nonlinear or hidden."""
     normals = [n for i in numbers for n in reduced[i].normals]
     if any(len(branches_at_reference(n, setting).branches) > 1 for n in normals):
         return False
-    bent = any(isinstance(p, Nonlinear) for n in normals for p in n.pieces)
+    nonlinear = any(isinstance(p, Nonlinear) for n in normals for p in n.pieces)
     hidden = any(a.hidden for _, a in blocks) and len(numbers) <= MAX_CHOICES
-    return not (bent or hidden)
+    return not (nonlinear or hidden)
 
 
 def _of_block(
     block: Block, a: Answer, setting: Setting, numbered: Mapping[int, int]
 ) -> Iterator[Redundancies | OwnedRows]:
-    """What is settled of a block at once, or its rows where their rank tells."""
+    """Yield the redundancies of a block, or its rows if they can be analysed by rank, with those of other blocks."""
     nullity = len(block.rows) - (len(block.coordinates) - (a.velocity_dof or 0))
     owners = removal.owners_of(block)
     equations = [numbered.get(id(r.piece), -1) for r in block.rows]
@@ -250,7 +251,7 @@ def _of_block(
         yield unless_late(removed, undecided) if is_finite else undecided
     else:
         finite = _finite_rows(block)
-        # a constraint that wrote a single row is dropped or not, as its row depends or not
+        # a constraint with a single row is redundant if and only if this row is
         sure = a.supports is not None or (a.identical and a.trusted and len({*owners}) == len(owners))
         implied = None if sure or nullity <= 0 else implication_of(block, a, setting)
         claim = a.claim if sure or a.linear else together(ROWS, IMPLIED)
@@ -270,20 +271,17 @@ def _without_hidden(block: Block, a: Answer) -> list[SparseRow]:
 
 
 def _independent(counted: Mapping[int, int]) -> Redundancies:
-    """So many equations of each constraint, all independent."""
+    """Return redundancies with so many equations of each constraint, all independent."""
     return Redundancies(dict(counted), equations=dict.fromkeys(counted, ()))
 
 
 def _numbered(reduced: Iterable[Reduced]) -> dict[int, int]:
-    """The number of the scalar equation that a piece is of, by the piece's identity."""
+    """Return {id of a piece: the number of its scalar equation in its constraint}."""
     return {id(p): k for r in reduced for k, n in enumerate(r.normals) for p in n.pieces}
 
 
 def _each_takes_one(reduced: Sequence[Reduced], numbers: Sequence[int], blocks: Sequence[tuple[Block, Answer]]) -> bool:
-    """Return whether the freedom is less by as many as there are equations, one row each: none is implied then.
-
-    On the branches in use the rows of the others leave no part of which the freedom is less by more than they are.
-    """
+    """Return whether each equation has one row and removes one freedom, so that none is implied by the others."""
     rows = Counter(r.constraint for block, _ in blocks for r in block.rows)
     single = rows == {i: reduced[i].equations for i in numbers}
     plain = all(a.velocity_dof is not None and not (a.hidden or a.degenerate) for _, a in blocks)
@@ -295,7 +293,7 @@ def _each_takes_one(reduced: Sequence[Reduced], numbers: Sequence[int], blocks: 
 
 
 def copied(reduced: Sequence[Reduced], outcome: Outcome) -> list[Redundancies]:
-    """What was written before is redundant."""
+    """Return that each constraint that is a copy of an earlier one is redundant."""
     return [
         Redundancies(
             {i: 0},
@@ -310,7 +308,7 @@ def copied(reduced: Sequence[Reduced], outcome: Outcome) -> list[Redundancies]:
 
 
 def merged(dependent: Sequence[Redundancies]) -> list[tuple[int, list[int]]]:
-    """Groups that share a constraint are one."""
+    """Return the (nullity, members) of all groups; those that share a constraint are joined."""
     groups = [g for r in dependent for g in r.groups]
     merged = []
     for numbers in components(members for _, members in groups):
@@ -320,9 +318,9 @@ def merged(dependent: Sequence[Redundancies]) -> list[tuple[int, list[int]]]:
 
 
 def _void(reduced: Sequence[Reduced]) -> list[Redundancies]:
-    """Relations that are always satisfied (0 = 0) are redundant by themselves.
+    """Return that relations that are always satisfied (0 = 0) are redundant.
 
-    What is satisfied on a region only does not reduce the freedom either; as a part of a constraint it is counted here.
+    Equations satisfied on a region, in constraints with other equations, are counted here as dependent as well.
     """
     result = []
     for i, r in enumerate(reduced):

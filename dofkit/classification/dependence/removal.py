@@ -1,17 +1,15 @@
-"""What is redundant because the set stays the same: constraints left out one by one, the last in the order first.
+"""Redundant constraints of a block found by removing them, and independent equations counted near the reference.
 
-Where leaving a constraint out gives freedom, it is needed. Where it gives none, the others must also imply what the
-constraint says: the set may lose a component and keep its dimension.
+Removal: a constraint is needed if the freedom is larger without it. If not, it is redundant if the others imply it;
+otherwise its removal may add a component of the same dimension.
 
-How many equations are independent of all before them where relations are dependent at the reference only.
-
-An equation is independent of others where it is no combination of them, with coefficients that are analytic near the
-reference. Each is compared with those before it. A row that is no sum of rows before it at the reference belongs to an
-independent equation. One that is such a sum is of a dependent equation where that vanishes on the manifold of the
-independent ones before it [ImplicitFunctions]; the first that does not is independent, and no other is counted then. Of
-several of one constraint all but one are dependent where they are satisfied, in numbers, at the points near the
-reference where that one is: creases that meet in a point close up by one condition of the second order, which several
-equations state. What was counted must agree with the freedom.
+Counting (`counted`), if relations are dependent at the reference: an equation is independent of those before it if it
+is no combination of them with coefficients that are analytic near the reference. This is so if its row at the reference
+is no combination of rows before it. If it is one, the equation is dependent if it vanishes on the manifold of the
+independent equations before it [ImplicitFunctions]; the first equation that does not is independent, and then no
+further one is allowed. Of several such equations of one constraint all but one are dependent if they are satisfied, in
+numbers, at the points near the reference where that one is: creases that meet in a point close up by one condition of
+second order, which several equations state. The numbers must agree with the freedom.
 """
 
 from __future__ import annotations
@@ -25,7 +23,7 @@ from typing import NamedTuple
 
 from dofkit.base.deadline import OutOfTimeError, check, limited, unless_late
 from dofkit.base.verdicts import About, Claim, Verdict, weakest
-from dofkit.classification.dependence.implication import Everywhere, NearDrawing, is_drawn
+from dofkit.classification.dependence.implication import Everywhere, NearReference, is_at_reference
 from dofkit.classification.dependence.implied_constraints import LEAVING_SECONDS
 from dofkit.classification.dependence.minimal_sets import SufficientSets, largest_redundant_set, minimal_set
 from dofkit.classification.freedom.block import answer
@@ -37,9 +35,9 @@ from dofkit.relations.setting import Setting
 
 
 def by_removal(block: Block, setting: Setting, a: Answer, nullity: int, numbered: Sequence[int]) -> Redundancies:
-    """Return what is redundant in a block of geometric equations whose rank does not tell, the last written first.
+    """Return the redundancies of a block of geometric equations by removal, the last written first.
 
-    ``nullity``: dependent rows by the freedom; ``numbered``: the equation each row belongs to.
+    ``nullity``: the number of dependent rows by the freedom; ``numbered``: the equation to which each row belongs.
     """
     owners = owners_of(block)
     order = list(dict.fromkeys(owners))
@@ -51,7 +49,7 @@ def by_removal(block: Block, setting: Setting, a: Answer, nullity: int, numbered
     groups = [(nullity, sorted(order))] if largest.members else []
     undecided = tuple(largest.undecided)
     answer = Redundancies({}, largest.members, groups, circuits, undecided, claim=_claim(removal.verdict, a.about))
-    count = counted(block, setting, a, numbered) if is_drawn(block, a, setting) else None
+    count = counted(block, setting, a, numbered) if is_at_reference(block, a, setting) else None
     if count is not None:
         claim = _claim(weakest(removal.verdict, "numeric" if count.seen else "probable"), a.about)
         counts = replace(answer, independent=count.independent, equations=count.equations, seen=count.seen)
@@ -80,13 +78,13 @@ def _circuits(removal: Removal, order: Sequence[int], redundant: Sequence[int]) 
 
 
 def owners_of(block: Block) -> list[int]:
-    """The constraint that wrote each row."""
+    """Return the constraint of each row."""
     return [r.constraint for r in block.rows]
 
 
 @dataclass
 class Removal:
-    """A block without some of its constraints; ``verdict``: that of the weakest argument so far."""
+    """Tests the removal of constraints of a block, whose answer is ``whole``; ``verdict``: the weakest so far."""
 
     block: Block
     setting: Setting
@@ -96,9 +94,9 @@ class Removal:
     _dofs: dict[frozenset[int], int | None] = field(default_factory=dict)
 
     def is_redundant(self, owners: Collection[int], others: Collection[int] | None = None) -> bool | None:
-        """Return whether the set near the reference is the same without some constraints; None: undecided.
+        """Return whether the set is the same without the constraints ``owners``; None if undecided.
 
-        ``others``: the constraints that remain; without it all others of the block.
+        ``others``: the remaining constraints, by default all others of the block.
         """
         removed = frozenset(owners)
         kept = frozenset(owners_of(self.block)) - removed if others is None else frozenset(others)
@@ -110,25 +108,28 @@ class Removal:
         return self._answers[removed, kept]
 
     def in_time(self, owners: Sequence[int]) -> bool | None:
-        """Return whether constraints are redundant; None where that is undecided or there is no time to tell."""
+        """Return whether constraints are redundant; None if undecided or out of time."""
         return unless_late(partial(self.is_redundant, owners), None)
 
     def _dof(self, kept: frozenset[int]) -> int | None:
-        """Return the freedom that some constraints leave."""
+        """Return the freedom with the constraints ``kept`` only; None if undecided."""
         if kept not in self._dofs:
             rows = [r for r in self.block.rows if r.constraint in kept]
-            whole = len(rows) == len(self.block.rows)
-            self._dofs[kept] = self.whole.dof if whole else freedom(self.block.coordinates, rows, self.setting)
+            all_rows = len(rows) == len(self.block.rows)
+            self._dofs[kept] = self.whole.dof if all_rows else freedom(self.block.coordinates, rows, self.setting)
         return self._dofs[kept]
 
     def _is_same_set(self, removed: frozenset[int], kept: frozenset[int]) -> bool | None:
-        """Return whether what is removed is implied: always where only rigid motions of the system are left."""
+        """Return whether the kept constraints imply the removed ones, of equal freedom; this may weaken ``verdict``.
+
+        They do if the set is an orbit of rigid motions of the system.
+        """
         rows, others = (
             [i for i, r in enumerate(self.block.rows) if r.constraint in constraints] for constraints in (removed, kept)
         )
-        if not is_drawn(self.block, self.whole, self.setting):
+        if not is_at_reference(self.block, self.whole, self.setting):
             return all_of(Everywhere(self.block, self.setting).follows(i, others) for i in rows)
-        near = NearDrawing(self.block, self.setting)
+        near = NearReference(self.block, self.setting)
         if near.is_orbit(others, self._dof(kept)) or near.imply(others, rows, self.whole):
             return True
         self.verdict = "numeric"
@@ -136,16 +137,16 @@ class Removal:
 
 
 def freedom(coordinates: Sequence[str], rows: Sequence[Row], setting: Setting) -> int | None:
-    """Return the freedom that some rows leave; None where it is undecided."""
+    """Return the freedom of some coordinates with some rows; None if undecided."""
     blocks, untouched = split(coordinates, rows)
     dofs = [answer(block, setting).dof for block in blocks]
     return None if None in dofs else len(untouched) + sum(dof for dof in dofs if dof is not None)
 
 
 class EquationCount(NamedTuple):
-    """Equations of each constraint that are independent of all before, those that are not, and groups.
+    """By constraint, the number of independent equations, and the numbers of the dependent ones; and groups.
 
-    ``seen``: the constraints of whose equations some were seen in numbers to follow.
+    ``seen``: constraints with equations that are implied by numerical evidence only.
     """
 
     independent: dict[int, int]
@@ -155,9 +156,9 @@ class EquationCount(NamedTuple):
 
 
 def counted(block: Block, setting: Setting, a: Answer, numbered: Sequence[int]) -> EquationCount | None:
-    """The count for a block that was answered at the reference; ``numbered``: the equation that each row is of.
+    """Return the count for a block analysed at the reference; None if undecided, or not in agreement with the freedom.
 
-    None where it was not decided, or is not what the freedom says.
+    ``numbered``: the equation to which each row belongs.
     """
     if a.dof is None or len(a.matrix) != len(block.rows):
         return None
@@ -166,18 +167,21 @@ def counted(block: Block, setting: Setting, a: Answer, numbered: Sequence[int]) 
     if supports is None or len(supports) != max(0, len(block.rows) - (len(block.coordinates) - a.dof)):
         return None
     owners = [r.constraint for r in block.rows]
-    following = Counter(owners[i] for i in supports)
+    dependent = Counter(owners[i] for i in supports)
     circuits = [{owners[i], *(owners[j] for j in support)} for i, support in supports.items()]
     joined = [{o for k in numbers for o in circuits[k]} for numbers in components(circuits)]
-    groups = [(sum(following[o] for o in c), sorted(c)) for c in joined]
+    groups = [(sum(dependent[o] for o in c), sorted(c)) for c in joined]
     equations = {o: tuple(numbered[i] for i in supports if owners[i] == o) for o in owners}
-    independent = {o: k - following[o] for o, k in Counter(owners).items()}
+    independent = {o: k - dependent[o] for o, k in Counter(owners).items()}
     return EquationCount(independent, equations, sorted(groups, key=lambda g: g[1]), tuple(counting.seen))
 
 
 @dataclass
 class _Counting:
-    """What is implied by what, row by row; ``bent``: one is dependent at the reference only; ``seen``: as counted."""
+    """Finds for each row the rows before it that imply it: ``following``; ``seen``: as in `EquationCount`.
+
+    ``bent``: an equation that is dependent only at the reference was counted as independent.
+    """
 
     block: Block
     setting: Setting
@@ -187,8 +191,8 @@ class _Counting:
     following: dict[int, list[int]] = field(default_factory=dict)
 
     @cached_property
-    def _near(self) -> NearDrawing:
-        return NearDrawing(self.block, self.setting)
+    def _near(self) -> NearReference:
+        return NearReference(self.block, self.setting)
 
     @cached_property
     def _owners(self) -> list[int]:
@@ -196,13 +200,13 @@ class _Counting:
 
     @cached_property
     def _dependent(self) -> Mapping[int, Sequence[int]]:
-        """Rows that are sums of rows before them at the reference, and of which."""
+        """For rows that are combinations of rows before them at the reference, these rows."""
         return echelon(self.a.matrix, self.a.modulus, supports=True).supports
 
     def supports(self) -> dict[int, list[int]] | None:
-        """For every row that those before it imply, rows that do; None where that is undecided.
+        """Return, for every row implied by rows before it, such rows; None if undecided.
 
-        The rows of one constraint stand in no order: of those that say the same beside others any may be the first.
+        The order of the rows of one constraint does not matter: of equivalent ones any may be taken as the first.
         """
         for owner, rows in groupby(sorted(self._dependent), key=self._owners.__getitem__):
             remaining = self._independent_rows(rows)
@@ -211,7 +215,7 @@ class _Counting:
         return self.following
 
     def _independent_rows(self, rows: Iterable[int]) -> list[int] | None:
-        """Those of some dependent rows that follow from no independent ones; None where that is not known of one."""
+        """Return those of some dependent rows that the independent rows before them do not imply; None if undecided."""
         result = []
         for i in rows:
             check()
@@ -226,9 +230,9 @@ class _Counting:
         return result
 
     def _by_one(self, owner: int, rows: Sequence[int]) -> bool:
-        """Return whether, in numbers, rows of a constraint hold where one of them and those before do.
+        """Return whether one of some rows of a constraint, with the rows before, numerically implies the other ones.
 
-        There may be such rows of one constraint only.
+        This is allowed for one constraint only (``bent``).
         """
         pivots = [k for k, o in enumerate(self._owners) if o <= owner and k not in self._dependent]
         for first in () if self.bent else rows:

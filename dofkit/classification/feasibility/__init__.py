@@ -1,8 +1,8 @@
 """Feasibility: can all inequalities be satisfied together with the constraints?
 
 Types
-    `Part` and `StateProblem` (`state_problem`): constraints that share coordinates with an inequality, and what a
-    state of motion has to satisfy. `Values`: a certified point. `Feasibility`: the answer.
+    `Part` (`state_problem`): constraints that share coordinates with an inequality. `StateProblem`: the conditions on
+    a state of motion. `Values`: a certified point. `Feasibility`: the result.
 
 Mechanisms, in the order in which they are tried (`feasibility` is the driver)
     1. `relations.normal.sign_claims`: the inequalities contradict each other as linear conditions on their terms
@@ -11,5 +11,5 @@ Mechanisms, in the order in which they are tried (`feasibility` is the driver)
        [KrawczykNewton].
     3. `relations.normal.no_solution`: products of inequalities, and resultants of equations.
 
-Where a proof succeeds, constraints are left out one by one until every one of them is needed.
+If a proof succeeds, constraints are left out one by one until every remaining one is needed.
 """

@@ -1,7 +1,7 @@
-"""Can all inequalities be met together with the constraints? A point shows that they can, a proof that they cannot.
+"""Can all inequalities be satisfied together with the constraints? Decided by a certified point, or by a proof.
 
-They are judged for the set of all configurations and motions that the constraints allow, also where a reference
-configuration is given; time and parameters may be as they like, so that what is met is met for an open set of them.
+All configurations and motions that the constraints allow are considered, even if there is a reference configuration.
+Time and parameters may have any values; inequalities that can be satisfied are so for an open set of them.
 """
 
 from __future__ import annotations
@@ -31,13 +31,13 @@ from dofkit.relations.normal.sign_claims import contradictory, point_of_linear
 from dofkit.report import FieldVerdict
 from dofkit.system import System, TypeFacts
 
-#: In the plane two bodies that share a point are not turned over.
+#: Only in a space of this dimension can two bodies that share a point be assembled turned over.
 MOST_DIMENSIONS = 3
 #: Seconds for a point or a proof, and for leaving constraints out.
 SECONDS, LEAVING_SECONDS = 6.0, 6.0
-#: Up to so many constraints are left out one by one from the beginning.
+#: Larger sets are reduced by halves at first (see `minimal_set`).
 FEW = 8
-#: So many constraints are named in a reason.
+#: Bound on the constraints that a reason names.
 MOST_NAMES = 8
 OPEN = "whether all inequalities can be satisfied together with the constraints was not decided"
 NOT_MINIMAL = (
@@ -49,8 +49,8 @@ NOT_MINIMAL = (
 class Feasibility:
     """Whether all inequalities can be satisfied together with the constraints, and how certain that is.
 
-    ``at``: where they are, values of the symbols that are coupled to them; ``infeasible``: where they cannot, the
-    numbers of constraints that cannot all be met, none of which can be left out unless ``reasons`` say so.
+    ``at``: if they can, values of the symbols of the parts with inequalities; ``infeasible``: if they cannot, the
+    numbers of constraints that contradict each other, a minimal set unless ``reasons`` say otherwise.
     """
 
     feasible: bool | None
@@ -61,7 +61,7 @@ class Feasibility:
 
 
 def feasibility(study: Study) -> Feasibility:
-    """Of a system with inequalities."""
+    """Return the feasibility of the inequalities of a system."""
     if study.outcome.consistent is False:
         answer = weakest(*(a.verdict for a in study.outcome.answers if a.consistent is False))
         members, claim = study.dependence.conflicting
@@ -77,12 +77,10 @@ def feasibility(study: Study) -> Feasibility:
 
 
 def _minimal(study: Study, feasibility: Feasibility) -> Feasibility:
-    """Return the feasibility with a minimal infeasible set, and a reason where that it is minimal is not shown.
+    """Return the feasibility with a minimal infeasible set, by a deletion filter, the last written first.
 
-    A deletion filter, the last written first.
-
-    What is left out leaves a set that is proved not to be met; what is kept is needed, where a point shows that the
-    others can be met without it: then fewer of them can be as well.
+    A constraint is left out if the others are proved to be infeasible. It is known to be needed if a point satisfies
+    the others; constraints that are not known to be needed are named in a reason.
     """
     members, satisfiable = list(feasibility.infeasible), list[set[int]]()
 
@@ -102,9 +100,10 @@ def _minimal(study: Study, feasibility: Feasibility) -> Feasibility:
 
 
 def _judged(study: Study, numbers: Sequence[int]) -> Feasibility:
-    """A point for every part with an inequality, at the same values of time and parameters; or a proof.
+    """Return the feasibility of some constraints: by a point for every part with an inequality, or by a proof.
 
-    Parts that share time or parameters and are open are taken together, and these may then have any values.
+    First each part is tried at the same given values of time and parameters; parts that share these and are still
+    undecided are then joined, and time and parameters may have any values.
     """
     met: dict[int, Feasibility] = {}
     alone, joined = (parts_of(study.reduced, numbers, shared) for shared in (False, True))
@@ -114,9 +113,9 @@ def _judged(study: Study, numbers: Sequence[int]) -> Feasibility:
             if result.feasible is False:
                 return result
             met |= dict.fromkeys(part.numbers, result) if result.feasible else {}
-    asked = {i for part in alone for i in part.numbers}
-    others = _answers(study, set(numbers) - asked)
-    if not asked <= met.keys() or None in [a.consistent for a in others]:
+    in_parts = {i for part in alone for i in part.numbers}
+    others = _answers(study, set(numbers) - in_parts)
+    if not in_parts <= met.keys() or None in [a.consistent for a in others]:
         return Feasibility(None, reasons=(OPEN,))
     at = {s: v for result in met.values() for s, v in result.at.items()}
     sure = weakest(*(result.verdict for result in met.values()), *(a.verdict for a in others))
@@ -124,15 +123,15 @@ def _judged(study: Study, numbers: Sequence[int]) -> Feasibility:
 
 
 def _answers(study: Study, numbers: set[int]) -> list[Answer]:
-    """The answers of blocks of these constraints: where a block can be met, so can a part of it."""
+    """Return the answers of the blocks with these constraints (if a block is consistent, a part of it is)."""
     pairs = zip(study.outcome.blocks, study.outcome.answers, strict=True)
     return [a for block, a in pairs if not numbers.isdisjoint(row.constraint for row in block.rows)]
 
 
 def _of_part(study: Study, part: Part, fixed: bool) -> Feasibility:
-    """Of one part, a state on one choice of branches, or a proof on each that there is none.
+    """Return the feasibility of one part: by a state on one choice of branches, or a proof for each that there is none.
 
-    ``fixed``: time and parameters have given values where a state is looked for.
+    ``fixed``: time and parameters have given values in the search for a state.
     """
     positive, choices = study.setting.positive, part.choices()
     remaining = [problems for problems in choices if not contradictory(problems[-1].claims, positive)]
@@ -146,10 +145,10 @@ def _of_part(study: Study, part: Part, fixed: bool) -> Feasibility:
 
 
 def _state(study: Study, part: Part, problem: StateProblem, fixed: bool) -> Values | None:
-    """Return a state that solves a problem: the reference configuration, or one that a search finds.
+    """Return a state that solves a problem: the reference configuration, or one that a search finds; else None.
 
-    None where geometry is measured with a tolerance. Where a joint can also close turned over only the reference
-    configuration is meant by its relations.
+    None also if geometry has a tolerance. If a joint could also be assembled turned over, only the reference
+    configuration is tried, because a search may find the wrong assembly.
     """
     setting = study.setting
     if setting.tolerance is not None and any(r.normals for r in part.reduced):
@@ -168,23 +167,23 @@ def _state(study: Study, part: Part, problem: StateProblem, fixed: bool) -> Valu
 
 
 def _is_met(problem: StateProblem, configuration: Mapping[Expr, Expr], positive: frozenset[Expr]) -> bool:
-    """Return whether a configuration at rest satisfies equations and conditions, those strictly."""
+    """Return whether a configuration at rest satisfies the equations, and the conditions strictly."""
     if not all(is_satisfied_at(c, configuration, positive, strictly=True) for c in problem.conditions):
         return False
     return all(is_proved_zero(substitute(e, configuration), positive) for e in problem.equations)
 
 
 def _turns_over(facts: TypeFacts, dimension: int) -> bool:
-    """Return whether the relations of a type also hold in an assembly that is turned over, which nobody means."""
+    """Return whether the relations of a type are also satisfied by an unintended assembly, turned over."""
     return facts.half_turns and not (facts.axial and dimension < MOST_DIMENSIONS)
 
 
-#: Decimals of a number that is known as a ball.
+#: Decimals with which a ball is written.
 DIGITS = 15
 
 
 def inequalities_together(study: Study, fields: Mapping[str, Any]) -> Mapping[str, Any]:
-    """The report's fields, beside what is ``fields`` already."""
+    """Return the report's fields about inequalities, and those of ``fields`` that change."""
     result = feasibility(study)
     at = _texts(study.system, result.at) if result.feasible else None
     claims = _claims(result)
@@ -200,7 +199,7 @@ def inequalities_together(study: Study, fields: Mapping[str, Any]) -> Mapping[st
 
 
 def _claims(feasibility: Feasibility) -> dict[str, FieldVerdict]:
-    """How certain it is, and by which argument."""
+    """Return how certain the fields ``feasible`` and ``infeasible`` are, and by which argument."""
     if feasibility.feasible is None:
         return {"feasible": FieldVerdict.of(Claim("undecided"))}
     argument: ArgumentKey = "met at a point" if feasibility.feasible else "excluded together"
@@ -210,24 +209,24 @@ def _claims(feasibility: Feasibility) -> dict[str, FieldVerdict]:
 
 
 def _moved(witness: Mapping[str, str] | None, at: Mapping[str, str]) -> dict[str, str] | None:
-    """The witness, with all that is coupled to inequalities where these are met."""
+    """Return the witness with the values of ``at`` in place of its own."""
     return None if witness is None else {**witness, **{name: at[name] for name in witness if name in at}}
 
 
 def _texts(system: System, at: Values) -> dict[str, str]:
-    """The values of the scene's symbols, coordinates first.
+    """Return {name: value as text} of the scene's symbols, coordinates first.
 
-    Gibbs vectors, which no text names, are left out; a vector that is 0 stands for the angles of the reference.
+    A Gibbs vector has no names in the scene; if it is 0 the Euler angles of the reference are given, otherwise none.
     """
-    answer = {_name(s): v for s, v in at.items()}
+    values_of = {_name(s): v for s, v in at.items()}
     for rotation in system.rotations:
         if rotation.chart == "gibbs":
-            values = [answer.pop(name, None) for name in rotation.names]
+            values = [values_of.pop(name, None) for name in rotation.names]
             if all(v == ex.ZERO for v in values):
-                answer |= dict(zip(rotation.names, rotation.initial, strict=True))
+                values_of |= dict(zip(rotation.names, rotation.initial, strict=True))
     order = [c.name for c in system.coordinates]
     named = [*order, *(f"{name}dot" for name in order), *system.parameters, "t"]
-    return {name: _text(answer[name]) for name in named if name in answer}
+    return {name: _text(values_of[name]) for name in named if name in values_of}
 
 
 def _name(s: Expr) -> str:

@@ -1,12 +1,12 @@
-"""What a state of motion has to satisfy for the inequalities to hold, and certified states that satisfy it.
+"""The conditions on a state of motion that satisfies inequalities (`StateProblem`), and certified solutions.
 
-Where nothing depends on time and every relation between velocities allows rest, a configuration at rest is a motion,
-and only the geometric equations count. Else a motion passes through a state (q, v) at the time t at which the rows that
-are linear in v by their differentials are independent: there v is a smooth function of (q, t) and free numbers
-[ImplicitFunctions], and what holds strictly there holds for a while.
+If nothing depends on time and every relation between velocities allows rest, a configuration at rest is a motion, and
+only the geometric equations count. Otherwise a motion passes through a state (q, v) at time t if the derivatives of the
+relations by v are independent there: v is then a smooth function of (q, t) and free numbers [ImplicitFunctions], and
+inequalities that are satisfied strictly stay so for a while.
 
-A state is searched along slacks: an inequality e >= 0 becomes the equation e = s^2 of one more unknown, and a zero is
-certified by the interval Newton test [KrawczykNewton].
+A state is searched with slack variables: an inequality e >= 0 becomes the equation e = s^2 with one more unknown, and a
+zero is certified by the interval Newton test [KrawczykNewton].
 """
 
 from __future__ import annotations
@@ -42,20 +42,20 @@ from dofkit.relations.normal.pieces import Finite, Inequality, Nonlinear, Pfaffi
 from dofkit.relations.normal.sign_claims import SignClaim
 from dofkit.relations.velocity_reductions import rate
 
-#: Choices of branches that are looked at.
+#: Bound on the choices of branches.
 MAX_CHOICES = 16
-#: Searches along slacks, from so many starts each, with so many steps; equations and conditions that one may have.
+#: Numbers of searches, of starts of each, and of steps of each start; bound on the equations and conditions.
 SEARCHES, STARTS, STEPS, MAX_ROWS = 3, 6, 60, 80
-#: An exact value, or a ball, of symbols.
+#: Exact values, or balls, of symbols.
 Values = Mapping[Expr, Expr | arb]
 
 
 @dataclass(frozen=True)
 class StateProblem:
-    """``equations`` = 0 and ``conditions`` in ``places``, ``rates`` (velocities), time and parameters.
+    """``equations`` = 0 and ``conditions`` in ``places`` (coordinates), ``rates`` (velocities), time and parameters.
 
-    ``moving``: those of the equations that are to be independent by the rates, where there are rates; else all are to
-    be so by the places. ``still``: a configuration at rest is asked for.
+    ``moving``: the equations whose derivatives by the rates must be independent; without rates all equations must be
+    independent by the places. ``still``: the state is a configuration at rest.
     """
 
     equations: tuple[Expr, ...]
@@ -67,38 +67,38 @@ class StateProblem:
 
     @property
     def expressions(self) -> list[Expr]:
-        """All equations, then what the conditions are about."""
+        """The expressions of the equations, then of the conditions."""
         return [*self.equations, *(c.expr for c in self.conditions)]
 
     @property
     def constants(self) -> list[Expr]:
-        """Time and the parameters that occur."""
+        """Time and parameters, as far as they occur."""
         symbols = frozenset[Expr]().union(*(e.symbols for e in self.expressions))
         return sorted((s for s in symbols if s.args[0] in ("parameter", "time")), key=repr)
 
     @property
     def claims(self) -> list[SignClaim]:
-        """What is 0 at a solution; what is only != 0 is left out."""
+        """The equations and conditions as claims, without conditions != 0."""
         sided = [SignClaim(c.expr, ">" if c.sense == ">" else ">=") for c in self.conditions if c.sense != "!="]
         return [*(SignClaim(e, "=") for e in self.equations), *sided]
 
 
 @dataclass(frozen=True)
 class Part:
-    """Constraints by their ``numbers`` that share coordinates, one after another, an inequality among them."""
+    """Constraints that are connected by coordinates, with their ``numbers``; one of them has an inequality."""
 
     numbers: tuple[int, ...]
     reduced: tuple[Reduced, ...]
 
     @property
     def inequalities(self) -> list[Inequality]:
-        """All of them."""
+        """The inequalities of all constraints."""
         return [q for r in self.reduced for q in r.inequalities]
 
     def choices(self) -> list[list[StateProblem]]:
-        """Return the problems of every choice of branches, one of which a motion solves at every moment.
+        """Return, for every choice of branches, the problems one of which each state of a motion solves.
 
-        None where the choices are too many, or where an inequality is about more than positions and velocities.
+        An empty list if the choices are too many, or if differentials occur in an inequality.
         """
         normals = [n for r in self.reduced for n in r.normals]
         kinds = {s.args[0] for q in self.inequalities for s in q.expr.symbols}
@@ -111,7 +111,7 @@ class Part:
 
 
 def parts_of(reduced: Sequence[Reduced], numbers: Sequence[int], shared: bool) -> list[Part]:
-    """The parts with an inequality; ``shared``: what shares time or a parameter belongs together as well."""
+    """Return the parts with an inequality; with ``shared``, time and parameters connect constraints as well."""
     together = components(_mentioned(reduced[i], shared) for i in numbers)
     groups = [sorted(numbers[k] for k in group) for group in together]
     every = [Part(tuple(g), tuple(reduced[i] for i in g)) for g in groups]
@@ -126,7 +126,7 @@ def _mentioned(r: Reduced, shared: bool) -> frozenset[str]:
 
 
 def _problems(pieces: Sequence[Piece], sides: Sequence[DomainCondition]) -> list[StateProblem]:
-    """Return the problem at rest, where that is a motion, and then the one in motion, where velocities occur."""
+    """Return the problem at rest, if that is a motion, then the one in motion, if velocities occur."""
     finite = [p.expr for p in pieces if isinstance(p, Finite)]
     others = [p.rate if isinstance(p, Pfaffian) else p.expr for p in pieces if isinstance(p, Pfaffian | Nonlinear)]
     boundaries, conditions = _boundaries([*(p for p in pieces if isinstance(p, DomainCondition)), *sides])
@@ -134,8 +134,8 @@ def _problems(pieces: Sequence[Piece], sides: Sequence[DomainCondition]) -> list
     finite = _independent([*finite, *(e for e in boundaries if not velocities_of(e))])
     others += [e for e in boundaries if velocities_of(e)]
     places, rates = tuple(map(ex.coordinate, names)), tuple(map(ex.velocity, names))
-    asked = [*finite, *others, *(c.expr for c in conditions)]
-    timed, moves = any(ex.TIME in e.symbols for e in asked), any(map(velocities_of, asked))
+    occurring = [*finite, *others, *(c.expr for c in conditions)]
+    timed, moves = any(ex.TIME in e.symbols for e in occurring), any(map(velocities_of, occurring))
     still = None if timed else _at_rest(others, conditions, dict.fromkeys(rates, ex.ZERO))
     result = [] if still is None else [StateProblem(tuple(finite), still, places, still=True)]
     if moves:
@@ -147,7 +147,7 @@ def _problems(pieces: Sequence[Piece], sides: Sequence[DomainCondition]) -> list
 def _at_rest(
     others: Sequence[Expr], conditions: Sequence[DomainCondition], no_velocity: Mapping[Expr, Expr]
 ) -> tuple[DomainCondition, ...] | None:
-    """The conditions at velocities 0; None where the relations are not satisfied, or have no value, there."""
+    """Return the conditions at velocities 0; None if the relations are not satisfied, or have no value, there."""
     try:
         if all(is_proved_zero(substitute(e, no_velocity), frozenset()) for e in others):
             resting = [DomainCondition(substitute(c.expr, no_velocity), c.sense) for c in conditions]
@@ -158,15 +158,15 @@ def _at_rest(
 
 
 def _boundaries(conditions: Sequence[DomainCondition]) -> tuple[list[Expr], tuple[DomainCondition, ...]]:
-    """(what e >= 0 and -e >= 0 make 0, the other conditions)."""
+    """Return (the e for which e >= 0 and -e >= 0 are both conditions, the other conditions)."""
     closed = [c for c in dict.fromkeys(conditions) if c.sense == ">="]
     pairs = [(a, b) for a, b in combinations(closed, 2) if not linear_terms(a.expr + b.expr)]
-    gone = {c for pair in pairs for c in pair}
-    return [a.expr for a, _ in pairs], tuple(c for c in dict.fromkeys(conditions) if c not in gone)
+    paired = {c for pair in pairs for c in pair}
+    return [a.expr for a, _ in pairs], tuple(c for c in dict.fromkeys(conditions) if c not in paired)
 
 
 def _independent(finite: Sequence[Expr]) -> list[Expr]:
-    """The equations without linear ones that other linear ones imply."""
+    """Return the equations without linear ones that other linear ones imply."""
     implied = solve_linear(finite).implied
     return [e for i, e in enumerate(finite) if i not in implied]
 
@@ -199,7 +199,7 @@ def certified_state(problem: StateProblem, positive: frozenset[Expr], fixed: boo
 
 
 def _is_solution(problem: StateProblem, ring: Ring, point: RealPoint, positive: frozenset[Expr]) -> bool:
-    """Return whether all has a value on the whole ball, conditions the right sign, and a motion passes through it."""
+    """Return whether a certified point solves the problem on its whole ball, and a motion passes through it."""
     at = point.point.symbols
     zeros = [interval_of(e, at) for e in problem.equations]
     if not (point.certain and point.part.rank == point.solved):

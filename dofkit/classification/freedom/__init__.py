@@ -4,13 +4,13 @@ Types
     `Outcome` (`branches`): the blocks of one choice of branches, with their answers.
 
 Mechanisms, in the order in which they are tried
-    1. `preparation` reduces every relation, marks copies, and keeps the branches through the reference configuration.
-    2. `branches` answers each choice of branches block by block; `isomorphic_blocks` answers equal blocks once, and
-       `bridged_blocks` answers apart what joints without loops hold together.
+    1. `preparation` computes normal forms, marks copies, and selects the branches through the reference configuration.
+    2. `branches` analyses each choice of branches block by block; `isomorphic_blocks` reuses the answer for blocks that
+       are equal up to names; `bridged_blocks` analyses separately the parts connected by joints that close no loop.
     3. `block` takes the cheapest sound method: counting in a graph of links, ranks over GF(p) and by balls, and for
-       differential constraints the Lie algebra with the hidden equations that they force.
-    4. `common_point` asks for one configuration at one time at which every expression has a value as it was written,
-       `velocity_domain` for a motion along which those of velocities have one.
+       differential constraints the Lie algebra with the hidden equations that they imply.
+    4. `common_point` searches for one configuration at one time at which every expression as written has a value,
+       `velocity_domain` for a motion along which expressions in velocities have one.
 
-Handed on: the largest outcome; it is undecided where another branch may be larger.
+Result: the outcome for the largest branch; it is undecided if another branch may be larger.
 """

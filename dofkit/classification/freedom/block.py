@@ -1,4 +1,4 @@
-"""The answer to one block: its freedom, its hidden relations, and which of its rows integrate."""
+"""The answer for one block: its freedom, its hidden relations, and which of its rows are integrable."""
 
 from __future__ import annotations
 
@@ -45,9 +45,9 @@ from dofkit.relations.normal.pieces import Finite
 from dofkit.relations.setting import Setting
 
 RELATED = "the functions or numbers that occur may satisfy an identity that arithmetic modulo primes does not detect"
-#: Rounds of prolongation: each finds one hidden geometric equation.
+#: Bound on the rounds of prolongation, each of which adds hidden geometric equations.
 MAX_ROUNDS = 12
-#: Branches of one hidden relation that are followed.
+#: Bound on the branches of the hidden relations of one round.
 MAX_HIDDEN_BRANCHES = 12
 MANY_BRANCHES = (
     f"hidden relations have more than {MAX_HIDDEN_BRANCHES} branches, so the branch of largest dimension is not known"
@@ -68,7 +68,7 @@ APART = "real configurations were found only on components other than those of t
 
 
 def answer(block: Block, setting: Setting) -> Answer:
-    """All that is asked of one block, and how large the model was."""
+    """Return the answer for one block, with the size of the model."""
     bridged = bridged_answer(block, setting, answer) if setting.bridges else None
     if bridged is not None:
         return bridged
@@ -85,7 +85,7 @@ def answer(block: Block, setting: Setting) -> Answer:
 
 
 def _engines(block: Block, setting: Setting) -> Answer:
-    """The cheapest method that is sound; where functions may be related in unseen ways, balls have the last word."""
+    """Return the answer of the cheapest sound method; if functions may be related, balls have to confirm it."""
     if setting.links and setting.engines == BOTH and "cheapest" in setting.reductions:
         framework = framework_answer(block, setting)
         if framework is not None:
@@ -94,24 +94,24 @@ def _engines(block: Block, setting: Setting) -> Answer:
         unmet = distance_geometry.lengths_unmet(block, setting)
         if unmet is not None:
             return unmet
-    alone = replace(setting, engines=BALLS, grows=False, flag=False)
+    balls_only = replace(setting, engines=BALLS, grows=False, flag=False)
     try:
         result = _answer(block, setting)
     except NoPointError:
         if setting.engines != BOTH:
             raise
-        balls = _answer(block, alone)
+        balls = _answer(block, balls_only)
         return replace(balls, verdict=weakest(balls.verdict, "numeric"), growth=None, derived=None)
     if result.doubt and setting.engines == BOTH and setting.tolerance is None:
-        return _confirmed_by_balls(result, _answer(block, alone))
+        return _confirmed_by_balls(result, _answer(block, balls_only))
     return result
 
 
 def _confirmed_by_balls(field: Answer, balls: Answer) -> Answer:
-    """Return the answer over GF(p) if the answer by balls is the same; otherwise nothing is decided.
+    """Return the answer over GF(p) if the answer by balls is the same; otherwise an undecided one.
 
-    Over GF(p) what is 0 may seem to differ from 0 by an unknown identity, and a nested root may stand for its
-    conjugate; balls never take for 0 what is not, unless it is smaller than their precision.
+    Over GF(p) an expression that is 0 by an unknown identity may not be 0, and a nested root may be its conjugate;
+    balls take an expression for 0 only if it is smaller than their precision.
     """
     if (
         field.consistent is not True
@@ -139,6 +139,7 @@ def _is_same(a: Answer, b: Answer) -> bool:
 
 
 def _answer(block: Block, setting: Setting) -> Answer:
+    """Return the answer by the engines of the setting, for geometric equations only or with differential ones."""
     if not block.forms and not block.nonlinear:
         large = eliminated(block, setting) if setting.reference is None else None
         finite = finite_answer(block, setting) if large is None else large
@@ -148,7 +149,7 @@ def _answer(block: Block, setting: Setting) -> Answer:
 
 
 def _tested(block: Block, setting: Setting, finite: Answer) -> Answer:
-    """The answer of geometric equations once their differentials were put to the integrability test that they pass."""
+    """Return the answer of geometric equations, undecided if their differentials fail the integrability test."""
     forms = codistribution(block, setting, ())
     for point, sampled in _spans(forms, find(forms.chart, setting.pose)):
         if any(v != 0 for row in sampled.matrix for v in pairing(row, sampled.span.vectors)):
@@ -169,7 +170,7 @@ def _mixed_answer(block: Block, setting: Setting) -> Answer:
 
 
 def _prolonged(block: Block, setting: Setting, result: Answer, relations: Sequence[Expr] = ()) -> Answer:
-    """The answer with the hidden relations that the rows force added one after another; of branches the largest."""
+    """Return the answer, of the largest branch, after adding the hidden relations that the rows imply, in rounds."""
     extra = list(relations)
     for _ in range(MAX_ROUNDS):
         forms = codistribution(block, setting, extra)
@@ -181,7 +182,7 @@ def _prolonged(block: Block, setting: Setting, result: Answer, relations: Sequen
             result.argument = points.argument
             return result
         new = confinements(forms, points)
-        if new is None:
+        if new is None:  # no further hidden relation
             return replace(_with_spans(block, forms, points, extra, setting), doubt=result.doubt)
         outcome = prolong(new, setting)
         if outcome is None or (len(outcome) > MAX_HIDDEN_BRANCHES and len(extra) < MAX_ROUNDS):
@@ -214,7 +215,7 @@ def _passes_reference(block: Block, hidden: Sequence[Expr], setting: Setting) ->
 
 
 def _of_hidden_branches(alternatives: Sequence[Answer]) -> Answer:
-    """Return the answer to the largest branch, which is one of that component: on others other equations may depend."""
+    """Return the answer of the branch of largest dimension, with the claim restricted to a component."""
     best = max(alternatives, key=_largest)
     if best.dof is None:
         return best
@@ -223,7 +224,7 @@ def _of_hidden_branches(alternatives: Sequence[Answer]) -> Answer:
 
 
 def _points(forms: Codistribution, setting: Setting) -> Variety:
-    """Generic points to look at the forms; where there is a reference, of a set that is known to be alike there."""
+    """Return generic points for the forms; with a reference, undecided if the set is not known to be regular there."""
     reference, by_field = setting.reference, "field" in forms.chart.setting.engines
     points = reference_points(forms, reference) if reference is not None and by_field else None
     if points is None and reference is not None and by_field:
@@ -244,16 +245,18 @@ def _points(forms: Codistribution, setting: Setting) -> Variety:
 
 
 def _as_large(forms: Codistribution, reference: Mapping[Expr, Expr]) -> bool:
-    """Return whether an irreducible set has its whole dimension near the reference, as at generic points."""
+    """Return whether an irreducible set has the same dimension near the reference as at generic points."""
     here = at_reference(forms.chart, reference)
     return here is not None and here.local.dimension == forms.n - forms.finite and here.local.verdict != "numeric"
 
 
 def _largest(a: Answer) -> tuple[int, int, int]:
+    """Return a key by which answers are compared: consistency, freedom, velocity freedom."""
     return (int(a.consistent is not False), -1 if a.dof is None else a.dof, a.velocity_dof or 0)
 
 
 def _with_spans(block: Block, forms: Codistribution, points: Variety, extra: list[Expr], setting: Setting) -> Answer:
+    """Return the answer by the Lie algebra of admissible velocities at generic points; ``extra``: hidden equations."""
     result = Answer(True, hidden=extra, reasons=list(points.reasons), verdict=points.verdict, about=points.about)
     result.argument, result.gap, result.witness = (
         points.argument,
@@ -295,7 +298,7 @@ def _with_spans(block: Block, forms: Codistribution, points: Variety, extra: lis
 
 
 def _spans(forms: Codistribution, points: Variety) -> list[tuple[FieldPoint, SampledSpan]]:
-    """The Lie algebra at every sample; at one, where it is all of the tangent space and nothing could raise it."""
+    """Return the Lie algebra at every sample; one sample is enough if it spans the tangent space, for certain."""
     good = []
     for point in points.samples:
         sampled = span_at(forms, point)

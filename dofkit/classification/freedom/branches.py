@@ -1,4 +1,4 @@
-"""The blocks of a system answered, over the branches of its relations."""
+"""The answers of a system's blocks, for the largest of the branches of its relations (`solve`)."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ from dofkit.relations.velocity_reductions import (
     with_boundaries,
 )
 
-#: Choices of branches that are looked at.
+#: Bound on the choices of branches.
 MAX_CHOICES = 16
 _LEFT_OUT = (
     f"of more than {MAX_CHOICES} combinations of branches, not all were examined, so the largest dimension is not known"
@@ -56,10 +56,10 @@ KINKED = "the argument of an absolute value vanishes at the reference configurat
 class Outcome:
     """The blocks of one choice of branches and their answers.
 
-    ``reduced``: what was written nonlinear in the velocities and is not so beside the other rows; ``impossible``:
-    constraints that hold nowhere, ``unsettled``: inequalities of which that is not known. ``crossing``: a relation has
-    several branches at the reference, or none there. ``divided``: to reduce a relation, what may vanish was divided by.
-    ``witness``: of coordinates that only domains mention.
+    ``reduced``: rows written nonlinear in the velocities that the other rows make linear; ``impossible``: constraints
+    that are satisfied nowhere, ``unsettled``: those for which this is undecided. ``crossing``: a relation has several
+    branches at the reference. ``copies``: copy -> original. ``divided``: a reduction divided by an expression that may
+    vanish. ``witness``: values of coordinates that occur only in conditions.
     """
 
     rows: list[Row]
@@ -83,19 +83,19 @@ class Outcome:
 
     @property
     def answered_parts(self) -> list[AnsweredPart]:
-        """The blocks with their answers; of those whose parts were answered apart, the parts."""
+        """The blocks, or the parts of blocks that were analysed in parts, with their answers."""
         pairs = (AnsweredPart(block, a) for block, a in zip(self.blocks, self.answers, strict=True))
         return [part for p in pairs for part in ((p,) if p.answer.answered_parts is None else p.answer.answered_parts)]
 
     @property
     def bridged(self) -> Counter[int]:
-        """Of joints that close no loop the equations that are in no part, by constraint: independent of all others."""
+        """The number of equations in no part, by constraint: those of joints that close no loop, all independent."""
         within = {id(row) for part in self.answered_parts for row in part.block.rows}
         return Counter(row.constraint for block in self.blocks for row in block.rows if id(row) not in within)
 
     @property
     def written_rows(self) -> list[Row]:
-        """The rows with those of copies, which were answered as their originals."""
+        """The rows, and those of copies, which are not analysed."""
         copied_rows = [
             Row(copy, row.piece) for copy, i in self.copies.items() for row in self.rows if row.constraint == i
         ]
@@ -116,14 +116,14 @@ class Outcome:
 
     @property
     def most(self) -> int:
-        """No branch has more freedom than this, as far as is known; -1 where the freedom itself is known."""
+        """A bound on the freedom of this choice of branches; -1 if the freedom itself is known."""
         if self.dof is not None:
             return -1
         return len(self.untouched) + sum(_most(b, a) for b, a in zip(self.blocks, self.answers, strict=True))
 
     @property
     def unseen(self) -> int:
-        """No part of this branch has more freedom than this, those that were not looked at among them."""
+        """A bound on the freedom of every component of this choice of branches, those not examined included."""
         bounds = (
             _bound(b, a) if a.about == "component" else _most(b, a)
             for b, a in zip(self.blocks, self.answers, strict=True)
@@ -132,38 +132,38 @@ class Outcome:
 
     @property
     def size(self) -> tuple[int, int, int]:
-        """What makes one choice of branches larger than another."""
+        """The key by which choices of branches are compared: consistency, freedom, velocity freedom."""
         return (int(self.consistent is not False), -1 if self.dof is None else self.dof, self.velocity_dof or 0)
 
 
 def _most(block: Block, a: Answer) -> int:
-    """A block's freedom where it is known, else a bound of it."""
+    """Return a block's freedom if it is known, otherwise a bound on it."""
     return a.dof if a.consistent and a.dof is not None else _bound(block, a)
 
 
 def _bound(block: Block, a: Answer) -> int:
-    """A bound of its freedom on any part: a relation takes at least one away, unless it may hold always unseen."""
+    """Return a bound on a block's freedom on any component: a relation removes at least one, unless it may be 0 = 0."""
     bound = len(block.coordinates) - (not a.doubt and bool(block.finite))
     return bound if a.most is None else min(bound, a.most)
 
 
 def solve(reduced: Sequence[Reduced], setting: Setting, answered: AnsweredBlocks | None = None) -> Outcome:
-    """The largest of the branches, answered block by block; ``answered``: blocks that were answered before.
+    """Return the outcome of the largest choice of branches; ``answered``: blocks that were analysed before.
 
-    Of those through the reference configuration, unless it does not satisfy all constraints.
+    Only branches through the reference configuration count, unless it does not satisfy all constraints.
     """
     best, chosen = _through_reference(reduced, setting, answered or AnsweredBlocks(setting))
     if chosen and (best.consistent is False or any(_off_reference(best, setting))):
         anywhere = replace(setting, reference=None)
         best, chosen = _through_reference(reduced, anywhere, AnsweredBlocks(anywhere))
-    best.answers = _of_chosen_branches(_at_the_reference(best, setting), best.blocks, chosen)
+    best.answers = _about_component(_with_reference_checked(best, setting), best.blocks, chosen)
     return best
 
 
 def _through_reference(
     reduced: Sequence[Reduced], setting: Setting, answered: AnsweredBlocks
 ) -> tuple[Outcome, set[int]]:
-    """Return the largest of the branches through the reference, and the constraints of which others were left out."""
+    """Return (outcome of the largest branch through the reference, constraints with branches not through it)."""
     normals, chosen = _normals_at_reference(reduced, setting)
     options = [range(len(normal.branches)) or (None,) for _, normal in normals]
     positive = setting.positive
@@ -204,7 +204,7 @@ def _through_reference(
 
 
 def _normals_at_reference(reduced: Sequence[Reduced], setting: Setting) -> tuple[list[tuple[int, Normal]], set[int]]:
-    """Return the branches through the reference, by constraint, and the constraints of which others were left out."""
+    """Return ((constraint, normal form with the branches through the reference), constraints with other branches)."""
     written = [(i, normal) for i, r in enumerate(reduced) for normal in r.normals]
     normals = [(i, branches_at_reference(normal, setting)) for i, normal in written]
     chosen = {i for (i, n), (_, kept) in zip(written, normals, strict=True) if len(kept.branches) < len(n.branches)}
@@ -222,8 +222,8 @@ def _off_reference(best: Outcome, setting: Setting) -> list[bool]:
     ]
 
 
-def _at_the_reference(best: Outcome, setting: Setting) -> list[Answer]:
-    """The answers; about a component where the reference configuration does not satisfy all geometric equations."""
+def _with_reference_checked(best: Outcome, setting: Setting) -> list[Answer]:
+    """Return the answers, about a component if the reference configuration does not satisfy all geometric equations."""
     off = _off_reference(best, setting)
     if not any(off):
         return best.answers
@@ -234,8 +234,8 @@ def _at_the_reference(best: Outcome, setting: Setting) -> list[Answer]:
     ]
 
 
-def _of_chosen_branches(answers: Sequence[Answer], blocks: Sequence[Block], chosen: Collection[int]) -> list[Answer]:
-    """Return the answers, of their own part where a branch of a ``chosen`` constraint was left out."""
+def _about_component(answers: Sequence[Answer], blocks: Sequence[Block], chosen: Collection[int]) -> list[Answer]:
+    """Return the answers, about a component for blocks with a ``chosen`` constraint, which has other branches."""
     return [
         replace(a, about="component")
         if a.about == "everywhere" and any(row.constraint in chosen for row in block.rows)
@@ -245,7 +245,7 @@ def _of_chosen_branches(answers: Sequence[Answer], blocks: Sequence[Block], chos
 
 
 def _one_sided(reduced: Sequence[Reduced], positive: frozenset[Expr]) -> tuple[list[int], list[int]]:
-    """Constraints with an inequality that holds nowhere, and those of which it is not known; each by itself."""
+    """Return (constraints with an inequality that is satisfied nowhere, those for which this is undecided)."""
     satisfiable = {
         i: [holds_somewhere(q.expr, q.strict, positive) for q in r.inequalities]
         for i, r in enumerate(reduced)
@@ -256,16 +256,16 @@ def _one_sided(reduced: Sequence[Reduced], positive: frozenset[Expr]) -> tuple[l
 
 
 def _largest(outcomes: Sequence[Outcome], why: str | None, setting: Setting) -> Outcome:
-    """The largest of the branches; one that is open where it may be larger, and undecided where not all were seen."""
+    """Return the largest outcome; an undecided one if it may be larger, or if not all were examined (``why``)."""
     best = max(outcomes, key=lambda o: o.size)
     remaining = [o for o in outcomes if o.consistent is not False]
-    most = max(remaining, key=lambda o: o.most, default=None)
-    if best.dof is not None and most is not None and most.most > best.dof:
-        best = most
+    perhaps_larger = max(remaining, key=lambda o: o.most, default=None)
+    if best.dof is not None and perhaps_larger is not None and perhaps_larger.most > best.dof:
+        best = perhaps_larger
     if why or (len(outcomes) > 1 and any(a.late for o in outcomes for a in o.answers)):
         best.answers = [Answer(None, verdict="undecided", reasons=[why or OUT_OF_TIME]) for _ in best.answers]
     elif best.consistent is not False:
-        best.answers = _of_its_part(best, [o for o in remaining if o is not best])
+        best.answers = _among_branches(best, [o for o in remaining if o is not best])
         if best.reduced:
             best.answers = with_reductions_checked(best.reduced, best.blocks, best.answers, setting)
     elif not best.impossible and any(o.divided for o in outcomes):
@@ -273,8 +273,8 @@ def _largest(outcomes: Sequence[Outcome], why: str | None, setting: Setting) -> 
     return best
 
 
-def _of_its_part(best: Outcome, others: Sequence[Outcome]) -> list[Answer]:
-    """The answers, of their own part only where an unseen part of another may be larger, or has other velocities."""
+def _among_branches(best: Outcome, others: Sequence[Outcome]) -> list[Answer]:
+    """Return the answers, about one branch or component as far as ``others`` may have larger or different ones."""
     shared = [{_identity(block) for block in o.blocks} for o in others]
     answers = [
         a if all(_identity(block) in blocks for blocks in shared) else replace(a, one_branch=True)
@@ -286,7 +286,7 @@ def _of_its_part(best: Outcome, others: Sequence[Outcome]) -> list[Answer]:
 
 
 def _confirmed(only: Outcome, setting: Setting) -> list[Answer]:
-    """The answers of the only choice, as proved where exact elimination says the same."""
+    """Return the answers of the only choice of branches, proved if exact elimination confirms them."""
     written = Counter(row.constraint for row in only.rows)
     answers = []
     for block, a in zip(only.blocks, only.answers, strict=True):
@@ -303,6 +303,7 @@ def _answered(
     domain: Sequence[tuple[int, DomainCondition]],
     answered: AnsweredBlocks,
 ) -> Outcome:
+    """Return the outcome for some rows; ``domain``: (constraint, condition for a value of it as written)."""
     setting = answered.setting
     blocks, untouched = blocks_of(names, rows, setting.reductions)
     result = CommonPoint(list(blocks), answered.answers(blocks))
@@ -320,9 +321,9 @@ def _answered(
 
 
 class AnsweredBlocks:
-    """The blocks that were answered: the same block again, or one that differs in names only, is not asked twice.
+    """The answers of blocks, remembered for the same block, and for blocks that are equal up to names.
 
-    The blocks are kept, because their pieces' identities are keys.
+    The blocks are stored with them, because the identities of their pieces are keys.
     """
 
     def __init__(self, setting: Setting) -> None:
@@ -333,12 +334,12 @@ class AnsweredBlocks:
         self._curved: dict[int, tuple[Pfaffian, bool]] = {}
 
     def know(self, outcome: Outcome) -> None:
-        """Keep the answers of an outcome that are decided."""
+        """Remember the decided answers of an outcome."""
         answered = zip(outcome.blocks, outcome.answers, strict=True)
         self._answers |= {_identity(block): (block, a) for block, a in answered if a.dof is not None}
 
     def answers(self, blocks: Sequence[Block]) -> list[Answer]:
-        """The blocks' answers; those that may be twins are looked through for one that was answered."""
+        """Return the blocks' answers; likenesses are computed only for blocks that may be twins (`_shape`)."""
         twins = len(blocks) > 1 and "twins" in self.setting.reductions
         shapes = Counter(map(_shape, blocks)) if twins else Counter()
         self._shapes |= {shape for shape, times in shapes.items() if times > 1}
@@ -355,12 +356,13 @@ class AnsweredBlocks:
         return self._answers[same][1]
 
     def is_curved(self, form: Pfaffian) -> bool:
-        """Return whether it is proved that a form does not integrate on its own."""
+        """Return whether it is proved that a form is not integrable on its own."""
         if id(form) not in self._curved:
             self._curved[id(form)] = form, is_curved(form, self.setting)
         return self._curved[id(form)][1]
 
     def _twin(self, block: Block, likenesses: Likenesses) -> Answer:
+        """Return the answer of a block, from a twin if there is one."""
         key, names = likenesses.of(block)
         twin = self._alike.get(key)
         if twin is not None:
@@ -373,17 +375,17 @@ class AnsweredBlocks:
 
 
 def _identity(block: Block) -> Hashable:
-    """Equal for blocks of the same coordinates with the same pieces."""
+    """Return a key that is equal for blocks with the same coordinates and identical pieces."""
     return block.coordinates, tuple([id(row.piece) for row in block.rows]), tuple([id(c) for c in block.conditions])
 
 
 def _shape(block: Block) -> Hashable:
-    """Equal for blocks that differ in names only, and quickly computed."""
+    """Return a quickly computed key that is equal for twins."""
     return len(block.coordinates), tuple(type(row.piece) for row in block.rows), len(block.conditions)
 
 
 def in_time(block: Block, setting: Setting) -> Answer:
-    """The block's answer; undecided where the time is used up."""
+    """Return the block's answer; undecided if time runs out or an expression has no value."""
     try:
         check()
         result = answer(block, setting)

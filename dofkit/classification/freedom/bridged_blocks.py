@@ -1,4 +1,4 @@
-"""A block held together by joints that close no loop (`dofkit.mobility.joint_tree`): its parts are answered apart."""
+"""Blocks that are connected by bridges, joints that close no loop (`dofkit.mobility.joint_tree`): analysed in parts."""
 
 from __future__ import annotations
 
@@ -15,17 +15,16 @@ from dofkit.relations.blocks import Block, Row, coordinates_of, make_chart, spli
 from dofkit.relations.normal.pieces import Finite, JointEquation
 from dofkit.relations.setting import Setting
 
-#: A block of so few coordinates, all of whose equations are written out, is answered as soon as a whole.
+#: A block of at most so many coordinates whose equations are written out is not divided.
 FEW = 12
 METHOD = "rank over GF(p) at the given configuration"
 
 
 def bridged_answer(block: Block, setting: Setting, solve: Callable[[Block, Setting], Answer]) -> Answer | None:
-    """Return the answer of a block from those of the parts into which it falls without its bridges, by ``solve``.
+    """Return the answer of a block from those of its parts without bridges, each by ``solve``; None if not applicable.
 
-    A bridge is a joint that closes no loop: it gives one free coordinate and takes one away with its equation. None
-    where a part does not satisfy its equations at the reference configuration, where there are other than geometric
-    equations, and where the block does not move: then it is answered as one.
+    Each equation of a bridge removes one freedom. Not applicable if there are other than geometric equations, if a part
+    does not satisfy its equations at the reference configuration, or if the block does not move.
     """
     joints = [row for row in block.rows if row.constraint in setting.bridges]
     if not joints or not _is_eligible(block, joints, setting):
@@ -45,16 +44,16 @@ def _is_satisfied(part: AnsweredPart) -> bool:
 
 
 def _answer_afloat(core: Block, setting: Setting, solve: Callable[[Block, Setting], Answer]) -> Answer | None:
-    """Return the answer of a part that nothing ties to the ground, seen from the body of most rows; else None.
+    """Return the answer of a part that is not connected to the ground, by fixing the body with most rows; else None.
 
-    Its set is that of the body's own coordinates times what is left where the body is fixed: all moves along with it.
+    Its set is the product of the body's own coordinates with the set for the fixed body.
     """
     host = _host(core, setting)
     if not host or setting.reference is None:
         return None
-    drawn = {s: setting.reference[s] for s in map(ex.coordinate, host)}
+    fixed = {s: setting.reference[s] for s in map(ex.coordinate, host)}
     rows = [
-        r._replace(piece=Finite(substitute(r.piece.expr, drawn))) for r in core.finite if isinstance(r.piece, Finite)
+        r._replace(piece=Finite(substitute(r.piece.expr, fixed))) for r in core.finite if isinstance(r.piece, Finite)
     ]
     blocks, loose = split([name for name in core.coordinates if name not in host], rows)
     answered = [AnsweredPart(block, solve(block, setting)) for block in blocks]
@@ -68,7 +67,7 @@ def _answer_afloat(core: Block, setting: Setting, solve: Callable[[Block, Settin
 
 
 def _host(core: Block, setting: Setting) -> tuple[str, ...]:
-    """Return the coordinates of the body of most rows; none where something ties the part to the ground."""
+    """Return the coordinates of the body with most rows; none if the part is connected to the ground."""
     owners = {c.name: c.owner for c in setting.roles if c.name in core.coordinates}
     if not (setting.tilts.isdisjoint(owners) and setting.afloat.issuperset(row.constraint for row in core.rows)):
         return ()
@@ -78,9 +77,9 @@ def _host(core: Block, setting: Setting) -> tuple[str, ...]:
 
 
 def _is_eligible(block: Block, joints: Sequence[Row], setting: Setting) -> bool:
-    """Return whether all of a block is finite and has a reference, and time does not enter.
+    """Return whether a block has only geometric equations without time, and a reference configuration.
 
-    Without one there must be equations of drawn joints alone, and no Euler angles, whose charts may be left.
+    Without a reference, all rows must be those of bridges, and no Euler angles (which may become singular) may occur.
     """
     if "field" not in setting.engines or block.conditions or block.forms or block.nonlinear:
         return False
@@ -95,8 +94,8 @@ def _is_eligible(block: Block, joints: Sequence[Row], setting: Setting) -> bool:
 
 
 def _together(block: Block, setting: Setting, answered: Sequence[AnsweredPart], free: int) -> Answer:
-    """The answer of a block from those of its parts; ``free``: how many coordinates are in no part."""
-    drawn = setting.reference is not None
+    """Return the answer of a block from those of its parts; ``free``: the freedom outside the parts."""
+    has_reference = setting.reference is not None
     reference = setting.reference if setting.reference is not None else setting.pose
     symbols = [ex.coordinate(name) for name in block.coordinates]
     answers = [p.answer for p in answered]
@@ -106,13 +105,13 @@ def _together(block: Block, setting: Setting, answered: Sequence[AnsweredPart], 
         dof=_total([a.dof for a in answers], free),
         velocity_dof=_total([a.velocity_dof for a in answers], free),
         verdict=weakest(*(a.verdict for a in answers)),
-        about="reference" if drawn else "everywhere",
+        about="reference" if has_reference else "everywhere",
         argument="joints that close no loop" if weak is None else weak.argument,
         reasons=list(dict.fromkeys(reason for a in answers for reason in a.reasons)),
         degenerate=any(a.degenerate for a in answers),
-        instantaneous=_total([a.instantaneous for a in answers], free) if drawn else None,
+        instantaneous=_total([a.instantaneous for a in answers], free) if has_reference else None,
         first_order_sure=all(a.first_order_sure for a in answers),
-        exists=drawn and all(a.exists for a in answers) and all(reference[s].op == "num" for s in symbols),
+        exists=has_reference and all(a.exists for a in answers) and all(reference[s].op == "num" for s in symbols),
         doubt=any(a.doubt for a in answers),
         method="; ".join(dict.fromkeys(a.method for a in answers)) or METHOD,
         witness=of_reference(symbols, reference),
@@ -131,9 +130,9 @@ def _total(numbers: Sequence[int | None], free: int) -> int | None:
 
 
 def _looked(block: Block, answered: Sequence[AnsweredPart]) -> FollowedClasses:
-    """What was looked at; all equations but those of the parts were left out, where classes were looked at apart."""
-    answer = [p.answer.looked for p in answered]
-    whole = FollowedClasses(*map(sum, zip(FollowedClasses(), *answer, strict=True)))
-    if not all(k.left_out for k in answer):
-        return whole._replace(left_out=0)
-    return whole._replace(left_out=whole.left_out + len(block.rows) - sum(len(p.block.rows) for p in answered))
+    """Return the sums of the parts' numbers; the rows of bridges count as left out if each part left rows out."""
+    classes = [p.answer.looked for p in answered]
+    total = FollowedClasses(*map(sum, zip(FollowedClasses(), *classes, strict=True)))
+    if not all(k.left_out for k in classes):
+        return total._replace(left_out=0)
+    return total._replace(left_out=total.left_out + len(block.rows) - sum(len(p.block.rows) for p in answered))

@@ -1,7 +1,7 @@
-"""One configuration at one time for the system: every equation is satisfied, and has a value as it was written.
+"""A configuration and time at which all blocks are satisfied and every equation as written has a value.
 
-Blocks share no coordinate, but the time, parameters and unknown functions: x^2 = t - 3 and y^2 = 2 - t are satisfied at
-some time each, and at no time together. And what was cancelled keeps its domain: y = x/x has no value at x = 0.
+Blocks share no coordinate, but may share time, parameters and unknown functions: x^2 = t - 3 and y^2 = 2 - t are
+satisfied at some time each, but at no time together. Cancelling keeps the domain: y = x/x has no value at x = 0.
 """
 
 from __future__ import annotations
@@ -37,15 +37,14 @@ from dofkit.relations.normal.no_solution import hold_nowhere
 from dofkit.relations.normal.pieces import Finite, JointEquation
 from dofkit.relations.setting import Setting
 
-#: Searches for a point, each from other starts and, but for the first, at a time later or earlier by such a factor.
+#: Number of searches for a point, and the factor from one starting time to the next but one (signs alternate).
 SEEDS, LATER = 6, 4.0
 
 
 def restricted_to_domain(block: Block, result: Answer, setting: Setting) -> Answer:
-    """Return the answer where the conditions of a block are satisfied.
+    """Return the answer of a block on the region where its conditions are satisfied.
 
-    It is inconsistent where they are satisfied nowhere, and undecided where that is not known, or where the reference
-    configuration is not inside.
+    It is inconsistent if this region is empty, and undecided if that is not known or the reference is not inside.
     """
     block = _without_satisfied_conditions(block)
     if not block.conditions or result.consistent is False:
@@ -60,7 +59,7 @@ def restricted_to_domain(block: Block, result: Answer, setting: Setting) -> Answ
 
 
 def _without_satisfied_conditions(block: Block) -> Block:
-    """Return the block without conditions u >= 0 where its equations give coordinates such that u is 0."""
+    """Return the block without the conditions u >= 0 for which its linear equations imply u = 0."""
     finite = (r.piece.expr for r in block.finite if isinstance(r.piece, Finite))
     with suppress(PoleError):
         explicit = explicit_relations(finite, number_coefficients).by_others
@@ -74,12 +73,12 @@ def _equations(block: Block, result: Answer) -> list[Expr]:
 
 
 def _is_empty(block: Block, result: Answer, setting: Setting) -> bool:
-    """Return whether the conditions are proved to be satisfied nowhere where the geometric equations are."""
+    """Return whether the conditions are proved to be false wherever the geometric equations are satisfied."""
     return hold_nowhere(_equations(block, result), block.conditions, setting.positive)
 
 
 def _at_a_point(block: Block, result: Answer, setting: Setting) -> Answer:
-    """Return the answer with a witness that satisfies all conditions strictly, that there is none, or undecided."""
+    """Return the answer with a witness that satisfies all conditions strictly, or an inconsistent or undecided one."""
     conditions = [c.expr for c in block.conditions]
     chart = make_chart(block, replace(setting, reference=None), result.hidden, conditions)
     dof = result.dof if not block.forms and not block.nonlinear else None
@@ -91,16 +90,17 @@ def _at_a_point(block: Block, result: Answer, setting: Setting) -> Answer:
 
 
 def _point_within(chart: Chart, conditions: Sequence[DomainCondition], dof: int | None) -> RealPoint | None:
-    """Return a certified regular point, of the largest rank that was seen, at which all conditions hold strictly.
+    """Return a certified point at which all conditions are satisfied strictly, and the rank is right; else None.
 
-    For geometric equations alone the rank there has to agree with ``dof``: other components may be larger or smaller.
+    The rank must agree with ``dof``, so that the point is on the right component; without ``dof`` it must be the
+    largest rank of all points in the search.
     """
     search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.setting.positive, chart.symbols)
     points = []
     for seed in range(SEEDS):
-        moment = {ex.TIME: (-1.0) ** seed * LATER ** (seed // 2)} if seed else {}
+        time = {ex.TIME: (-1.0) ** seed * LATER ** (seed // 2)} if seed else {}
         try:
-            point = search.search(seed, moment)
+            point = search.search(seed, time)
         except (OverflowError, ValueError, NoValueError):
             continue
         if point is not None and point.certain:
@@ -110,14 +110,17 @@ def _point_within(chart: Chart, conditions: Sequence[DomainCondition], dof: int 
 
 
 def _is_same_component(block: Block, result: Answer) -> bool:
-    """Return whether a point may stand for the answer: one about a component needs the conditions at its witness."""
+    """Return whether another point may be the witness of the answer.
+
+    For forms and an answer about a component it may not, unless the answer's own witness satisfies the conditions.
+    """
     if result.about != "component" or not (block.forms or block.nonlinear):
         return True
     return result.witness is not None and _is_strict_at_witness(block, result)
 
 
 def _is_strict_at_witness(block: Block, result: Answer) -> bool:
-    """Return whether the conditions hold strictly at the witness; False where that is written with roots."""
+    """Return whether the conditions are satisfied strictly at the witness; False if it is written with roots."""
     try:
         configuration = {s: Fraction(text) for s, text in (result.witness or {}).items()}
     except ValueError:
@@ -126,13 +129,13 @@ def _is_strict_at_witness(block: Block, result: Answer) -> bool:
 
 
 def hold_strictly(conditions: Iterable[DomainCondition], point: Mapping[Expr, arb | Fraction]) -> bool:
-    """Return whether conditions are proved to be satisfied at a point, and not as equations."""
+    """Return whether conditions are proved to be satisfied strictly at a point."""
     balls = [(c, interval_of(c.expr, point)) for c in conditions]
     return all(v is not None and not v.contains(0) and (c.sense == "!=" or bool(v > 0)) for c, v in balls)
 
 
 def text_of_conditions(conditions: Iterable[DomainCondition]) -> str:
-    """Return conditions as a text."""
+    """Return conditions as a text for messages."""
     return " and ".join(f"{to_text(c.expr)} {c.sense} 0" for c in conditions)
 
 
@@ -152,15 +155,15 @@ def _undecided(block: Block, result: Answer) -> Answer:
 
 APART = "each part of the system can be satisfied at some time, but no common time was found"
 OUTSIDE = "no configuration was found at which all equations have a value as they were written"
-#: The digits to which a decimal of a witness is right.
+#: The relative error of a decimal number in a witness.
 DIGITS_BALL = arb(10) ** -24
 
 
 class CommonPoint(NamedTuple):
-    """The blocks and their answers at one point; ``witness``: of coordinates that only domains mention.
+    """The blocks and their answers after the search for a common point.
 
-    A block has the conditions that it was not found to satisfy.
-    ``nowhere``: constraints beside no block whose domain is empty; ``unsettled``: those of which that is not known.
+    Blocks keep the conditions that were not satisfied. ``witness``: values of coordinates that occur only in
+    conditions. ``nowhere``: constraints in no block whose domain is empty; ``unsettled``: for which this is undecided.
     """
 
     blocks: list[Block]
@@ -177,10 +180,10 @@ def at_one_point(
     setting: Setting,
     answered: Callable[[Block], Answer],
 ) -> CommonPoint:
-    """Return the answers, where all blocks are consistent, held against one point of the system.
+    """Return the answers after comparing the blocks' witnesses with each other and with the ``domain``.
 
-    ``domain``: where each constraint, as it was written, has a value. What the blocks' witnesses do not satisfy is
-    put beside the rows that share a coordinate with it, and these are ``answered`` again.
+    ``domain``: (constraint, condition for a value of it as written). Conditions that the witnesses do not satisfy are
+    added to the blocks that share a coordinate with them, and these are ``answered`` again.
     """
     written = _with_conditions(blocks, domain)
     kept, result = list(blocks), simultaneous(written, answers)
@@ -199,21 +202,19 @@ def at_one_point(
         if not added:
             continue
         conditions = tuple(dict.fromkeys(c for _, c in added))
-        whole = merged([written[i] for i in members], conditions, setting)
-        values_of = answered(whole)
-        free = len(whole.coordinates) - sum(len(blocks[i].coordinates) for i in members)
-        if values_of.consistent and values_of.dof == free + sum(result[i].dof or 0 for i in members):
-            free_values |= values_of.witness or {}
+        joined = merged([written[i] for i in members], conditions, setting)
+        a = answered(joined)
+        free = len(joined.coordinates) - sum(len(blocks[i].coordinates) for i in members)
+        if a.consistent and a.dof == free + sum(result[i].dof or 0 for i in members):
+            free_values |= a.witness or {}
             for i in members:
-                result[i] = replace(
-                    result[i], witness=values_of.witness, verdict=weakest(result[i].verdict, values_of.verdict)
-                )
+                result[i] = replace(result[i], witness=a.witness, verdict=weakest(result[i].verdict, a.verdict))
             continue
-        consistent = False if values_of.consistent is False else None
+        consistent = False if a.consistent is False else None
         if not members:
             failed[consistent] += [i for i, _ in added]
         for i in members:
-            kept[i], result[i] = written[i], _not_consistent(result[i], values_of, OUTSIDE)
+            kept[i], result[i] = written[i], _not_consistent(result[i], a, OUTSIDE)
     together = simultaneous(written, result)
     return CommonPoint(kept, together, free_values, tuple(failed[False]), tuple(failed[None]))
 
@@ -223,12 +224,12 @@ def _names(block: Block) -> frozenset[Hashable]:
 
 
 def _names_of(c: DomainCondition, owner: int) -> frozenset[Hashable]:
-    """The coordinates of a condition; of one without coordinates, its constraint."""
+    """Return the coordinates of a condition, or its constraint if it has none."""
     return coordinates_in(c.expr) or frozenset((owner,))
 
 
 def _with_conditions(blocks: Sequence[Block], domain: Sequence[tuple[int, DomainCondition]]) -> list[Block]:
-    """The blocks with the conditions that hold no other coordinates than theirs, or none beside their constraints."""
+    """Return the blocks with the conditions whose coordinates are all theirs; one without goes with its constraint."""
     result = list(blocks)
     for owner, c in domain:
         names = coordinates_in(c.expr)
@@ -240,13 +241,14 @@ def _with_conditions(blocks: Sequence[Block], domain: Sequence[tuple[int, Domain
 
 
 def _point(answers: Sequence[Answer], setting: Setting) -> dict[Expr, arb]:
-    """The values of the witnesses as balls."""
+    """Return the values of the witnesses as balls."""
     texts = {s: text for a in answers for s, text in (a.witness or {}).items()}
     exact = {s: e for s, e in (setting.reference or {}).items() if s in texts and to_text(e) == texts[s]}
     return {s: _ball(text, exact.get(s)) for s, text in texts.items()}
 
 
 def _ball(text: str, exact: Expr | None) -> arb:
+    """Return the ball of a value of a witness, from its text or its exact expression; NaN if it has no real value."""
     try:
         value = arb(text)
     except ValueError:
@@ -259,7 +261,7 @@ def _ball(text: str, exact: Expr | None) -> arb:
 
 
 def simultaneous(blocks: Sequence[Block], answers: Sequence[Answer]) -> list[Answer]:
-    """Return the answers, undecided where the witnesses do not have the time and the parameters in common."""
+    """Return the answers, undecided if the witnesses of blocks have different times, parameters or functions."""
     result = list(answers)
     if any(a.consistent is not True for a in answers):
         return result
@@ -275,7 +277,7 @@ def simultaneous(blocks: Sequence[Block], answers: Sequence[Answer]) -> list[Ans
 
 
 def _may_restrict(block: Block, a: Answer) -> bool:
-    """Return whether a block may be satisfied at some times, or for some parameters, only."""
+    """Return whether a block may be satisfiable only at some times, or only for some parameters."""
     if a.linear or not (block.finite or a.hidden or block.nonlinear or block.conditions):
         return False
     relations = _equations(block, a)
@@ -296,7 +298,7 @@ def _shared_symbols(block: Block) -> frozenset[Expr]:
 
 
 def _is_common(witnesses: Sequence[Witness | None], shared: Sequence[frozenset[Expr]]) -> bool:
-    """Return whether all witnesses are known, with one value of everything that is shared."""
+    """Return whether all witnesses are known, with equal values of all shared symbols, and share no function."""
     common: dict[Expr, str] = {}
     for witness, symbols in zip(witnesses, shared, strict=True):
         if witness is None or any(common.setdefault(s, witness[s]) != witness[s] for s in symbols & witness.keys()):
@@ -305,7 +307,7 @@ def _is_common(witnesses: Sequence[Witness | None], shared: Sequence[frozenset[E
 
 
 def _not_consistent(a: Answer, together: Answer, why: str) -> Answer:
-    """Return the answer to a block where it is inconsistent together with others, or it is not known whether it is."""
+    """Return the answer of a block that is inconsistent ``together`` with others, or for which this is undecided."""
     impossible = together.consistent is False
     answers = Answer(False if impossible else None, verdict=together.verdict if impossible else "undecided")
     reasons = [*together.reasons, why]
@@ -313,7 +315,7 @@ def _not_consistent(a: Answer, together: Answer, why: str) -> Answer:
 
 
 def merged(blocks: Sequence[Block], conditions: Sequence[DomainCondition], setting: Setting) -> Block:
-    """Return several blocks as one, with more conditions."""
+    """Return several blocks as one, with further conditions."""
     order = {c.name: k for k, c in enumerate(setting.roles)}
     every = tuple(dict.fromkeys((*(c for block in blocks for c in block.conditions), *conditions)))
     mentioned = {n for b in blocks for n in b.coordinates}.union(*(coordinates_in(c.expr) for c in every))

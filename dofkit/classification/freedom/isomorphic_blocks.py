@@ -1,4 +1,4 @@
-"""Blocks that differ in the names of their coordinates only: one of them is answered, the others take its answer."""
+"""Blocks that are equal up to the names of their coordinates (twins): one is analysed, the others take its answer."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from dofkit.relations.blocks import Block
 from dofkit.relations.normal.pieces import piece_shape
 from dofkit.relations.setting import Setting
 
-#: Owner and role of what is no coordinate of the system.
+#: Owner and role of a name that is not a coordinate of the system.
 _FREE = (None, "")
 
 
 class Likeness(NamedTuple):
-    """``key``: equal for blocks that are the same up to ``names``: of coordinates, and of generic geometry after them.
+    """``key``: equal for blocks that are equal up to ``names``: of coordinates, then of unnamed parameters.
 
-    The name at one place of the one stands for that at the same place of the other, one for one.
+    The names of two such blocks correspond to each other in order.
     """
 
     key: Hashable
@@ -28,10 +28,10 @@ class Likeness(NamedTuple):
 
 
 class Likenesses:
-    """What blocks of one system are compared by.
+    """Computes the likeness of blocks of one system.
 
-    What the engines know of a block goes in: its rows, which of them are measured, and its coordinates' places at the
-    reference, values and roles. Of names only who owns which coordinate counts, and which is the same as which.
+    It consists of all that the engines use: the rows, which of them have a tolerance, and the coordinates' values and
+    roles. Names of coordinates and owners matter only by their equality.
     """
 
     def __init__(self, setting: Setting) -> None:
@@ -42,7 +42,7 @@ class Likenesses:
         self._reference = None if setting.reference is None else _by_name(setting.reference)
 
     def of(self, block: Block) -> Likeness:
-        """A key that is the same for blocks that are alike but for names, and the names in their order."""
+        """Return the likeness of a block."""
         shapes = [piece_shape(p) for p in (*(row.piece for row in block.rows), *block.conditions)]
         numbers = self._generic
         mentioned = {n for shape in shapes for n in shape.names if n in numbers}
@@ -76,14 +76,14 @@ def _by_name(values: Mapping[Expr, Expr]) -> dict[str, Expr]:
 
 
 class AnsweredBlock(NamedTuple):
-    """A block by its names, and its answer."""
+    """A block with its names (as in `Likeness`) and its answer."""
 
     block: Block
     names: tuple[str, ...]
     answer: Answer
 
     def answer_of_twin(self, twin: Block, names: tuple[str, ...]) -> Answer:
-        """The answer for a twin with other names."""
+        """Return the answer for a twin with other names."""
         a = copy(self.answer)
         renaming = Renaming(dict(zip(self.names, names, strict=True)))
         a.labels, a.reasons, a.size = dict(a.labels), list(a.reasons), Size()

@@ -1,4 +1,4 @@
-"""A system made ready for the engines: every relation as what it says, and what may be assumed of its symbols.
+"""A system prepared for the engines: normal forms of all relations, and the `Setting`.
 
 Also: which branches of a relation pass through the reference configuration, and which constraints are copies of others.
 """
@@ -46,13 +46,13 @@ RATES = frozenset({"velocity", "differential", "dt"})
 
 
 def prepared(system: System, reductions: Reductions = ALL) -> tuple[list[Reduced], Setting]:
-    """Each relation as what it says, and what may be assumed of the symbols."""
+    """Return (every constraint with its normal forms, the setting); raises SceneError as `reduce_all` does."""
     positive = frozenset(ex.parameter(p) for p, sign in system.parameters.items() if sign == "positive")
     generic = tuple([ex.parameter(p) for p in system.generic])
     positive |= frozenset([p for p in generic if p.args[1].startswith("_L")])
     exact = system.joints and system.tolerance is None
-    apart = bridges(system) if "bridges" in reductions and exact else Bridges()
-    reduced = reduce_all(system, positive, apart.joints)
+    bridging = bridges(system) if "bridges" in reductions and exact else Bridges()
+    reduced = reduce_all(system, positive, bridging.joints)
     setting = Setting(
         positive,
         generic,
@@ -68,30 +68,30 @@ def prepared(system: System, reductions: Reductions = ALL) -> tuple[list[Reduced
         geometric=frozenset(i for i, c in enumerate(system.constraints) if not c.facts.written or c.facts.contact),
         arms=system.arms,
         tilts=frozenset(r.names[1] for r in system.rotations if r.chart == "euler"),
-        bridges=apart.joints,
-        afloat=apart.afloat,
-        joint_rows=RowsAtReference(system, positive).rows_of_joints if apart.joints else None,
+        bridges=bridging.joints,
+        afloat=bridging.afloat,
+        joint_rows=RowsAtReference(system, positive).rows_of_joints if bridging.joints else None,
     )
     return reduced, setting
 
 
 def _links(system: System) -> dict[int, list[tuple[str, str]]]:
-    """The particles that rigid links join, by constraint."""
+    """Return {constraint: pairs of particles that its rigid links join}."""
     result: dict[int, list[tuple[str, str]]] = {}
     for i, a, b in system.links:
         result.setdefault(i, []).append((a, b))
     return result
 
 
-def reduce_all(system: System, positive: frozenset[Expr], apart: frozenset[int] = frozenset()) -> list[Reduced]:
-    """Every relation of every constraint as what it says; all that cannot be one are faults together.
+def reduce_all(system: System, positive: frozenset[Expr], bridging: frozenset[int] = frozenset()) -> list[Reduced]:
+    """Return every constraint with the normal forms of its relations.
 
-    Those of joints ``apart`` are not written out where they are not yet.
+    The equations of ``bridging`` joints stay unwritten. Raises SceneError with a fault for each invalid relation.
     """
     result, faults = [], []
-    read = _Normals(positive)
+    normal_forms = _Normals(positive)
     for i, constraint in enumerate(system.constraints):
-        if i in apart and isinstance(constraint.relations, Unwritten):
+        if i in bridging and isinstance(constraint.relations, Unwritten):
             result.append(Reduced(constraint, unwritten(constraint.relations), (), constraint.relations))
             continue
         normals, inequalities, written = [], [], []
@@ -101,7 +101,7 @@ def reduce_all(system: System, positive: frozenset[Expr], apart: frozenset[int] 
                 inequalities.append(Inequality(relation.expr, relation.sense == ">"))
                 continue
             try:
-                normal = read.normal(relation.expr, constraint.facts.written)
+                normal = normal_forms.normal(relation.expr, constraint.facts.written)
                 normals.append(normal)
                 written.append(relation)
             except TextError as error:
@@ -113,14 +113,14 @@ def reduce_all(system: System, positive: frozenset[Expr], apart: frozenset[int] 
 
 
 class _Normals:
-    """What relations say; of those that are the same up to names, in the same order, one is looked at."""
+    """Computes normal forms, once for relations that are equal up to names with the names in the same order."""
 
     def __init__(self, positive: frozenset[Expr]) -> None:
         self._positive = positive
         self._normals: dict[Hashable, tuple[Normal, tuple[str, ...]]] = {}
 
     def normal(self, e: Expr, written: bool) -> Normal:
-        """What ``e = 0`` says. Raises TextError where it can be no relation."""
+        """Return the normal form of ``e = 0``; raises TextError if it is not a valid relation."""
         if not written and kinds_in(e).isdisjoint(RATES):
             return Normal(((),) if e.is_zero else ((Finite(e),),))
         if not written:
@@ -136,7 +136,7 @@ class _Normals:
 
 
 def without_instants(normal: Normal, positive: frozenset[Expr]) -> Normal:
-    """A product's branch that only fixes the time (t = 0 of ``t (x - y) = 0``) is no branch of motion: left out."""
+    """Return a normal form without branches that fix the time (t = 0 of ``t (x - y) = 0``), unless all do."""
     kept = tuple(b for b in normal.branches if not any(_fixes_time(p, positive) for p in b))
     if not kept or len(kept) == len(normal.branches):
         return normal
@@ -147,8 +147,8 @@ def _fixes_time(piece: Piece, positive: frozenset[Expr]) -> bool:
     """Return whether a piece is a relation of time and parameters alone that is satisfied at isolated values only."""
     if not isinstance(piece, Finite) or not piece.expr.symbols:
         return False
-    alone = all(s.args[0] in ("time", "parameter") for s in piece.expr.symbols)
-    return alone and is_analytic(piece.expr, piece.expr.symbols, positive)
+    constant = all(s.args[0] in ("time", "parameter") for s in piece.expr.symbols)
+    return constant and is_analytic(piece.expr, piece.expr.symbols, positive)
 
 
 def branches_at_reference(normal: Normal, setting: Setting) -> Normal:
@@ -160,7 +160,7 @@ def branches_at_reference(normal: Normal, setting: Setting) -> Normal:
 
 
 def reductions_at_reference(alternatives: Sequence[Alternative], setting: Setting) -> Sequence[Alternative]:
-    """Return the reductions of rows that are valid at the reference; all if there is none, or none is valid."""
+    """Return the alternatives whose rewritten rows are satisfied at the reference; all if none is, or without one."""
     if setting.reference is None or len(alternatives) < 2:
         return alternatives
 
@@ -174,7 +174,7 @@ def reductions_at_reference(alternatives: Sequence[Alternative], setting: Settin
 def has_kink_at_reference(normal: Normal, setting: Setting) -> bool:
     """Return whether the argument of an absolute value vanishes at the reference configuration.
 
-    There is no gradient there. The equations of joints hold no absolute values.
+    There is no gradient there. The equations of joints contain no absolute values.
     """
     if setting.reference is None:
         return False
@@ -190,7 +190,7 @@ def has_kink_at_reference(normal: Normal, setting: Setting) -> bool:
 def passes_reference(branch: Sequence[Piece], setting: Setting) -> bool:
     """Return whether the reference configuration satisfies the geometric equations of a branch.
 
-    Balls decide where numbers may be related in a way that arithmetic modulo primes does not see.
+    Balls decide if numbers may be related in a way that arithmetic modulo primes does not show.
     """
     finite = [p for p in branch if isinstance(p, Finite)]
     configuration = {**(setting.reference or {}), ex.TIME: ex.ZERO}
@@ -221,27 +221,24 @@ def all_of(answers: Iterable[bool | None]) -> bool | None:
 
 
 def algebraic(e: Expr, *more: str) -> bool:
-    """Return whether no functions beyond sines and cosines (and ``more``) occur.
-
-    Then what is not 0 over GF(p) is not 0.
-    """
+    """Return whether no functions other than sines, cosines, tangents (and ``more``) occur."""
     return all(n.op != "fn" or n.args[0] in ("sin", "cos", "tan", *more) for n in ex.nodes(e))
 
 
 def conditional(normal: Normal) -> bool:
-    """Return whether a branch only states where it is satisfied."""
+    """Return whether some branch consists of conditions only, so that it is satisfied on a region."""
     return any(all(isinstance(p, DomainCondition) for p in branch) for branch in normal.branches if branch)
 
 
 def copies(reduced: Sequence[Reduced]) -> dict[int, int]:
-    """Constraints all of whose relations an earlier one wrote already, up to a number: copy -> original.
+    """Return {copy: original} for constraints whose relations equal those of an earlier one, up to numerical factors.
 
-    Only those are compared that mention the same symbols.
+    Only constraints with the same symbols are compared.
     """
     alike: dict[Hashable, list[int]] = {}
     for i, r in enumerate(reduced):
         check()
-        if r.normals and not r.inequalities and not any(_says_nothing(normal) for normal in r.normals):
+        if r.normals and not r.inequalities and not any(_is_not_compared(normal) for normal in r.normals):
             alike.setdefault(_mentioned(r.normals), []).append(i)
     seen: dict[Hashable, int] = {}
     result = {}
@@ -256,7 +253,7 @@ def copies(reduced: Sequence[Reduced]) -> dict[int, int]:
 
 
 def _mentioned(normals: Sequence[Normal]) -> Hashable:
-    """The same for relations that are each other's up to a number: what their first pieces mention, in any order."""
+    """Return a key that is equal for multiples of the same relations: the symbols of their first pieces."""
     first = [_symbols_of(normal.branches[0]) for normal in normals]
     return first[0] if len(first) == 1 else frozenset(first)
 
@@ -268,14 +265,14 @@ def _symbols_of(branch: Sequence[Piece]) -> Hashable:
     return piece if piece is None else piece.expr.symbols
 
 
-def _says_nothing(normal: Normal) -> bool:
-    """Return whether there is nothing to compare: it is satisfied always or never, or is a joint's equation."""
+def _is_not_compared(normal: Normal) -> bool:
+    """Return whether a relation is not compared: it is satisfied always or never, or is a joint's equation."""
     branches = normal.branches
     return branches in ((), ((),)) or any(isinstance(p, JointEquation) for p in branches[0])
 
 
 def _scaled(piece: object) -> Hashable:
-    """A piece with the first coefficient made 1."""
+    """Return a key of a piece, for a finite one its expression with the first coefficient made 1."""
     if isinstance(piece, Finite):
         first = piece.expr.args[0] if piece.expr.op == "add" else piece.expr
         number = first.args[0] if first.op == "mul" and first.args[0].op == "num" else first

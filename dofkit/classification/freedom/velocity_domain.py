@@ -1,6 +1,6 @@
-"""Motions along which every expression of velocities has a value as it was written.
+"""Motions along which every expression in velocities has a value as written.
 
-The equation dy/dx = 2 says dy - 2 dx = 0 where dx is not 0. Beside x = 3, dy/dx has a value along no motion.
+The equation dy/dx = 2 means dy - 2 dx = 0 where dx is not 0. Together with x = 3, dy/dx has a value along no motion.
 """
 
 from __future__ import annotations
@@ -31,9 +31,9 @@ def with_values_in_motion(
     setting: Setting,
     answered: Callable[[Block], Answer],
 ) -> list[Answer]:
-    """Return the answers, inconsistent where no motion meets the ``domain``, undecided where none is known to.
+    """Return the answers, inconsistent if no motion satisfies the ``domain``, undecided if none is known to do so.
 
-    ``domain``: where each constraint, as it was written, has a value, by its velocities.
+    ``domain``: (constraint, condition in velocities for a value of it as written); ``answered`` analyses a block.
     """
     names = frozenset[str]().union(*(coordinates_in(c.expr) for _, c in domain))
     members = [i for i, block in enumerate(blocks) if not names.isdisjoint(block.coordinates)]
@@ -49,11 +49,11 @@ def with_values_in_motion(
         return [none if i in members else a for i, a in enumerate(answers)]
     free = len(block.coordinates) - sum(len(block.coordinates) for block in together)
     freedoms = [n if n is None else n + free for n in _freedoms([answers[i] for i in members])]
-    # the states of what is nonlinear are searched where it has a value
+    # states of nonlinear rows are searched only where these have a value
     owners = {row.constraint for row in block.nonlinear}
-    still = [a for i, c in domain if i not in owners for a in _where_it_vanishes(block, i, c, setting, answered)]
-    if None not in freedoms and all(_is_less(a, freedoms) for a in still):
-        sure = [a.verdict for a in still]
+    outside = [a for i, c in domain if i not in owners for a in _where_it_vanishes(block, i, c, setting, answered)]
+    if None not in freedoms and all(_is_less(a, freedoms) for a in outside):
+        sure = [a.verdict for a in outside]
         return [replace(a, verdict=weakest(a.verdict, *sure)) if i in members else a for i, a in enumerate(answers)]
     unknown = Answer(None, verdict="undecided", reasons=[f"{why} no motion is known to satisfy"])
     return [unknown if i in members else a for i, a in enumerate(answers)]
@@ -62,33 +62,33 @@ def with_values_in_motion(
 def _where_it_vanishes(
     block: Block, owner: int, condition: DomainCondition, setting: Setting, answered: Callable[[Block], Answer]
 ) -> list[Answer]:
-    """Return the answers of the block with each branch of u = 0, for the condition u != 0 of a constraint."""
+    """Return the answers of the block with each branch of u = 0, for a condition u != 0; undecided for others."""
     if condition.sense != "!=":
         return [Answer(None)]
     vanishing = [*_equations_of_motion(block), condition.expr]
     if unless_late(partial(hold_nowhere, vanishing, (), setting.positive), False):
         return []
     branches = normalise(condition.expr, setting.positive, True).branches
-    # without the conditions of a branch more motions are counted among those on which u is 0
+    # leaving out the conditions of a branch can only enlarge the set on which u is 0
     added = [[Row(owner, p) for p in branch if not isinstance(p, DomainCondition)] for branch in branches]
     return [answered(replace(block, rows=(*block.rows, *rows))) for rows in added]
 
 
 def _equations_of_motion(block: Block) -> list[Expr]:
-    """What is 0 at every state of a motion."""
+    """Return the expressions in coordinates and velocities that are 0 along every motion."""
     finite = [row.piece.expr for row in block.finite if isinstance(row.piece, Finite)]
     forms = [row.piece.rate for row in block.forms if isinstance(row.piece, Pfaffian)]
     others = [row.piece.expr for row in block.nonlinear if isinstance(row.piece, Nonlinear)]
     return [*finite, *map(rate, finite), *forms, *others]
 
 
-def _is_less(still: Answer, freedoms: Sequence[int | None]) -> bool:
-    """Return whether some motion is none of those for which one more velocity is 0: of these there are fewer."""
-    fewer = _freedoms([still])
-    return still.consistent is False or bool(still.consistent and None not in fewer and fewer != freedoms)
+def _is_less(outside: Answer, freedoms: Sequence[int | None]) -> bool:
+    """Return whether the motions with u = 0 are none, or have other freedoms than all motions (then fewer)."""
+    fewer = _freedoms([outside])
+    return outside.consistent is False or bool(outside.consistent and None not in fewer and fewer != freedoms)
 
 
 def _freedoms(answers: Sequence[Answer]) -> list[int | None]:
-    """The sums of the numbers of freedoms and of velocities; None where one is not known."""
+    """Return [sum of the freedoms, sum of the velocity freedoms] of some answers; None for an unknown sum."""
     numbers = [a.dof for a in answers], [a.velocity_dof for a in answers]
     return [None if None in some else sum(n for n in some if n is not None) for some in numbers]

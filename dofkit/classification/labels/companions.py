@@ -1,4 +1,4 @@
-"""What a form integrates to with the help of others: which of them it needs, and the geometric equation they give."""
+"""The companions of a form: a minimal set of constraints together with which it is integrable, and the integral."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ MAX_CONSTRAINTS, MAX_COORDINATES = 10, 12
 
 @dataclass(frozen=True)
 class CompanionIntegrals:
-    """Integrals by the numbers of the rows they can stand for, and all of them."""
+    """First integrals of some rows: ``by_row``, {row: an integral that can replace it}, and all ``integrals``."""
 
     by_row: Mapping[int, FirstIntegral]
     integrals: Sequence[FirstIntegral]
@@ -32,9 +32,9 @@ class CompanionIntegrals:
 
 @dataclass
 class Companionship:
-    """The blocks of a system, asked one constraint at a time; what was found for a block is kept.
+    """Searches for the companions and integrals of constraints, and remembers the integrals of each block.
 
-    ``answered``: their parts, at no drawing; ``names``: those of the constraints, by number.
+    ``answered``: answers of parts of blocks, without a reference; ``names``: of the constraints, by number.
     """
 
     answered: AnsweredBlocks
@@ -42,14 +42,14 @@ class Companionship:
     _integrals: dict[tuple[int, ...], CompanionIntegrals] = field(default_factory=dict)
 
     def of(self, constraint: int, block: Block, a: Answer) -> Others:
-        """For a constraint that is holonomic in its block: what it needs there, and its integral."""
+        """Return the companions and the integral of a constraint that is holonomic in its block (answer ``a``)."""
         owners = list(dict.fromkeys(r.constraint for r in block.rows))
         if len(owners) > MAX_CONSTRAINTS or len(block.coordinates) > MAX_COORDINATES or block.nonlinear:
             return Others()
         try:
             kept = self._needed(constraint, block, owners)
             integral = self._integral(constraint, block, kept, a)
-            if integral is not None and len(kept) < len(owners) and not self._holds(integral, block, a):
+            if integral is not None and len(kept) < len(owners) and not self._is_constant(integral, block, a):
                 kept = self._needed(constraint, block, owners, a)
                 integral = self._integral(constraint, block, owners, a)
         except (OutOfTimeError, ArithmeticError):
@@ -61,10 +61,10 @@ class Companionship:
         return Others(companions, equation(integral, block), integral.identically, timed)
 
     def _timed(self, f: FirstIntegral, constraint: int, block: Block, a: Answer) -> bool | None:
-        """Return whether t occurs in what a form with a dt term integrates to; None: as it is written.
+        """Return whether t occurs in the integral f of a form with a dt term; None if this is ambiguous.
 
-        That is so if other constraints hold t, and may hold it so that the dt term is 0; and if one of them integrates
-        with t by itself: with x = t + C the equation zdot = x gives x^2 - 2 z = C, as well as 2 z = t^2 + 2 C t + C1.
+        It is ambiguous if t occurs in other constraints, which may make the dt term 0 or eliminate t: with x = t + C
+        the equation zdot = x gives x^2 - 2 z = C, as well as 2 z = t^2 + 2 C t + C1.
         """
         others = Block(block.coordinates, tuple(r for r in block.rows if r.constraint != constraint))
         timed = TIME in f.expr.symbols
@@ -75,7 +75,7 @@ class Companionship:
         return None if others.finite or a.hidden or advances else True
 
     def modulo(self, constraint: int, block: Block, a: Answer) -> Others:
-        """For a constraint that is not: a geometric equation that it implies together with all the others."""
+        """Return, for a constraint that is not holonomic, a geometric equation that it implies with all the others."""
         owners = list(dict.fromkeys(r.constraint for r in block.rows))
         if a.dof is None or len(owners) > MAX_CONSTRAINTS or len(block.coordinates) > MAX_COORDINATES:
             return Others()
@@ -86,9 +86,9 @@ class Companionship:
         return Others() if integral is None else Others((), equation(integral, block), integral.identically)
 
     def _needed(self, constraint: int, block: Block, owners: Sequence[int], a: Answer | None = None) -> list[int]:
-        """A minimal set of constraints, ``constraint`` among them, in which it is holonomic; later ones go first.
+        """Return a minimal set of constraints, ``constraint`` included, in which it is holonomic; later ones go first.
 
-        With the block's answer: and where its integral, if it has one, stands beside all the others too.
+        With the block's answer ``a``, an integral in this set must also be constant along the motions of the block.
         """
         kept = list(owners)
         for other in reversed(owners):
@@ -97,21 +97,20 @@ class Companionship:
             if other == constraint or not self._holonomic(constraint, _rows(block, fewer), block):
                 continue
             integral = None if a is None else self._integral(constraint, block, fewer, a)
-            if a is None or integral is None or self._holds(integral, block, a):
+            if a is None or integral is None or self._is_constant(integral, block, a):
                 kept = fewer
         return kept
 
-    def _holds(self, f: FirstIntegral, block: Block, a: Answer) -> bool:
+    def _is_constant(self, f: FirstIntegral, block: Block, a: Answer) -> bool:
         """Return whether f is constant along every motion of the block.
 
-        What some of its rows integrate to need not be: where y = 0, dx = y dz says nothing of z, though it makes z
-        constant beside x = 0 alone.
+        An integral of some of its rows need not be: dx = y dz and x = 0 make z constant, but not where y = 0.
         """
         forms = codistribution(block, self.answered.setting, a.hidden, [f.expr])
-        return first_integrals.IntegralSearch(forms).holds(f.expr)
+        return first_integrals.IntegralSearch(forms).is_constant(f.expr)
 
     def _holonomic(self, constraint: int, rows: Sequence[Row], block: Block) -> bool:
-        """Return whether the forms of a constraint are holonomic beside ``rows`` alone; False where undecided."""
+        """Return whether the forms of a constraint are holonomic together with ``rows`` only; False if undecided."""
         for part in split(block.coordinates, rows)[0]:
             linear = [
                 i for i, r in enumerate(part.rows) if r.constraint == constraint and isinstance(r.piece, Pfaffian)
@@ -126,7 +125,7 @@ class Companionship:
         return True
 
     def _integral(self, constraint: int, block: Block, owners: Sequence[int], a: Answer) -> FirstIntegral | None:
-        """The integral of the one form that a constraint wrote, among those of some constraints."""
+        """Return the integral of a constraint with one form, among those of the rows of ``owners``; None if none."""
         forms = _forms_of(constraint, block)
         return self._integrals_of(block, owners, a).by_row.get(forms[0]) if len(forms) == 1 else None
 
@@ -142,21 +141,21 @@ class Companionship:
         return [equation(f, block, i if len(integrals) > 1 else None) for i, f in enumerate(integrals)]
 
     def _integrals_of(self, block: Block, owners: Sequence[int], a: Answer) -> CompanionIntegrals:
-        """The integrals of a block's rows that some constraints wrote."""
-        key = (id(block), *owners)
+        """Return the integrals of the block's rows that belong to the constraints ``owners``, searched once."""
+        key = (id(block), *owners)  # a block has one answer a
         if key not in self._integrals:
-            self._integrals[key] = self._searched(block, owners, a)
+            self._integrals[key] = self._search(block, owners, a)
         return self._integrals[key]
 
-    def _searched(self, block: Block, owners: Sequence[int], a: Answer) -> CompanionIntegrals:
-        """Search for them; the whole block has the answer ``a``, which may be that of one branch."""
+    def _search(self, block: Block, owners: Sequence[int], a: Answer) -> CompanionIntegrals:
+        """Search for the integrals of the rows of ``owners``; ``a``: the answer of the block, maybe on one branch."""
         numbers = [i for i, r in enumerate(block.rows) if r.constraint in owners]
         part = Block(block.coordinates, tuple(block.rows[i] for i in numbers))
-        whole = a if len(numbers) == len(block.rows) else self.answered.of(part)
-        if whole.dof is None:
+        of_part = a if len(numbers) == len(block.rows) else self.answered.of(part)
+        if of_part.dof is None:
             return CompanionIntegrals({}, [])
-        forms = codistribution(part, self.answered.setting, whole.hidden)
-        sought = len(part.coordinates) - whole.dof - len(part.finite) - len(whole.hidden)
+        forms = codistribution(part, self.answered.setting, of_part.hidden)
+        sought = len(part.coordinates) - of_part.dof - len(part.finite) - len(of_part.hidden)
         integrals = first_integrals.first_integrals(forms, sought)
         shift = forms.finite - len(part.finite)
         by_row = first_integrals.integral_by_row(forms, integrals)
@@ -164,10 +163,10 @@ class Companionship:
 
 
 def _advances(constraint: int, block: Block, a: Answer) -> bool | None:
-    """Return True where a form has a dt term at a generic point and the other constraints hold no time, else None.
+    """Return True if t must occur in the integral of a form with the other constraints, else None.
 
-    What it integrates to with them then has t: its differential is mu (a dq + b dt) and multiples of the others', none
-    of which has dt, so that its derivative by t is mu b.
+    It must if the form a dq + b dt has b != 0 at a generic point and t is not in the others: the differential of the
+    integral is mu (a dq + b dt) plus multiples of forms without dt, so that its derivative by t is mu b.
     """
     numbers = _forms_of(constraint, block)
     others = Block(block.coordinates, tuple(r for r in block.rows if r.constraint != constraint))
@@ -190,7 +189,7 @@ def _true(a: Answer, i: int) -> bool:
 
 
 def equation(f: FirstIntegral, block: Block, number: int | None = None) -> str:
-    """``f = C``, or C1, C2, ... where there are several or the block itself has a C."""
+    """Return the text ``f = C``, or with C1, C2, ... if there are several (``number``) or the block has a symbol C."""
     taken = set(block.coordinates)
     for row in block.rows:
         piece = row.piece

@@ -1,4 +1,4 @@
-"""The report's entries, one a constraint, from the blocks' answers."""
+"""The report's entries, one for each constraint, from the blocks' answers."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from dofkit.relations.normal.pieces import Nonlinear, Normal, Pfaffian, Reduced,
 from dofkit.relations.setting import Setting
 from dofkit.report import ConstraintEntry, IntegrablePart
 
-#: What is said of dependence that is open.
+#: Sentences about undecided dependence.
 OPEN = "Whether it is implied by the others was not decided."
 UNCOUNTED = "The number of its equations that are independent of the preceding ones was not decided."
 
@@ -35,25 +35,25 @@ def entries_of(
     dependent: Sequence[Redundancies],
     company: Companionship,
 ) -> list[ConstraintEntry]:
-    """An entry for every constraint, in order; one that there is no time for says so.
+    """Return the entries of all constraints, in order; undecided ones after time has run out.
 
-    ``company``: what a differential constraint is together with others.
+    ``company`` finds what differential constraints integrate to together with others.
     """
-    answer = _labelled_rows(len(reduced), outcome, setting)
-    dependences = _dependences([r.constraint.name for r in reduced], dependent, outcome, answer)
+    labelled = _labelled_rows(len(reduced), outcome, setting)
+    dependences = _dependences([r.constraint.name for r in reduced], dependent, outcome, labelled)
     entries, by_kind = list[ConstraintEntry](), dict[Hashable, ConstraintEntry]()
     for i, (r, dependence) in enumerate(zip(reduced, dependences, strict=True)):
         try:
             check()
-            likeness = None if dependence.has_dependence else _likeness(r, answer[i], setting)
+            likeness = None if dependence.has_dependence else _likeness(r, labelled[i], setting)
             kind = None if likeness is None else (likeness, dependence)
             if kind in by_kind:
                 named = {"name": r.constraint.name, "text": r.constraint.text}
                 entries.append(by_kind[kind].model_copy(update=named))
                 continue
-            companions_of = partial(_with_others, i, answer[i], company)
-            alone = by_itself(r, answer[i], company.answered)
-            evidence = Evidence(answer[i], alone, dependence, companions_of)
+            companions_of = partial(_with_others, i, labelled[i], company)
+            alone = by_itself(r, labelled[i], company.answered)
+            evidence = Evidence(labelled[i], alone, dependence, companions_of)
             entries.append(entry(r, evidence, setting, outcome.consistent))
             if kind is not None and _is_nameless(entries[-1]):
                 by_kind[kind] = entries[-1]
@@ -63,9 +63,9 @@ def entries_of(
 
 
 def _likeness(r: Reduced, rows: Sequence[LabelledRow], setting: Setting) -> Hashable:
-    """Return what is equal for constraints whose entries differ in name and text only; None where that is not clear.
+    """Return a key that is equal only for constraints whose entries differ just in name and text; None if not clear.
 
-    Of geometric equations without time their number alone matters, of others also what they say, names apart.
+    For geometric equations without time their number and answers are enough, forms are compared up to names.
     """
     pieces = [*(p for n in r.normals for p in n.pieces), *(t.row.piece for t in rows)]
     branched = any(len(n.branches) > 1 for n in r.normals)
@@ -92,7 +92,7 @@ def _likeness(r: Reduced, rows: Sequence[LabelledRow], setting: Setting) -> Hash
 
 
 def _is_nameless(entry: ConstraintEntry) -> bool:
-    """Return whether everything in an entry is decided, and no coordinate occurs in it."""
+    """Return whether an entry is decided, and none of its texts contains a coordinate."""
     decided = None not in (entry.holonomic, entry.holonomic_alone, entry.scleronomic)
     plain = entry.form in ("finite", "inequality") or (entry.form == "pfaffian" and entry.holonomic is False)
     return decided and plain and entry.integral is None and entry.integrating_factor is None
@@ -101,12 +101,12 @@ def _is_nameless(entry: ConstraintEntry) -> bool:
 def _dependences(
     names: Sequence[str], dependent: Sequence[Redundancies], outcome: Outcome, labelled: Sequence[Sequence[LabelledRow]]
 ) -> Iterator[EntryDependence]:
-    """Yield what was found of every constraint, part by part, put together."""
+    """Yield the dependence of each constraint, collected from the results ``dependent``."""
     independent: Counter[int] = Counter()
-    following: dict[int, frozenset[int]] = {}
+    implied: dict[int, frozenset[int]] = {}
     for result in dependent:
         independent.update(result.independent)
-        following |= {i: following.get(i, frozenset()).union(more) for i, more in result.equations.items()}
+        implied |= {i: implied.get(i, frozenset()).union(more) for i, more in result.equations.items()}
     uncounted = {i for result in dependent for i in result.uncounted}
     counted = independent.keys() - _unmeasured(outcome) - uncounted
     circuits = {i: c for result in dependent for i, c in result.circuits.items() if all(j < i for j in c)}
@@ -120,29 +120,29 @@ def _dependences(
     for i, rows in enumerate(labelled):
         number = independent[i] if i in counted else None if rows or outcome.consistent is False else 0
         circuit = [names[j] for j in circuits[i]] if i in circuits else None
-        unlike = [c for c in claims.get(i, ()) if c != IDENTITY]
-        claim = together(*unlike) if unlike else IDENTITY
-        said = undecided.get(i, "")
-        yield EntryDependence(number, circuit, i in redundant, said, following.get(i), i in seen, claim)
+        others = [c for c in claims.get(i, ()) if c != IDENTITY]
+        claim = together(*others) if others else IDENTITY
+        sentence = undecided.get(i, "")
+        yield EntryDependence(number, circuit, i in redundant, sentence, implied.get(i), i in seen, claim)
 
 
 def labels_in_system(
     reduced: Sequence[Reduced], setting: Setting, outcome: Outcome
 ) -> list[tuple[bool | None, Verdict]]:
-    """Whether each constraint is holonomic in the system, and how certain; None for what needs an integral."""
-    answer = _labelled_rows(len(reduced), outcome, setting)
+    """Return, for each constraint, (whether it is holonomic in the system, verdict), without searching integrals."""
+    labelled = _labelled_rows(len(reduced), outcome, setting)
     if not outcome.consistent:
         return [(None, "undecided")] * len(reduced)
-    return [label_in_system(rows, r.inequalities, (), ()) for rows, r in zip(answer, reduced, strict=True)]
+    return [label_in_system(rows, r.inequalities, (), ()) for rows, r in zip(labelled, reduced, strict=True)]
 
 
 def _unmeasured(outcome: Outcome) -> set[int]:
-    """The constraints of blocks whose velocities are not known: not all of their equations were looked at."""
+    """Return the constraints of blocks whose velocity freedom is unknown, so that their equations are not counted."""
     return {r.constraint for block, a in outcome.answered_parts if a.velocity_dof is None for r in block.rows}
 
 
 def _with_others(i: int, rows: Sequence[LabelledRow], company: Companionship, in_system: bool) -> Others:
-    """What the constraints of its block do for a form; nothing where it stands alone there or in several blocks."""
+    """Return the companions of a form in its block; empty if its rows are in several blocks or not integrable."""
     blocks = {id(t.block): t for t in rows if t.block is not None}
     only = next(iter(blocks.values())) if len(blocks) == 1 else None
     if only is None or only.block is None or not (in_system or any(t.label and t.label.modulo for t in rows)):
@@ -151,40 +151,40 @@ def _with_others(i: int, rows: Sequence[LabelledRow], company: Companionship, in
 
 
 def _labelled_rows(number: int, outcome: Outcome, setting: Setting) -> list[list[LabelledRow]]:
-    """Every constraint's rows with their labels; a copy has those of its original.
+    """Return every constraint's rows with their labels; a copy has those of its original.
 
-    What the other constraints reduce is labelled as it was written.
+    Rows that the other constraints reduce are labelled as they were written.
     """
-    answer: list[list[LabelledRow]] = [[] for _ in range(number)]
+    labelled: list[list[LabelledRow]] = [[] for _ in range(number)]
     replaced = {id(row) for slot in outcome.reduced for row in slot.rows}
     for block, a in zip(outcome.blocks, outcome.answers, strict=True):
         linear = [r for r in block.rows if not isinstance(r.piece, Nonlinear)]
         for i, row in enumerate(linear):
             if id(row) not in replaced:
-                answer[row.constraint].append(LabelledRow(row, a.labels.get(i), a, block))
+                labelled[row.constraint].append(LabelledRow(row, a.labels.get(i), a, block))
         for row in block.rows:
             if isinstance(row.piece, Nonlinear):
-                answer[row.constraint].append(LabelledRow(row, None, a, block))
+                labelled[row.constraint].append(LabelledRow(row, None, a, block))
     for slot in outcome.reduced:
         result, a = label_modulo_others(slot, outcome.blocks, outcome.answers, setting)
-        answer[slot.written.constraint].append(LabelledRow(slot.written, result, a, reduced=True))
+        labelled[slot.written.constraint].append(LabelledRow(slot.written, result, a, reduced=True))
     for i, original in outcome.copies.items():
-        answer[i] = [LabelledRow(Row(i, t.row.piece), t.label, t.answer, t.block, t.reduced) for t in answer[original]]
-    return answer
+        labelled[i] = [t._replace(row=Row(i, t.row.piece)) for t in labelled[original]]
+    return labelled
 
 
 def by_itself(r: Reduced, labelled: Sequence[LabelledRow], answered: AnsweredBlocks) -> Answer | None:
-    """Return the answer of a constraint's own rows, the others forgotten; None where its largest branch is finite.
+    """Return the answer of a constraint as a system of its own; None if its largest branch is finite.
 
-    ``labelled``: its rows in the system. What integrates alone, or does not bend, is so in any system.
+    ``labelled``: its rows in the system, whose labels are used if they do not depend on the other constraints.
     """
     pieces = {type(p) for n in r.normals for p in n.pieces}
     if pieces.isdisjoint({Pfaffian, Nonlinear}):
         return None
     if Nonlinear in pieces:
-        bent = next((t.answer for t in labelled if isinstance(t.row.piece, Nonlinear) and t.answer.curved), None)
-        if bent is not None:
-            return bent
+        curved = next((t.answer for t in labelled if isinstance(t.row.piece, Nonlinear) and t.answer.curved), None)
+        if curved is not None:
+            return curved
     elif not any(isinstance(t.row.piece, Pfaffian) for t in labelled) and all(len(n.branches) < 2 for n in r.normals):
         return None
     label = labelled[0].label if Nonlinear not in pieces and len(labelled) == 1 else None
@@ -215,10 +215,10 @@ def by_itself(r: Reduced, labelled: Sequence[LabelledRow], answered: AnsweredBlo
 def integrable_part(
     outcome: Outcome, entries: Sequence[ConstraintEntry], company: Companionship
 ) -> IntegrablePart | None:
-    """What the differential constraints say in geometric equations; None where there are none or it is undecided.
+    """Return the geometric equations implied by the constraints; None if there are no forms, or it is undecided.
 
-    The rank of I^(inf), the bottom of the derived flag, over all coordinates; its basis beyond the geometric equations
-    that were written: hidden ones, and integrals of which each block's are independent.
+    ``rank`` is that of I^(inf), the last system of the derived flag, over all coordinates; ``basis``: hidden equations
+    and independent integrals that complete the geometric equations of the scene, None if too few are known.
     """
     blocks = [(b, a) for b, a in zip(outcome.blocks, outcome.answers, strict=True) if b.forms]
     if not blocks or outcome.dof is None:
@@ -240,7 +240,7 @@ def integrable_part(
 def _integrals(
     block: Block, a: Answer, number: int, entries: Sequence[ConstraintEntry], company: Companionship
 ) -> list[str] | None:
-    """So many independent integrals of a block; None where fewer were found."""
+    """Return ``number`` independent integrals of a block, as text; None if fewer are known."""
     owners = {r.constraint for r in block.rows if isinstance(r.piece, Pfaffian)}
     alone = [entries[i].integral for i in owners]
     if number == len(alone) == 1 and alone[0] is not None:

@@ -34,9 +34,9 @@ from dofkit.report import FORMS, ConstraintEntry, FieldVerdict, Form
 
 
 class LabelledRow(NamedTuple):
-    """A row, its label in the system (None: finite or nonlinear), and its block's answer.
+    """A row, its label in the system (None for a finite or nonlinear row), and its block's answer.
 
-    ``reduced``: a nonlinear row that the others make linear, or imply.
+    ``reduced``: it is a nonlinear row that the others make linear, or imply.
     """
 
     row: Row
@@ -47,7 +47,7 @@ class LabelledRow(NamedTuple):
 
 
 def form_of(piece: Clause) -> Form:
-    """The report's word for a piece."""
+    """Return the report's word for a clause; every condition is an inequality."""
     if isinstance(piece, Finite):
         return "finite"
     if isinstance(piece, Pfaffian):
@@ -57,9 +57,9 @@ def form_of(piece: Clause) -> Form:
 
 @dataclass(frozen=True)
 class Evidence:
-    """What was found of one constraint: its rows as they were labelled, and its rows by themselves (None: finite).
+    """The labelled ``rows`` of one constraint, its answer ``by_itself`` (None if finite), its dependence on others.
 
-    ``companions_of`` gives what the other constraints do for a form that is holonomic in the system, or is not.
+    ``companions_of(holonomic in the system)`` finds the companions of its form and the integral.
     """
 
     rows: Sequence[LabelledRow]
@@ -69,7 +69,7 @@ class Evidence:
 
 
 def entry(reduced: Reduced, evidence: Evidence, setting: Setting, consistent: bool | None) -> ConstraintEntry:
-    """Everything that is known about one constraint."""
+    """Return the entry of one constraint; ``consistent``: whether the system is."""
     constraint, normals, dependence = reduced.constraint, reduced.normals, evidence.dependence
     pieces: list[Clause] = [p for normal in normals for p in normal.pieces] + list(reduced.inequalities)
     form: Form = max((form_of(p) for p in pieces), key=FORMS.index, default="finite")
@@ -112,10 +112,7 @@ def entry(reduced: Reduced, evidence: Evidence, setting: Setting, consistent: bo
 
 
 def _traits_of(pieces: Sequence[Clause], normals: Sequence[Normal], setting: Setting) -> list[Traits]:
-    """Return the traits of the equations of a constraint, without those that only declare an unknown function.
-
-    A geometric equation without time carries no others; that of a joint that is not driven is one.
-    """
+    """Return the traits of the clauses of a constraint, except declared functions as factors (`declared_functions`)."""
     generic = declared_functions(normals)
     return [
         Traits((True, "proved")) if _is_still(p) else traits_of(p, setting.positive, setting.engines)
@@ -125,14 +122,15 @@ def _traits_of(pieces: Sequence[Clause], normals: Sequence[Normal], setting: Set
 
 
 def _is_still(piece: Clause) -> bool:
+    """Return whether a clause is a geometric equation without time; unwritten joint equations are."""
     return isinstance(piece, JointEquation) or (isinstance(piece, Finite) and TIME not in piece.expr.symbols)
 
 
 def _integrable_forms(normals: Sequence[Normal], rows: Sequence[LabelledRow]) -> list[Pfaffian]:
-    """The forms that are put to the test of integrability, each once: of the branches like the one in use.
+    """Return the forms whose integrability is tested, each once: of the branches of the same kind as the one used.
 
-    xdot^2 - 2 z xdot ydot + ydot^2 = 0 says xdot = ydot = 0 where abs(z) < 1, and one form where abs(z) > 1; on the
-    circle between it holds geometric equations too.
+    The kind is the number of forms, and whether there is a geometric equation: xdot^2 - 2 z xdot ydot + ydot^2 = 0
+    means xdot = ydot = 0 where abs(z) < 1, and one of two forms where abs(z) > 1.
     """
     used = [t.row.piece for t in rows if isinstance(t.row.piece, Pfaffian)]
     chosen: list[Pfaffian] = []
@@ -158,6 +156,7 @@ def _labels_of(
     forms: Sequence[Pfaffian],
     consistent: bool | None,
 ) -> EntryLabels:
+    """Return the labels of a constraint; in an inconsistent system, those on its own."""
     in_system, sure = label_in_system(evidence.rows, reduced.inequalities, proofs, forms)
     alone, sure_own = _alone(form, evidence.by_itself, proofs, forms, reduced.inequalities)
     if consistent is False and in_system is None:
@@ -171,9 +170,9 @@ def _labels_of(
 
 
 def _of_every_form(labels: EntryLabels, rows: Sequence[LabelledRow], normals: Sequence[Normal]) -> EntryLabels:
-    """Return the labels, undecided in the system if one of several forms may integrate and another does not.
+    """Return the labels, undecided in the system if it is not known that none of several forms is integrable.
 
-    Branches with an equation between numbers that differ do not count.
+    Contradictory branches (an equation between different numbers) do not count.
     """
     if labels.in_system is not False:
         return labels
@@ -181,8 +180,8 @@ def _of_every_form(labels: EntryLabels, rows: Sequence[LabelledRow], normals: Se
         b for n in normals for b in n.branches if not any(isinstance(p, Finite) and p.expr.op == "num" for p in b)
     ]
     forms = [p for b in branches for p in b if isinstance(p, (Pfaffian, Nonlinear))]
-    apart = [r for r in rows if r.label is not None and r.label.holonomic is False]
-    every = len(forms) == 1 or len(forms) == len(apart)
+    nonholonomic = [r for r in rows if r.label is not None and r.label.holonomic is False]
+    every = len(forms) == 1 or len(forms) == len(nonholonomic)
     return labels if every else labels._replace(in_system=None)
 
 
@@ -194,9 +193,9 @@ def _claims(
     evidence: Evidence,
     on_their_own: bool,
 ) -> dict[str, Claim]:
-    """Return the claim of every label; ``on_their_own``: all forms were proved to integrate without other constraints.
+    """Return the claim of every label; ``on_their_own``: all forms are proved to be integrable on their own.
 
-    A claim about the system is one about the points at which its blocks were answered.
+    Claims about the system are about the points for which the answers of its blocks are valid.
     """
     ground = Ground(form, [t.answer for t in evidence.rows], [t.label for t in evidence.rows if t.label is not None])
     in_system, alone = labels.verdicts
@@ -231,14 +230,14 @@ def _claims(
 
 
 def _scope(claims: Mapping[str, Claim]) -> str:
-    """What is said of an integral that holds on one component only."""
+    """Return the sentence about an integral that is valid on one component only, or an empty text."""
     return ON_COMPONENT if "integral" in claims and claims["integral"].about == "component" else ""
 
 
 def _own_integral(normals: Sequence[Normal], proofs: Sequence[Integrability]) -> str | None:
-    """Return what forms integrate to on their own: all of several, each with a constant, or one of several branches.
+    """Return the integrals of the forms on their own: joined by ";" with different constants, or by "or" for branches.
 
-    None where a branch has several forms.
+    None if an integral is missing, or if a branch has several forms.
     """
     branches = [len(_forms([b])) for n in normals for b in n.branches if len(n.branches) > 1]
     if len(proofs) < 2 or not branches:
@@ -247,14 +246,14 @@ def _own_integral(normals: Sequence[Normal], proofs: Sequence[Integrability]) ->
 
 
 def _numbered(integral: str | None, number: int) -> str | None:
-    """Return `f = C` with the constant C1, C2, ..."""
+    """Return the integral `f = C` with the constant C1, C2, ...; unchanged for the number 0."""
     return f"{integral}{number}" if integral and number and integral.endswith("= C") else integral
 
 
 def _integral_of(
     form: Form, labels: EntryLabels, own_integral: str | None, evidence: Evidence, consistent: bool
 ) -> tuple[str | None, Others]:
-    """Return the geometric equation that a constraint integrates to, and what the others do for it."""
+    """Return (the geometric equation that a constraint integrates to or None, its companions)."""
     others = Others()
     if form == "pfaffian" and labels.in_system is not None and consistent and not (labels.alone and own_integral):
         others = evidence.companions_of(labels.in_system)
@@ -264,6 +263,7 @@ def _integral_of(
 
 
 def _proofs(form: Form, forms: Sequence[Pfaffian], by_itself: Answer | None, setting: Setting) -> list[Integrability]:
+    """Return the integrability of each form on its own; none for other constraints."""
     if form != "pfaffian" or by_itself is None:
         return []
     if setting.engines != BOTH:
@@ -279,7 +279,10 @@ def label_in_system(
     proofs: Sequence[Integrability],
     forms: Sequence[Pfaffian],
 ) -> TraitAnswer:
-    """Return whether all rows are consequences of geometric equations, which an inequality never is."""
+    """Return (whether a constraint is holonomic in the system, verdict); inequalities are not.
+
+    ``proofs``: the integrability of each of the ``forms`` on its own.
+    """
     if inequalities:
         return False, "proved"
     integrable = [f for f, p in zip(forms, proofs, strict=False) if p.proved]
@@ -302,7 +305,7 @@ def _alone(
     forms: Sequence[Pfaffian],
     inequalities: Sequence[Clause],
 ) -> TraitAnswer:
-    """Return whether the constraint is holonomic, the other constraints forgotten."""
+    """Return (whether a constraint is holonomic on its own, verdict)."""
     if inequalities:
         return False, "proved"
     if form == "nonlinear":

@@ -1,4 +1,4 @@
-"""Why a constraint is called what it is: one or two sentences that a student can follow."""
+"""The reasons for the labels of a constraint, in one or two sentences that a student can follow."""
 
 from __future__ import annotations
 
@@ -26,9 +26,9 @@ _CHECKED = " (checked at random points)"
 
 @dataclass(frozen=True)
 class Others:
-    """What the other constraints do for a form: the names of those it needs (None: not sought), and the integral.
+    """The ``names`` of the companions of a form (None if not searched), and the ``integral`` together with them.
 
-    ``timed``: whether t occurs in the integral; None without one.
+    ``identically``: the integral was verified by an identity, not at points; ``timed``: whether t occurs in it.
     """
 
     names: tuple[str, ...] | None = None
@@ -38,14 +38,14 @@ class Others:
 
     @property
     def text(self) -> str:
-        """The integral with how it was checked."""
+        """The integral, with a remark if it was checked at random points only."""
         return f"{self.integral}{'' if self.identically else _CHECKED}"
 
 
 class EntryLabels(NamedTuple):
-    """Holonomic in the system and alone, how certain each is, and why it was left undecided where it was.
+    """Whether a constraint is holonomic ``in_system`` and ``alone``, both verdicts, and why it is ``undecided``.
 
-    ``relates``: there is a row; ``with_others``: what the others make of one that is nonlinear in the velocities.
+    ``relates``: it has a row; ``with_others``: the reason for a nonlinear row that the others reduce.
     """
 
     in_system: bool | None
@@ -57,7 +57,7 @@ class EntryLabels(NamedTuple):
 
 
 def joined(texts: Sequence[str | None], word: str = "; ") -> str | None:
-    """The parts in one text; None unless every one is there."""
+    """Return the texts joined by ``word``; None if one is missing, or there is none."""
     result = [p for p in texts if p is not None]
     return word.join(result) if result and len(result) == len(texts) else None
 
@@ -65,7 +65,7 @@ def joined(texts: Sequence[str | None], word: str = "; ") -> str | None:
 def reason_of(
     form: Form, labels: EntryLabels, proofs: Sequence[Integrability], circuit: list[str] | None, others: Others
 ) -> str:
-    """The sentences, by the constraint's form and labels."""
+    """Return the sentences that give the reason for the labels of a constraint of this form."""
     if form == "pfaffian":
         reason = _pfaffian(labels, proofs, others)
     elif form == "nonlinear":
@@ -130,7 +130,7 @@ def _integrable(proofs: Sequence[Integrability], others: Others) -> str:
     return f"It is integrable ({how}), though no integral was found in closed form: holonomic; {_INITIAL}."
 
 
-#: Of a relation by the first word of its name; ``{}`` is the rest of the name.
+#: A relation of a joint in words, by the first word of its name; ``{}`` is the rest of the name.
 _SAYS = {
     "point": "no displacement along {} of the common point",
     "origin": "no displacement along {}",
@@ -147,7 +147,7 @@ _SAYS = {
     "drive": "the prescribed motion",
     "length": "the distance {}",
 }
-#: Of those that are about a direction or a place of the reference configuration.
+#: The addition, or the other text, for relations with a direction or point of the reference configuration.
 _ABOUT = {
     "point": " {}",
     "axis": "no rotation about {}",
@@ -157,7 +157,7 @@ _ABOUT = {
 
 
 def in_words(relation: Relation, otherwise: str) -> str:
-    """A relation in words; ``otherwise`` for one without a name.
+    """Return a relation in words; ``otherwise`` for a relation without a name.
 
     >>> from dofkit.expressions.tree import ONE, ZERO
     >>> in_words(Relation(ZERO, part="axis", vector=(ONE, ZERO, ZERO)), "")
@@ -177,11 +177,11 @@ ON_COMPONENT = " The claim is about the component of the configuration space tha
 
 
 class EntryDependence(NamedTuple):
-    """What is known of one constraint beside those before it, or all others.
+    """The dependence of one constraint on those before it, or on all others.
 
-    ``independent`` equations, None where unknown; ``circuit``: names; ``redundant``: it can be left out; ``open``: what
-    is undecided; ``following``: its equations that follow, by their numbers, and ``seen``: that was seen in numbers;
-    ``claim``: of this, given the freedom.
+    ``independent``: the number of equations independent of those before, None if unknown; ``circuit``: the names of the
+    constraints that imply it; ``open``: a sentence on what is undecided; ``following``: the numbers of its implied
+    equations, ``seen``: by numerical evidence; ``claim``: of all this, given the freedom.
     """
 
     independent: int | None
@@ -194,15 +194,15 @@ class EntryDependence(NamedTuple):
 
     @property
     def has_dependence(self) -> bool:
-        """Return whether more is stated than how many equations are independent."""
+        """Whether anything but the number of independent equations is stated."""
         return bool(self.circuit is not None or self.redundant or self.open or self.seen or self.following)
 
     def of(self, equations: int) -> int | None:
-        """Return how many of so many equations are independent; None where that is open."""
+        """Return how many of so many equations are independent; None if undecided."""
         return None if self.independent is None or self.open else min(self.independent, equations)
 
     def implied(self, reduced: Reduced) -> list[str] | None:
-        """Return the equations that follow, in words, where they are as many as are not independent."""
+        """Return the implied equations in words; None if they are not as many as are not independent."""
         independent = self.of(reduced.equations)
         if self.following is None or independent is None or len(self.following) != reduced.equations - independent:
             return None
@@ -224,10 +224,10 @@ class EntryDependence(NamedTuple):
 
 
 class EntryTraits(NamedTuple):
-    """What all pieces of a constraint carry, and how certain each label is.
+    """The labels about time and exactness of a constraint, and their verdicts.
 
-    ``by``: the field on which ``scleronomic`` rests where t does not occur in the constraint as it is written, and a
-    term without velocities does: whether it integrates.
+    ``by``: the field on which ``scleronomic`` depends (is it integrable?), if t does not occur in the constraint as
+    written but a term without velocities does.
     """
 
     scleronomic: bool | None
@@ -240,7 +240,7 @@ class EntryTraits(NamedTuple):
 def timed_in_system(
     piece: Clause, block: Block | None, answer: Answer, others: Others, setting: Setting
 ) -> TraitAnswer:
-    """Return whether t occurs in what a form integrates to with the others: not where its dt term is 0 on their set."""
+    """Return (whether t occurs in the integral of a form with the others, verdict): not if they make its dt term 0."""
     sure: Verdict = "proved" if others.identically else "probable"
     if others.timed is False or not isinstance(piece, Pfaffian) or block is None:
         return others.timed, sure
@@ -253,7 +253,7 @@ def timed_in_system(
 
 
 def declared_functions(normals: Sequence[Normal]) -> list[Piece]:
-    """Return the branches of products that are a declared function being 0, which is generic: a factor to take out."""
+    """Return the branches u = 0 of products with a declared function u, which are left out because u is generic."""
     return [
         b[0]
         for n in normals
@@ -265,7 +265,7 @@ def declared_functions(normals: Sequence[Normal]) -> list[Piece]:
 def traits_together(
     traits: Sequence[Traits], form: Form, labels: EntryLabels, timed: TraitAnswer | None
 ) -> EntryTraits:
-    """Return the traits of a constraint from those of its equations; ``timed``: whether its integral has the time."""
+    """Return the traits of a constraint from those of its equations; ``timed``: whether t occurs in its integral."""
     timeless = all_of([t.timeless for t in traits])
     still = all_of([t.catastatic for t in traits if t.catastatic is not None])
     closed = all_of([t.exact for t in traits if t.exact is not None])
@@ -280,9 +280,9 @@ def traits_together(
 
 
 def branches_of_time(reduced: Reduced, consistent: bool, positive: frozenset[Expr]) -> Iterator[Traits]:
-    """Yield whether t occurs in an equation with branches at different times, or with one that fixes the time.
+    """Yield traits for equations with branches on different intervals of time, or with one that fixes the time.
 
-    A branch that is satisfied at an instant only was left out, which changes nothing where motions satisfy the others.
+    A branch that fixes the time was left out, which changes nothing if motions satisfy the others.
     """
     for k, n in enumerate(reduced.normals):
         conditions = ([p.expr for p in b if isinstance(p, DomainCondition)] for b in n.branches)
@@ -297,10 +297,10 @@ def branches_of_time(reduced: Reduced, consistent: bool, positive: frozenset[Exp
 def _scleronomic(
     timeless: TraitAnswer, still: TraitAnswer, form: Form, labels: EntryLabels, timed: TraitAnswer | None
 ) -> tuple[TraitAnswer, str | None]:
-    """Return whether t occurs neither in a constraint nor in what it integrates to, and the field on which that rests.
+    """Return whether t occurs neither in a constraint nor in its integral, and the field on which this depends.
 
-    A constraint without t that is homogeneous in the velocities integrates to a relation without t. One that is not,
-    and integrates alone, has t in its integral, whose derivative by t is not 0.
+    A constraint without t that is homogeneous in the velocities has an integral without t. If it is not homogeneous and
+    integrable on its own, the integral has a nonzero derivative by t.
     """
     if timeless[0] is False or still[0]:
         return timeless, None
@@ -326,27 +326,27 @@ def reason_of_time(traits: EntryTraits) -> str:
     return f" Time occurs in what it integrates to{together}: rheonomic."
 
 
-#: The argument for a label that was found by itself, by the form of a constraint.
+#: The argument for a label of a constraint on its own, by its form.
 BY_FORM: Mapping[Form, ArgumentKey] = {
     "finite": "finite relation",
     "inequality": "inequality",
     "nonlinear": "curved velocities",
 }
-#: The arguments for what integrates only together with other constraints.
+#: The arguments for forms that are integrable only together with other constraints.
 _IN_SYSTEM: tuple[ArgumentKey, ArgumentKey] = ("line field", "in the integrable part")
 
 
 class Ground(NamedTuple):
-    """What the claims of one constraint rest on: the answers of its blocks, and the labels of its rows there."""
+    """The basis of the claims of one constraint: the answers of its blocks, and the labels of its rows there."""
 
     form: Form
     answers: Sequence[Answer]
     labels: Sequence[HolonomyLabel]
 
     def claim(self, verdict: Verdict, argument: ArgumentKey, local: bool = True) -> Claim:
-        """A claim with the bound that the blocks have; ``local``: of the points that they were answered at.
+        """Return a claim with the weakest bounds of the blocks; if ``local``, about the points of their answers.
 
-        What integrates in the system does so on the branch that was answered.
+        Integrability in the system is a claim about the branch that was analysed.
         """
         bits = min((a.bits for a in self.answers), default=BITS)
         gap = min((a.gap for a in self.answers), default=GAP)
@@ -368,7 +368,7 @@ class Ground(NamedTuple):
 
 
 def claim_of_dependence(ground: Ground, dependence: EntryDependence, all_needed: bool) -> Claim:
-    """How certain it is how many equations are independent of those before, and of what the others follow."""
+    """Return the claim of the number of independent equations and of what implies the others."""
     if dependence.claim.argument == "identity":
         return dependence.claim
     of_blocks = together(*(a.claim for a in ground.answers))

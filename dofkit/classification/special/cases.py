@@ -1,4 +1,4 @@
-"""The special cases of a small scene, each confirmed, in a sentence."""
+"""The special cases of a small scene: confirmed, and described in a sentence."""
 
 from __future__ import annotations
 
@@ -38,32 +38,32 @@ from dofkit.relations.normal.semidefinite import never_holds
 from dofkit.report import Report, SpecialCase
 from dofkit.system import Constraint, Coordinate, Relation, System, TypeFacts
 
-#: Starts and steps of the search for a real point of a locus; where it is regular a few are enough.
+#: Starts and steps of the search for a real point of a locus; few are enough if it is regular.
 STARTS, STEPS = 2, 14
 
 
 def points_of(chart: Chart) -> tuple[FieldPoint, BallPoint, bool] | None:
-    """Return a random point of a locus over GF(p) and a certified real one; None where they were not found at once.
+    """Return (random point of a locus over GF(p), certified real point, regular); None if a search fails.
 
-    The last entry tells whether the conditions are independent at the real one, so that it exists for certain.
+    ``regular``: the equations are independent at the real point, so that it exists for certain.
     """
     solver = TriangularSolver(chart.ring, chart.nodes, seed=1)
-    drawn = solver.draw(1)
-    if drawn is None or not on_variety(chart, drawn):
+    random_point = solver.draw(1)
+    if random_point is None or not on_variety(chart, random_point):
         return None
     search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.setting.positive)
     real = search.search(starts=STARTS, steps=STEPS)
     if real is None or not real.certain:
         return None
-    return drawn, real.point, real.part.rank == len(chart.nodes)
+    return random_point, real.point, real.part.rank == len(chart.nodes)
 
 
 class RowsOnLocus(NamedTuple):
     """A block's rows at points of a locus.
 
-    ``rank`` in the coordinates' columns; ``moves``: False where no velocity satisfies them (dt lies in their
-    span); ``dependent``: the constraints whose independent rows depend on each other there; ``regular``: that such
-    real configurations exist is proved; ``growth``: dimensions of D, D + [D, D], ..., as far as they are certain.
+    ``rank`` in the coordinates' columns; ``moves``: False if no velocity satisfies them (dt is in their span);
+    ``dependent``: the constraints whose rows, independent elsewhere, are dependent there; ``regular``: the locus is
+    proved to have real points; ``growth``: dimensions of D, D + [D, D], ..., as far as they are certain.
     """
 
     rank: int
@@ -74,7 +74,7 @@ class RowsOnLocus(NamedTuple):
 
 
 def _dependent(block: Block, a: Answer, matrix: Sequence[Sequence[Any]], p: int) -> tuple[int, ...]:
-    """Return the constraints of rows, independent elsewhere, between which a relation holds here."""
+    """Return the constraints whose rows, independent at generic points, are dependent in ``matrix``, modulo p."""
     n = len(matrix[0])
     chosen: Sequence[int] = range(len(matrix))
     if len(a.matrix) == len(matrix):
@@ -87,7 +87,7 @@ def _dependent(block: Block, a: Answer, matrix: Sequence[Sequence[Any]], p: int)
     return tuple(sorted(owner for owner in dependent if owner is not None))
 
 
-#: Expressions for which the rest of the configuration space is looked at.
+#: Bound on the expressions h for which the set h != 0 is analysed.
 MAX_EXPRESSIONS = 4
 _RECIPROCAL = "_reciprocal"
 
@@ -95,7 +95,7 @@ Reclassify = Callable[[System], Study]
 
 
 def branch_dimensions(study: Study, report: Report, reclassify: Reclassify) -> Iterator[SpecialCase]:
-    """Yield the branch to which the degrees of freedom belong, where the rest of the configuration space has fewer."""
+    """Yield the branch h = 0 to which the degrees of freedom belong, if the set h != 0 is proved to have fewer."""
     system, claim = study.system, report.verdicts.get("dof")
     if system.reference is not None or not report.dof or claim is None or claim.about == "component":
         return
@@ -122,7 +122,7 @@ def branch_dimensions(study: Study, report: Report, reclassify: Reclassify) -> I
 
 
 def where_nonzero(system: System, h: Expr) -> System:
-    """Return the system on the set where an expression does not vanish: u h = 1 for one u [Rabinowitsch1929]."""
+    """Return the system on the set h != 0, written u h = 1 with a new coordinate u [Rabinowitsch1929]."""
     reciprocal = Relation(ex.coordinate(_RECIPROCAL) * h - ex.ONE)
     facts = TypeFacts(written=True)
     condition = Constraint(_RECIPROCAL, _RECIPROCAL, facts, f"{to_text(h)} != 0", (reciprocal,))
@@ -134,13 +134,13 @@ def where_nonzero(system: System, h: Expr) -> System:
 
 
 def _separating(reduced: Sequence[Reduced], outcome: Outcome) -> Iterator[Expr]:
-    """Yield expressions that vanish on the branch that was answered, and may not do so on others."""
+    """Yield expressions that vanish on the branch that was analysed, and may not vanish on others."""
     for h in [*_factors(reduced, outcome), *(h for a in outcome.answers for h in a.separating)]:
         yield ex.number_and_rest(h)[1]
 
 
 def _factors(reduced: Sequence[Reduced], outcome: Outcome) -> list[Expr]:
-    """Return the factors of products that are zero on the branch that was answered."""
+    """Return the factors of products that are zero on the branch that was analysed."""
     products = [n for r in reduced for n in r.normals if len(n.branches) > 1]
     factors = {p.expr for n in products for branch in n.branches for p in branch if isinstance(p, Finite)}
     return [r.piece.expr for r in outcome.rows if isinstance(r.piece, Finite) and r.piece.expr in factors]
@@ -154,9 +154,9 @@ def _in_order(e: Expr, system: System) -> list[Expr]:
     return sorted(terms, key=lambda term: min((place.get(s, len(place)) for s in term.symbols), default=len(place)))
 
 
-#: Blocks with more rows, coordinates or terms are not searched, nor scenes with more blocks.
+#: Bounds on the rows, coordinates and terms of a block that is searched, and on the blocks of a scene.
 MAX_ROWS, MAX_COLUMNS, MAX_TERMS, MAX_BLOCKS = 6, 10, 20, 12
-#: Loci that are confirmed for each block, and seconds for all of them.
+#: Bound on the loci of each kind that are tested for a block, and seconds for the scene.
 MAX_PLACES, MAX_SECONDS = 6, 10.0
 SEARCHED = "special cases by the zeros of minors and of curvature"
 
@@ -164,9 +164,9 @@ _UNFINISHED = (ArithmeticError, ValueError, OutOfTimeError)
 
 
 def special_cases(study: Study, report: Report, reclassify: Reclassify) -> dict[str, Any]:
-    """Return what a report has of them: ``special_cases``, and in ``method`` that they were sought.
+    """Return the report's fields ``special_cases``, and ``method`` with a remark if they were searched.
 
-    ``report``: the generic answer; ``reclassify`` answers another system.
+    ``report``: the answer for generic configurations; ``reclassify`` analyses another system.
     """
     if study.setting.tolerance is not None or len(study.outcome.blocks) > MAX_BLOCKS:
         return {}
@@ -185,7 +185,7 @@ def special_cases(study: Study, report: Report, reclassify: Reclassify) -> dict[
 
 
 def _is_small(block: Block, a: Answer) -> bool:
-    """Few short rows, all linear in the velocities, with an answer."""
+    """Return whether a block has few short rows, all linear in the velocities, and a regular answer."""
     return (
         len(block.rows) + len(a.hidden) <= MAX_ROWS
         and len(block.coordinates) <= MAX_COLUMNS
@@ -197,9 +197,9 @@ def _is_small(block: Block, a: Answer) -> bool:
 
 
 def _is_plain(block: Block, study: Study) -> bool:
-    """Coordinates that are what their names say, no generic geometry, and no drawing that speaks for itself.
+    """Return whether a block is as written: no Gibbs vectors, no unnamed parameters, no divided relation.
 
-    Nor a relation that was divided by what may vanish: it says something else there.
+    Geometric equations with a reference configuration do not count either.
     """
     system, outcome = study.system, study.outcome
     divided = {reduced.written.constraint for reduced in outcome.reduced if outcome.divided}
@@ -217,9 +217,9 @@ def _is_plain(block: Block, study: Study) -> bool:
 
 
 class SpecialLoci:
-    """The loci of one block on which its answer is another one than the generic ``report``. Raises NoValueError.
+    """The loci of one block on which its answer differs from the generic ``report``; raises NoValueError.
 
-    ``rank`` of its rows at a generic configuration; ``branch``: the factors of products that are zero on its branch.
+    ``rank``: of its rows at a generic configuration; ``branch``: the factors of products that are zero on its branch.
     """
 
     def __init__(self, study: Study, report: Report, block: Block, a: Answer) -> None:
@@ -233,7 +233,7 @@ class SpecialLoci:
         self.candidates: Candidates = candidates(block, a.hidden, study.setting, self.rank, curvature)
 
     def cases(self) -> Iterator[SpecialCase]:
-        """Yield what changes on each locus, once where one locus with the same change lies in another."""
+        """Yield the case of each locus, unless it lies in another locus with the same change."""
         located = list(self._located())
         for k, (locus, case) in enumerate(located):
             others = [(j, other) for j, (other, same) in enumerate(located) if same.what == case.what and j != k]
@@ -242,7 +242,7 @@ class SpecialLoci:
                 yield case
 
     def _located(self) -> Iterator[tuple[Locus, SpecialCase]]:
-        """Yield ranks that drop, then curvature that vanishes elsewhere."""
+        """Yield the cases with a smaller rank, then those with less curvature on other loci."""
         dropped: list[Locus] = []
         for locus in self.candidates.ranks[:MAX_PLACES]:
             seen = self._rows_on(locus)
@@ -268,6 +268,7 @@ class SpecialLoci:
 
     @raising_no_value
     def _rows_where(self, equations: Sequence[Expr]) -> RowsOnLocus | None:
+        """Return the rows on the locus of some equations; None as in `_rows_on`."""
         a = self.answer
         forms = codistribution(self.block, self.study.setting, a.hidden, on=equations)
         rows, chart, n = forms.rows, forms.chart, forms.n
@@ -291,7 +292,7 @@ class SpecialLoci:
         return seen._replace(growth=growth_at(rows, frame, point, largest))
 
     def _case(self, locus: Locus, what: str, constraints: Sequence[int], sure: Verdict) -> Iterator[SpecialCase]:
-        """Yield what is said of a locus that no inequality forbids."""
+        """Yield the special case of a locus, with what changes there, unless an inequality excludes the locus."""
         sure, positive = weakest(sure, self.answer.verdict), self.study.setting.positive
         sides = ((substitute(q.expr, locus.explicit), q.strict) for r in self.study.reduced for q in r.inequalities)
         if sure == "undecided" or any(never_holds(e, strict, positive) for e, strict in sides):
@@ -304,7 +305,7 @@ class SpecialLoci:
         yield SpecialCase(where=" and ".join(texts), kind="locus", what=what, constraints=names, verdict=sure)
 
     def _dropping(self, locus: Locus, seen: RowsOnLocus) -> Iterator[SpecialCase]:
-        """The minors vanish identically on the locus; a ball certifies the rank that is left."""
+        """Yield the case of a locus with a smaller rank, which a ball certifies; the minors are 0 there identically."""
         by, velocities = self.rank - seen.rank, self.report.velocity_dof or 0
         rank = len(self.study.system.coordinates) - velocities
         sure: Verdict = "proved" if by == 1 and seen.regular else "probable"
@@ -316,7 +317,7 @@ class SpecialLoci:
         return self._case(locus, what, seen.dependent, sure)
 
     def _bending(self, locus: Locus, seen: RowsOnLocus) -> Iterator[SpecialCase]:
-        """Curvature that vanishes, or of which less is independent, where no rank drops."""
+        """Yield the case of a locus with fewer (or no) bracket directions, if the rank is the generic one."""
         elsewhere, there = self.answer.growth, seen.growth
         if seen.rank != self.rank or not seen.moves or len(there) < 2:
             return
@@ -336,7 +337,7 @@ class SpecialLoci:
 
 
 def _equation(terms: Sequence[Expr]) -> str:
-    """``x*y = 1``, with the number on the right, or ``a = b`` for two terms of opposite signs."""
+    """Return the text of a sum = 0: ``x*y = 1`` with the number on the right, or ``a = b`` for two terms."""
     number = ex.add(*(term for term in terms if term.op == "num"))
     sides = [term for term in terms if term.op != "num"]
     if len(sides) == 2 and number.is_zero and _is_negative(sides[0]) != _is_negative(sides[1]):

@@ -1,9 +1,9 @@
-"""Candidates for where a block's rank drops, or the curvature on the kernel of its rows: loci, as equations.
+"""Candidate loci, as equations, on which the rank of a block's rows, or of the curvature on their kernel, is smaller.
 
 Rows are the differentials of the geometric equations and the Pfaffian forms, each times its denominators. Rows with
-a coefficient that never vanishes are eliminated first: the rank drops where that of the rest does. The rest is then
-eliminated where its pivots do not vanish, and the curvature d(omega)(u, v) of every form on every two vectors of the
-kernel is a polynomial as well. Both are matrices, whose largest minors vanish on the loci.
+a coefficient that never vanishes are eliminated first: the rank drops where that of the other rows does. The other rows
+are then eliminated with pivots that may vanish, and the curvature d(omega)(u, v) of every form on every two vectors of
+the kernel is a polynomial as well. The loci are the common zeros of the largest minors of these two matrices.
 """
 
 from __future__ import annotations
@@ -30,13 +30,13 @@ from dofkit.relations.normal.semidefinite import Signs, sum_of_even
 from dofkit.relations.normal.zero_set import zero_set
 from dofkit.relations.setting import Setting
 
-#: Minors of which there may be so many, their size, and the terms of entries: of larger minors, of those up to 2 x 2.
+#: Bounds on the number and size of minors, and on the terms of entries: for minors from 3 x 3 on, and for smaller ones.
 MAX_MINORS, MAX_SIZE, MAX_TERMS, MAX_SHORT = 20, 4, 12, 60
-#: Sets of equations that are followed before the search is given up; terms of an equation that a person can read.
+#: Bound on the steps of the search for common zeros, and on the terms of a readable equation.
 MAX_STEPS, MAX_READ = 120, 4
-#: Terms of the shortest minor, and of the longest, past which no zeros are looked for.
+#: Bounds on the terms of the shortest and of the longest minor.
 MAX_FACTORED, MAX_LONG = 48, 160
-#: Terms of a polynomial of which all signs are looked at.
+#: Bound on the terms of a polynomial whose terms' signs are compared.
 MAX_EVEN = 12
 
 
@@ -48,27 +48,27 @@ class Locus:
 
     @cached_property
     def explicit(self) -> dict[Expr, Expr]:
-        """The coordinates that the equations give explicitly."""
+        """{coordinate: value} for the coordinates for which the equations are solved."""
         return explicit_relations(self.equations, number_coefficients).by_others
 
     @cached_property
     def others(self) -> tuple[Expr, ...]:
-        """The equations that give none."""
+        """The equations that are not solved for a coordinate."""
         return tuple(e for e in (substitute(e, self.explicit) for e in self.equations) if not is_identically_zero(e))
 
     def on(self, e: Expr) -> Expr:
-        """Return an expression on the locus, as far as that is solved."""
+        """Return an expression after substituting the solved coordinates, and 0 for functions that are equations."""
         return replace_nodes(substitute(e, self.explicit), {g: ex.ZERO for g in self.others if g.op == "fn"})
 
     @property
     def is_short(self) -> bool:
-        """Return whether a person can read it, and at most two equations give no coordinate."""
+        """Whether all equations are readable, and at most two are not solved for a coordinate."""
         terms = (len(e.args) if e.op == "add" else 1 for e in (*self.explicit.values(), *self.others))
         return len(self.others) < 3 and max(terms, default=0) <= MAX_READ
 
     @property
     def is_of_coordinates(self) -> bool:
-        """Return whether every equation is one between coordinates, without unknown functions."""
+        """Whether every equation contains a coordinate, and no unknown function."""
         return all(
             "call" not in e.functions and any(s.args[0] == "coordinate" for s in e.symbols) for e in self.equations
         )
@@ -82,7 +82,7 @@ class CommonZeros:
     positive: frozenset[Expr]
 
     def branches(self, e: Expr) -> tuple[tuple[Expr, ...], ...]:
-        """Return what vanishes together on each branch of the zeros of an expression."""
+        """Return the branches of the real zeros of an expression, each as expressions that vanish together."""
         return zero_set(e, self.positive, self.variables)[0]
 
     def holds_on(self, locus: Locus, e: Expr) -> bool:
@@ -94,26 +94,26 @@ class CommonZeros:
         return all(self.holds_on(locus, e) for e in larger.equations)
 
     def loci(self, expressions: Sequence[Expr]) -> list[Locus]:
-        """Return the loci that a person can read on which all of some expressions vanish. Raises TooLargeError."""
-        open_, loci = [(Locus(), [*expressions])], list[Locus]()
+        """Return the readable loci on which all expressions vanish; raises TooLargeError after `MAX_STEPS` steps."""
+        pending, loci = [(Locus(), [*expressions])], list[Locus]()
         for _ in range(MAX_STEPS):
             check()
-            if not open_:
+            if not pending:
                 kept = [
                     a for a in loci if a.is_of_coordinates and not any({*a.equations} > {*b.equations} for b in loci)
                 ]
                 return list(dict.fromkeys(kept))
-            locus, remaining = open_.pop()
+            locus, remaining = pending.pop()
             if not remaining:
                 loci.append(locus)
                 continue
             first, *others = sorted(map(locus.on, remaining), key=_size)
             branches = self.branches(first)
             if any({*locus.equations} >= {*branch} for branch in branches):
-                open_.append((locus, others))
+                pending.append((locus, others))
                 continue
             narrower = (Locus(tuple(dict.fromkeys((*locus.equations, *branch)))) for branch in reversed(branches))
-            open_ += [(narrow, others) for narrow in narrower if narrow.is_short]
+            pending += [(narrow, others) for narrow in narrower if narrow.is_short]
         raise TooLargeError
 
 
@@ -122,10 +122,10 @@ def _size(e: Expr) -> int:
 
 
 class RowPolynomials:
-    """The rows of a block without nonlinear ones, over ``symbols``, eliminated with pivots that never vanish.
+    """The rows of a block, without nonlinear ones, as polynomials, eliminated with pivots that never vanish.
 
-    ``pivots``: (row, column), with 0 in that column of all other rows; ``relations`` the finite ones. Raises
-    NoValueError.
+    Columns belong to ``symbols``. ``pivots``: (row, column), all other rows having 0 in that column; ``relations``: the
+    geometric equations. Raises NoValueError.
     """
 
     def __init__(self, block: Block, hidden: Sequence[Expr], setting: Setting) -> None:
@@ -151,7 +151,7 @@ class RowPolynomials:
 
     @cached_property
     def signs(self) -> Signs:
-        """What is known of the signs of the ring's generators."""
+        """The signs of the ring's generators."""
         return Signs(self.canon, self.zeros.positive)
 
     def _cleared(self, row: Sequence[Expr], nodes: Mapping[Expr, int]) -> list[Poly]:
@@ -159,31 +159,32 @@ class RowPolynomials:
         return cleared(self.canon, [lowest_terms(*q) for q in quotients])[0]
 
     def _pivot(self) -> tuple[int, int] | None:
-        """Return the place of a coefficient of a coordinate that never vanishes; a number where there is one."""
-        open_ = self._open()
-        numbers = ((r, c) for r, c in open_ if self.rows[r][c].is_constant())
-        never = ((r, c) for r, c in open_ if self._never_vanishes(self.rows[r][c]))
+        """Return (row, column) of a coefficient that never vanishes, preferably a number; None if there is none."""
+        possible = self._possible_pivots()
+        numbers = ((r, c) for r, c in possible if self.rows[r][c].is_constant())
+        never = ((r, c) for r, c in possible if self._never_vanishes(self.rows[r][c]))
         return next(chain(numbers, never), None)
 
-    def _open(self) -> list[tuple[int, int]]:
-        """Return the places of the coefficients of coordinates, other than 0, in rows and columns without a pivot."""
+    def _possible_pivots(self) -> list[tuple[int, int]]:
+        """Return (row, column) of the nonzero coefficients of coordinates in rows and columns without a pivot."""
         done, columns = {r for r, _ in self.pivots}, {c for _, c in self.pivots}
         coordinates = [c for c, s in enumerate(self.symbols) if s != ex.TIME and c not in columns]
         return [(r, c) for r, row in enumerate(self.rows) if r not in done for c in coordinates if row[c] != 0]
 
     def _never_vanishes(self, poly: Poly) -> bool:
-        """Return whether a polynomial is a generic constant, or has terms of one sign of which one is not 0."""
+        """Return whether a polynomial is a generic constant, or a sum of terms of one sign, one of them never 0."""
         if self.moving.isdisjoint(self.canon.generators_in(poly)):
             return True
         even = sum_of_even(poly, self.signs) if len(poly) <= MAX_EVEN else None
         return even is not None and any(not zeros for zeros in even)
 
     def can_vanish_together(self, polynomials: Sequence[Poly]) -> bool:
-        """Return False where the sum of their squares shows that they vanish at no real point; True says nothing."""
+        """Return False if the sum of the squares shows that there is no common real zero; True: not known."""
         short = all(len(poly) <= MAX_EVEN for poly in polynomials)
         return not short or not self._never_vanishes(self.canon.reduce(sum(p * p for p in polynomials)))
 
     def _eliminate(self, r: int, c: int) -> None:
+        """Make the column c of all rows but r zero."""
         check()
         pivot = self.rows[r]
         for k, row in enumerate(self.rows):
@@ -194,8 +195,8 @@ class RowPolynomials:
                 self.rows[k] = [self.canon.reduce(pivot[c] * a - row[c] * b) for a, b in pairs]
 
     def _eliminate_rest(self) -> None:
-        """Eliminate the other rows where the pivots that they need do not vanish. Raises TooLargeError."""
-        while (place := next(iter(self._open()), None)) is not None:
+        """Eliminate the other rows with pivots that may vanish; raises TooLargeError."""
+        while (place := next(iter(self._possible_pivots()), None)) is not None:
             self._eliminate(*place)
             self.pivots.append(place)
 
@@ -205,13 +206,16 @@ class RowPolynomials:
         return [c for c in range(len(self.symbols)) if c not in {column for _, column in self.pivots}]
 
     def other_rows(self) -> list[list[Poly]]:
-        """Return the other rows in the free columns of coordinates."""
+        """Return the rows without a pivot, in the free columns of coordinates."""
         done = {r for r, _ in self.pivots}
         columns = [c for c in self.free if self.symbols[c] != ex.TIME]
         return [[row[c] for c in columns] for r, row in enumerate(self.rows) if r not in done]
 
     def curvature(self) -> list[list[Poly]]:
-        """Return d(omega)(u, v) of every form on all pairs of vectors that span the kernel where no pivot vanishes."""
+        """Return d(omega)(u, v) of every form on all pairs of kernel vectors, without rows of zeros.
+
+        The vectors span the kernel where no pivot vanishes.
+        """
         self._eliminate_rest()
         result = []
         vectors = [self._kernel_vector(column) for column in self.free]
@@ -229,7 +233,7 @@ class RowPolynomials:
         return [row for row in result if any(entry != 0 for entry in row)]
 
     def _kernel_vector(self, column: int) -> list[Poly]:
-        """Return the vector with a free column, times all pivots."""
+        """Return the kernel vector of a free column, times all pivots."""
         vector = [self.canon.unit * 0 for _ in self.symbols]
         vector[column] = self.canon.unit
         for r, c in self.pivots:
@@ -240,9 +244,9 @@ class RowPolynomials:
 
 
 class Candidates(NamedTuple):
-    """Loci on which the rank of the rows may be smaller, and that of the curvature; ``zeros`` compares them.
+    """Loci on which the rank of the rows (``ranks``), or of the curvature (``bends``), may be smaller.
 
-    ``regular``: no pivot vanishes anywhere; else where one does, so may what was computed of the curvature.
+    ``regular``: no pivot vanishes anywhere, so that the curvature is right on all loci; ``zeros`` compares loci.
     """
 
     ranks: list[Locus]
@@ -253,10 +257,10 @@ class Candidates(NamedTuple):
 
 
 def candidates(block: Block, hidden: Sequence[Expr], setting: Setting, rank: int, curvature: int) -> Candidates:
-    """Return the candidates; ``rank``: of the rows in the columns of the coordinates.
+    """Return the candidates; none if the minors are too large. Raises NoValueError.
 
-    ``curvature``: how many independent directions [D, D] adds to D at a generic point, 0 where all forms integrate.
-    What is too large has no candidates. Raises NoValueError.
+    ``rank``: of the rows in the columns of the coordinates; ``curvature``: the number of independent directions that
+    [D, D] adds to D at a generic point, 0 if all forms are integrable.
     """
     rows = raising_no_value(RowPolynomials)(block, hidden, setting)
     size = rank - len(rows.pivots)
@@ -266,9 +270,9 @@ def candidates(block: Block, hidden: Sequence[Expr], setting: Setting, rank: int
 
 
 def _loci(rows: RowPolynomials, matrix: Callable[[], list[list[Poly]]], size: int) -> list[Locus]:
-    """Return the loci on which all minors of a size vanish; none where they are too large or have no value.
+    """Return the readable loci on which all minors of a size vanish; none if these are too large.
 
-    On each a factor of the shortest minor vanishes, which nobody could read if it is long.
+    On each a factor of the shortest minor vanishes, so that there is none if these factors are long.
     """
     try:
         minors = raising_no_value(lambda: list(_minors(rows.canon, matrix(), size)))()
@@ -285,7 +289,7 @@ def _loci(rows: RowPolynomials, matrix: Callable[[], list[list[Poly]]], size: in
 
 
 def _minors(canon: Canon, matrix: list[list[Poly]], size: int) -> Iterator[Poly]:
-    """Yield the minors of a size, other than 0. Raises TooLargeError."""
+    """Yield the minors of a size that are not identically 0; raises TooLargeError."""
     columns = range(len(matrix[0]) if matrix else 0)
     longest = max((len(entry) for row in matrix for entry in row), default=0)
     if comb(len(matrix), size) * comb(len(columns), size) > MAX_MINORS or size > MAX_SIZE:

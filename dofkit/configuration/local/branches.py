@@ -1,4 +1,4 @@
-"""A branch of the set through a singular point, followed towards the point and confirmed to high precision."""
+"""Branches of the set through a singular point, followed towards the point and confirmed in high precision."""
 
 from __future__ import annotations
 
@@ -29,20 +29,20 @@ from dofkit.exact.points.balls import BallPoint, jacobian
 from dofkit.exact.ring.program import values
 from dofkit.expressions.tree import Expr
 
-#: Distances at which a branch must be found, attempts, and iterations of each.
+#: Distances at which a branch must have points, number of random tangents, and iterations of each search.
 DISTANCES, ATTEMPTS, ITERATIONS = (2.0**-3, 2.0**-7, 2.0**-11), 8, 60
-#: Singular values that count as 0, and as not 0, at a point brought to high precision.
+#: Singular values up to `NOUGHT` count as 0, those above `SOME` as nonzero; between them nothing is decided.
 NOUGHT, SOME = 1e-13, 1e-10
-#: The order to which the remaining relations are followed on a branch, and the radius given to its point.
+#: The order to which dependent relations are expanded on a branch, and the radius given to its point.
 ORDER, RADIUS = 6, 2.0**-90
 
 
 def largest_branch(ball: Manifold, forms: Sequence[Form], wanted: int) -> int | None:
-    """Return the largest dimension found among the branches of the set through the point; None where none was found.
+    """Return the largest dimension of the branches that are found through the point, or None; ``wanted`` ends it.
 
     A branch begins along a real zero of the second-order ``forms`` and is followed towards the point: at each distance
-    a real point of the set is brought to high precision, the rank of all relations there is decided by a gap, and the
-    dependent ones vanish along a random curve.
+    a real point of the set is computed in high precision, the rank of all relations there is decided by a gap, and the
+    dependent ones must vanish along a random curve.
     """
     try:
         here = Neighbourhood(ball)
@@ -61,7 +61,7 @@ def largest_branch(ball: Manifold, forms: Sequence[Form], wanted: int) -> int | 
 
 
 def _tangents(here: Neighbourhood, forms: Sequence[Form]) -> list[list[float]]:
-    """Return unit tangents, at the point, of the manifold of independent rows, on which all forms are 0."""
+    """Return unit tangent vectors of M at the point on which all forms are 0."""
     ball = here.ball
     _, j = here.floats([0.0] * len(here.place), ball.rows)
     scales = [ball.scales[c] for c in ball.frame.free]
@@ -80,18 +80,19 @@ def _tangents(here: Neighbourhood, forms: Sequence[Form]) -> list[list[float]]:
 
 
 def _null(forms: Sequence[Matrix], v: Vector) -> list[float] | None:
-    """Return a unit vector near v on which all forms are 0, by damped steps across v: along v they would lead to 0."""
+    """Return a unit vector near v on which all forms are 0, by damped steps orthogonal to v; None if none is near."""
     for _ in range(ITERATIONS):
         (v,) = unit_rows([v])
         slopes = [times(form, v) for form in forms]
-        wrong = times(slopes, v)
-        if largest(wrong) < 1e-13:
+        form_values = times(slopes, v)
+        if largest(form_values) < 1e-13:
             return v
-        v = plus(v, 1.0, damped([*([2 * s for s in slope] for slope in slopes), v], [*wrong, 0.0]))
+        v = plus(v, 1.0, damped([*([2 * s for s in slope] for slope in slopes), v], [*form_values, 0.0]))
     return unit_rows([v])[0] if largest([dot(times(form, v), v) for form in forms]) < 1e-10 else None
 
 
 def _dimension_along(here: Neighbourhood, direction: Vector) -> int | None:
+    """Return the dimension of the branch along a direction, if it is the same at all `DISTANCES`; else None."""
     dimension: int | None = None
     for distance in DISTANCES:
         try:
@@ -109,7 +110,7 @@ def _dimension_along(here: Neighbourhood, direction: Vector) -> int | None:
 
 
 def _descend(here: Neighbourhood, u: list[float]) -> list[float] | None:
-    """Return the nearest point of the set, by damped steps."""
+    """Return a point of the set near ``u``, by damped steps; None if they do not converge."""
     for _ in range(ITERATIONS):
         check()
         f, j = here.floats(u, here.ball.nodes)
@@ -123,7 +124,7 @@ def _descend(here: Neighbourhood, u: list[float]) -> list[float] | None:
 
 
 def _dimension_at(here: Neighbourhood, u: Vector) -> int | None:
-    """Return the dimension of the set at a regular point near u; None where the point is not seen to be one."""
+    """Return the dimension of the set near u; None if the rank there is unclear or a dependent relation is not 0."""
     ball = here.ball
     _, j = here.floats(u, ball.nodes)
     rows, columns = independent(j, SOME)

@@ -1,20 +1,22 @@
-"""What each criterion for the local dimension concludes, from the first order, the second, or a higher one.
+"""A function for each criterion for the local dimension, which returns its `Conclusion` or None.
 
-First order: with all relations independent the set is the manifold M that they cut out. With no velocities but those of
-rigid motions of the system it is their orbit. Else the dependent relations f_i are followed along a random curve of M
-as power series: all zero, and zero at a distance too, the set is M; not zero, and one motion besides rigid motions of
-the system, only these remain.
+P, M, m, k, f_i and mu are those of `germ`: k dependent relations f_i on the manifold M of dimension m, and a
+mu-dimensional orbit of rigid motions of the system.
 
-Second order: one relation with an indefinite form changes sign: it separates M, and the set has dimension m - 1. A
-form, or a combination of several, that is definite across the rigid motions leaves only these. Of several, the set's
-tangent cone lies in the cone of their forms.
+First order: if all relations are independent the set is M. If there are no velocities other than those of rigid motions
+it is their orbit. Otherwise the f_i are expanded along a random curve of M as power series: if they are 0, also at a
+distance, the set is M; if they are not and m = mu + 1, the set is the orbit.
 
-Beyond: one relation is f = Q(y) + g(z) in suitable coordinates, Q its second-order part, N = {y = 0} and g its values
-on N (splitting lemma). Of several, N is a branch of the set if all of them vanish on it, and the second-order cone
-bounds what else there is; the same holds for a branch that is continued numerically.
+Second order: a single f with an indefinite form changes sign, so that it separates M, and the set has dimension m - 1.
+If a form, or a combination of several, is definite modulo the rigid motions, the set is the orbit. In general the
+tangent cone of the set is contained in the cone of the forms.
 
-Where time is a column, the set decides: if it is constant there, nothing moves through it (``confined``). A
-definite form stops it, and the cone of an indefinite one lies in no hyperplane dt = 0.
+Higher order: a single f is Q(y) + g(z) in suitable coordinates, with its second-order part Q, N = {y = 0}, and its
+values g on N (splitting lemma). For several f_i, N is a branch of the set if all of them vanish on it, and the
+second-order cone bounds all branches; so it does for a branch that is followed numerically.
+
+If time is a column and is constant on the set, no motion passes through the point (``confined``). It is constant if a
+form is definite; the cone of an indefinite form is in no hyperplane dt = 0.
 """
 
 from __future__ import annotations
@@ -35,19 +37,19 @@ WHOLE = "the only infinitesimal motions are rigid motions of the system"
 
 
 def manifold(germ: Germ) -> Conclusion | None:
-    """k = 0: the set is M, of dimension m [ImplicitFunctions]."""
+    """Conclude the dimension m if k = 0: the set is M [ImplicitFunctions]."""
     if germ.dependent:
         return None
     return _timed(germ, Conclusion(germ.m, INDEPENDENT if germ.exact else KEPT))
 
 
 def orbit(germ: Germ) -> Conclusion | None:
-    """m = mu: the set contains the rigid motions' orbit, and its tangents are those of the orbit [AsimowRoth1978]."""
+    """Conclude mu if m = mu: the set contains the orbit, and all its tangents are the orbit's [AsimowRoth1978]."""
     return Conclusion(germ.rigid, WHOLE, germ.time is not None) if germ.m == germ.rigid else None
 
 
 def whole_manifold(germ: Germ) -> Conclusion | None:
-    """What is 0 along a random curve to an order above its degree is 0 on M, with high probability [SchwartzZippel]."""
+    """Conclude m if all f_i are 0 along a random curve to an order above their degree, and away [SchwartzZippel]."""
     if not (germ.vanishes and germ.order > germ.degree and germ.vanishes_away):
         return None
     if germ.exact:
@@ -61,10 +63,9 @@ def whole_manifold(germ: Germ) -> Conclusion | None:
 
 
 def flat(germ: Germ) -> Conclusion | None:
-    """Return no dimension where the f_i are 0 along a random curve of M and not seen to be 0 on M [SchwartzZippel].
+    """Conclude no dimension if all f_i are 0 along a random curve of M, but not known to be 0 on M [SchwartzZippel].
 
-    They may begin at a higher order: a polynomial of degree d with s^d, one whose degree is not known (because a column
-    is given implicitly) with any.
+    The first nonzero order may be higher: up to the degree of a polynomial, any if a column is given implicitly.
     """
     if not germ.vanishes:
         return None
@@ -74,7 +75,7 @@ def flat(germ: Germ) -> Conclusion | None:
 
 
 def isolated_zero(germ: Germ) -> Conclusion | None:
-    """m - mu = 1: an analytic function of one variable that is not 0 has isolated zeros [IsolatedZeros]."""
+    """Conclude mu if m - mu = 1 and an f_i is not 0: zeros of analytic functions are isolated [IsolatedZeros]."""
     if germ.m - germ.rigid != 1:
         return None
     why = "the one infinitesimal motion violates an equation"
@@ -85,7 +86,7 @@ def isolated_zero(germ: Germ) -> Conclusion | None:
 
 
 def _timed(germ: Germ, conclusion: Conclusion) -> Conclusion:
-    """``conclusion`` for all of the manifold M, with time held against a random curve of it."""
+    """Return a ``conclusion`` that the set is M, as ``confined`` if time is constant along random curves of M."""
     if germ.time is None or any(time_moves(germ.manifold, germ.time, order) for order in (2, LONG_ORDER)):
         return conclusion
     return conclusion._replace(verdict="probable", confined=True)
@@ -99,7 +100,7 @@ TOGETHER = "a combination of the dependent equations is definite to second order
 
 
 def indefinite(germ: Germ) -> Conclusion | None:
-    """k = 1: a function that changes sign separates M: its zeros have dimension m - 1 [HurewiczWallman1941]."""
+    """Conclude m - 1 if k = 1 and the form has both signs: the zeros of f separate M [HurewiczWallman1941]."""
     if not _has_one_form(germ) or not all(germ.signature):
         return None
     if germ.time is not None and not (germ.ball is not None and time_moves(germ.ball, germ.time, 2)):
@@ -108,24 +109,24 @@ def indefinite(germ: Germ) -> Conclusion | None:
 
 
 def definite(germ: Germ) -> Conclusion | None:
-    """k = 1: a form that is definite across the orbit, on which f = 0, has f of one sign beside it [MorseBott]."""
+    """Conclude mu if k = 1 and the form is definite modulo the orbit: elsewhere f has one sign [MorseBott]."""
     if not _has_one_form(germ) or all(germ.signature) or sum(germ.signature) != germ.m - germ.rigid:
         return None
     return Conclusion(germ.rigid, DEFINITE, germ.time is not None)
 
 
 def prestress_stable(germ: Germ) -> Conclusion | None:
-    """k > 1: a sum w_i f_i that is definite across the orbit: prestress stability [ConnellyWhiteley1996]."""
+    """Conclude mu if k > 1 and a sum w_i f_i is definite modulo the orbit, a prestress [ConnellyWhiteley1996]."""
     if germ.ball is None or germ.dependent < 2 or not definite_combination(germ.signs, germ.m - germ.rigid):
         return None
     return Conclusion(germ.rigid, TOGETHER, germ.time is not None)
 
 
-# Higher order, over both engines, where time is no column
+# Higher order, with both engines, if time is no column
 
 
 def least_along_a_motion(germ: Germ) -> Conclusion | None:
-    """k = 1, Q of one sign and g = 0: the set is N, all of it singular [GromollMeyer1969]."""
+    """Conclude dim N if k = 1, Q has one sign and g = 0: the set is N, all of it singular [GromollMeyer1969]."""
     if not _splits(germ) or germ.remainder_order is not None or not germ.critical.solved:
         return None
     if not _vanishes_on_critical(germ):
@@ -138,7 +139,7 @@ def least_along_a_motion(germ: Germ) -> Conclusion | None:
 
 
 def changing_sign(germ: Germ) -> Conclusion | None:
-    """k = 1, Q and the lowest order of g have both signs together: f separates M [HurewiczWallman1941]."""
+    """Conclude m - 1 if k = 1 and Q with the lowest order of g has both signs: f separates M [HurewiczWallman1941]."""
     order = germ.remainder_order if _splits(germ) else None
     if order is None:
         return None
@@ -151,7 +152,7 @@ def changing_sign(germ: Germ) -> Conclusion | None:
 
 
 def critical_branch(germ: Germ) -> Conclusion | None:
-    """k > 1: all f_i vanish on N, whose dimension is that of the second-order cone [TangentCone]."""
+    """Conclude the dimension d of the second-order cone if k > 1, dim N = d and all f_i are 0 on N [TangentCone]."""
     if not _has_cone(germ) or len(germ.critical.free) != germ.cone:
         return None
     if any(s.poly.degree() >= 0 for s in germ.remainders) or not _vanishes_on_critical(germ):
@@ -163,7 +164,7 @@ def critical_branch(germ: Germ) -> Conclusion | None:
 
 
 def branch_followed(germ: Germ) -> Conclusion | None:
-    """k > 1: a branch of the dimension of the second-order cone is seen; there is no larger one [TangentCone]."""
+    """Conclude the dimension d of the second-order cone if k > 1 and a branch of dimension d is found [TangentCone]."""
     if not _has_cone(germ) or germ.ball is None or largest_branch(germ.ball, germ.signs, germ.cone) != germ.cone:
         return None
     why = "a finite motion was continued from here to high precision, and the second-order condition allows no more"
@@ -171,21 +172,21 @@ def branch_followed(germ: Germ) -> Conclusion | None:
 
 
 def _vanishes_on_critical(germ: Germ) -> bool:
-    """Return whether the dependent relations vanish on N at a distance too."""
+    """Return whether the dependent relations are 0 on N at a distance from the point."""
     return germ.ball is not None and holds_on_critical(germ.ball, germ.critical, germ.ahead())
 
 
 def _has_one_form(germ: Germ) -> bool:
-    """k = 1, with balls to tell signs."""
+    """Return whether k = 1, and balls are available for signs."""
     return germ.ball is not None and germ.dependent == 1
 
 
 def _splits(germ: Germ) -> bool:
-    """k = 1 over both engines, time is no column, and balls see the whole rank of Q."""
+    """Return whether k = 1 with both engines, time is no column, and balls certify the full rank of Q."""
     both = _has_one_form(germ) and germ.exact and germ.time is None
     return both and sum(germ.signature) == len(germ.critical.solved)
 
 
 def _has_cone(germ: Germ) -> bool:
-    """k > 1 over both engines, and time is no column."""
+    """Return whether k > 1 with both engines, and time is no column."""
     return germ.ball is not None and germ.dependent > 1 and germ.exact and germ.time is None

@@ -1,8 +1,7 @@
-"""The criteria for finite motion and rigidity, in the order in which they are asked, and their driver.
+"""The criteria for finite motion and rigidity, in the order in which they are tried, and their driver.
 
-The first row whose function comes to a conclusion decides. A new criterion is a function of
-the germ (`germ.Germ`) in `conclusions`, a row here and one of the arguments; its theorem is a line of
-`dofkit/THEOREMS.md`.
+The first row whose function returns a conclusion decides. A new criterion needs a function of the germ (`germ.Germ`) in
+`conclusions`, a row here, an argument in `classification/arguments.yaml`, and its theorem in `dofkit/THEOREMS.md`.
 """
 
 from __future__ import annotations
@@ -33,10 +32,10 @@ WITHOUT_VALUE = LocalDimension(
 
 
 class Criterion(NamedTuple):
-    """A row of the table: its ``key`` among the arguments (`classification/arguments.yaml`), where its words stand.
+    """A criterion, with the ``key`` of its argument (`classification/arguments.yaml`).
 
-    ``decide`` checks the hypotheses and returns the conclusion, None where it comes to none. ``verdict``: how certain
-    that is at the best, undecided where no later row is asked; with balls alone it is "numeric".
+    ``decide`` checks the hypotheses and returns the conclusion, or None. ``verdict``: the best verdict of a conclusion
+    ("undecided": no later criterion is tried); with balls only it is "numeric".
     """
 
     key: ArgumentKey
@@ -58,7 +57,7 @@ CRITERIA: tuple[Criterion, ...] = (
     Criterion("critical branch", "probable", conclusions.critical_branch),
     Criterion("branch followed", "numeric", conclusions.branch_followed),
 )
-#: Those by which the set is the whole manifold of the independent relations, or undecided.
+#: The criteria that conclude that the set is a manifold, or that this is undecided.
 OF_MANIFOLDS = CRITERIA[:4]
 
 
@@ -66,9 +65,9 @@ OF_MANIFOLDS = CRITERIA[:4]
 
 
 def local_dimension(germ: Germ, asked: Sequence[Criterion] = CRITERIA) -> LocalDimension:
-    """Return the local dimension by the first criterion that decides; undecided where all ``asked`` are and none does.
+    """Return the local dimension by the first of the criteria ``asked`` that decides; undecided if none does.
 
-    From an approximate point, with balls alone, what a tiny ball holds 0 of is taken for 0, and the verdict is numeric.
+    At an approximate point, with balls only, a value whose tiny ball contains 0 counts as 0; the verdict is "numeric".
     """
     with ctx.workprec(max(ctx.prec, precision())):
         try:
@@ -92,15 +91,15 @@ def local_at(
     point: FieldPoint,
     ball: BallPoint | None,
     rigid: int,
-    drawn: bool = True,
+    special: bool = True,
     asked: Sequence[Criterion] = CRITERIA,
 ) -> LocalDimension:
-    """Return the local dimension at a point of the variety, time counted where it is a column.
+    """Return the local dimension at a point of the variety; time counts if it is a column.
 
-    A point that was ``drawn`` may be one where a relation is flat: what is 0 along a curve is looked at from a
-    distance, if balls may be asked.
+    The point may be ``special``, not random: relations that are 0 along a curve to a high order are then evaluated at a
+    distance too, if balls may be used.
     """
-    distance = drawn and "balls" in chart.setting.engines
+    distance = special and "balls" in chart.setting.engines
     try:
         germ = Germ(*_manifolds(chart, frame_at(chart, point), point, ball), rigid, chart.time, distance)
     except NoValueError:
@@ -111,16 +110,16 @@ def local_at(
 def _manifolds(
     chart: Chart, frame: Pivots, point: FieldPoint, ball: BallPoint | None
 ) -> tuple[Manifold, Manifold | None]:
-    """Return the manifold of the frame's relations over GF(p), and over balls where there is a ball."""
+    """Return the manifold of the frame's relations over GF(p), and that over balls if there is a ``ball``."""
     program = chart.ring, chart.nodes, chart.columns, frame
     return Manifold(*program, point), None if ball is None else Manifold(*program, ball, chart.scales)
 
 
 def vanish_near(chart: Chart, point: FieldPoint, ball: BallPoint | None, rigid: int, rank: int) -> bool | None:
-    """Return whether relations have no higher rank than ``rank`` at a point, and are 0 on the manifold of that rank.
+    """Return whether relations have the rank ``rank`` at a point, and the set is the manifold of that codimension.
 
-    The dependent ones are 0 along a random curve of it [SchwartzZippel], or nothing but rigid motions is left.
-    None where they are too high in degree, or could not be followed to a distance, which is asked of a ``ball``.
+    The dependent relations must be 0 along a random curve of it [SchwartzZippel], or only rigid motions remain. None if
+    their degree is too high, or if they cannot be evaluated at a distance (only with a ``ball``).
     """
     frame = frame_at(chart, point)
     if len(frame.rows) != rank:

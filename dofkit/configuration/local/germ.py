@@ -1,8 +1,8 @@
-"""The germ of {g = 0} at one of its points: what the criteria ask of it, computed when it is first asked for.
+"""The germ of {g = 0} at one of its points P: the quantities that the criteria use, each computed when first needed.
 
-Let J be the Jacobian at P, of rank r, on n columns, and m = n - r. As many independent relations as there are give a
-manifold M of dimension m through P; the others are functions f_1, ..., f_k on M without linear part. The set is
-{f_1 = ... = f_k = 0} on M. The motions of the system as one rigid body are mu dimensions of it.
+Let J be the Jacobian at P, of rank r, with n columns, and m = n - r. The r independent relations define a manifold M of
+dimension m through P; the others are functions f_1, ..., f_k on M without linear part. The set is
+{f_1 = ... = f_k = 0} on M. It contains the orbit of P under rigid motions of the system, of dimension mu.
 """
 
 from __future__ import annotations
@@ -23,20 +23,20 @@ from dofkit.exact.ring.program import ADD, MUL, NUM, VAR, Scalar, reachable
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero import degree_bound
 
-#: Orders to which the other relations are followed on M; the second where one motion is in question.
+#: Orders to which the f_i are expanded on M; the second if m - mu <= 1.
 ORDER, LONG_ORDER = 8, 16
-#: Relations of this degree are followed to the long order only, over balls those beyond it: they may begin later.
+#: Relations of this degree (over balls, of the degree `LONG_ORDER`) or more are expanded to `LONG_ORDER` only.
 LONGEST = 65
-#: With more motions than this besides the rigid ones, balls look at one random curve only.
+#: If m - mu is larger, no second-order forms are computed with balls.
 MANY_WAYS = 60
-#: The order to which they are followed on their critical set, and random directions in which a sign is looked at.
+#: The order to which the f_i are expanded on N, and the number of random directions for the sign of f there.
 CRITICAL_ORDER, DIRECTIONS = 12, 12
 
 
 class Conclusion(NamedTuple):
-    """What a criterion says of the set: its dimension, None where that is open; ``confined``: time is constant on it.
+    """The result of a criterion: the dimension of the set, None if undecided; ``confined``: time is constant on it.
 
-    ``verdict``: where it is less sure than the criterion may be.
+    ``verdict``: an upper bound on the verdict of the criterion.
     """
 
     dimension: int | None
@@ -48,10 +48,10 @@ class Conclusion(NamedTuple):
 class Germ:
     """The set near a point, with the manifold M over GF(p) (``field``), over balls (``ball``), or both.
 
-    A coefficient over GF(p) that is not 0 proves that the function is not; a ball decides signs. With balls alone what
-    a tiny one contains 0 of is taken for 0. ``rigid`` is mu; ``time`` is the number of time's column, if it is one.
-    ``distance``: must what is flat at the point be looked at from a distance? ``afar``: over balls, for that; ``ball``
-    is the same where second orders are not too many.
+    A nonzero coefficient over GF(p) proves that a function is not 0; balls decide signs. With balls only, a value whose
+    tiny ball contains 0 counts as 0. ``rigid`` is mu; ``time`` is the column of time, if there is one. ``distance``:
+    whether functions that are 0 along a curve must be evaluated at a distance, on ``afar``, M over balls; ``ball`` is
+    the same, but None if m - mu is large.
     """
 
     def __init__(
@@ -99,14 +99,14 @@ class Germ:
 
     @cached_property
     def vanishes(self) -> bool:
-        """Whether they are 0 along it, to the order."""
+        """Whether they are 0 along that curve, to the order."""
         return all(vanishes(s.coefficient(k)) for s in self.series for k in range(self.order))
 
     @cached_property
     def vanishes_away(self) -> bool | None:
-        """Whether they are 0 at a distance too; None where no curve could be followed that far.
+        """Whether they are 0 at a distance too; None if no curve could be followed that far.
 
-        At a random point nothing is flat but what is 0 everywhere [SchwartzZippel]: there nothing more is asked.
+        True without a test at a random point: a function that is 0 along a curve there is 0 on M [SchwartzZippel].
         """
         if self.afar is None:
             return None if self.distance else True
@@ -114,27 +114,27 @@ class Germ:
 
     @cached_property
     def signs(self) -> list[Form]:
-        """The second-order parts of the dependent relations over balls; none without balls."""
+        """The second-order parts of the dependent relations in balls; none without balls."""
         return [] if self.ball is None else self.ball.quadratic_forms()
 
     @cached_property
     def signature(self) -> tuple[int, int]:
-        """Certified numbers of positive and negative squares of the first of them."""
+        """Certified numbers of positive and negative squares of the first form."""
         return quadratic_cone.signature_of(self.signs[0])
 
     @cached_property
     def forms(self) -> list[Form]:
-        """The same over GF(p); none without a point there."""
+        """The second-order parts over GF(p); none without a point there."""
         return [] if self.field is None else self.field.quadratic_forms()
 
     @cached_property
     def cone(self) -> int:
-        """An upper bound of the dimension of the second-order cone."""
+        """An upper bound on the dimension of the second-order cone."""
         return quadratic_cone.bound(self.forms, self.rigid)
 
     @cached_property
     def critical(self) -> Split:
-        """Which equations of the critical set N can be solved for which of M's coordinates."""
+        """A choice of equations of the critical set N, and of coordinates of M for which they can be solved."""
         return split(self.forms)
 
     @cached_property
@@ -146,12 +146,12 @@ class Germ:
 
     @cached_property
     def remainder_order(self) -> int | None:
-        """The order at which the first of them begins; None where it is 0 as far as it is followed."""
+        """The order of the first nonzero coefficient of the first remainder; None if there is none."""
         return next((k for k in range(CRITICAL_ORDER) if self.remainders[0].coefficient(k) != 0), None)
 
     @cached_property
     def remainder_signs(self) -> set[int]:
-        """Signs of its leading coefficient in random directions of N, as far as balls tell them."""
+        """The certified signs of that coefficient in random directions of N."""
         assert self.ball is not None
         assert self.remainder_order is not None
         rng, leading_signs = self.ball.base.rng, set[int]()
@@ -163,26 +163,26 @@ class Germ:
         return leading_signs
 
     def ahead(self) -> list[float]:
-        """Return a random direction of N in which it is looked at from a distance."""
+        """Return a random direction of N for points at a distance."""
         assert self.ball is not None
         return _ahead(self.ball, len(self.critical.free))
 
 
 def random_direction(manifold: Manifold) -> Sequence[Scalar]:
-    """Return a random direction of the manifold's free columns, in its own numbers."""
+    """Return a random direction of the manifold's free columns, in numbers of its type."""
     if isinstance(manifold.sample, arb):
         return [arb(manifold.base.rng.randrange(64, 512)) / 256 for _ in range(manifold.dimension)]
     return [manifold.base.random() for _ in range(manifold.dimension)]
 
 
 def time_moves(manifold: Manifold, time: int, order: int) -> bool:
-    """Return whether time, the column of that number, changes along a random curve of the manifold, to the order."""
+    """Return whether time (the column ``time``) changes along a random curve of the manifold, up to an order."""
     path = manifold.line(random_direction(manifold), order).path[time]
     return any(not vanishes(path.coefficient(k)) for k in range(1, order))
 
 
 def _ahead(ball: Manifold, count: int) -> list[float]:
-    """Random numbers of either sign, of sizes between a half and one."""
+    """Return ``count`` random numbers of either sign, of sizes between 1/2 and 1."""
     return [ball.base.rng.choice((-1, 1)) * ball.base.rng.randrange(128, 256) / 256 for _ in range(count)]
 
 
@@ -190,11 +190,13 @@ def _ahead(ball: Manifold, count: int) -> list[float]:
 
 
 def degree_of(manifold: Manifold) -> int:
-    """Return a bound on the degree of the dependent relations; columns that no relation gives explicitly count 1."""
+    """Return a bound on the degree of the dependent relations along lines; implicitly given columns count 1."""
     return degree_bound(manifold.ring, manifold.others, _Weights(manifold).of)
 
 
 class _Weights:
+    """The degrees of columns: that of its expression for a column that a relation gives explicitly, otherwise 1."""
+
     def __init__(self, manifold: Manifold) -> None:
         self.ring = manifold.ring
         dependent = {manifold.columns[c] for c in manifold.frame.dependent}
@@ -215,7 +217,7 @@ class _Weights:
 
 
 def _explicit_columns(ring: Ring, row: int) -> Iterable[tuple[int, list[int]]]:
-    """(column, the other terms) for each column that a sum holds linearly, in one term, with a number."""
+    """Yield (column, the other terms) for each column that occurs in one term of a sum only, number * column."""
     op, terms = ring.code[row]
     if op != ADD:
         return

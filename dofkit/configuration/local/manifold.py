@@ -23,9 +23,9 @@ Form = list[list[Scalar]]
 
 @dataclass(frozen=True)
 class LocalDimension:
-    """The dimension of a set at one of its points, time counted where it is a column; None where it is not decided.
+    """The dimension of a set at one of its points (with time, if it is a column), None if undecided.
 
-    ``confined``: time is constant on the set near the point; ``argument``: by which row of the table.
+    ``confined``: time is constant on the set near the point; ``argument``: the key of the criterion's argument.
     """
 
     dimension: int | None
@@ -36,13 +36,13 @@ class LocalDimension:
 
 
 class Curve:
-    """A curve on the manifold: the ``path`` of every column, and the program's values along it."""
+    """A curve on the manifold: the ``path`` of every column, and the program's values ``at`` its points, as series."""
 
     def __init__(self, ring: Ring, path: list[Series], point: SeriesPoint, at: list[Series]) -> None:
         self.ring, self.path, self.point, self.at = ring, path, point, at
 
     def slopes(self, nodes: Sequence[int], columns: Sequence[int]) -> list[list[Series]]:
-        """d(node)/d(column) along the curve."""
+        """Return d(node)/d(column) along the curve, as series."""
         order = self.point.order
         zero, unit = Series(self.point.like, order), Series(self.point.like + 1, order)
         matrix = []
@@ -54,9 +54,9 @@ class Curve:
 
 
 class Manifold:
-    """The manifold of the independent relations; ``others`` are the nodes of the dependent ones, functions on it.
+    """The manifold M of the independent relations ``rows`` at a point; ``others`` are the nodes of the dependent ones.
 
-    ``scales`` are the sizes by which the columns are measured (a length for places, 1 for angles).
+    The coordinates of M are the ``free`` columns of ``frame``. ``scales``: units of the columns (1 for angles).
     """
 
     def __init__(
@@ -80,12 +80,12 @@ class Manifold:
 
     @property
     def dimension(self) -> int:
-        """m."""
+        """The dimension m of M."""
         return len(self.frame.free)
 
     @cached_property
     def _inverse(self) -> Any:
-        """The inverse of the independent rows by the dependent columns, at the point."""
+        """The inverse matrix (or elimination) of the independent rows in the dependent columns, at the point."""
         at = values(self.ring, self.base)
         unit = self.sample + 1
         if isinstance(self.sample, Residue):
@@ -100,21 +100,21 @@ class Manifold:
         return inverse(rows)
 
     def follow(self, direction: Sequence[Scalar], order: int) -> list[Series]:
-        """Return the other relations along q(s), whose free columns are start + s direction."""
+        """Return the dependent relations, as series, along the curve with free columns start + s direction."""
         curve = self.line(direction, order)
         return [curve.at[n] for n in self.others]
 
     def line(self, direction: Sequence[Scalar], order: int) -> Curve:
-        """Return the curve whose free columns are start + s direction."""
+        """Return the curve on M with free columns start + s direction."""
         step = Series(monomial(self.like), order)
         starts = [Series(self.like + self.start[c], order) for c in self.frame.free]
         return self.curve([a + step * v for a, v in zip(starts, direction, strict=True)], order)
 
     def curve(self, free: Sequence[Series], order: int) -> Curve:
-        """Return the curve with the given free columns: the dependent ones are found one order after another.
+        """Return the curve on M with the given free columns; the dependent columns are computed order by order.
 
-        With A the inverse of dg/d(dependent) at the point, the coefficient of s^k is -A [s^k] g, where g is
-        evaluated with that coefficient 0: it enters g at s^k by dg/d(dependent) alone.
+        With A the inverse of dg/d(dependent) at the point, their coefficient of s^k is -A [s^k] g, where g is evaluated
+        with this coefficient 0, because it contributes only dg/d(dependent) times itself to [s^k] g.
         """
         path = [Series(self.like + value, order) for value in self.start]
         for c, series in zip(self.frame.free, free, strict=True):
@@ -130,6 +130,7 @@ class Manifold:
         return Curve(self.ring, path, point, at)
 
     def _evaluate(self, path: Sequence[Series], order: int) -> tuple[SeriesPoint, list[Series]]:
+        """Return (the point whose symbols are series, the values of the program there)."""
         moved = {c: path[i].truncated(order) for i, c in enumerate(self.columns) if c >= 0}
         point = SeriesPoint(self.base, moved, order, self.like)
         return point, values(self.ring, point)
@@ -155,7 +156,7 @@ class Manifold:
         return restricted
 
     def quadratic_forms(self) -> list[Form]:
-        """For each other relation, the matrix of its second-order part on the free columns."""
+        """Return, for each dependent relation, the matrix of its second-order part in the free columns."""
         m = self.dimension
         zero, unity = self.sample, self.sample + 1
         unit = [[unity if i == j else zero for j in range(m)] for i in range(m)]
@@ -184,10 +185,9 @@ def inverse(rows: list[list[Scalar]]) -> Any:
 
 
 def product(matrix: Any, vector: Sequence[Scalar]) -> list[Scalar]:
-    """Return the inverse of a matrix times a vector."""
+    """Return the product of an inverse (a matrix, or the elimination of its inverse) with a vector."""
     if isinstance(matrix, Reduction):
-        found_by_parts: list[Scalar] = [residue(v, matrix.p) for v in matrix.solved([int(v) for v in vector])]
-        return found_by_parts
+        return [residue(v, matrix.p) for v in matrix.solved([int(v) for v in vector])]
     over_field = isinstance(matrix, ResidueMatrix)
     column = (
         residue_matrix([[int(v)] for v in vector], modulus(matrix)) if over_field else arb_mat([[v] for v in vector])
@@ -201,13 +201,12 @@ def product(matrix: Any, vector: Sequence[Scalar]) -> list[Scalar]:
 
 @dataclass(frozen=True)
 class Split:
-    """The manifold N on which gradients of dependent relations vanish, as far as their second order makes them.
+    """The manifold N in M on which some gradients of the dependent relations f_1, ..., f_k vanish.
 
-    On M let f_1, ..., f_k be the dependent relations. Rows of their Hessians that are independent give equations
-    df_i/dx_j = 0, which can be solved for as many of M's coordinates: N, tangent to the common kernel. Where all f_i
-    vanish on N, it is a branch of the set on which every pose is singular. For one relation N is the critical set of
-    the splitting lemma [GromollMeyer1969]. ``equations`` are (function, column); ``solved`` and ``free`` are M's
-    coordinates.
+    Independent rows of the Hessians of the f_i give ``equations`` df_i/dx_j = 0, as pairs (i, j), which can be solved
+    for as many coordinates of M (``solved``, the others are ``free``). Their solutions are N, tangent to the common
+    kernel. If all f_i vanish on N, it is a branch of the set on which every pose is singular. For k = 1, N is the
+    critical set of the splitting lemma [GromollMeyer1969].
     """
 
     equations: tuple[tuple[int, int], ...]
@@ -216,7 +215,7 @@ class Split:
 
 
 def split(forms: Sequence[Form]) -> Split:
-    """Return a choice of equations and of coordinates that they determine, from forms over GF(p)."""
+    """Return a choice of equations, and of coordinates for which they can be solved, from forms over GF(p)."""
     m = len(forms[0])
     rows = [(i, j) for i in range(len(forms)) for j in range(m)]
     frame = field_frame([forms[i][j] for i, j in rows], m, modulus(forms[0][0][0]))
@@ -233,14 +232,14 @@ def series_on_critical(
     for value, c in zip(direction, critical.free, strict=True):
         path[c] = path[c] + Series(step * value, order)
     hessian = [[forms[i][j][c] * 2 for c in critical.solved] for i, j in critical.equations]
-    back = inverse(hessian)
+    inverse_hessian = inverse(hessian)
     used = sorted({i for i, _ in critical.equations})
     place = {i: a for a, i in enumerate(used)}
     for k in range(1, order if critical.solved else 1):
         curve = manifold.curve([s.truncated(k + 1) for s in path], k + 1)
         slopes = manifold.slopes(curve, [manifold.others[i] for i in used])
-        wrong = [slopes[place[i]][j].coefficient(k) for i, j in critical.equations]
-        for value, c in zip(product(back, wrong), critical.solved, strict=True):
+        gradient_terms = [slopes[place[i]][j].coefficient(k) for i, j in critical.equations]
+        for value, c in zip(product(inverse_hessian, gradient_terms), critical.solved, strict=True):
             path[c] = path[c] - Series(step**k * value, order)
     curve = manifold.curve(path, order)
     return [curve.at[n] for n in manifold.others]

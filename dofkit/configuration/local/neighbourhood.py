@@ -1,4 +1,4 @@
-"""What is true at a distance: the set near a point looked at in floating point and confirmed to high precision."""
+"""The relations at points of M, or of N, at a distance from the germ's point: found in floats, refined with balls."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ from dofkit.exact.points.balls import BallPoint, jacobian
 from dofkit.exact.ring.program import values
 from dofkit.expressions.tree import Expr
 
-#: How far a curve of independent relations is followed, in the columns' scales, at the most and at the least.
+#: The largest and the least length of a curve on M, in the columns' scales, and its number of steps.
 FAR, NEAR, STEPS = 0.5, 2.0**-24, 8
-#: The least cosine between steps, and what a correction may add to one.
+#: The least cosine between successive steps; corrections may be up to 1 - STRAIGHT of a step.
 STRAIGHT = 0.9
-#: What counts as not 0 there, relative to the relation's gradient; with more relations than this, in floats.
+#: Residuals, relative to gradients, up to `SURE` count as 0; with more than `MANY` relations, in floats, up to `ROUGH`.
 SURE, MANY, ROUGH = 2.0**-150, 60, 1e-8
-#: Bits that large numbers which cancel may cost: a million sizes from the origin, squared, and more.
+#: Bits that may be lost by cancellation: a million sizes from the origin, squared, and more.
 LOST = 90
-#: Bits, and what is not 0, where a curve begins at exact coordinates.
+#: Bits, and residuals that count as 0, if the curve begins at exact coordinates.
 DEEP, DEEP_SURE = 1024, 2.0**-900
-#: Bits in which relations are evaluated before they are rounded.
+#: Bits with which relations are evaluated before they are rounded to floats.
 WIDE = 256
 #: The step of a difference of gradients, and rounds of Newton's method.
 DIFFERENCE, ROUNDS = 2.0**-80, 8
@@ -31,7 +31,7 @@ FAULTS = (ArithmeticError, ValueError)
 
 
 class Neighbourhood:
-    """The relations around a manifold's point in scaled coordinates u: column = start + scale u."""
+    """The relations near a manifold's point in scaled coordinates u of its columns: column = start + scale u."""
 
     def __init__(self, ball: Manifold) -> None:
         self.ball = ball
@@ -48,7 +48,7 @@ class Neighbourhood:
         self.norm_of = {n: length(row) or 1.0 for n, row in zip(ball.nodes, j, strict=True)}
 
     def floats(self, u: Vector, nodes: Sequence[int]) -> tuple[list[float], list[list[float]]]:
-        """Return the relations and their derivatives by u, rows scaled to gradients of length 1 at the point."""
+        """Return (values, Jacobian by u) of relations at u, in units in which their gradients at the point are 1."""
         with ctx.workprec(WIDE):
             point = BallPoint(self.exactly(u))
             at = values(self.ring, point)
@@ -57,11 +57,11 @@ class Neighbourhood:
         return f, [self.scaled(row, n) for n, row in zip(nodes, rows, strict=True)]
 
     def scaled(self, row: Sequence[arb], node: int) -> list[float]:
-        """Return a relation's derivatives by u, in its scale."""
+        """Return a relation's derivatives by u, given those by the columns, in units of its gradient."""
         return [float(v.mid()) * s / self.norm_of[node] for v, s in zip(row, self.scales, strict=True)]
 
     def onto_rows(self, j: Sequence[Vector], ahead: Vector) -> list[float]:
-        """Return a velocity whose dependent entries are those that rows let the free ones have."""
+        """Return the velocity with the free entries of ``ahead`` on which the rows ``j`` are 0."""
         if not self.dependent:
             return list(ahead)
         moved = list(ahead)
@@ -71,14 +71,14 @@ class Neighbourhood:
         return moved
 
     def exactly(self, u: Vector) -> dict[Expr, arb]:
-        """Return the symbols at u."""
+        """Return the values of all symbols at u."""
         moved = {
             k: self.middle[k] + arb(float(s)) * arb(float(v)) for k, s, v in zip(self.keys, self.scales, u, strict=True)
         }
         return {**self.middle, **{k: v.mid() for k, v in moved.items()}}
 
     def newton(self, symbols: dict[Expr, arb], nodes: Sequence[int], moved: Sequence[int]) -> dict[Expr, arb] | None:
-        """``nodes`` solved for the columns numbered ``moved``, to high precision; None where it does not converge."""
+        """Return the zero of ``nodes`` in the columns numbered ``moved``, in high precision; None if not converged."""
         columns = [self.columns[i] for i in moved]
         for _ in range(ROUNDS):
             check()
@@ -96,18 +96,18 @@ class Neighbourhood:
         return None
 
     def onto(self, symbols: dict[Expr, arb]) -> dict[Expr, arb] | None:
-        """Return the point of M with the same free columns."""
+        """Return the point of M with the same free columns; None if Newton's method does not converge."""
         if not self.ball.rows:
             return symbols
         return self.newton(symbols, self.ball.rows, self.dependent)
 
-    def of_free(self, c: int) -> tuple[Expr, float]:
-        """Return the symbol and the scale of the free column number ``c``."""
+    def symbol_and_scale(self, c: int) -> tuple[Expr, float]:
+        """Return (symbol, scale) of the c-th free column."""
         i = self.number[self.ball.frame.free[c]]
         return self.keys[i], float(self.scales[i])
 
     def gradients(self, symbols: Mapping[Expr, arb], critical: Split) -> list[arb]:
-        """Return the derivatives of dependent relations on M by its coordinates, for each equation of N."""
+        """Return, for each equation (i, j) of the critical set N, df_i/dx_j on M at a point."""
         ball = self.ball
         point = BallPoint(symbols)
         at = values(self.ring, point)
@@ -127,16 +127,15 @@ class Neighbourhood:
         return [f[used.index(i)][r + j].mid() for i, j in critical.equations]
 
     def residual(self, symbols: Mapping[Expr, arb], nodes: Sequence[int]) -> float:
-        """Return the largest of the relations, relative to their gradients."""
+        """Return the largest absolute value of the relations, relative to their gradients."""
         at = values(self.ring, BallPoint(symbols))
         return max((abs(float(at[n].mid())) / float(self.norm_of[n]) for n in nodes), default=0.0)
 
 
 def holds_away(ball: Manifold, direction: Sequence[float], deep: bool) -> bool | None:
-    """Return whether the dependent relations are 0, to high precision, at a point of M some way along a curve.
+    """Return whether the dependent relations are 0, in high precision, at a distant point of M; None without one.
 
-    ``deep``: the curve begins at exact coordinates, so that what is flat there shows to an order of several hundreds.
-    None where the curve could not be followed far enough to see.
+    ``deep``: the curve begins at exact coordinates, so that nonzero terms of an order of several hundreds are seen.
     """
     try:
         here = Neighbourhood(ball)
@@ -155,6 +154,7 @@ def holds_away(ball: Manifold, direction: Sequence[float], deep: bool) -> bool |
 
 
 def _is_satisfied_near(here: Neighbourhood, u: Vector, sure: float) -> bool | None:
+    """Return whether the dependent relations are 0, up to ``sure``, at the point of M near u; None if it has none."""
     ball = here.ball
     rows, columns = independent(here.floats(u, ball.rows)[1], 0.0) if ball.rows else ([], [])
     if len(rows) < len(ball.rows):
@@ -164,10 +164,7 @@ def _is_satisfied_near(here: Neighbourhood, u: Vector, sure: float) -> bool | No
 
 
 def holds_on_critical(ball: Manifold, critical: Split, direction: Sequence[float]) -> bool:
-    """Return whether the dependent relations are 0, to high precision, at a point of the critical set N along a curve.
-
-    False also where the curve could not be followed far enough to see.
-    """
+    """Return whether the dependent relations are 0, in high precision, at a distant point of N; False without one."""
     try:
         here = Neighbourhood(ball)
         if len(ball.rows) > MANY:
@@ -186,15 +183,12 @@ def holds_on_critical(ball: Manifold, critical: Split, direction: Sequence[float
 def _onto_critical(
     here: Neighbourhood, critical: Split, direction: Sequence[float], reach: float
 ) -> dict[Expr, arb] | None:
-    """Return the point of the critical set N with its free coordinates moved by ``reach`` along ``direction``.
-
-    N is where the gradients of the dependent relations along M vanish; Newton's method solves for the other ones.
-    """
+    """Return the point of N, by Newton's method, whose free coordinates are moved by ``reach`` along ``direction``."""
     symbols = dict(here.middle)
     for value, c in zip(direction, critical.free, strict=True):
         if here.ball.frame.free[c] not in here.number:
             continue
-        key, scale = here.of_free(c)
+        key, scale = here.symbol_and_scale(c)
         symbols[key] = symbols[key] + arb(value * reach * scale)
     point = here.onto(symbols)
     last = arb(1)
@@ -202,7 +196,7 @@ def _onto_critical(
         check()
         if point is None:
             return None
-        before, (last, point) = last, _round(here, critical, point)
+        before, (last, point) = last, _newton_step(here, critical, point)
         if last < arb(DIFFERENCE):
             return point
         if last > before:
@@ -210,28 +204,31 @@ def _onto_critical(
     return None if critical.solved else point
 
 
-def _round(here: Neighbourhood, critical: Split, symbols: dict[Expr, arb]) -> tuple[arb, dict[Expr, arb] | None]:
-    """A step of Newton's method, with differences for second derivatives: its size, and the point of M it leads to."""
-    wrong = here.gradients(symbols, critical)
+def _newton_step(here: Neighbourhood, critical: Split, symbols: dict[Expr, arb]) -> tuple[arb, dict[Expr, arb] | None]:
+    """Return (size, point) after a Newton step on the manifold M towards the critical set N of dependent relations.
+
+    The size is relative to the columns' scales; the Hessian is one of differences. If M is not reached, point is None.
+    """
+    gradients = here.gradients(symbols, critical)
     columns = []
     for c in critical.solved:
-        key, scale = here.of_free(c)
+        key, scale = here.symbol_and_scale(c)
         step = arb(DIFFERENCE * scale)
         moved = here.onto({**symbols, key: symbols[key] + step})
         if moved is None:
             return arb(1), None
-        columns.append([(b - a) / step for a, b in zip(wrong, here.gradients(moved, critical), strict=True)])
-    change = arb_mat(columns).transpose().solve(arb_mat([[w] for w in wrong]))
+        columns.append([(b - a) / step for a, b in zip(gradients, here.gradients(moved, critical), strict=True)])
+    change = arb_mat(columns).transpose().solve(arb_mat([[g] for g in gradients]))
     size = arb(0)
     for i, c in enumerate(critical.solved):
-        key, scale = here.of_free(c)
+        key, scale = here.symbol_and_scale(c)
         symbols = {**symbols, key: (symbols[key] - change[i, 0]).mid()}
         size = max(size, abs(change[i, 0].mid()) / scale)
     return size, here.onto(symbols)
 
 
 def _walk(here: Neighbourhood, direction: Sequence[float], reach: float) -> list[float] | None:
-    """The point of M at about the distance ``reach`` along a curve; None where steps are too rough to stay on it."""
+    """Return the point of M, as u, at about the distance ``reach`` along a curve; None if steps bend too much."""
     ball = here.ball
     u, ahead = [0.0] * len(here.place), [0.0] * len(here.place)
     for value, c in zip(direction, ball.frame.free, strict=True):
@@ -250,15 +247,15 @@ def _walk(here: Neighbourhood, direction: Sequence[float], reach: float) -> list
         if dot(tangent, ahead) < STRAIGHT * length(ahead):
             return None
         moved = plus(u, reach / STEPS, tangent)
-        corrected = _back(here, moved)
+        corrected = _onto_manifold(here, moved)
         if corrected is None or length(plus(corrected[0], -1.0, moved)) > (1 - STRAIGHT) * reach / STEPS:
             return None
         (u, j), ahead = corrected, tangent
     return u
 
 
-def _back(here: Neighbourhood, u: Vector) -> tuple[list[float], list[list[float]]] | None:
-    """Return the point of M near ``u`` and its rows there, by Newton's method with minimal steps in floating point."""
+def _onto_manifold(here: Neighbourhood, u: Vector) -> tuple[list[float], list[list[float]]] | None:
+    """Return (the point of M near ``u``, the rows of M there), by Newton's method in floats; None if not converged."""
     moved = list(u)
     for _ in range(ROUNDS):
         f, j = here.floats(moved, here.ball.rows)
@@ -270,7 +267,7 @@ def _back(here: Neighbourhood, u: Vector) -> tuple[list[float], list[list[float]
 
 
 def independent(j: Sequence[Vector], least: float) -> tuple[list[int], list[int]]:
-    """Return well conditioned rows and columns, by complete pivoting with pivots above ``least``."""
+    """Return (rows, columns) of a well conditioned submatrix, by complete pivoting with pivots above ``least``."""
     work, rows, columns = {r: list(row) for r, row in enumerate(j)}, list[int](), list[int]()
     while work:
         r = max(work, key=lambda i: largest(work[i]))

@@ -1,7 +1,7 @@
 """The cone of second-order flexes {v: Q_1(v) = ... = Q_k(v) = 0} of quadratic forms.
 
-The tangent cone of a set lies in it, so its dimension bounds that of the set [TangentCone], whether it is looked at
-over the complex numbers (where the bound is a rank) or over the reals (where a definite combination leaves 0 alone).
+The tangent cone of a set is contained in it, so that its dimension bounds that of the set [TangentCone]. Over the
+complex numbers the bound is computed by ranks; over the reals the cone is {0} if a combination of forms is definite.
 """
 
 from __future__ import annotations
@@ -20,20 +20,20 @@ from dofkit.exact.residues import Residue, modulus, residue_matrix
 from dofkit.exact.ring.program import Scalar
 
 Form = Sequence[Sequence[Scalar]]
-#: The most linear conditions by which the complex cone is cut: their Macaulay matrix has comb(2 c, c + 1) columns.
+#: Bound on the dimension c of subspaces that meet the complex cone: the Macaulay matrix has comb(2 c, c + 1) columns.
 MAX_CUTS = 6
-#: Steps towards a definite combination, and the relative size of an eigenvalue that counts as positive.
+#: Bound on the steps towards a definite combination, and the relative size of an eigenvalue that counts as positive.
 STEPS, POSITIVE = 300, 1e-7
 #: Denominators with which the weights of a definite combination are rounded.
 DENOMINATORS = (1, 12, 840, 1 << 16)
 
 
 def bound(forms: Sequence[Form], rigid: int) -> int:
-    """Return an upper bound of the cone's dimension over the complex numbers, from forms over GF(p).
+    """Return an upper bound on the cone's dimension over the complex numbers, from forms over GF(p).
 
-    The cone has at most dimension d where a linear subspace of codimension d meets it in 0 alone. On c = m - d
-    variables that holds if and only if the forms' multiples span all polynomials of degree c + 1 [Macaulay1902];
-    full rank modulo p is full rank.
+    The cone has at most dimension d if a linear subspace of codimension d meets it in 0 only. With c = m - d variables
+    this is so if and only if the forms' multiples span all polynomials of degree c + 1 [Macaulay1902]; full rank modulo
+    p is full rank. ``rigid`` is a lower bound.
     """
     m = len(forms[0])
     p = modulus(forms[0][0][0])
@@ -64,7 +64,7 @@ def _only_zero(forms: Sequence[Form], c: int, p: int) -> bool:
 
 
 def macaulay_matrix(forms: Sequence[Sequence[Sequence[Any]]], c: int) -> list[list[Any]]:
-    """Return the multiples of degree c + 1 of quadratic forms in c variables, by their coefficients [Macaulay1902]."""
+    """Return the coefficients of all multiples of degree c + 1 of quadratic forms in c variables [Macaulay1902]."""
     monomials = {exponents: i for i, exponents in enumerate(combinations_with_replacement(range(c), c + 1))}
     rows = []
     for form in forms:
@@ -78,7 +78,7 @@ def macaulay_matrix(forms: Sequence[Sequence[Sequence[Any]]], c: int) -> list[li
 
 
 def definite_combination(forms: Sequence[Form], rank_wanted: int) -> bool:
-    """Return whether a combination of the forms, over balls, is definite of a rank; True is a proof.
+    """Return whether it is proved that a combination of forms in balls is semidefinite with rank ``rank_wanted``.
 
     In linkages: a stress whose form is definite on the flexes (prestress stability [ConnellyWhiteley1996]).
     """
@@ -93,7 +93,7 @@ def definite_combination(forms: Sequence[Form], rank_wanted: int) -> bool:
 
 
 def _candidates(forms: Sequence[Form], rank_wanted: int) -> list[list[arb]]:
-    """Weights whose combination may be definite: the forms alone, and what a search over the quotient finds."""
+    """Return weights whose combination may be definite: each form on its own, and rounded results of `_search`."""
     k = len(forms)
     weightings = [[arb(int(i == j)) for i in range(k)] for j in range(k)]
     weights = _search(forms, rank_wanted)
@@ -106,22 +106,22 @@ def _candidates(forms: Sequence[Form], rank_wanted: int) -> list[list[arb]]:
 
 
 def floats_of(form: Form) -> list[list[float]]:
-    """Return a form of balls in floats, 0 for a ball that holds it."""
+    """Return a form of balls in floats, with 0 for a ball that contains 0."""
     return [[0.0 if v.contains(0) else float(v.mid()) for v in row] for row in form]
 
 
 def scaled(form: Matrix, scales: Sequence[float]) -> list[list[float]]:
-    """Return a form in coordinates of these scales, its largest entry 1."""
+    """Return a form in scaled coordinates, divided by its largest entry."""
     rows = [[v * s * t for v, t in zip(row, scales, strict=True)] for row, s in zip(form, scales, strict=True)]
     size = max(map(largest, rows), default=0.0) or 1.0
     return [[v / size for v in row] for row in rows]
 
 
 def _search(forms: Sequence[Form], rank_wanted: int) -> list[float] | None:
-    """Weights w whose combination B(w) is positive definite on all but the common kernel; None where none is near.
+    """Return weights w whose combination B(w) is positive definite modulo the common kernel; None if none is found.
 
-    w is the point nearest to 0 of the convex hull of the vectors (v.B_i v): where it is not 0 its B(w) is positive
-    on every v (Gilbert's algorithm, with the least eigenvector as the next v).
+    w is the point nearest to 0 of the convex hull of the vectors (v.B_i v); if it is not 0, B(w) is positive on every v
+    (Gilbert's algorithm, with the eigenvector of the least eigenvalue as the next v).
     """
     floats = [floats_of(form) for form in forms]
     sizes = [max(map(largest, form)) or 1.0 for form in floats]
@@ -137,20 +137,20 @@ def _search(forms: Sequence[Form], rank_wanted: int) -> list[float] | None:
         least, vector = least_eigenvector(rows)
         if least > POSITIVE * max(1.0, length(w)):
             return [v / size for v, size in zip(w, sizes, strict=True)]
-        apart = plus(w, -1.0, [dot(times(form, vector), vector) for form in cut])
-        square = dot(apart, apart)
+        difference = plus(w, -1.0, [dot(times(form, vector), vector) for form in cut])
+        square = dot(difference, difference)
         if square == 0:
             return None
-        w = plus(w, -min(1.0, max(0.0, dot(w, apart) / square)), apart)
+        w = plus(w, -min(1.0, max(0.0, dot(w, difference) / square)), difference)
         if length(w) < POSITIVE:
             return None
     return None
 
 
 def signature_of(form: Form) -> tuple[int, int]:
-    """Certified numbers of positive and negative squares, by Lagrange's reduction with pivots that exclude 0.
+    """Return (positive, negative): certified numbers of squares, by Lagrange's reduction with pivots that exclude 0.
 
-    However they are found, they are the same [Sylvester1852].
+    They do not depend on the reduction [Sylvester1852].
     """
     n = len(form)
     work = [list(row) for row in form]
@@ -179,7 +179,7 @@ def signature_of(form: Form) -> tuple[int, int]:
 
 
 def _pivot(work: list[list[arb]], remaining: set[int]) -> tuple[int, int] | None:
-    """Return a diagonal entry that is not 0, the largest; else an off-diagonal one."""
+    """Return (row, column) of the largest diagonal entry that is not 0, else of such an off-diagonal one, or None."""
     best, size = None, arb(0)
     for i in remaining:
         if not work[i][i].contains(0) and work[i][i].abs_lower() > size:

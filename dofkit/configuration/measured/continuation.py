@@ -1,8 +1,8 @@
-"""Continuation of a motion from a measured pose, in floating point and within the tolerance.
+"""Continuation of a motion from a pose with a tolerance, in floating point.
 
-As many combinations of equations as are independent, U^T f = 0, cut out a manifold; a path on it is followed in short
-steps, each along its tangent and back by Newton's method. The residuals of all equations along it tell whether it is a
-motion: they stay within the tolerance, or they grow far beyond it, or neither.
+The independent combinations of equations, U^T f = 0, define a manifold; a path on it is followed in short steps, each
+along the tangent and back by Newton's method. It is a motion if the residuals of all equations stay within the
+tolerance, it is none if they grow far beyond, and otherwise undecided.
 """
 
 from __future__ import annotations
@@ -14,18 +14,18 @@ from dofkit.base.errors import NoValueError
 from dofkit.base.libraries import np
 from dofkit.configuration.measured.equations import GREY, SLACK, MeasuredPose, Point, clear_rank
 
-#: A motion is followed over `STEP`, as a fraction of the size, or farther where second-order effects of that length
-#: would not exceed the tolerance by `FAR`; then over `BEYOND` times as much, where what is flat at first shows.
+#: Least length of a motion, as a fraction of the size; it is so long that second-order effects exceed the tolerance by
+#: `FAR`, or no path is followed if that is beyond `LONGEST`. Paths are `BEYOND` times as long, to show higher orders.
 STEP, FAR, LONGEST, BEYOND = 0.12, 60.0, 0.4, 4.0
-#: The largest and the least step as fractions of `STEP`; rounds of Newton's method.
+#: The largest and the least step as fractions of the length and of `STEP`; rounds of Newton's method.
 STRIDE, SHORTEST, ROUNDS = 0.5, 2.0**-12, 12
-#: The least cosine between successive steps, and by what part of a step a correction may lengthen it.
+#: The least cosine between successive steps, and the largest correction of a step relative to its length.
 STRAIGHT, BENT = 0.9, 0.3
-#: To what length corrections come down.
+#: Newton's method ends if corrections are shorter.
 CLOSE = 1e-11
 #: A path ends where residuals exceed the tolerance times `VIOLATED`.
 VIOLATED = 3000.0
-#: The least factor c of a contact c s^k that would not be chance.
+#: Residuals beyond c s^k with this factor c, after the distance s, are not taken for errors of a motion.
 PLAUSIBLE = 1.5e-3
 HALF = 0.5
 
@@ -52,23 +52,23 @@ class Path:
         return self.stages[-1].distance
 
     def is_satisfied(self, reach: float) -> bool:
-        """Return whether the equations are satisfied up to ``reach``, and beyond it as far as such errors grow."""
+        """Return whether the residuals are within the tolerance up to ``reach``, and within `GREY` times it beyond."""
         near = max(s.residual for s in self.stages if s.distance <= reach * (1 + CLOSE))
         far = max(s.residual for s in self.stages)
         return near <= SLACK * self.pose.tolerance and far <= GREY * self.pose.tolerance and not self.may_touch
 
     @property
     def may_touch(self) -> bool:
-        """Whether the path may only touch the set of solutions, to the second order or a higher one.
+        """Whether the path may only be tangent to the set of solutions, to the second or a higher order.
 
-        Residuals along a motion grow too, by errors of measurement, but a contact as slight would be chance.
+        Residuals along a motion grow too, by errors within the tolerance, but hardly as much.
         """
         last = self.stages[-1]
         return last.residual > PLAUSIBLE * float(min(1.0, last.distance) ** max(2.0, self._order))
 
     @property
     def _order(self) -> float:
-        """The power of the distance by which residuals grow: the least of the last half and the quarter before."""
+        """The power of the distance with which residuals grow, over the last half or the quarter before it."""
         last = self.stages[-1]
         ends = (last.distance * part * (1 + CLOSE) for part in (HALF, HALF * HALF))
         half, quarter = ([s for s in self.stages if s.distance <= end][-1] for end in ends)
@@ -81,9 +81,9 @@ class Path:
 
 
 def is_motion(forward: Path, backward: Path, reach: float) -> bool:
-    """Return whether two paths in opposite directions make one motion of length ``reach`` of the rank of the pose.
+    """Return whether two paths in opposite directions form one motion of length ``reach`` with the rank of the pose.
 
-    An analytic function that is 0 on one side is 0 on the other, though a path may end where motions branch.
+    One path may be short, where motions branch: an analytic function that is 0 on one side is 0 on the other.
     """
     longer = max(forward, backward, key=lambda path: path.distance)
     is_long = forward.distance + backward.distance >= reach * (1 - CLOSE)
@@ -92,7 +92,7 @@ def is_motion(forward: Path, backward: Path, reach: float) -> bool:
 
 
 def _power(near: Stage, far: Stage) -> float:
-    """Return the power of the distance by which residuals grow between two stages, 0 for rounding errors."""
+    """Return the power of the distance with which residuals grow between two stages; 0 for rounding errors."""
     if not far.distance > near.distance or far.residual < CLOSE:
         return 0.0
     return float(np.log(far.residual / max(near.residual, CLOSE**2)) / np.log(far.distance / near.distance))
@@ -104,7 +104,7 @@ def reach_of(tolerance: float) -> float:
 
 
 def follow(pose: MeasuredPose, direction: Any, reach: float) -> Path:
-    """Return the path that leaves along ``direction``, of length ``reach`` or up to where equations are violated."""
+    """Return the path that begins along ``direction``, of length ``reach`` or up to where equations are violated."""
     equations, tolerance = pose.equations, pose.tolerance
     f, j = equations.system(pose.at, pose.norms)
     combinations, at, distance = pose.independent, pose.at, 0.0
@@ -131,14 +131,14 @@ def _largest(f: Any) -> float:
 
 
 def _tangent(a: Any, ahead: Any) -> Any:
-    """Return the part of a direction along which the derivatives of the combinations are 0."""
+    """Return the orthogonal projection of a direction to the kernel of the rows ``a``."""
     return ahead - np.linalg.lstsq(a, a @ ahead, rcond=None)[0] if len(a) else ahead
 
 
 def _corrected(pose: MeasuredPose, combinations: Any, at: Point, step: Any) -> tuple[Point, Any, Any] | None:
     """Return the point a step ahead on the manifold of the combinations, with residuals and Jacobian there.
 
-    None if Newton's method does not converge near it, or leads to where an equation has no value.
+    None if Newton's method does not converge nearby, or an equation has no value.
     """
     equations = pose.equations
     start, last = equations.moved(at, step), float("inf")

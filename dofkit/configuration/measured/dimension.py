@@ -1,11 +1,10 @@
-"""The dimension of the set of configurations at a measured pose, decided in floating point within the tolerance.
+"""The dimension of the set of configurations at a pose with a tolerance, decided in floating point.
 
-Columns of lengths are divided by the scene's size and rows by their gradients, so that a singular value says by what
-fraction of the size an equation can be satisfied otherwise. Those below the tolerance (times `SLACK`) count as 0. What
-is then dependent is taken to be exactly dependent in the geometry that was measured. An infinitesimal motion is finite
-where it is continued within the tolerance; it is not where the second order of that geometry excludes it by more than
-the tolerance can hide. Where that leaves it open, the geometry exactly as written may decide, as it is one of those
-that the tolerance allows. All else is undecided.
+Lengths are in units of the scene's size and rows are divided by their gradients. Singular values below the tolerance
+(times `SLACK`) count as 0: equations that are dependent then are assumed to be exactly dependent in the true geometry.
+An infinitesimal motion extends to a finite one if it can be continued within the tolerance; it does not if the second
+order of the equations excludes it by more than errors within the tolerance. Otherwise the geometry exactly as written
+may decide, because it is one of those that the tolerance allows; if not, the dimension is undecided.
 """
 
 from __future__ import annotations
@@ -32,10 +31,10 @@ from dofkit.exact.matrices.certified import dependency_pattern, greedy_pivots
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Chart
 
-#: From so many sizes from the origin singular values are smaller by the square of that, since turns are about it; from
-#: `FAR_AWAY` sizes on no motion is followed.
+#: At a distance d >= NEAR sizes from the origin, singular values may be smaller by d^2, because rotations are about the
+#: origin; beyond FAR_AWAY sizes no motion is followed.
 NEAR, FAR_AWAY = 2.0, 30.0
-#: Directions in which motions are followed.
+#: Number of random directions in which motions are followed.
 DIRECTIONS = 3
 
 FOLLOWED = "the motion was continued for a finite step within the tolerance"
@@ -54,11 +53,11 @@ STOPPED = (
 
 @dataclass(frozen=True)
 class MeasuredFreedom:
-    """The freedom at a measured pose; ``instantaneous`` and ``dimension`` are None where they are undecided.
+    """The freedom at a pose with a tolerance; ``instantaneous`` and ``dimension`` are None if undecided.
 
     ``dependencies``: a matrix over GF(2) with the pattern of dependent rows that the Jacobian has within the tolerance:
-    independent rows are unit vectors, the others sums of those they depend on. ``columns`` are dependent coordinates.
-    ``gap``: between the least singular value that counts and the largest that does not.
+    independent rows are unit vectors, the others sums of those on which they depend. ``columns``: dependent
+    coordinates. ``gap``: ratio of the least singular value that counts to the largest that does not.
     """
 
     instantaneous: int | None
@@ -70,7 +69,7 @@ class MeasuredFreedom:
 
 
 def measured_freedom(chart: Chart, pose: Mapping[Expr, Expr]) -> MeasuredFreedom | None:
-    """Return the freedom at a measured pose, or None if something has no value there."""
+    """Return the freedom at a pose within the tolerance; None if a value there is undefined."""
     at = float_point(chart, pose)
     if at is None:
         return None
@@ -82,9 +81,10 @@ def measured_freedom(chart: Chart, pose: Mapping[Expr, Expr]) -> MeasuredFreedom
 
 
 def _compared_with_exact(freedom: MeasuredFreedom, exact: AtReference) -> MeasuredFreedom:
-    """Return what the geometry exactly as written says of a measured freedom, if its rank is the same.
+    """Return the freedom, corrected by that of the geometry exactly as written, if the instantaneous freedoms agree.
 
-    It decides a motion of as many dimensions as the tolerance allows; a motion that it does not have is undecided.
+    A dimension that is undecided within the tolerance is taken from there if it is at least the instantaneous freedom
+    minus 1; one that is decided becomes undecided if it differs.
     """
     dimension = exact.local.dimension
     if exact.instantaneous != freedom.instantaneous or dimension in (None, freedom.dimension):
@@ -97,6 +97,7 @@ def _compared_with_exact(freedom: MeasuredFreedom, exact: AtReference) -> Measur
 
 
 def _within_tolerance(chart: Chart, at: Mapping[Expr, float]) -> MeasuredFreedom:
+    """Return the freedom by singular values and the criteria, without the geometry exactly as written."""
     equations, tolerance = ScaledEquations(chart, at), float(chart.setting.tolerance or 0)
     n = chart.coordinates
     if not chart.nodes:
@@ -130,7 +131,7 @@ def _within_tolerance(chart: Chart, at: Mapping[Expr, float]) -> MeasuredFreedom
 
 
 class _Problem:
-    """A measured pose whose local dimension is asked for; ``is_far``: too far from the origin to follow a motion."""
+    """A pose and what the criteria use; ``is_far``: it is too far from the origin to follow a motion."""
 
     def __init__(self, pose: MeasuredPose, is_far: bool) -> None:
         self.pose = pose
@@ -141,25 +142,25 @@ class _Problem:
 
     @cached_property
     def forms(self) -> StressForms:
-        """The second order."""
+        """The second order of the dependent equations."""
         return StressForms(self.pose)
 
     @cached_property
     def paths(self) -> list[tuple[Path, Path]]:
-        """The paths along some random motions, both ways."""
+        """The paths along some random motions, in both directions."""
         reach = reach_of(self.pose.tolerance) * BEYOND
         return [(follow(self.pose, d, reach), follow(self.pose, -d, reach)) for d in _directions(self.pose.flexes)]
 
 
 def _independent(problem: _Problem) -> Conclusion | None:
-    """Independent equations cut out a manifold [ImplicitFunctions]."""
+    """Conclude the instantaneous freedom if all equations are independent [ImplicitFunctions]."""
     if problem.pose.rank < problem.equations:
         return None
     return Conclusion(problem.first_order, "all equations are independent within the tolerance")
 
 
 def _infinitesimally_rigid(problem: _Problem) -> Conclusion | None:
-    """Nothing moves but the system as a rigid body [AsimowRoth1978]."""
+    """Conclude the instantaneous freedom if all infinitesimal motions are rigid motions [AsimowRoth1978]."""
     if problem.first_order > problem.rigid:
         return None
     return Conclusion(
@@ -168,7 +169,7 @@ def _infinitesimally_rigid(problem: _Problem) -> Conclusion | None:
 
 
 def _indistinct(problem: _Problem) -> Conclusion | None:
-    """No motion can be followed: nothing is decided."""
+    """Conclude that the dimension is undecided if no motion can be followed."""
     if problem.is_far:
         return Conclusion(
             None,
@@ -185,7 +186,7 @@ def _indistinct(problem: _Problem) -> Conclusion | None:
 
 
 def _indefinite_form(problem: _Problem) -> Conclusion | None:
-    """One dependent equation whose second order takes both signs parts the manifold [HurewiczWallman1941]."""
+    """Conclude one dimension less if the second order of one dependent equation is indefinite [HurewiczWallman1941]."""
     if not problem.forms.is_indefinite:
         return None
     why = "branches cross here: the second-order form is indefinite by more than the tolerance"
@@ -193,7 +194,7 @@ def _indefinite_form(problem: _Problem) -> Conclusion | None:
 
 
 def _definite_combination(problem: _Problem) -> Conclusion | None:
-    """A stress whose form is definite leaves rigid motions alone [ConnellyWhiteley1996]."""
+    """Conclude that only rigid motions are finite if the form of a stress is definite [ConnellyWhiteley1996]."""
     if problem.forms.vanish or not problem.forms.definite:
         return None
     why = "a stress is definite to second order by more than the tolerance: no finite motion"
@@ -201,9 +202,9 @@ def _definite_combination(problem: _Problem) -> Conclusion | None:
 
 
 def _continued(problem: _Problem) -> Conclusion | None:
-    """Conclude that all infinitesimal motions are finite: random ones can be continued both ways, within the noise.
+    """Conclude the instantaneous freedom if random motions can be continued in both directions.
 
-    No second-order form is known not to vanish.
+    All second-order forms must be 0 within their error.
     """
     reach = reach_of(problem.pose.tolerance)
     if not problem.forms.vanish or not all(is_motion(*paths, reach) for paths in problem.paths):
@@ -215,7 +216,7 @@ def _undecided(problem: _Problem) -> Conclusion:
     return Conclusion(None, OPEN)
 
 
-#: The criteria in the order in which they are asked; the first that comes to a conclusion decides.
+#: The criteria in the order in which they are tried; the first that returns a conclusion decides.
 CRITERIA: tuple[Callable[[_Problem], Conclusion | None], ...] = (
     _independent,
     _infinitesimally_rigid,
@@ -228,7 +229,7 @@ CRITERIA: tuple[Callable[[_Problem], Conclusion | None], ...] = (
 
 
 def _directions(flexes: Any) -> list[Any]:
-    """Return the motion, or some random ones if there are several."""
+    """Return the flex, or some random combinations if there are several."""
     if len(flexes) == 1:
         return [flexes[0]]
     rng = np.random.default_rng(13)
@@ -236,7 +237,7 @@ def _directions(flexes: Any) -> list[Any]:
 
 
 def _at_fixed_time(pose: MeasuredPose, conclusion: Conclusion) -> Conclusion:
-    """Return the dimension without that of time; undecided where time may be constant on the set."""
+    """Return the conclusion at fixed time, one dimension less; undecided if time may be constant on the set."""
     if clear_rank(pose.j, pose.tolerance) != pose.rank or (conclusion.dimension is not None and conclusion.confined):
         return Conclusion(None, "whether a motion passes through this instant is not decided within the tolerance")
     return conclusion if conclusion.dimension is None else conclusion._replace(dimension=conclusion.dimension - 1)

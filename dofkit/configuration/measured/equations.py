@@ -1,4 +1,4 @@
-"""Equations of measured geometry in floating point, scaled so that numbers are fractions of the scene's size."""
+"""Equations of geometry with a tolerance in floating point, scaled: numbers are fractions of the scene's size."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from dofkit.base.deadline import check
 from dofkit.base.libraries import np, nx
 from dofkit.configuration.local.quadratic_cone import definite_combination
 from dofkit.configuration.rigid_motions import displacements_real
-from dofkit.exact.matrices.dense import PASSES
+from dofkit.exact.matrices.dense import GRAM_SCHMIDT_PASSES
 from dofkit.exact.points.balls import FloatPoint, jacobian
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
@@ -26,20 +26,20 @@ from dofkit.system import GROUND
 
 #: A singular value counts as 0 below tolerance * SLACK; between that and tolerance * GREY the rank is undecided.
 SLACK, GREY = 3.0, 30.0
-#: By how much rounding errors of positions grow in residuals.
+#: Factor by which rounding errors of positions grow in residuals.
 ROUNDING_GROWTH = 1e3
-#: The least squared cosine between a velocity and the rigid motions for which it is counted as one of them.
+#: Flexes are directions of which at least this part is orthogonal to the rigid motions.
 HALF = 0.5
 
 Point = Mapping[Expr, float]
 
 
 class ScaledEquations:
-    """The equations of a chart; columns of lengths are divided by the scene's size, rows by their gradients.
+    """The equations of a chart, with lengths in units of the scene's size and rows divided by their gradients.
 
-    A turn about a distant origin moves everything by far more than a shift. So a body's position p is replaced by
-    P = p + R (c - s), the position of its material point at the scene's centre c. Time, where it is a column, is the
-    last, in such a unit that no equation changes faster with it than with a shift.
+    A rotation about a distant origin moves everything by far more than a translation. So a body's position p is
+    replaced by P = p + R (c - s), the position of its material point at the scene's centre c. Time, if it occurs, is
+    the last column, in such a unit that no equation changes faster with it than with a translation.
     """
 
     def __init__(self, chart: Chart, at: Point) -> None:
@@ -55,25 +55,25 @@ class ScaledEquations:
             self.scale[chart.time] = 1 / fastest if fastest > 0 else 1.0
 
     def lever(self, j: Any) -> float:
-        """Return the largest effect of a turn divided by that of a shift, at least 1."""
+        """Return the largest ratio, at least 1, of the derivatives of an equation by angles and by lengths."""
         turns = ~self.lengths & (np.arange(len(self.symbols)) < self.coordinates)
         shifted, turned = (np.abs(j[:, part]).max(axis=1, initial=0) for part in (self.lengths, turns))
         mixed = shifted > 0
         return float(np.max(turned[mixed] / shifted[mixed], initial=1.0))
 
     def rounding(self, at: Point) -> float:
-        """Return a bound of the residuals that rounding of the positions, and of the bodies' arms, causes."""
+        """Return a bound on the residuals caused by rounding of the positions, and of the bodies' arms."""
         numbers = np.maximum(np.abs(self._vector(at)), np.abs(self._arms.values(at)))
         positions = numbers[self.lengths] / self.scale[self.lengths]
         return ROUNDING_GROWTH * float(np.finfo(float).eps) * float(np.max(positions, initial=0.0))
 
     def rigid_motions(self, at: Point) -> Any:
-        """Return the velocities of rigid motions of the system as rows."""
+        """Return velocities of rigid motions of the system that span them, as rows in scaled columns."""
         fields = np.array(displacements_real(self.chart, FloatPoint(at))).reshape(-1, len(self.symbols))
         return (fields + fields @ self._arms.slopes(at).T) / self.scale if fields.size else fields
 
     def system(self, at: Point, norms: Any = None) -> tuple[Any, Any]:
-        """Return the residuals (m) and the Jacobian (m x n), rows divided by ``norms``, else by their gradients."""
+        """Return the residuals (m) and the Jacobian (m x n), rows divided by ``norms``, by default their gradients."""
         f, j = self._with_plain_rows(at)
         if norms is None:
             norms = self._gradients(j)
@@ -84,7 +84,7 @@ class ScaledEquations:
         return self._gradients(self._with_plain_rows(at)[1])
 
     def _with_plain_rows(self, at: Point) -> tuple[Any, Any]:
-        """Return residuals and Jacobian, its columns by the positions P and scaled, its rows not yet scaled."""
+        """Return residuals and Jacobian in the scaled columns (positions are P), without scaling rows."""
         check()
         point = FloatPoint(at)
         out = values(self.chart.ring, point)
@@ -140,7 +140,7 @@ class _Arms:
         return self._evaluated(at)[1]
 
     def _evaluated(self, at: Point) -> tuple[Any, Any]:
-        """Return the arms as a vector over the columns and their derivatives by all columns; 0 where there is none."""
+        """Return the arms as a vector over the columns, and their derivatives by all columns; 0 in other columns."""
         n = len(self.symbols)
         arms, slopes = np.zeros(n), np.zeros((n, n))
         if self.rows:
@@ -163,7 +163,7 @@ class MeasuredPose:
 
     @cached_property
     def norms(self) -> Any:
-        """By what the rows are divided, here and nearby."""
+        """The numbers by which rows are divided, at this point and nearby."""
         return self.equations.norms(self.at)
 
     @cached_property
@@ -188,9 +188,9 @@ class MeasuredPose:
 
     @cached_property
     def rigid_motions(self) -> Any:
-        """An orthonormal basis of the rigid motions of the system, those within the tolerance left out.
+        """An orthonormal basis of the rigid motions of the system, without rotations that are 0 within the tolerance.
 
-        A rotation counts by what it does besides shifting, in sizes for a turn by 1: a rod's turn about its axis is 0.
+        The size of a rotation is that of its part orthogonal to translations: 0 for a rod's rotation about its axis.
         """
         motions = self.equations.rigid_motions(self.at)
         if not motions.size:
@@ -222,11 +222,8 @@ def clear_rank(j: Any, tolerance: float) -> int | None:
 
 
 def independent_rows(j: Any, rank: int, tolerance: float) -> list[int]:
-    """Return the first rows, in order, that are independent of those before them within the tolerance.
-
-    Rows are independent as long as their least singular value is above it, which leaving out a row never lowers.
-    """
-    rows = _separate_rows(j, rank, tolerance)
+    """Return the first rows, in order, that are independent within the tolerance: by their least singular value."""
+    rows = _distant_rows(j, rank, tolerance)  # a quick choice, which need not be independent together
     if _are_independent(j[rows], tolerance):
         return rows
     rows = []
@@ -240,16 +237,17 @@ def independent_rows(j: Any, rank: int, tolerance: float) -> list[int]:
 
 
 def _are_independent(rows: Any, tolerance: float) -> bool:
+    """Return whether the least singular value of some rows counts as nonzero."""
     return not len(rows) or float(np.linalg.svd(rows, compute_uv=False)[-1]) > tolerance * SLACK
 
 
-def _separate_rows(j: Any, rank: int, tolerance: float) -> list[int]:
-    """Return the first rows whose distance from the span of those before them is above the tolerance."""
+def _distant_rows(j: Any, rank: int, tolerance: float) -> list[int]:
+    """Return the first ``rank`` rows whose distance from the span of those before them is above SLACK * tolerance."""
     rows, basis = list[int](), np.zeros((0, j.shape[1]))
     for r, row in enumerate(j):
         if len(rows) == rank:
             break
-        for _ in range(PASSES):
+        for _ in range(GRAM_SCHMIDT_PASSES):
             row = row - basis.T @ (basis @ row)
         distance = float(np.linalg.norm(row))
         if distance > tolerance * SLACK:
@@ -259,9 +257,9 @@ def _separate_rows(j: Any, rank: int, tolerance: float) -> list[int]:
 
 
 def is_tree(block: Block, setting: Setting) -> bool:
-    """Return whether constraints of geometry alone join particles, bodies and the ground without a loop.
+    """Return whether all rows are of geometric constraints that join particles, bodies and the ground without a loop.
 
-    Their equations are then independent wherever they are satisfied, whatever their numbers are.
+    Their equations are then independent for all numbers, wherever they are satisfied.
     """
     owners = {c.name: c.owner for c in setting.roles}
     ends = {(row.constraint, owners[name]) for row in block.rows for name in coordinates_of(row.piece)}
@@ -271,7 +269,7 @@ def is_tree(block: Block, setting: Setting) -> bool:
 
 
 def pose_of_block(chart: Chart) -> Mapping[Expr, Expr] | None:
-    """Return the reference configuration, else the given positions if the equations mention no others, else None."""
+    """Return the reference configuration; without one, the given initial values if these are enough, or None."""
     setting = chart.setting
     if setting.reference is not None:
         return setting.reference
@@ -279,22 +277,22 @@ def pose_of_block(chart: Chart) -> Mapping[Expr, Expr] | None:
     return setting.pose if mentioned <= setting.pose.keys() else None
 
 
-# The second order, with bounds of what the tolerance may change in it
+# The second order, with bounds on its change within the tolerance
 
-#: Second derivatives are differences over `DELTA`, and accurate to `ROUGH`.
+#: Step of the differences for second derivatives, and their relative accuracy.
 DELTA, ROUGH = 1e-5, 1e-6
-#: The perturbations of size |J - J_0| / s in a form: of its stress and of both its motions.
+#: The number of factors of a form that are perturbed by |J - J_0| / s: its stress and both motions.
 PERTURBATIONS = 3.0
 
 
 class StressForms:
-    """The second order: ``forms`` (k x w x w) of the stresses on a pose's w flexes, with the ``noise`` of each entry.
+    """The quadratic ``forms`` (k x w x w) of k stresses on a pose's w flexes; ``noise`` bounds the error of each entry.
 
     Let J be the Jacobian, of rank r within the tolerance, and J_0 that of an exact geometry of rank r within it. A
     stress l, with l J_0 = 0, and a motion v, with J_0 v = 0, give Q_l(v) = sum l_i (d^2 f_i)(v, v), the second order of
     the dependent equation l f on the manifold of the others. The null spaces of J and J_0 differ by |J - J_0| / s, s
-    the least singular value that counts [Wedin1972], and the forms by that times the second derivatives, for the stress
-    and for both motions, and by what these change themselves: what balls of this radius prove holds for all such J_0.
+    the least singular value that counts [Wedin1972]. This changes the forms for the stress and for both motions, times
+    the second derivatives, which change as well. A proof with balls of this radius is valid for all such J_0.
     """
 
     def __init__(self, pose: MeasuredPose) -> None:
@@ -316,17 +314,17 @@ class StressForms:
 
     @cached_property
     def balls(self) -> list[list[list[arb]]]:
-        """The forms with their noise."""
+        """The forms as balls, with ``noise`` as radius."""
         return [[[arb(v, self.noise) for v in row] for row in form.tolist()] for form in self.forms]
 
     @cached_property
     def vanish(self) -> bool:
-        """Whether all of them may be 0."""
+        """Whether all forms may be 0."""
         return all(v.contains(0) for form in self.balls for row in form for v in row)
 
     @property
     def is_indefinite(self) -> bool:
-        """Whether there is one form, with eigenvalues of both signs beyond ``noise``, which bounds their error."""
+        """Whether there is exactly one form, and it has eigenvalues of both signs beyond their error ``noise``."""
         if len(self.forms) != 1:
             return False
         values = np.linalg.eigvalsh(self.forms[0])
@@ -334,7 +332,7 @@ class StressForms:
 
     @property
     def definite(self) -> bool:
-        """Whether a combination of them is definite."""
+        """Whether a linear combination of the forms is definite."""
         for spectrum in np.linalg.eigvalsh(self.forms):
             if np.all(spectrum > self.noise) or np.all(spectrum < -self.noise):
                 return True

@@ -1,7 +1,7 @@
-"""What is independent in a matrix of balls or of measured numbers.
+"""Independent rows and columns of matrices of balls (certified) and of floats (estimated).
 
-A pivot whose ball excludes 0 is a proof, and what is left holds 0. Ranks in floating point say where a search begins,
-and those of measured numbers; nothing else rests on them.
+A pivot whose ball excludes 0 proves that the rank is at least so large. Ranks in floating point are used only to begin
+a search, and in scenes with a tolerance.
 """
 
 from __future__ import annotations
@@ -16,17 +16,18 @@ from flint import arb, arb_mat
 
 from dofkit.base.deadline import check
 from dofkit.base.libraries import np
-from dofkit.exact.matrices.dense import PASSES, Matrix, dot, length, pivoted, plus, unit_rows
+from dofkit.exact.matrices.dense import GRAM_SCHMIDT_PASSES, Matrix, dot, length, pivoted, plus, unit_rows
 
-#: Relative size below which a singular value of a matrix with scaled rows is taken for 0, and above which it is not.
+#: With scaled rows, pivots below `NOISE` are rounding errors, above `SIGNAL` not; up to `FAINT` they count as 0.
 NOISE, SIGNAL = 1e-9, 1e-6
 FAINT = math.sqrt(NOISE * SIGNAL)
 
 
 def independent_part(j: Matrix) -> tuple[int, float, list[int], list[int]]:
-    """Return (rank, gap, rows, columns) of a matrix with its rows scaled; rows are taken greedily in their order.
+    """Return (rank, gap, rows, columns): the numerical rank, and independent rows and columns, of a matrix of floats.
 
-    Raises NoValueError where an entry is not finite, as at a pole.
+    The rows are scaled to length 1. ``gap`` is the ratio of the last pivot that counts to the next one, infinite if
+    there is none; ``rows`` are the first independent ones. Raises NoValueError if an entry is not finite (a pole).
     """
     scaled = unit_rows(j)
     sizes = pivoted(scaled).sizes
@@ -37,14 +38,14 @@ def independent_part(j: Matrix) -> tuple[int, float, list[int], list[int]]:
 
 
 def greedy_rows(matrix: Matrix, rank: int) -> list[int]:
-    """Return the first rows, in order, each independent of those before it."""
+    """Return the numbers of the first ``rank`` rows that are independent of the rows before them."""
     kept: list[int] = []
     basis: list[list[float]] = []
     for i, row in enumerate(matrix):
         if len(kept) == rank:
             break
         residual = list(row)
-        for _ in range(PASSES):
+        for _ in range(GRAM_SCHMIDT_PASSES):
             for direction in basis:
                 residual = plus(residual, -dot(residual, direction), direction)
         size = length(residual)
@@ -55,7 +56,7 @@ def greedy_rows(matrix: Matrix, rank: int) -> list[int]:
 
 
 def dependency_pattern(j: np.ndarray, rows: Sequence[int]) -> list[list[int]]:
-    """Return which rows depend on which of the independent ``rows``, as a matrix over GF(2)."""
+    """Return the 0-1 matrix with (i, k) = 1 if row i of ``j``, as a sum of the independent ``rows``, needs the k-th."""
     check()
     if not rows:
         return [[0] for _ in j]
@@ -65,7 +66,7 @@ def dependency_pattern(j: np.ndarray, rows: Sequence[int]) -> list[list[int]]:
 
 
 def greedy_pivots(matrix: Matrix, rank: int) -> list[int]:
-    """Return rows chosen for the largest remainder, which are well conditioned, by their numbers."""
+    """Return the numbers, in order, of ``rank`` well conditioned rows: each has the largest remainder (pivoting)."""
     return sorted(pivoted(matrix, most=rank).order)
 
 
@@ -73,11 +74,10 @@ Balls = Sequence[Sequence[arb]]
 
 
 class PivotedPart(NamedTuple):
-    """``rows`` (the first that are independent) and ``columns`` of a regular part.
+    """A nonsingular submatrix: its ``rank``, its ``rows`` (the first that are independent) and its ``columns``.
 
-    ``gap``: the smallest pivot by the largest number that is left, each as a fraction of its row; ``fall``: the
-    largest ratio of a pivot to the next smaller one. Where pivots fall from one to the next, only a gap that is wider
-    by far tells that no further one was lost.
+    ``gap``: ratio of the smallest pivot to the largest residual, each relative to its row; ``fall``: the largest
+    ratio of a pivot to the next smaller one. Only a gap much larger than ``fall`` shows that no pivot was missed.
     """
 
     rank: int
@@ -88,7 +88,7 @@ class PivotedPart(NamedTuple):
 
 
 def ball_part(matrix: Balls) -> PivotedPart:
-    """Return a part of the matrix that is certified regular, such that the rest holds 0 after elimination."""
+    """Return a certified nonsingular submatrix; after elimination the balls of all remaining entries contain 0."""
     kept: list[tuple[list[arb], int]] = []
     rows: list[int] = []
     sizes: list[float] = []
@@ -97,12 +97,12 @@ def ball_part(matrix: Balls) -> PivotedPart:
         residual = _reduced(row, kept)
         c = _pivot(residual)
         if c < 0:
-            largest_residual = max(largest_residual, _share(_largest(residual), row))
+            largest_residual = max(largest_residual, _relative_size(_largest(residual), row))
         else:
             kept.append((residual, c))
             rows.append(r)
-            sizes.append(_share(residual[c].abs_lower(), row))
-    return PivotedPart(len(rows), _ratio(sizes, largest_residual), rows, [c for _, c in kept], _fall(sizes))
+            sizes.append(_relative_size(residual[c].abs_lower(), row))
+    return PivotedPart(len(rows), _pivot_gap(sizes, largest_residual), rows, [c for _, c in kept], _largest_fall(sizes))
 
 
 def _reduced(row: Sequence[arb], kept: Sequence[tuple[list[arb], int]]) -> list[arb]:
@@ -116,7 +116,7 @@ def _reduced(row: Sequence[arb], kept: Sequence[tuple[list[arb], int]]) -> list[
 
 
 def _pivot(row: Sequence[arb]) -> int:
-    """Return the column of the largest entry that is certainly not 0; -1 where all hold 0."""
+    """Return the column of the largest entry that is certainly not 0; -1 if all balls contain 0."""
     best, size = -1, arb(0)
     for c, v in enumerate(row):
         if not v.contains(0) and (low := v.abs_lower()) > size:
@@ -134,26 +134,26 @@ def _largest(row: Sequence[arb]) -> arb:
     return max((v.abs_upper() for v in row), default=arb(0))
 
 
-def _share(size: arb, row: Sequence[arb]) -> float:
-    """Return a number as a fraction of a row's largest entry, which floating point may be too small for."""
+def _relative_size(size: arb, row: Sequence[arb]) -> float:
+    """Return a size divided by the row's largest entry; as balls, because both may be too large for floats."""
     return float(size / _scale(row))
 
 
-def _ratio(sizes: Sequence[float], largest_residual: float) -> float:
+def _pivot_gap(sizes: Sequence[float], largest_residual: float) -> float:
     return min(sizes) / largest_residual if sizes and largest_residual else math.inf
 
 
-def _fall(sizes: Sequence[float]) -> float:
-    """Return the largest ratio of neighbours, in order of size."""
+def _largest_fall(sizes: Sequence[float]) -> float:
+    """Return the largest ratio of a pivot's size to the next smaller one."""
     ordered = sorted(sizes)
     return max((b / a if a else math.inf for a, b in pairwise(ordered)), default=1.0)
 
 
 def dependencies(matrix: Balls, part: PivotedPart) -> list[list[int]]:
-    """Return which rows depend on which of the independent ones, as a matrix over GF(2)."""
+    """Return a 0-1 matrix: entry (r, k) is 1 if row r, as a sum of ``part.rows``, may need the k-th of them."""
     pattern = [[int(r == k) for k in part.rows] or [0] for r in range(len(matrix))]
     others = [r for r, entry in enumerate(pattern) if not any(entry)]
-    with suppress(ZeroDivisionError):  # where that part is not certified regular
+    with suppress(ZeroDivisionError):  # the balls of the submatrix may be too wide to solve it
         square = arb_mat([[matrix[r][c] for r in part.rows] for c in part.columns])
         right = arb_mat(part.rank, len(others), [matrix[r][c] for c in part.columns for r in others])
         for r, weights in zip(others, square.solve(right).transpose().tolist() if others else (), strict=True):

@@ -1,7 +1,7 @@
-"""Small dense matrices of floats, as lists: steps, pivots and singular values, by FLINT's numbers of `BITS` bits.
+"""Dense matrices of floats, as lists of rows: Newton steps, pivots and singular values.
 
-They say where a search goes and what to prove; nothing else rests on them. A matrix of more than `SMALL` entries is
-numpy's, which is imported then; where numpy is not installed, as in a browser, all are small.
+Searches use them; no proof does. FLINT computes with `BITS` bits for up to `SMALL` entries, and numpy, which is then
+imported, for larger matrices; without numpy (as in a browser) FLINT computes all.
 """
 
 from __future__ import annotations
@@ -19,12 +19,12 @@ from dofkit.base.libraries import HAS_NUMPY, np
 Vector = Sequence[float]
 Matrix = Sequence[Vector]
 
-#: Bits of the numbers in which small matrices are multiplied and solved, and entries of what is small.
+#: Bits of FLINT's numbers for small matrices, and the largest number of entries of a small matrix.
 BITS, SMALL = 512, 400 if HAS_NUMPY else math.inf
-#: A singular value that counts as 0 in a step, and what is always added to squares.
+#: Singular values up to `FLAT` count as 0 in a step; `LEAST` keeps a damped system regular where f = 0.
 FLAT, LEAST = 1e-12, 1e-60
-#: So often a direction is made orthogonal to others: rounding leaves something of them at first.
-PASSES = 2
+#: How often Gram-Schmidt is repeated for one direction, because the first pass leaves rounding errors.
+GRAM_SCHMIDT_PASSES = 2
 
 
 def dot(a: Vector, b: Vector) -> float:
@@ -39,7 +39,7 @@ def length(v: Vector) -> float:
 
 
 def largest(v: Vector) -> float:
-    """Return the largest absolute value; 0 of none, and no number where an entry is not finite."""
+    """Return the largest absolute value; 0 if ``v`` is empty, NaN if an entry is not finite."""
     return max(map(abs, v), default=0.0) + 0.0 * sum(v)
 
 
@@ -54,7 +54,7 @@ def plus(a: Vector, factor: float, b: Vector) -> list[float]:
 
 
 def unit_rows(matrix: Matrix, least: float = 0.0) -> list[list[float]]:
-    """Return the rows scaled to length 1, those no longer than ``least`` as they are. Raises NoValueError at a pole."""
+    """Return the rows scaled to length 1 if longer than ``least``; raises NoValueError if an entry is not finite."""
     lengths = [length(row) for row in matrix]
     if not all(map(math.isfinite, lengths)):
         raise NoValueError("an entry of the matrix is not finite")
@@ -62,7 +62,7 @@ def unit_rows(matrix: Matrix, least: float = 0.0) -> list[list[float]]:
 
 
 def step(j: Matrix, f: Vector) -> list[float]:
-    """Return the least step u for which J u + f is least; singular values below `FLAT` count as 0.
+    """Return the shortest step u that minimises |J u + f|; singular values below `FLAT` count as 0.
 
     >>> step([[1.0, 1.0], [1.0, 1.0]], [2.0, 2.0])
     [-1.0, -1.0]
@@ -71,12 +71,12 @@ def step(j: Matrix, f: Vector) -> list[float]:
 
 
 def damped(j: Matrix, f: Vector, power: int = 1) -> list[float]:
-    """The step -J^T (J J^T + |f|^power I)^-1 f: it leaves the directions alone in which J is smaller than the error."""
+    """Return the damped step -J^T (J J^T + |f|^power I)^-1 f, small in directions where J is smaller than |f|^power."""
     return _step(j, f, 1, length(f) ** power + LEAST)
 
 
 def _step(j: Matrix, f: Vector, order: int, shift: float) -> list[float]:
-    """Return the f whose part in the direction of a singular value s is divided by -(s + shift / s^(2 order - 1))."""
+    """Return -J^+ f with each singular value s of J replaced by s + shift / s^(2 order - 1)."""
     if not j or not j[0]:
         return [0.0] * len(j[0] if j else ())
     if len(j) * len(j[0]) > SMALL:
@@ -95,14 +95,14 @@ def _step(j: Matrix, f: Vector, order: int, shift: float) -> list[float]:
 
 
 def array_step(j: np.ndarray, f: np.ndarray, order: int, shift: float) -> np.ndarray:
-    """Return the same for arrays of numpy."""
+    """Return what `_step` returns, for numpy arrays."""
     u, singular, v = np.linalg.svd(j, full_matrices=False)
     factors = singular ** (2 * order - 1) / (singular ** (2 * order) + shift + 1e-300)
     return np.asarray(-(v.T @ (factors * (u.T @ f))))
 
 
 class Pivoting(NamedTuple):
-    """Rows in the ``order`` of their remainders, the largest first, their ``sizes``, an orthonormal ``basis``."""
+    """Row numbers in ``order`` of pivoting, ``sizes`` of the rows' remainders, an orthonormal ``basis`` of the rows."""
 
     order: list[int]
     sizes: list[float]
@@ -110,7 +110,9 @@ class Pivoting(NamedTuple):
 
 
 def pivoted(matrix: Matrix, least: float = 0.0, most: int | None = None) -> Pivoting:
-    """Return at ``most`` so many rows, each with the largest remainder beyond those before it, if above ``least``.
+    """Return pivoted Gram-Schmidt of the rows: each step takes the row with the largest remainder.
+
+    It ends after ``most`` rows (by default the smaller dimension), or if no remainder is above ``least``.
 
     >>> pivoted([[0.0, 1.0], [3.0, 0.0], [6.0, 0.0]], 1e-9)
     Pivoting(order=[2, 0], sizes=[6.0, 1.0], basis=[[1.0, 0.0], [0.0, 1.0]])
@@ -126,7 +128,7 @@ def pivoted(matrix: Matrix, least: float = 0.0, most: int | None = None) -> Pivo
         if not sizes[best] > least:
             break
         direction = residual[best]
-        for _ in range(PASSES):
+        for _ in range(GRAM_SCHMIDT_PASSES):
             for other in chosen.basis:
                 direction = plus(direction, -dot(direction, other), other)
             size = length(direction)
@@ -142,7 +144,7 @@ def pivoted(matrix: Matrix, least: float = 0.0, most: int | None = None) -> Pivo
 
 
 def _array_pivoted(residual: np.ndarray, least: float, most: int) -> Pivoting:
-    """Do what `pivoted` does, by numpy: pivoted Gram-Schmidt of the rows of ``residual``, which is overwritten."""
+    """Return what `pivoted` returns, by numpy; ``residual`` is the matrix, and is overwritten."""
     order, sizes, basis = list[int](), list[float](), np.empty((most, residual.shape[1]))
     for k in range(most):
         lengths = np.linalg.norm(residual, axis=1)
@@ -150,7 +152,7 @@ def _array_pivoted(residual: np.ndarray, least: float, most: int) -> Pivoting:
         if not lengths[best] > least:
             break
         direction = residual[best].copy()
-        for _ in range(PASSES):
+        for _ in range(GRAM_SCHMIDT_PASSES):
             direction -= basis[:k].T @ (basis[:k] @ direction)
             size = float(np.linalg.norm(direction))
             if not size:
@@ -165,12 +167,12 @@ def _array_pivoted(residual: np.ndarray, least: float, most: int) -> Pivoting:
 
 
 def rank(matrix: Matrix, least: float) -> int:
-    """Return how many remainders of rows are above ``least``."""
+    """Return the numerical rank: the number of pivots (`pivoted`) above ``least``."""
     return len(pivoted(matrix, least).order)
 
 
 def complement(basis: Matrix, n: int) -> list[list[float]]:
-    """Return an orthonormal basis of what is orthogonal to an orthonormal one in n dimensions."""
+    """Return an orthonormal basis of the orthogonal complement in R^n of the span of an orthonormal ``basis``."""
     if basis and n * n > SMALL:
         columns: list[list[float]] = np.linalg.qr(np.array(basis).T, mode="complete")[0].T.tolist()
         return columns[len(basis) :]
@@ -184,7 +186,7 @@ def complement(basis: Matrix, n: int) -> list[list[float]]:
 
 
 def singular_values(matrix: Matrix) -> list[float]:
-    """Return the singular values, from the largest.
+    """Return the singular values in descending order.
 
     >>> singular_values([[3.0, 0.0], [0.0, -4.0]])
     [4.0, 3.0]
@@ -201,7 +203,7 @@ def singular_values(matrix: Matrix) -> list[float]:
 
 
 def least_eigenvector(form: Matrix) -> tuple[float, list[float]]:
-    """Return the least eigenvalue of a symmetric matrix, and a unit vector that belongs to it."""
+    """Return the least eigenvalue of a symmetric matrix and a unit eigenvector."""
     if len(form) ** 2 > SMALL:
         eigenvalues, vectors = np.linalg.eigh(np.array(form))
         return float(eigenvalues[0]), [float(v) for v in vectors[:, 0]]

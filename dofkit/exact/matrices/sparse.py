@@ -1,7 +1,7 @@
-"""Ranks over GF(p); of sparse matrices also independent rows in order, dependences, and columns to solve for.
+"""Elimination over GF(p): ranks, and of sparse matrices the first independent rows, dependences and pivot columns.
 
-Rows are taken one after another and reduced by those before them; a pivot is the entry whose column occurs in the
-fewest rows, so a chain or a tree fills in nothing and a grid little more than its width.
+Rows are reduced in order by those before them; a pivot is the entry whose column occurs in the fewest rows, so that
+a chain or a tree causes no fill-in and a grid little more than its width.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ LinearRow = dict[int, Any]
 
 
 def combined(terms: Iterable[tuple[Any, Mapping[int, Any]]]) -> LinearRow:
-    """Return the sum of numbers times rows."""
+    """Return the sum of factor * row over (factor, row) ``terms``."""
     total: LinearRow = {}
     for factor, row in terms:
         for c, v in row.items():
@@ -33,22 +33,22 @@ def combined(terms: Iterable[tuple[Any, Mapping[int, Any]]]) -> LinearRow:
 
 
 def along(direction: Numbers, rows: Sequence[LinearRow]) -> LinearRow:
-    """Return the component along a direction of a vector of rows."""
+    """Return the row sum_i direction[i] rows[i]: the component of a vector of rows along a direction."""
     return combined(zip(direction, rows, strict=True))
 
 
 def across(direction: Numbers, rows: Sequence[LinearRow]) -> Iterator[LinearRow]:
-    """Return the d - 1 components across a direction of a vector of rows."""
+    """Yield the d - 1 components of a vector of d rows perpendicular to a direction."""
     return (along(u, rows) for u in perpendicular(direction))
 
 
 def less(second: Sequence[LinearRow], first: Sequence[LinearRow]) -> list[LinearRow]:
-    """second - first."""
+    """Return second - first, row by row."""
     return [combined(((1, b), (-1, a))) for a, b in zip(first, second, strict=True)]
 
 
 def perpendicular(n: Numbers) -> list[tuple[Any, ...]]:
-    """Return d - 1 vectors that span what is perpendicular to a vector n, not 0, of d numbers."""
+    """Return d - 1 vectors that span the space perpendicular to a nonzero vector n of d numbers."""
     if len(n) == 2:
         return [(-n[1], n[0])]
     pivot = next(i for i in reversed(range(len(n))) if n[i] != 0)
@@ -62,23 +62,23 @@ def perpendicular(n: Numbers) -> list[tuple[Any, ...]]:
 
 
 def cross(a: Numbers, b: Numbers) -> tuple[Any, ...]:
-    """a x b in space."""
+    """Return the vector product a x b in space."""
     return tuple(a[i] * b[j] - a[j] * b[i] for i, j in ((1, 2), (2, 0), (0, 1)))
 
 
 SparseRow = dict[int, int]
-#: For every row that depends on rows before it a minimal set of those; given where it is asked for.
+#: A function that computes, for every row that depends on rows before it, a minimal set of those.
 Supports = Callable[[], Mapping[int, Sequence[int]]]
 
 RationalRow = dict[int, fmpq]
-#: Primes modulo which dependences of rational rows are found; factors have up to half their bits.
+#: Primes modulo which dependences of rational rows are found; a factor's numerator and denominator have half the bits.
 RECONSTRUCTION_PRIMES = (2**127 - 1, 2**521 - 1, 2**2203 - 1)
-#: Rows between two looks at the clock.
+#: The deadline is checked once in so many rows.
 LOOK = 64
 
 
 def sparse(rows: Iterable[Sequence[Any]]) -> list[SparseRow]:
-    """Dense rows without their zeros."""
+    """Return dense rows as sparse ones, {column: integer}, without the zeros."""
     return [{c: int(v) for c, v in enumerate(row) if v != 0} for row in rows]
 
 
@@ -93,9 +93,9 @@ def transposed(rows: Sequence[Mapping[int, int]], columns: int) -> list[SparseRo
 
 @dataclass(frozen=True)
 class Echelon:
-    """``independent``: the first independent rows in order; ``supports``: for every other row those it is a sum of.
+    """``independent``: the rows that are independent of those before them.
 
-    ``supports`` is empty where it was not asked for.
+    ``supports``: for every other row the independent rows of which it is a sum; empty if not requested.
     """
 
     independent: tuple[int, ...]
@@ -107,7 +107,7 @@ class Echelon:
 
 
 def echelon(rows: Sequence[Mapping[int, int]], p: int, supports: bool = False) -> Echelon:
-    """Return the greedy basis of the rows over GF(p)."""
+    """Return the independent rows over GF(p), taken greedily in order, and with ``supports`` the dependences."""
     reduction = Reduction(rows, p, peelable_rows(rows))
     sums = reduction.dependent
     independent = tuple([i for i in range(len(rows)) if i not in sums])
@@ -115,7 +115,9 @@ def echelon(rows: Sequence[Mapping[int, int]], p: int, supports: bool = False) -
 
 
 def vanishing(rows: Sequence[Mapping[int, int]], p: int) -> list[SparseRow]:
-    """A basis of the sums of rows that are 0, row -> factor each: for every dependent row it and those before it.
+    """Return a basis of the linear dependences of the rows, as {row: factor} with sum of factor * row = 0.
+
+    There is one for every row that depends on rows before it, with the factor 1 for this row.
 
     >>> vanishing([{0: 1}, {0: 1, 1: 1}, {1: 2}], 7)
     [{2: 1, 1: 5, 0: 2}]
@@ -125,10 +127,10 @@ def vanishing(rows: Sequence[Mapping[int, int]], p: int) -> list[SparseRow]:
 
 
 def dependences(rows: Sequence[Mapping[int, fmpq]]) -> dict[int, RationalRow] | None:
-    """Return for every rational row that is a sum of rows before it their factors, row_i = sum f_k row_k.
+    """Return {i: {k: f_k}} with row_i = sum f_k row_k for every row i that depends on rows before it.
 
-    What is independent modulo a prime is so over the rationals; dependences are reconstructed from their residues and
-    checked. None where that succeeds for no prime.
+    Rows that are independent modulo a prime are so over the rationals; dependences are reconstructed from their
+    residues and checked. None if no prime of `RECONSTRUCTION_PRIMES` succeeds.
 
     >>> dependences([{0: fmpq(1)}, {0: fmpq(1), 1: fmpq(2)}, {1: fmpq(1)}])
     {2: {0: -1/2, 1: 1/2}}
@@ -146,7 +148,7 @@ def dependences(rows: Sequence[Mapping[int, fmpq]]) -> dict[int, RationalRow] | 
 
 
 def reconstructed(residue: int, p: int) -> fmpq:
-    """Return the fraction a/b with this residue and |a|, |b| below the root of p/2, if there is one [Wang1981]."""
+    """Return the fraction a/b with this residue and |a|, |b| < sqrt(p/2) if it exists, else a wrong one [Wang1981]."""
     a, b, x, y = p, residue % p, 0, 1
     while 2 * b * b > p:
         quotient = a // b
@@ -155,7 +157,7 @@ def reconstructed(residue: int, p: int) -> fmpq:
 
 
 def _is_sum(rows: Sequence[Mapping[int, fmpq]], i: int, factors: RationalRow) -> bool:
-    """Return whether row i is exactly the sum of rows times factors."""
+    """Return whether row i is exactly sum_k factors[k] * rows[k]."""
     check()
     total = dict(rows[i])
     for k, factor in factors.items():
@@ -165,7 +167,7 @@ def _is_sum(rows: Sequence[Mapping[int, fmpq]], i: int, factors: RationalRow) ->
 
 
 def vector_in_kernel(rows: Sequence[Mapping[int, int]], p: int, rng: random.Random) -> SparseRow:
-    """Return a random vector on which all rows vanish, with a value for each column that occurs."""
+    """Return a random vector of the kernel of the rows over GF(p), with a value for each column that occurs."""
     columns = dict.fromkeys(c for row in rows for c in row)
     return Reduction(rows, p).completed({c: rng.randrange(p) for c in columns})
 
@@ -176,15 +178,15 @@ def rank_of_rows(rows: Sequence[Mapping[int, int]], p: int) -> int:
 
 
 def last_columns(rows: Sequence[Mapping[int, int]], columns: int, p: int) -> tuple[int, ...]:
-    """Columns to solve the rows for: a basis of the column space, the last ones where there is a choice."""
+    """Return the columns to solve the rows for: a basis of the column space, later columns preferred."""
     turned = transposed(rows, columns)[::-1]
     return tuple(sorted(columns - 1 - k for k in echelon(turned, p).independent))
 
 
 def peelable_rows(rows: Sequence[Mapping[int, int]]) -> set[int]:
-    """Rows that can be taken away one after another, each with a column that no row left has: independent of the rest.
+    """Return the rows that can be removed one after another, each having a column that occurs in no remaining row.
 
-    A tree or a chain goes entirely; what stays is the core, where every column occurs twice.
+    They are independent of the other rows. In a tree all rows are removed; what remains has every column twice or more.
     """
     having: dict[int, set[int]] = {}
     for i, row in enumerate(rows):
@@ -206,9 +208,10 @@ def peelable_rows(rows: Sequence[Mapping[int, int]]) -> set[int]:
 
 
 class Reduction:
-    """Pivot rows with a 1 in their pivot column, each free of the pivots before it, of all rows but some.
+    """Gaussian elimination over GF(p) of all rows except those in ``without``.
 
-    ``dependent``: for every row that depends on rows before it, the multiples of pivot rows that it is the sum of.
+    A pivot row has a 1 in its pivot column and zeros in the pivot columns before it. ``dependent``: for every row that
+    depends on rows before it, {pivot row: factor} whose sum it is.
     """
 
     def __init__(self, rows: Sequence[Mapping[int, int]], p: int, without: Set[int] = frozenset()) -> None:
@@ -229,7 +232,7 @@ class Reduction:
                 self.dependent[i] = used
 
     def _reduced(self, row: Mapping[int, int]) -> tuple[SparseRow, SparseRow]:
-        """Return what is left of a row, and the multiples of pivot rows that were taken from it."""
+        """Return the remainder of a row, and {pivot row: factor} of what was subtracted from it."""
         p, of, work, used = self.p, self._of, dict(row), SparseRow()
         pending = [of[c] for c in work if c in of]
         heapify(pending)
@@ -255,7 +258,7 @@ class Reduction:
         return work, used
 
     def _add(self, row: int, residual: SparseRow, used: SparseRow) -> None:
-        """A new pivot row: ``residual`` is the row less ``used`` multiples of earlier ones, then scaled."""
+        """Add a pivot row: ``residual``, which is ``row`` minus the multiples ``used`` of earlier ones, is scaled."""
         column = min(residual, key=lambda c: (self._weight[c], c))
         inverse = pow(residual[column], -1, self.p)
         self._of[column] = len(self._rows)
@@ -263,7 +266,7 @@ class Reduction:
         self._sources.append((row, inverse, used))
 
     def solved(self, right: Sequence[int]) -> list[int]:
-        """Return the solution of as many equations as there are columns, all of them pivots, with this right side."""
+        """Return the solution of a regular square system with this right side, one number for each row."""
         p, reduced = self.p, list[int]()
         for row, inverse, used in self._sources:
             taken = sum(factor * reduced[k] for k, factor in used.items())
@@ -275,14 +278,14 @@ class Reduction:
         return solution
 
     def completed(self, values: Mapping[int, int]) -> SparseRow:
-        """Return the vector with the given values in the columns that are no pivots, on which all rows vanish."""
+        """Return the kernel vector with the given ``values`` in the columns that are no pivots."""
         vector = dict(values)
         for (column, _), *others in reversed(self._rows):
             vector[column] = -sum(v * vector[c] for c, v in others) % self.p
         return vector
 
     def support(self, used: Mapping[int, int]) -> SparseRow:
-        """A sum of pivot rows as one of rows, row -> factor: each is its row less earlier ones, unfolded backwards."""
+        """Return {row: factor} of the original rows for a combination {pivot row: factor}."""
         multiples, factors = dict(used), SparseRow()
         pending = [-k for k in multiples]
         heapify(pending)
@@ -302,7 +305,7 @@ class Reduction:
 
 
 def factored(rows: Sequence[Mapping[int, int]], p: int) -> Reduction:
-    """Return a square matrix, factored once to be ``solved`` often; rows are equations. Raises PoleError."""
+    """Return the elimination of a square matrix, for its method ``solved``; raises PoleError if it is singular."""
     reduction = Reduction(rows, p)
     if reduction.dependent:
         raise PoleError("the matrix is singular")
@@ -310,7 +313,7 @@ def factored(rows: Sequence[Mapping[int, int]], p: int) -> Reduction:
 
 
 def rank_of(matrix: Sequence[Sequence[Any]], p: int) -> int:
-    """Rank over GF(p)."""
+    """Return the rank over GF(p) of a dense matrix."""
     if not matrix or not matrix[0]:
         return 0
     affordable(len(matrix), len(matrix[0]))
@@ -318,13 +321,13 @@ def rank_of(matrix: Sequence[Sequence[Any]], p: int) -> int:
 
 
 def without_time(rows: Sequence[SparseRow], n: int) -> list[SparseRow]:
-    """Return the first n columns."""
+    """Return the rows without the column of time, which comes after the n columns of coordinates."""
     return [{c: v for c, v in row.items() if c < n} for row in rows]
 
 
 @dataclass(frozen=True)
 class Pivots:
-    """A choice of independent rows and of dependent columns, regular at a point."""
+    """Independent ``rows``, the ``dependent`` columns for which they can be solved, the other columns (``free``)."""
 
     rows: tuple[int, ...]
     dependent: tuple[int, ...]
@@ -332,7 +335,7 @@ class Pivots:
 
 
 def sparse_frame(rows: Sequence[SparseRow], n: int, p: int) -> Pivots:
-    """Return the first independent rows in order, and columns solved for (the last ones where there is a choice)."""
+    """Return the first independent rows, and the columns to solve them for, later columns preferred."""
     kept = echelon(rows, p).independent
     dependent = last_columns([rows[i] for i in kept], n, p)
     solved = set(dependent)
@@ -340,7 +343,7 @@ def sparse_frame(rows: Sequence[SparseRow], n: int, p: int) -> Pivots:
 
 
 def components(names_of: Iterable[Iterable[Hashable]]) -> list[list[int]]:
-    """Return the groups of things that are joined by names in common, by their numbers and in order.
+    """Return the connected components, as lists of indices, of items of which two are joined if they share a name.
 
     >>> components([("x", "y"), ("z",), ("y", "u"), ()])
     [[0, 2], [1], [3]]
@@ -348,7 +351,7 @@ def components(names_of: Iterable[Iterable[Hashable]]) -> list[list[int]]:
     leader: list[int] = []
     owner: dict[Hashable, int] = {}
 
-    def led(i: int) -> int:
+    def root_of(i: int) -> int:
         while leader[i] != i:
             leader[i] = i = leader[leader[i]]
         return i
@@ -359,10 +362,10 @@ def components(names_of: Iterable[Iterable[Hashable]]) -> list[list[int]]:
         for name in names:
             first_owner = owner.setdefault(name, root)
             if first_owner != root:
-                first_owner = led(first_owner)
+                first_owner = root_of(first_owner)
                 root, first_owner = (root, first_owner) if root < first_owner else (first_owner, root)
                 leader[first_owner] = root
     groups: dict[int, list[int]] = {}
     for i in range(len(leader)):
-        groups.setdefault(led(i), []).append(i)
+        groups.setdefault(root_of(i), []).append(i)
     return list(groups.values())

@@ -1,4 +1,4 @@
-"""Points at which values are certain: balls of real numbers (arb), and rational numbers.
+"""Real points: of balls (arb), of rational numbers, and of floats for searches.
 
 A value whose ball excludes 0 is proved not to be 0; values at a point with rational coordinates are exact.
 """
@@ -24,12 +24,12 @@ from dofkit.exact.ring.ring import Ring
 from dofkit.expressions.rational_values import exact_root, value_at
 from dofkit.expressions.tree import Expr
 
-#: Sines in a function.
+#: Number of sines in the function that stands for an unknown one.
 WAVES = 3
 
 
 class SmoothFunction(NamedTuple):
-    """The dyadic numbers of one function of some arguments."""
+    """f(u) = start + slopes . u + the sum of height sin(widths . u + phase) over ``waves``, with dyadic numbers."""
 
     start: Fraction
     slopes: tuple[Fraction, ...]
@@ -38,7 +38,7 @@ class SmoothFunction(NamedTuple):
     def value(self, args: Sequence[Any], orders: Sequence[int], numbers: Any, sine: Any, half_pi: Any) -> Any:
         """Return the function differentiated ``orders[i]`` times by its i-th argument.
 
-        ``numbers`` turns a fraction into the numbers of the arguments; ``sine``, ``half_pi``: theirs.
+        ``numbers`` converts a fraction to the type of the arguments; ``sine`` and ``half_pi`` are of this type.
         """
         total = sum(orders)
         total_value = numbers(Fraction(0))
@@ -59,23 +59,22 @@ class SmoothFunction(NamedTuple):
 
 @lru_cache(maxsize=256)
 def smooth_function(name: str, arguments: int, seed: int) -> SmoothFunction:
-    """Return the function of a name: the same in every run, another for another seed."""
+    """Return the random function that stands for the unknown function ``name``; the same seed gives the same one."""
     rng = random.Random(f"dofkit function {name} {arguments} {seed}")
 
-    def draw(low: int, high: int) -> Fraction:
+    def dyadic(low: int, high: int) -> Fraction:
         return Fraction(rng.choice((-1, 1)) * rng.randrange(low, high), 512)
 
-    slopes = tuple(draw(256, 1024) for _ in range(arguments))
+    slopes = tuple(dyadic(256, 1024) for _ in range(arguments))
     waves = tuple(
-        (draw(64, 512), tuple(draw(256, 1024) for _ in range(arguments)), draw(1, 1600)) for _ in range(WAVES)
+        (dyadic(64, 512), tuple(dyadic(256, 1024) for _ in range(arguments)), dyadic(1, 1600)) for _ in range(WAVES)
     )
-    return SmoothFunction(draw(1, 1024), slopes, waves)
+    return SmoothFunction(dyadic(1, 1024), slopes, waves)
 
 
-#: Bits of a ball; numbers of more bits than the second ask for as many more, twice: what they differ by may be as small
-#: as they are long.
+#: Bits of a ball. Numbers longer than `SHORT` bits add twice the excess, because differences of long numbers are small.
 PRECISION, SHORT = 256, 64
-#: Whole numbers up to this need no rounding.
+#: Integers below this become balls directly; a fraction is converted.
 WHOLE = 1 << 16
 _bits: ContextVar[int | None] = ContextVar("ball_bits", default=None)
 _more: ContextVar[int] = ContextVar("ball_bits_more", default=0)
@@ -83,7 +82,7 @@ _more: ContextVar[int] = ContextVar("ball_bits_more", default=0)
 
 @contextmanager
 def balls_of(bits: float) -> Iterator[None]:
-    """Compute with balls of so many bits within, whatever is needed: what few bits tell can be measured."""
+    """Compute with balls of exactly so many bits in the ``with`` block (for experiments with the precision)."""
     token = _bits.set(round(bits))
     try:
         yield
@@ -92,18 +91,18 @@ def balls_of(bits: float) -> Iterator[None]:
 
 
 def fixed_bits() -> int | None:
-    """Return the bits that were asked for; None where they may be raised."""
+    """Return the bits set by `balls_of`; None if there are none, so that the precision may be raised."""
     return _bits.get()
 
 
 def precision() -> int:
-    """Return the bits of a ball."""
+    """Return the present number of bits of a ball."""
     return _bits.get() or PRECISION + _more.get()
 
 
 @contextmanager
 def precise_for(longest: int) -> Iterator[None]:
-    """Compute with balls that tell apart within what numbers of so many bits do."""
+    """In the ``with`` block compute with enough bits for numbers of up to ``longest`` bits."""
     token = _more.set(2 * max(0, longest - SHORT))
     try:
         with ctx.workprec(precision()):
@@ -113,7 +112,7 @@ def precise_for(longest: int) -> Iterator[None]:
 
 
 class _RealPoint:
-    """Values of the symbols, and an unknown function of each name that is asked for."""
+    """Values of the ``symbols``; the ``seed`` chooses the functions that stand for unknown ones."""
 
     def __init__(self, symbols: Mapping[Expr, Any], seed: int = 0) -> None:
         self.symbols = dict(symbols)
@@ -121,12 +120,12 @@ class _RealPoint:
 
     @cached_property
     def rng(self) -> random.Random:
-        """What else is drawn at this point."""
+        """The source of other random choices at this point."""
         return random.Random(f"dofkit functions {self.seed}")
 
 
 class FloatPoint(_RealPoint):
-    """Floating point values; the search for a point uses them, no answer does."""
+    """Floating point values, used in searches for a point but in no proof."""
 
     def number(self, value: Fraction) -> float:
         return value.numerator / value.denominator
@@ -163,7 +162,7 @@ _FLOAT: dict[str, Callable[[float], float]] = {
 
 
 class BallPoint(_RealPoint):
-    """Ball values: what is computed contains what is true."""
+    """Values as balls: the computed ball contains the true value."""
 
     def number(self, value: Fraction) -> arb:
         above, below = value.numerator, value.denominator
@@ -196,9 +195,9 @@ class BallPoint(_RealPoint):
 
 
 def random_values(ring: Ring, positive: frozenset[Expr], seed: int) -> dict[Expr, float]:
-    """Return random dyadic values of the symbols, so that what is not solved for is an exact number.
+    """Return random dyadic (so exact) values of all symbols; those in ``positive`` are greater than 0.
 
-    Time and a parameter that has a name have the same value wherever they occur: so points of sets fit.
+    Time and named parameters have the same value in every ring, so that points of several blocks can be combined.
     """
     rng = random.Random(f"dofkit start {seed}")
     symbols = [var.key for var in ring.vars if var.kind == "symbol"]
@@ -216,14 +215,14 @@ def _random_value(symbol: Expr, rng: random.Random, seed: int, positive: bool) -
 
 
 def random_ball_point(ring: Ring, positive: frozenset[Expr], seed: int) -> BallPoint:
-    """Return a point of random values, which are exact."""
+    """Return a point with exact random values of all symbols (`random_values`)."""
     return BallPoint({s: arb(v) for s, v in random_values(ring, positive, seed).items()}, seed)
 
 
 def jacobian(
     ring: Ring, at: Sequence[Scalar], point: Any, nodes: Sequence[int], columns: Sequence[int], zero: Scalar
 ) -> list[list[Scalar]]:
-    """Return the matrix d(node)/d(symbol); ``columns`` are generator indices of symbols."""
+    """Return the matrix d(node)/d(symbol); ``columns`` are generator indices of symbols, ``at`` the nodes' values."""
     rows = []
     for node in nodes:
         g = gradient(ring, at, point, [(node, zero + 1)])
@@ -231,12 +230,12 @@ def jacobian(
     return rows
 
 
-#: Entries of a matrix that is eliminated over the rationals.
+#: Bound on the entries of a matrix that is eliminated over the rationals.
 MAX_ENTRIES = 20_000
 
 
 class ExactPoint:
-    """Rational values of the symbols; of functions, those at 0 and roots of powers. Raises NoPointError for others."""
+    """Rational values of symbols, of functions at 0 and of roots; raises NoPointError for other values of functions."""
 
     def __init__(self, symbols: Mapping[Expr, Fraction]) -> None:
         self.symbols = symbols
@@ -257,12 +256,12 @@ class ExactPoint:
 
 
 def rational_values(pose: Mapping[Expr, Expr]) -> dict[Expr, Fraction]:
-    """Return the symbols whose values are written as rational numbers."""
+    """Return the values of the symbols of a pose that are given by rational numbers."""
     return {s: v.args[0] for s, v in pose.items() if v.op == "num"}
 
 
 def vanish_exactly(ring: Ring, nodes: Sequence[int], symbols: Mapping[Expr, Fraction]) -> bool:
-    """Return whether nodes are proved to be 0 at a rational point. False where a value is no rational."""
+    """Return whether all nodes are 0 at a rational point; False also if a value there is not rational."""
     try:
         at = values(ring, ExactPoint(symbols))
     except NoValueError:
@@ -273,9 +272,10 @@ def vanish_exactly(ring: Ring, nodes: Sequence[int], symbols: Mapping[Expr, Frac
 def exact_rank(
     ring: Ring, nodes: Sequence[int], columns: Sequence[int], symbols: Mapping[Expr, Fraction]
 ) -> int | None:
-    """Return the rank of d(nodes)/d(columns) at a rational point; None where a value is none, or there are too many.
+    """Return the rank of d(nodes)/d(columns) at a rational point.
 
-    ``columns``: generators of symbols, -1 for one that does not occur.
+    None if a value there is not rational, or if the matrix has more than `MAX_ENTRIES` entries. ``columns`` are
+    generator indices of symbols, -1 for a symbol that does not occur.
     """
     present = [c for c in columns if c >= 0]
     if len(nodes) * len(present) > MAX_ENTRIES:
@@ -293,10 +293,9 @@ def exact_rank(
 class RealPoint:
     """A real point of the variety.
 
-    ``point``: ball values of all symbols. ``part``: of the Jacobian there by the unknowns, a regular part of its rows;
-    ``certified``: the ball contains a true zero of as many independent relations; ``consistent``: the other
-    relations' balls contain 0 too. ``matrix``: the Jacobian by the ranked symbols that occur; ``solved``: how many
-    relations were put to the interval Newton test.
+    ``point``: ball values of all symbols. ``matrix``: the Jacobian of the relations there by the ranked symbols that
+    occur. ``part``: a certified nonsingular submatrix of ``matrix``. ``certified``: the ball contains a true zero of
+    ``solved`` independent relations, by the interval Newton test. ``consistent``: all relations' balls contain 0.
     """
 
     point: BallPoint
@@ -308,5 +307,5 @@ class RealPoint:
 
     @property
     def certain(self) -> bool:
-        """Whether all relations may be 0 in the ball, and as many as are independent are."""
+        """Whether the independent relations have a zero in the ball, and the others may be 0 in it."""
         return self.certified and self.consistent

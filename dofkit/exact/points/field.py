@@ -1,8 +1,8 @@
-"""Random points over GF(p): zero here is zero of the function, with error at most degree/p a point [SchwartzZippel].
+"""Random points over GF(p): a nonzero expression is 0 at one with probability at most degree/p [SchwartzZippel].
 
-Primes have 61 bits and are drawn by a hash of the program (a fixed prime is a trap: x^(p-1) - 1), with p = 1 modulo the
-orders of the roots of unity that the scene mentions. sin and cos of a basic angle are a random point of
-the unit circle; exp, log, inverse and unknown functions are independent; roots are roots modulo p.
+Primes have 61 bits and are chosen by a hash of the program, because x^(p-1) - 1 is 0 modulo any fixed prime p; p = 1
+modulo the orders of the roots of unity that occur. sin and cos of a basic angle are a random point of the unit circle;
+values of exp, log, inverse and unknown functions are independent random numbers; roots are roots modulo p.
 """
 
 from __future__ import annotations
@@ -22,20 +22,21 @@ from dofkit.exact.ring.program import NUM, NoPointError, Scalar, Var
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 
-#: Arguments among which relations are looked for; among more of them only equal and opposite ones are seen.
+#: Up to so many arguments are searched for linear relations; among more, only equal and opposite ones are recognised.
 MOST_REDUCED = 7
-#: A relation that is found is there by chance with a probability of 2 to the minus this.
+#: A relation that is found is accidental with the probability 2^-SURENESS.
 SURENESS = 30
-#: Multiples of a unit are looked for up to so many times its order.
+#: Integer multiples of a unit are recognised up to so many times its order.
 TURNS = 64
-#: Roots are taken up to this degree.
+#: Largest degree of roots that a relation may require.
 LARGEST = 512
 
 
 class Character:
-    """The values of one homomorphism at a point: each argument that was asked for with its value.
+    """Values of a homomorphism (argument to exp, or angle to cos + i sin) at a point over GF(p), by argument.
 
-    ``drawn``: arguments that were drawn at random, each by itself: they are related by chance only.
+    Linear relations among arguments give relations among values. ``drawn``: arguments with independent random values,
+    which are related by accident only.
     """
 
     def __init__(self, p: int, drawn: set[int], values: dict[int, Any] | None = None) -> None:
@@ -50,11 +51,11 @@ class Character:
         return other
 
     def settle(self, argument: Any, root: Any, order: int) -> None:
-        """Let the value at an argument be a certain root of unity of this order: 2 pi / n gives exp(2 pi i / n)."""
+        """Fix the value at an argument, the unit, to a root of unity of this order: 2 pi / n gives exp(2 pi i / n)."""
         self._unit = argument, root, order
 
     def at(self, argument: Any, draw: Callable[[], Any]) -> Any:
-        """Return the value at an argument, from relations or else drawn. Raises NoPointError for a fraction."""
+        """Return the value implied by those at earlier arguments, otherwise ``draw()``; may raise NoPointError."""
         u = int(argument)
         if u == 0:
             return residue(1, self.p)
@@ -64,12 +65,12 @@ class Character:
         return self.values[u]
 
     def agree(self, argument: Any, value: Any) -> None:
-        """Take a value that was settled elsewhere. Raises NoPointError where another one is known."""
+        """Record the value at an argument; raises NoPointError if it contradicts earlier values."""
         if self.at(argument, lambda: value) != value:
             raise NoPointError("an exponential or an angle with two values at one place")
 
     def _related(self, u: int) -> Any | None:
-        """Return the value that the others give, or None where the argument is related to none of them."""
+        """Return the value implied by those of other arguments; None if the argument is related to none of them."""
         if u in self.drawn and self.drawn.issuperset(self.values):
             return None
         multiple = self._multiple_of_unit(u)
@@ -89,7 +90,7 @@ class Character:
         return _root(power, abs(degree), self.p)
 
     def _multiple_of_unit(self, u: int) -> Any | None:
-        """Return the value where u is a multiple of the unit, or differs by one from an argument or from minus one."""
+        """Return the value at u if u, or u minus or plus an earlier argument, is an integer multiple of the unit."""
         if self._unit is None:
             return None
         unit, root, order = self._unit
@@ -102,7 +103,7 @@ class Character:
         return None
 
     def _reduced(self, u: int) -> dict[int, int] | None:
-        """Return a short integer relation among the arguments and ``u``, by the reduction of a lattice (LLL)."""
+        """Return a short integer relation {argument: factor} of ``u`` and earlier arguments (LLL), or None."""
         args = [u, *self.values, *(() if self._unit is None else (int(self._unit[0]),))]
         n = len(args)
         most = 2.0 ** ((self.p.bit_length() - SURENESS) / n - 1)
@@ -117,10 +118,10 @@ class Character:
 
 
 def _root(value: Any, degree: int, p: int) -> Any:
-    """Return a root of a value: any is as good as the others. Raises NoPointError where there is none (Euler).
+    """Return one of the ``degree``-th roots of a value modulo p; raises NoPointError if there is none (Euler).
 
-    The group of p - 1 elements is cyclic: with g = gcd(d, p - 1) the d-th powers are the g-th ones, and w^g = v
-    gives (w^e)^d = v where d e = g modulo p - 1.
+    The group of p - 1 elements is cyclic. With g = gcd(d, p - 1) the d-th powers are the g-th powers, and w^g = v
+    implies (w^e)^d = v for d e = g modulo p - 1.
     """
     shared = gcd(degree, p - 1)
     if value ** ((p - 1) // shared) != 1:
@@ -130,15 +131,15 @@ def _root(value: Any, degree: int, p: int) -> Any:
 
 
 PRIME_BITS = 61
-#: Tries for a prime modulo which every root of a number exists.
+#: Tries for a prime modulo which the roots of numbers exist.
 PRIME_TRIES = 4000
 
-#: Parts of a turn that are exact wherever pi is written, the largest number of parts that a number makes, and of all.
+#: If pi is written: always a divisor of the circle order, the largest denominator considered, the largest order.
 WHOLE_TURNS, MOST_PARTS, MOST_ORDER = 12, 360, 10**5
 
 
 def circle_order(rings: Iterable[Ring]) -> int:
-    """The common denominator D of all angles pi/D; where pi itself is written, also of what x = pi/9 leads to."""
+    """Return the common denominator of all angles pi/D; where pi is written, also of what x = pi/9 can produce."""
     rings = tuple(rings)
     keys = (var.key for ring in rings for var in ring.vars if var.kind in ("cos", "sin"))
     order = lcm(1, *(denominator for angle, denominator in keys if angle == ex.PI))
@@ -152,7 +153,7 @@ def circle_order(rings: Iterable[Ring]) -> int:
 
 
 def number_roots(rings: Iterable[Ring]) -> tuple[tuple[int, int], ...]:
-    """Return (integer, degree) of every root of a number."""
+    """Return (integer, degree) of every root of an integer among the generators, sorted."""
     roots = set()
     for ring in rings:
         for var in ring.vars:
@@ -163,7 +164,7 @@ def number_roots(rings: Iterable[Ring]) -> tuple[tuple[int, int], ...]:
 
 @lru_cache(maxsize=4096)
 def prime_for(order: int, roots: tuple[tuple[int, int], ...], seed: int | str) -> int:
-    """Return a random prime p = 1 modulo 8 and the order, modulo which the given roots of numbers exist."""
+    """Return a random prime p = 1 modulo 8 and 2 ``order`` such that the ``roots`` exist; may raise NoPointError."""
     rng = random.Random(f"dofkit prime {order} {roots} {seed}")
     step = lcm(8, 2 * order)
     for _ in range(PRIME_TRIES):
@@ -176,7 +177,7 @@ def prime_for(order: int, roots: tuple[tuple[int, int], ...], seed: int | str) -
 
 
 class FieldPoint:
-    """Values in GF(p) for every generator; those not ``given`` are drawn at random and kept."""
+    """Values in GF(p) of generators; a value that was not `set` is chosen at random when first needed, and kept."""
 
     def __init__(self, p: int, rng: random.Random, order: int = 1) -> None:
         self.p = p
@@ -198,7 +199,7 @@ class FieldPoint:
             self._turns.settle(value / self.order, self._zeta, 2 * self.order)
 
     def copy(self) -> FieldPoint:
-        """Return a point with the same values so far; what is drawn later differs."""
+        """Return a point with the same values so far; values chosen later differ."""
         other = FieldPoint(self.p, self.rng, self.order)
         other.values = dict(self.values)
         other._taken, other._agreed = dict(self._taken), set(self._agreed)
@@ -226,7 +227,7 @@ class FieldPoint:
         return value
 
     def whatever(self, var: Var) -> Scalar:
-        """Return a generator's value where its argument is not known yet: that is drawn later, or found to agree."""
+        """Return the value of a generator before its arguments have values; `generator` compares it with them later."""
         name = (var.kind, var.key)
         if name not in self.values and var.kind in ("cos", "sin"):
             self._setup_unity()
@@ -236,7 +237,7 @@ class FieldPoint:
         return self.values[name]
 
     def _agree(self, var: Var, args: Sequence[Scalar], value: Scalar) -> None:
-        """Take the value that a generator was given. Raises NoPointError where its function has another one there."""
+        """Raise NoPointError if the function has another value than ``value`` at equal arguments; else record it."""
         if var.kind == "exp":
             self._exponentials.agree(args[0], value)
         elif var.kind in ("cos", "sin"):
@@ -248,9 +249,9 @@ class FieldPoint:
             raise NoPointError("a function with two values at one place")
 
     def _of_arguments(self, var: Var, args: Sequence[Scalar], draw: Callable[[], Scalar]) -> Scalar:
-        """Return the value that this function has taken at these arguments, however they are written; else a new one.
+        """Return the earlier value of this function at equal arguments, or else ``draw()``.
 
-        On the set where the point lies arguments may be equal that are written apart: f(a) = f(b) wherever a = b.
+        At this point differently written arguments a and b may be equal, and then f(a) = f(b).
         """
         head = var.key[:2] if var.kind == "call" else ()
         key = (var.kind, *head, var.degree, *map(int, args))
@@ -296,7 +297,7 @@ class FieldPoint:
         self.values["sin", var.key] = sin
 
     def _set_angle(self, var: Var, z: Scalar) -> None:
-        """Cosine and sine from z = cos + i sin."""
+        """Set cosine and sine of an angle from z = cos + i sin."""
         self.values["cos", var.key] = (z + 1 / z) / 2
         self.values["sin", var.key] = (z - 1 / z) / (2 * self._imaginary)
 
@@ -304,7 +305,7 @@ class FieldPoint:
         return residue(self.rng.choice((1, -1)), self.p)
 
     def _turn(self) -> Scalar:
-        """z = cos + i sin of a random angle, which is 1 + i w over 1 - i w."""
+        """Return z = cos + i sin of a random angle, as (1 + i w) / (1 - i w) with a random w."""
         w = self._imaginary * self.random()
         return (1 + w) / (1 - w)
 
@@ -316,11 +317,11 @@ class FieldPoint:
                 zeta = self.random() ** ((self.p - 1) // n)
                 if all(zeta ** (n // q) != 1 for q in factors):
                     break
-            self._zeta = zeta ** (n // (2 * self.order))
+            self._zeta = zeta ** (n // (2 * self.order))  # exp(pi i / order)
             self._imaginary = zeta ** (n // 4)
 
     def _root_of_unity(self, denominator: int) -> tuple[Scalar, Scalar]:
-        """cos and sin of pi/denominator, through one primitive root of unity for all."""
+        """Return cos and sin of pi/denominator, as powers of one primitive root of unity."""
         self._setup_unity()
         zeta = self._zeta ** (self.order // denominator)
         inverse = 1 / zeta
@@ -343,7 +344,7 @@ class FieldPoint:
         return self.rng.choice(roots)[0]
 
     def _root_in_circle(self, prime: int) -> Scalar | None:
-        """sqrt(prime) through the roots of unity, where those contain it (Gauss's quadratic sum [GaussSum])."""
+        """Return sqrt(prime) as a sum of the roots of unity (Gauss sum [GaussSum]); None if they do not contain it."""
         if prime == 2 and self.order % 4 == 0:
             self._setup_unity()
             eighth = self._zeta ** (self.order // 4)
@@ -359,10 +360,10 @@ class FieldPoint:
 
 
 def field_point(rings: Sequence[Ring], seed: int, salt: str = "") -> FieldPoint:
-    """A fresh random point for programs that share their symbols, modulo a prime where the roots of numbers exist.
+    """Return a new random point for programs that share their symbols, modulo one of three primes (by ``seed``).
 
-    Primes and values are drawn by a hash of the programs, and of what stands ``salt`` them: a coefficient that is
-    made to vanish modulo the primes in use changes them.
+    Primes and values depend on a hash of the programs and on ``salt``, so that no scene can be written with
+    coefficients that vanish modulo the primes in use.
     """
     order, roots, digests = circle_order(rings), number_roots(rings), " ".join((*(ring.digest for ring in rings), salt))
     p = prime_for(order, roots, f"{seed % 3} {digests}")

@@ -1,4 +1,4 @@
-"""Codistributions at a point: rows of one-forms, a frame to solve them in, ranks and kernels."""
+"""Codistributions at a point: rows of one-forms, the pivots by which they are solved, ranks and kernels."""
 
 from __future__ import annotations
 
@@ -20,10 +20,10 @@ from dofkit.exact.ring.ring import Ring
 
 @dataclass(frozen=True)
 class FormRows:
-    """One-forms over a ring: ``entries[a]`` maps a column to the node of its coefficient.
+    """One-forms over a ring: ``entries[a]`` maps the columns of the a-th form to the nodes of its coefficients.
 
-    ``columns`` are the generator indices of the symbols (coordinates, then time where it enters); a column whose
-    symbol occurs in no coefficient has index -1.
+    ``columns`` are the generator indices of the symbols (coordinates, then time if it occurs), -1 for a symbol that
+    occurs in no coefficient.
     """
 
     ring: Ring
@@ -31,18 +31,18 @@ class FormRows:
     columns: tuple[int, ...]
 
     def matrix(self, at: Sequence[Scalar], zero: Scalar) -> list[list[Scalar]]:
-        """Return the coefficients at a point, rows x columns."""
+        """Return the matrix (forms x columns) of the coefficients' values, given the nodes' values ``at`` a point."""
         n = len(self.columns)
         return [[at[row[c]] if c in row else zero for c in range(n)] for row in self.entries]
 
 
 def field_frame(matrix: list[list[Residue]], n: int, p: int) -> Pivots:
-    """Return the first independent rows in order, and columns solved for (the last ones where there is a choice)."""
+    """Return the first independent rows of a dense matrix, and the columns to solve them for (later ones preferred)."""
     return sparse_frame(sparse(matrix), n, p)
 
 
 def kernel(matrix: list[list[Scalar]], frame: Pivots, zero: Scalar) -> list[list[Scalar]]:
-    """Vectors that span the kernel of the frame's rows: one for each free column."""
+    """Return a basis of the kernel of the frame's rows: one vector for each free column."""
     n, r = len(frame.dependent) + len(frame.free), len(frame.rows)
     solved = solve([[matrix[a][c] for c in frame.dependent] for a in frame.rows],
                    [[-matrix[a][c] for c in frame.free] for a in frame.rows])  # fmt: skip
@@ -58,7 +58,7 @@ def kernel(matrix: list[list[Scalar]], frame: Pivots, zero: Scalar) -> list[list
 
 @raising_no_value
 def solve(a: list[list[Scalar]], b: list[list[Scalar]]) -> list[list[Scalar]]:
-    """a^-1 b for scalars or series, by elimination with invertible pivots; raises PoleError."""
+    """Return a^-1 b for matrices of scalars or series; raises PoleError if no invertible pivot is found."""
     n = len(a)
     if n and isinstance(a[0][0], Residue) and b[0]:
         p = modulus(a[0][0])
@@ -72,6 +72,7 @@ def solve(a: list[list[Scalar]], b: list[list[Scalar]]) -> list[list[Scalar]]:
 
 
 def _eliminate(work: list[list[Any]], n: int) -> list[list[Any]]:
+    """Return a^-1 b from the rows of (a, b), which are overwritten; n is the size of a."""
     for c in range(n):
         check()
         entries = ((r, work[r][c]) for r in range(c, n))
@@ -90,15 +91,15 @@ def _eliminate(work: list[list[Any]], n: int) -> list[list[Any]]:
 
 
 def rank_over(vectors: Sequence[Sequence[Scalar]], sample: Scalar) -> int:
-    """Return the rank over GF(p), or a certified lower bound with balls, by the kind of ``sample``."""
+    """Return the rank over GF(p), or a certified lower bound for balls; ``sample`` is any number of that type."""
     return rank_of(vectors, modulus(sample)) if isinstance(sample, Residue) else ball_part(vectors).rank
 
 
 def vanishes(value: Scalar) -> bool:
-    """Return whether a value is 0 over GF(p), or a ball that does not exclude 0."""
+    """Return whether a value is 0 over GF(p), or is a ball that contains 0."""
     return bool(value.contains(0)) if isinstance(value, arb) else bool(value == 0)
 
 
 def pairing(row: Sequence[Scalar], vectors: Sequence[Sequence[Scalar]]) -> list[Scalar]:
-    """Return the values of a form on vectors."""
+    """Return the values of a one-form ``row`` on each of the vectors."""
     return [sum(a * v for a, v in zip(row, vector, strict=True)) for vector in vectors]

@@ -1,7 +1,7 @@
 """Real points of {g = 0}: a search in floating point, and a certificate in balls.
 
-Gauss-Newton from random starts in floating point, refined to high precision on a regular subset of the relations,
-and certified by the interval Newton test: the ball then contains a true real zero of that subset, and only one.
+Gauss-Newton from random starts in floating point gives a point; Newton's method refines it for a subset of independent
+relations, and the interval Newton test certifies it: the ball then contains exactly one real zero of that subset.
 """
 
 from __future__ import annotations
@@ -21,23 +21,20 @@ from dofkit.exact.ring.ring import Ring
 from dofkit.expressions.tree import TIME, Expr
 
 STARTS, ITERATIONS, NEWTON_STEPS = 12, 80, 24
-#: Moments that are looked for, how much later one of two is begun, and the parts of a unit in which they are written.
+#: `at_another_time`: searches, the factor from one starting time to the next but one, and the denominator of times.
 MOMENTS, LATER, TICKS = 8, 4.0, 512
-#: So often a step that leaves the domain of the functions is halved.
+#: How often a step that leaves the domain of the functions is halved.
 HALVINGS = 8
-#: Multiplications by which the Jacobian is eliminated exactly at a point near the zero set.
+#: Bound on the multiplications of an elimination with balls at a point near the zero set.
 MAX_ELIMINATED = 20_000
-#: A Newton step smaller than the precision by so many bits ends the refinement.
+#: A relative Newton step below 2^(SPARE_BITS - precision) ends the refinement.
 SPARE_BITS = 16
-#: So often a box around two points is made wider, and by how much at least.
+#: How often the box around two points is made wider, and by how much at least.
 INFLATIONS, ROOM = 4, 2**-30
 
 
 class RealSearch:
-    """Looks for real points on the zero set of ``nodes``, moving ``unknowns``.
-
-    Generic geometry is among the unknowns: it is whatever the point makes it.
-    """
+    """Searches for real points on the zero set of ``nodes`` by changing ``unknowns`` (also unnamed parameters)."""
 
     def __init__(
         self,
@@ -47,7 +44,7 @@ class RealSearch:
         positive: frozenset[Expr],
         ranked: Sequence[Expr] | None = None,
     ) -> None:
-        """``ranked``: the symbols by which the rank is meant, where it is not all unknowns."""
+        """``ranked``: the symbols for the Jacobian of a `RealPoint`, by default all unknowns."""
         self.ring = ring
         self.nodes = list(nodes)
         self.ranked = None if ranked is None else [i for s in ranked if (i := ring.var_index(s)) is not None]
@@ -57,7 +54,7 @@ class RealSearch:
         self.upto = len(ring.code)
 
     def start(self, seed: int, initial: Mapping[Expr, float]) -> dict[Expr, float]:
-        """Return the initial values of symbols, and random ones of the others."""
+        """Return ``initial`` values of symbols, completed by random values of the others."""
         drawn = random_values(self.ring, self.positive, seed)
         return {s: initial.get(s, value) for s, value in drawn.items()}
 
@@ -69,7 +66,7 @@ class RealSearch:
         starts: int = STARTS,
         steps: int = ITERATIONS,
     ) -> RealPoint | None:
-        """Return the first certified point found, else any; the search begins at ``initial`` values of symbols."""
+        """Return the first ``certain`` point, else the first other one or None; starts have the ``initial`` values."""
         singular: RealPoint | None = None
         for attempt in range(starts):
             symbols = self.start(seed * STARTS + attempt, initial or {})
@@ -81,9 +78,9 @@ class RealSearch:
         return singular
 
     def descend(self, symbols: dict[Expr, float], seed: int, steps: int = ITERATIONS) -> list[list[float]] | None:
-        """Gauss-Newton in floating point; ``symbols`` is moved; returns the Jacobian at the end, rows scaled.
+        """Move ``symbols`` (in place) to the zero set by Gauss-Newton in floats; return the Jacobian with scaled rows.
 
-        At a singular point each step only halves the distance: it goes on until the steps are fast, or to the last.
+        None if it does not converge. At a singular point convergence is linear: it goes on until steps are fast or 0.
         """
         if not self.nodes:
             return []
@@ -120,7 +117,7 @@ class RealSearch:
     def _within_domain(
         self, symbols: dict[Expr, float], base: Mapping[Expr, float], change: Sequence[float], seed: int
     ) -> tuple[list[float], list[list[float]]] | None:
-        """The system at ``symbols``; where it has no value there, at ``base`` and half of the step, and so on."""
+        """Return the system at ``symbols``, moved back to ``base`` by halving the step while it has no value there."""
         for halvings in range(HALVINGS):
             try:
                 return self.float_system(symbols, seed)
@@ -130,16 +127,16 @@ class RealSearch:
         return None
 
     def float_system(self, symbols: Mapping[Expr, float], seed: int) -> tuple[list[float], list[list[float]]]:
-        """Return the relations at a point, and their derivatives by the unknowns."""
+        """Return the relations' values at a point, and their Jacobian by the unknowns."""
         point = FloatPoint(symbols, seed)
         at = values(self.ring, point, self.upto)
         j = jacobian(self.ring, at, point, self.nodes, self.columns, 0.0)
         return [float(at[n]) for n in self.nodes], [list(map(float, row)) for row in j]
 
     def refine(self, symbols: Mapping[Expr, float], j: list[list[float]], seed: int) -> RealPoint | None:
-        """To high precision on independent rows of the Jacobian, and the interval Newton test.
+        """Return the point near ``symbols``, refined for independent rows of its Jacobian ``j`` by interval Newton.
 
-        Rows that floating point takes for dependent are tried as independent where the others do not imply them.
+        None if it diverges or a positive symbol is not positive. If the point is uncertain, more rows are tried.
         """
         if any(symbols[p] <= 0 for p in self.positive if p in symbols):
             return None
@@ -147,7 +144,7 @@ class RealSearch:
             return self._precise(symbols, j, seed)
 
     def _precise(self, symbols: Mapping[Expr, float], j: list[list[float]], seed: int) -> RealPoint | None:
-        """Return the point refined with rows that floating point takes for independent, or else with exact ones."""
+        """Return the point refined with the rows that are independent in floats, or else with those of `_part_at`."""
         rows, columns = independent_part(j)[2:] if j else ([], [])
         refined = self._refined(symbols, rows, columns, seed)
         if (refined is not None and refined.certain) or len(rows) == len(self.nodes):
@@ -159,7 +156,7 @@ class RealSearch:
         return other if other is not None and other.certain else refined
 
     def _part_at(self, symbols: Mapping[Expr, float], seed: int) -> PivotedPart | None:
-        """Return a regular part of the Jacobian exactly at a point near the zero set; None for large ones."""
+        """Return a nonsingular submatrix of the Jacobian in balls at a point; None if it is too large or has a pole."""
         if len(self.nodes) ** 2 * len(self.columns) > MAX_ELIMINATED:
             return None
         point = BallPoint({s: arb(v) for s, v in symbols.items()}, seed)
@@ -172,7 +169,7 @@ class RealSearch:
     def _refined(
         self, symbols: Mapping[Expr, float], rows: Sequence[int], columns: Sequence[int], seed: int
     ) -> RealPoint | None:
-        """Return the point near some floats at which these rows, solved for these columns, are certified to vanish."""
+        """Return the zero of the relations ``rows``, in the unknowns ``columns``, near ``symbols``; None if none."""
         exact, certified = {s: arb(v) for s, v in symbols.items()}, True
         if rows:
             moved = self._newton(exact, rows, columns, seed)
@@ -192,6 +189,7 @@ class RealSearch:
     def _newton(
         self, exact: dict[Expr, arb], rows: Sequence[int], columns: Sequence[int], seed: int
     ) -> tuple[dict[Expr, arb], bool] | None:
+        """Return the ball of a zero near ``exact`` (changed in place), and whether interval Newton certifies it."""
         nodes = [self.nodes[r] for r in rows]
         unknowns = [self.unknowns[c] for c in columns]
         indices = [self.columns[c] for c in columns]
@@ -231,8 +229,8 @@ class RealSearch:
 def are_joined(search: RealSearch, start: Mapping[Expr, arb], end: RealPoint, rank: int) -> bool:
     """Return whether it is proved that a curve of zeros leads from ``start`` to ``end``.
 
-    In a box around both, ``rank`` relations that are independent at ``end`` must determine as many unknowns as
-    functions of the other symbols [KrawczykNewton].
+    This is proved if, in a box around the two points, ``rank`` relations that are independent at ``end`` determine
+    ``rank`` unknowns as functions of the other symbols [KrawczykNewton].
     """
     at = values(search.ring, end.point, search.upto)
     part = ball_part(jacobian(search.ring, at, end.point, search.nodes, search.columns, arb(0)))
@@ -251,9 +249,9 @@ def are_joined(search: RealSearch, start: Mapping[Expr, arb], end: RealPoint, ra
 
 
 def at_another_time(search: RealSearch, seed: int = 0) -> RealPoint | None:
-    """Return a certified point at a moment that is looked for with it, early or late.
+    """Return a certain point at some other time, or None; the search in floats takes time as an unknown.
 
-    x^2 + y^2 = t, x y = sin(t) have none before t = 1.9.
+    Example: x^2 + y^2 = t, x y = sin(t) have a solution only after t = 1.9.
     """
     if TIME in search.unknowns or search.ring.var_index(TIME) is None:
         return None
@@ -272,5 +270,5 @@ def at_another_time(search: RealSearch, seed: int = 0) -> RealPoint | None:
 
 @raising_no_value
 def _solution(matrix: arb_mat, right: arb_mat) -> arb_mat:
-    """x with matrix x = right. Raises PoleError where the matrix may be singular."""
+    """Return x with matrix x = right; raises PoleError if the matrix of balls may be singular."""
     return matrix.solve(right)

@@ -13,12 +13,12 @@ from dofkit.base.errors import PoleError
 from dofkit.exact.residues import Residue, ResiduePolynomial, modulus, residue_polynomial
 from dofkit.exact.ring.program import Scalar, Var
 
-#: An unknown function's composition uses this many of its derivatives by several arguments at most.
+#: Bound on the number of partial derivatives in the Taylor polynomial of an unknown function.
 MAX_JET = 400
 
 
 class Series:
-    """A power series modulo s^order; ``poly`` is an ResiduePolynomial or an arb_poly."""
+    """A power series in s modulo s^order; ``poly`` is a ResiduePolynomial or an arb_poly."""
 
     __slots__ = ("order", "poly")
 
@@ -51,7 +51,7 @@ class Series:
         return total
 
     def inverse(self) -> Series:
-        """Return 1/self; raises PoleError where the constant term is 0."""
+        """Return 1/self; raises PoleError if the constant term is 0, or a ball that contains 0."""
         if not self.invertible:
             raise PoleError("a series without constant term has no inverse")
         if isinstance(self.poly, ResiduePolynomial):
@@ -70,7 +70,7 @@ class Series:
 
     @property
     def invertible(self) -> bool:
-        """True where the constant term is certainly not 0."""
+        """Whether the constant term is certainly not 0."""
         head = self.poly[0]
         return not head.contains(0) if isinstance(head, arb) else head != 0
 
@@ -78,7 +78,7 @@ class Series:
         return self.poly[k]
 
     def truncated(self, order: int) -> Series:
-        """Modulo s^order."""
+        """Return the series modulo s^order."""
         return Series(self.poly.truncate(order), order)
 
     def derivative(self) -> Series:
@@ -95,9 +95,9 @@ def _mul_low(a: Any, b: Any, order: int) -> Any:
 
 
 class SeriesPoint:
-    """Symbols given as series; every other generator follows its differential equation.
+    """A curve in s: ``symbols`` are series by generator index; other generators are expanded by their derivatives.
 
-    ``base`` supplies the values at s = 0 and must have been run there once.
+    ``base``: the point s = 0, at which the program has been run; ``like``: a polynomial of the type of the series.
     """
 
     def __init__(self, base: Any, symbols: Mapping[int, Series], order: int, like: Any) -> None:
@@ -127,6 +127,7 @@ class SeriesPoint:
         return self._transcendental(var, args, head)
 
     def _transcendental(self, var: Var, args: Sequence[Series], head: Scalar) -> Series:
+        """Return the series of a function of ``args`` with the value ``head`` at s = 0."""
         u = args[0]
         if var.kind == "exp":
             return self._exponential(u.derivative(), head)
@@ -146,7 +147,7 @@ class SeriesPoint:
         return self._call(var, args)
 
     def _exponential(self, slope: Series, head: Scalar) -> Series:
-        """Return the y with y' = slope y that begins with ``head``."""
+        """Return the series y with y' = slope y and y(0) = ``head``."""
         coefficients = [head]
         for k in range(1, self.order):
             total = sum((slope.poly[j] * coefficients[k - 1 - j] for j in range(k)), head * 0)
@@ -154,7 +155,7 @@ class SeriesPoint:
         return self._series(coefficients)
 
     def _circle(self, var: Var, u: Series, head: Scalar) -> Series:
-        """c' = -u' s and s' = u' c; both are found at once."""
+        """Return the series of cos u or sin u by cos' = -u' sin, sin' = u' cos; the other one is kept for its call."""
         earlier = self._circles.get((var.kind, var.key))
         if earlier is not None:
             return earlier
@@ -173,7 +174,7 @@ class SeriesPoint:
         return self._series(coefficients)
 
     def _call(self, var: Var, args: Sequence[Series]) -> Series:
-        """Taylor's formula with the base's values of the derivatives."""
+        """Return the series of an unknown function by Taylor's formula, with the derivatives' values at ``base``."""
         name, orders, key = var.key
         heads = [a.coefficient(0) for a in args]
         moved = [a - h for a, h in zip(args, heads, strict=True)]
@@ -194,6 +195,7 @@ class SeriesPoint:
 
 
 def _multi_indices(n: int, total: int) -> list[tuple[int, ...]]:
+    """Return the n-tuples of orders with a sum of at most ``total``, at most `MAX_JET` of them."""
     if n == 1:
         return [(k,) for k in range(total + 1)]
     indices = [(k, *others) for k in range(total + 1) for others in _multi_indices(n - 1, total - k)]
@@ -201,10 +203,10 @@ def _multi_indices(n: int, total: int) -> list[tuple[int, ...]]:
 
 
 def zero_poly(sample: Scalar) -> Any:
-    """Return the zero polynomial over the numbers that ``sample`` belongs to."""
+    """Return the zero polynomial with coefficients of the type of ``sample``."""
     return residue_polynomial([0], modulus(sample)) if isinstance(sample, Residue) else arb_poly([])
 
 
 def monomial(like: Any) -> Any:
-    """Return the polynomial s, of the kind of ``like``."""
+    """Return the polynomial s, of the type of the polynomial ``like``."""
     return residue_polynomial([0, 1], modulus(like)) if isinstance(like, ResiduePolynomial) else arb_poly([0, 1])

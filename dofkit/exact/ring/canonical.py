@@ -1,7 +1,7 @@
 """The canonical ring: a program's values as quotients of polynomials in its generators.
 
-Modulo cos^2 + sin^2 = 1, root^d = radicand and sign^2 = 1; a polynomial that reduces to 0 here is 0
-identically, which is a proof. Everything is bounded: past `MAX_TERMS` terms the answer is `TooLargeError`.
+Polynomials are reduced modulo cos^2 + sin^2 = 1, root^d = radicand and sign^2 = 1; one that reduces to 0 is proved to
+be 0 identically. Polynomials of more than `MAX_TERMS` terms raise `TooLargeError`.
 """
 
 from __future__ import annotations
@@ -23,14 +23,14 @@ from dofkit.expressions.tree import Expr
 
 MAX_TERMS = 3000
 MAX_POWER = 80
-#: Polynomials are factored up to this many terms times degrees.
+#: Polynomials are factored up to this product of the number of terms and the total degree,
 FACTORED = 4000
-#: And up to this product of the two highest degrees: x^30 + y^24 - x^15 y^12 = 1 takes minutes.
+#: and up to this product of the two highest degrees: x^30 + y^24 - x^15 y^12 = 1 takes minutes.
 FACTORED_DEGREES = 400
 
 Poly = Any
 Quotient = tuple[Poly, Poly]
-#: Generators, by number, with their exponents.
+#: (generator index, exponent) of each factor.
 Monomial = tuple[tuple[int, int], ...]
 
 
@@ -98,7 +98,7 @@ class Canon:
         return power
 
     def reduce(self, poly: Poly) -> Poly:
-        """Modulo the generators' algebraic relations."""
+        """Return the polynomial reduced modulo the generators' algebraic relations."""
         check()
         degrees = poly.degrees()
         for place, degree, relation in self._divisors:
@@ -111,7 +111,7 @@ class Canon:
 
     @cached_property
     def _divisors(self) -> list[tuple[int, int, Poly]]:
-        """The relations with their leading generators' places and degrees."""
+        """The relations, as (position of the leading generator, its degree, relation)."""
         divisors = []
         for relation in self.relations:
             leading = relation.monomial(0)
@@ -122,7 +122,7 @@ class Canon:
     @property
     @raising_no_value
     def relations(self) -> list[Poly]:
-        """cos^2 + sin^2 - 1, root^d - radicand, sign^2 - 1; later generators first."""
+        """cos^2 + sin^2 - 1, root^d - radicand, sign^2 - 1; those of later generators first."""
         if self._relations is None:
             self._relations = []
             relations = []
@@ -141,7 +141,7 @@ class Canon:
         return self._relations
 
     def is_zero(self, node: int) -> bool:
-        """Return whether the node is identically zero, proved; False where the canonical form is not 0."""
+        """Return whether the node is proved to be identically zero; False if its canonical form is not 0."""
         return bool(self.quotient(node)[0] == 0)
 
     def to_expr(self, poly: Poly) -> Expr:
@@ -156,16 +156,16 @@ class Canon:
 
     @raising_no_value
     def factors(self, poly: Poly) -> list[tuple[Poly, int]]:
-        """Irreducible factors over the rationals, with multiplicities; constants left out.
+        """Return (irreducible factor over the rationals, multiplicity) pairs, without constant factors.
 
-        Raises TooLargeError past `FACTORED` terms times degrees, or `FACTORED_DEGREES`.
+        Raises TooLargeError if the polynomial exceeds `FACTORED` or `FACTORED_DEGREES`.
         """
         if len(poly) * max(1, int(poly.total_degree())) > FACTORED or not soon_factored(poly):
             raise TooLargeError
         return [(f, int(k)) for f, k in poly.factor()[1] if not f.is_constant()]
 
     def collected(self, poly: Poly, moving: Collection[int]) -> dict[Monomial, Poly]:
-        """Return the coefficients of a polynomial in some of the generators, by monomial."""
+        """Return a polynomial as {monomial in the ``moving`` generators: coefficient, a polynomial in the others}."""
         last = len(self.ring.vars) - 1
         groups: dict[Monomial, dict[tuple[int, ...], Any]] = {}
         for exponents, coefficient in poly.to_dict().items():
@@ -178,11 +178,11 @@ class Canon:
     def generators_in(self, poly: Poly) -> list[int]:
         """Return the indices of the generators that occur."""
         n = len(self.ring.vars)
-        return [n - 1 - i for i, k in enumerate(poly.degrees()) if k > 0] if n else []  # of 0 they are -1
+        return [n - 1 - i for i, k in enumerate(poly.degrees()) if k > 0] if n else []  # the degrees of 0 are -1
 
 
 def quotients_of(expressions: Sequence[Expr], positive: frozenset[Expr]) -> tuple[Canon, list[Quotient]]:
-    """Return expressions as quotients in a canonical ring of their own; raises NoValueError."""
+    """Return a new canonical ring and the expressions as quotients in it; raises NoValueError."""
     ring = Ring(expressions, positive)
     nodes = [ring.node(e) for e in expressions]
     canon = Canon(ring)
@@ -190,7 +190,7 @@ def quotients_of(expressions: Sequence[Expr], positive: frozenset[Expr]) -> tupl
 
 
 def square_root(e: Expr, positive: frozenset[Expr]) -> Expr | None:
-    """Return f where ``e`` is f^2 for a polynomial f in the ring's generators, or None where none is found."""
+    """Return f with ``e`` = f^2, a polynomial in the generators of a ring of ``e``; None if none is found."""
     try:
         canon, [(top, bottom)] = quotients_of([e], positive)
         return canon.to_expr((top / bottom).sqrt()) if bottom.is_constant() else None
@@ -199,32 +199,32 @@ def square_root(e: Expr, positive: frozenset[Expr]) -> Expr | None:
 
 
 def soon_factored(poly: Poly) -> bool:
-    """Return whether the degrees are low enough for flint's factorisation, which hears no deadline."""
+    """Return whether the degrees are low enough for FLINT's factorisation, which cannot be interrupted."""
     *_, second, first = 0, 0, *sorted(int(k) for k in poly.degrees())
     return first * second <= FACTORED_DEGREES
 
 
 @raising_no_value
 def divided(top: Any, bottom: Any) -> Any:
-    """top / bottom for polynomials or numbers; raises NoValueError where that is none."""
+    """Return top / bottom for polynomials or numbers; raises NoValueError if the division is not exact."""
     return top / bottom
 
 
 @raising_no_value
 def remainder(poly: Poly, divisor: Poly) -> Poly:
-    """Return what a division leaves; raises PoleError for the divisor 0."""
+    """Return the remainder of a division; raises PoleError if the divisor is 0."""
     return divmod(poly, divisor)[1]
 
 
 @raising_no_value
 def lowest_terms(top: Poly, bottom: Poly) -> Quotient:
-    """Return a quotient divided by the common divisor of its terms; raises PoleError for 0/0."""
+    """Return (top, bottom) divided by their greatest common divisor; raises PoleError for 0/0."""
     common = top.gcd(bottom)
     return top / common, bottom / common
 
 
 def is_identically_zero(expression: Expr, positive: frozenset[Expr] = frozenset()) -> bool | None:
-    """True: proved zero. False: not zero in the ring. None: too large to say. Raises PoleError."""
+    """Return whether the canonical form is 0 (True is a proof); None if it is too large. Raises PoleError."""
     ring = Ring([expression], positive)
     try:
         node = ring.node(expression)
@@ -237,15 +237,15 @@ def is_identically_zero(expression: Expr, positive: frozenset[Expr] = frozenset(
 
 @raising_no_value
 def cleared(canon: Canon, row: Sequence[Quotient]) -> tuple[list[Poly], Poly]:
-    """Return a row's entries times their common denominator, as polynomials, and that denominator."""
-    whole = canon.unit
+    """Return (a row's entries times their common denominator, as polynomials; that denominator)."""
+    common = canon.unit
     for _, bottom in row:
-        whole = whole * (bottom / bottom.gcd(whole))
-    return [canon.reduce(top * (whole / bottom)) for top, bottom in row], whole
+        common = common * (bottom / bottom.gcd(common))
+    return [canon.reduce(top * (common / bottom)) for top, bottom in row], common
 
 
 def polynomials(canon: Canon, row: Mapping[int, int], n: int) -> list[Poly]:
-    """Return the entries of a row, nodes by column, times their common denominator, as polynomials."""
+    """Return the n entries of a sparse row, {column: node}, times their common denominator, as polynomials."""
     zero = (canon.unit * 0, canon.unit)
     return cleared(canon, [canon.quotient(row[c]) if c in row else zero for c in range(n)])[0]
 

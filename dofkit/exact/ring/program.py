@@ -27,7 +27,7 @@ Scalar = Any
 NUM, VAR, ADD, MUL, POW = range(5)
 
 
-# How exact arithmetic fails: there is no value, for one reason or another, FLINT's own included
+# Exceptions of exact arithmetic: an expression has no value
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -35,7 +35,7 @@ Decision = TypeVar("Decision", bool, bool | None)
 
 
 class TooLargeError(NoValueError):
-    """The canonical form grew past its bound, or needs a root of a quotient."""
+    """The canonical form exceeds its bound."""
 
     reason = "a canonical form grew past its bound"
 
@@ -47,13 +47,13 @@ class OutsideDomainError(NoValueError):
 
 
 class NoPointError(NoValueError):
-    """No point was found at this draw (a radicand is no square, a division by zero)."""
+    """A random point has no value here (a radicand is no square, a division by zero); another may have one."""
 
     reason = "no point was found"
 
 
 def raising_no_value(work: Callable[P, T]) -> Callable[P, T]:
-    """Return ``work``, whose divisions by zero are PoleErrors, and FLINT's errors about a domain NoValueErrors."""
+    """Return ``work`` raising PoleError for a division by zero, and NoValueError for FLINT's DomainError."""
 
     @wraps(work)
     def wrapper(*args: P.args, **kwargs: P.kwargs) -> T:
@@ -70,7 +70,7 @@ def raising_no_value(work: Callable[P, T]) -> Callable[P, T]:
 
 
 def false_without_value(function: Callable[P, Decision]) -> Callable[P, Decision]:
-    """Return a function that is False, which says nothing, where something that it works out has no value."""
+    """Return ``function`` with the result False ("not proved") where it would raise NoValueError."""
 
     @wraps(function)
     def decision(*args: P.args, **kwargs: P.kwargs) -> Decision:
@@ -86,9 +86,8 @@ def false_without_value(function: Callable[P, Decision]) -> Callable[P, Decision
 class Var:
     """A generator.
 
-    ``kind``: symbol, cos, sin, exp, log, root (``degree``-th), asin, atan, atan2, sign, call or pi;
-    ``key`` identifies it; ``args`` are the nodes of its arguments; ``partner`` is the cos of a sin and
-    the sin of a cos.
+    ``kind``: symbol, cos, sin, exp, log, root (``degree``-th), asin, atan, atan2, sign, call or pi; ``key`` identifies
+    it; ``args``: the nodes of its arguments; ``partner``: the index of the cos of a sin, or the sin of a cos.
     """
 
     index: int
@@ -100,17 +99,18 @@ class Var:
 
 
 class Point(Protocol):
-    """Supplies the values of generators, each asked for once its arguments are known."""
+    """Supplies the numbers of a program and the values of its generators, given those of their arguments."""
 
     def number(self, value: Fraction) -> Scalar: ...
     def generator(self, var: Var, args: Sequence[Scalar]) -> Scalar: ...
 
 
 class Instructions(ABC):
-    """A program and its generators: ``code`` holds (operation, payload), each written once.
+    """A program and its generators: ``code`` is a list of distinct (operation, payload), called nodes.
 
-    ``vars`` are the generators, ``var_expr`` what they are as expressions, ``var_node`` their instructions.
-    ``positive`` symbols are their own absolute value. ``varies``: whether an instruction depends on any symbol.
+    A payload is a number (NUM), a generator index (VAR), the numbers of nodes (ADD, MUL) or (node, exponent) (POW).
+    ``vars`` are the generators, ``var_expr`` their expressions, ``var_node`` their nodes. ``varies``: whether a node
+    depends on a symbol. ``positive`` symbols are equal to their absolute value.
     """
 
     def __init__(self, positive: frozenset[Expr] = frozenset()) -> None:
@@ -130,11 +130,11 @@ class Instructions(ABC):
 
     @cached_property
     def digest(self) -> str:
-        """A hash of the program when it was first asked for: what is drawn by it is the same wherever it runs."""
+        """A hash of the program at the first call, the seed of random choices: they are the same on every machine."""
         return sha256(repr(self.code).encode()).hexdigest()
 
     def emit(self, op: int, payload: Any) -> int:
-        """Return the number of an instruction."""
+        """Return the number of the node with this operation and payload, which is added if it is new."""
         key = (op, payload)
         number = self._interned.get(key)
         if number is None:
@@ -149,7 +149,7 @@ class Instructions(ABC):
         return op != NUM and any(self.varies[i] for i in (payload[:1] if op == POW else payload))
 
     def order(self, roots: tuple[int, ...]) -> list[int]:
-        """Every instruction that the roots depend on, the last first: worked out once, for gradients at many points."""
+        """Return every node that the roots depend on, the last first; remembered, for gradients at many points."""
         instructions = self._orders.get(roots)
         if instructions is None:
             instructions = self._orders[roots] = reachable(self, roots)
@@ -160,7 +160,7 @@ class Instructions(ABC):
         return self.emit(MUL, (self.emit(NUM, Fraction(-1)), node))
 
     def generator(self, kind: str, key: Any, expression: Expr, args: tuple[int, ...] = (), degree: int = 1) -> int:
-        """Return the node of a generator, made at first use; ``expression`` is it as an expression."""
+        """Return the node of the generator of this kind and key, added at first use with its ``expression``."""
         index = self._var_of.get((kind, key))
         if index is None:
             index = len(self.vars)
@@ -175,7 +175,7 @@ class Instructions(ABC):
         return self.generator("symbol", e, e)
 
     def var_index(self, e: Expr) -> int | None:
-        """Return the generator of a symbol, if it occurs."""
+        """Return the generator index of a symbol; None if it does not occur."""
         return self._var_of.get(("symbol", e))
 
     def number(self, value: Fraction | int) -> int:
@@ -195,10 +195,7 @@ class Instructions(ABC):
 
 
 def reachable(program: Instructions, roots: Iterable[int], through_generators: bool = True) -> list[int]:
-    """Return every instruction that the roots depend on, the last first.
-
-    Without ``through_generators`` the walk stops at generators: what they depend on is left out.
-    """
+    """Return every node that the roots depend on (``through_generators``: also by their arguments), the last first."""
     seen: set[int] = set()
     stack = list(roots)
     while stack:
@@ -220,9 +217,9 @@ def reachable(program: Instructions, roots: Iterable[int], through_generators: b
 
 @raising_no_value
 def value_of(ring: Instructions, point: Point, node: int, through_generators: bool = True) -> Scalar:
-    """Return the value of one instruction, from those only that it needs; raises PoleError at a pole.
+    """Return the value of one node, computing only the nodes that it needs; raises PoleError at a pole.
 
-    Without ``through_generators`` the point is given no arguments of generators.
+    Without ``through_generators`` the point supplies generators without the values of their arguments.
     """
     out: dict[int, Scalar] = {}
     for i in reversed(reachable(ring, [node], through_generators)):
@@ -241,7 +238,7 @@ def value_of(ring: Instructions, point: Point, node: int, through_generators: bo
 
 
 def vanish(ring: Instructions, point: Point, nodes: Sequence[int]) -> bool:
-    """Return whether all of some instructions are 0 at a point; False where they have no value."""
+    """Return whether all ``nodes`` are 0 at a point; False if the program has no value there."""
     try:
         at = values(ring, point)
     except NoValueError:
@@ -251,10 +248,7 @@ def vanish(ring: Instructions, point: Point, nodes: Sequence[int]) -> bool:
 
 @raising_no_value
 def values(ring: Instructions, point: Point, upto: int | None = None) -> list[Scalar]:
-    """Return the value of every instruction at ``point``; raises PoleError at a pole.
-
-    ``upto`` stops after that many instructions.
-    """
+    """Return the values of all nodes (or the first ``upto``) at a point; raises PoleError at a pole."""
     check()
     out: list[Scalar] = []
     push = out.append
@@ -275,7 +269,7 @@ def values(ring: Instructions, point: Point, upto: int | None = None) -> list[Sc
 
 
 def _power(value: Scalar, n: int) -> Scalar:
-    """value^n for n != 0. Raises PoleError where the inverse of a ball has no bound, so that it says nothing."""
+    """Return value^n for n != 0; raises PoleError if the value is 0, or a ball that contains 0, and n < 0."""
     if n > 0:
         return integer_power(value, n)
     inverse = 1 / integer_power(value, -n)
@@ -285,7 +279,7 @@ def _power(value: Scalar, n: int) -> Scalar:
 
 
 def integer_power(value: Scalar, n: int) -> Scalar:
-    """value^n for n > 0; a ball's own power goes through its logarithm and is no number where it contains 0."""
+    """Return value^n for n > 0; balls are multiplied, because FLINT's power is NaN for a ball that contains 0."""
     if not isinstance(value, arb):
         return value**n
     total = value
@@ -297,7 +291,7 @@ def integer_power(value: Scalar, n: int) -> Scalar:
 
 
 def partials(ring: Instructions, var: Var, at: Sequence[Scalar], point: Point) -> list[tuple[int, Scalar]]:
-    """d(generator)/d(argument node) for each argument it depends on."""
+    """Return (argument node, d(generator)/d(argument)) for each argument that the generator depends on."""
     kind = var.kind
     if kind == "cos":
         return [(var.args[0], -at[ring.var_node[var.partner]])]
@@ -334,7 +328,7 @@ def _derivative(var: Var, i: int, at: Sequence[Scalar], point: Point) -> Scalar:
 def gradient(
     ring: Instructions, at: Sequence[Scalar], point: Point, seeds: Iterable[tuple[int, Scalar]]
 ) -> dict[int, Scalar]:
-    """Return the gradient of ``sum seed * value(node)`` by every symbol: ``{generator index: value}``."""
+    """Return the gradient of the sum of seed * node over ``seeds``, as {generator index of a symbol: value}."""
     check()
     adjoint: dict[int, Scalar] = {}
     varies = ring.varies
@@ -369,6 +363,7 @@ def gradient(
 def _product_rule(
     payload: tuple[int, ...], at: Sequence[Scalar], bar: Scalar, adjoint: dict[int, Scalar], varies: Sequence[bool]
 ) -> None:
+    """Add to ``adjoint`` the derivatives of a product whose own adjoint is ``bar``."""
     for place, i in enumerate(payload):
         if varies[i]:
             part = bar

@@ -1,6 +1,6 @@
 """Quotients of polynomials in lowest terms, polynomials as products, and linear systems over polynomials.
 
-Only small polynomials are divided and factored: the work is bounded.
+Only small polynomials are divided and factored, so that the work is bounded.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ def bounded(poly: Poly) -> bool:
 
 
 def in_lowest_terms(top: Poly, bottom: Poly) -> Quotient:
-    """Return a quotient divided by the common divisor of numerator and denominator."""
+    """Return (top, bottom) without common factors, if both are `bounded`, and with a monic denominator."""
     if top == 0:
         return top, top**0
     if bounded(top) and bounded(bottom):
@@ -39,24 +39,24 @@ def in_lowest_terms(top: Poly, bottom: Poly) -> Quotient:
     return top / leading, bottom / leading
 
 
-def _length(quotient: Quotient) -> int:
+def _size(quotient: Quotient) -> int:
     return sum(len(p) + sum(int(k) for k in p.degrees()) for p in quotient)
 
 
 def rationalised(canon: Canon, quotient: Quotient) -> Quotient:
-    """Return a quotient in lowest terms, also across cos^2 + sin^2 = 1 and root^d = radicand."""
+    """Return a quotient in lowest terms; it may be expanded by a cosine, sine or root if that makes it shorter."""
     best = in_lowest_terms(*quotient)
     for var in canon.ring.vars:
         if var.kind not in ("cos", "sin", "root") or not any(p.degrees()[-1 - var.index] for p in best):
             continue
         gen = canon.gens[var.index] ** (var.degree - 1 if var.kind == "root" else 1)
         other = in_lowest_terms(canon.reduce(best[0] * gen), canon.reduce(best[1] * gen))
-        best = min(best, other, key=_length)
+        best = min(best, other, key=_size)
     return best
 
 
 def factored(canon: Canon, poly: Poly) -> Expr:
-    """Return a polynomial in the generators as a product."""
+    """Return a polynomial in the generators as an expression, a product if it can be factored."""
     if poly == 0 or not bounded(poly):
         return canon.to_expr(poly)
     constant, factors = poly.factor()
@@ -64,7 +64,7 @@ def factored(canon: Canon, poly: Poly) -> Expr:
 
 
 def solve(rows: list[list[Poly]], unit: Poly) -> list[Quotient] | None:
-    """Return x with sum(row[k] x[k]) = row[-1] for every row, free unknowns 0, or None where there is none."""
+    """Return a solution x, with free unknowns 0, of sum(row[k] x[k]) = row[-1] for all rows; None if there is none."""
     pivots: dict[int, list[Poly]] = {}
     for row in rows:
         for lead, pivot in pivots.items():
@@ -80,7 +80,7 @@ def solve(rows: list[list[Poly]], unit: Poly) -> list[Quotient] | None:
 
 
 def _cleared(row: list[Poly], pivot: list[Poly], lead: int) -> list[Poly]:
-    """Return a row without its entry in a column, divided by what its entries have in common."""
+    """Return a row with its entry in column ``lead`` eliminated by a pivot row, divided by the entries' gcd."""
     factor = row[lead]
     if factor == 0:
         return row

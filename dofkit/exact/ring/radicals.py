@@ -1,4 +1,4 @@
-"""Roots, signs, logarithms and inverse functions as a ring writes them: over primes, of factors, of one sign."""
+"""Roots, signs, logarithms and inverse functions as nodes of a ring, split into products, primes and signs."""
 
 from __future__ import annotations
 
@@ -14,18 +14,21 @@ from dofkit.expressions.enclosures import interval_of, is_constant
 from dofkit.expressions.tree import Expr
 
 Key = tuple[Any, int]
-#: Primes by which a long number is divided.
+#: Integers of more than 128 bits are divided by so many small primes only.
 TRIAL_PRIMES = 12
 
 
 def root(ring: Instructions, radicand: Expr, degree: int) -> int:
-    """Return the real ``degree``-th root; of a product, the product of the roots; of an integer, over its primes."""
+    """Return the node of the real ``degree``-th root; a product is split into factors, an integer into its primes.
+
+    An even root is not split between factors of unknown sign, because sqrt(a b) = sqrt(a) sqrt(b) needs a, b >= 0.
+    """
     if radicand.op == "mul":
-        apart, cofactor = known_signs(ring, radicand)
+        nonnegative, cofactor = known_signs(ring, radicand)
         if degree % 2:
-            apart, cofactor = list(radicand.args), ex.ONE
-        if cofactor.op != "mul" or apart:
-            factors = [*apart, *([cofactor] if cofactor != ex.ONE else [])]
+            nonnegative, cofactor = list(radicand.args), ex.ONE
+        if cofactor.op != "mul" or nonnegative:
+            factors = [*nonnegative, *([cofactor] if cofactor != ex.ONE else [])]
             return ring.product(*(root(ring, part, degree) for part in factors))
     if radicand.op == "pow" and radicand.args[1].op == "num":
         return _root_of_power(ring, radicand, degree)
@@ -44,20 +47,20 @@ def _root_of_sum(ring: Instructions, radicand: Expr, degree: int) -> int:
 
 
 def known_signs(ring: Instructions, product: Expr) -> tuple[list[Expr], Expr]:
-    """(factors that are never negative, the product of the others): only those have roots and logs of their own."""
-    apart: list[Expr] = []
+    """Return (factors that are never negative, product of the others); -3 x counts as the factor 3 and -x."""
+    nonnegative: list[Expr] = []
     signed: list[Expr] = []
     for part in product.args:
-        (apart if never_negative(part, ring.positive) else signed).append(part)
+        (nonnegative if never_negative(part, ring.positive) else signed).append(part)
     number = next((p for p in signed if p.op == "num"), None)
     if number is not None and number.args[0] != -1:
-        apart.append(ex.num(abs(number.args[0])))
+        nonnegative.append(ex.num(abs(number.args[0])))
         signed = [ex.MINUS_ONE if p is number else p for p in signed]
-    return apart, Expr("mul", tuple(signed)) if len(signed) > 1 else signed[0] if signed else ex.ONE
+    return nonnegative, Expr("mul", tuple(signed)) if len(signed) > 1 else signed[0] if signed else ex.ONE
 
 
 def never_negative(part: Expr, positive: frozenset[Expr]) -> bool:
-    """Return whether it is >= 0 by its form, wherever it is defined."""
+    """Return whether the form of ``part`` shows that it is >= 0 wherever it is defined."""
     if part.op == "num":
         return bool(part.args[0] > 0)
     if part in positive or part.op == "const" or (part.op == "fn" and part.args[0] in ("exp", "abs", "cosh")):
@@ -94,7 +97,7 @@ def _root_of_power(ring: Instructions, radicand: Expr, degree: int) -> int:
 
 
 def root_of_number(ring: Instructions, value: Fraction, degree: int) -> int:
-    """Over the primes of numerator and denominator."""
+    """Return the node of the real root of a number, as a product of roots of primes."""
     if value < 0:
         if degree % 2:
             return ring.product(ring.number(-1), root_of_number(ring, -value, degree))
@@ -113,7 +116,7 @@ def root_of_number(ring: Instructions, value: Fraction, degree: int) -> int:
 
 
 def prime_powers(value: int) -> list[tuple[int, int]]:
-    """Prime powers of a positive integer; of one of more than 128 bits what small primes leave counts as one."""
+    """Return (prime, exponent) pairs of a positive integer; of a long one the cofactor of small primes stays whole."""
     if value == 1:
         return []
     few = None if value.bit_length() <= 128 else TRIAL_PRIMES
@@ -121,7 +124,7 @@ def prime_powers(value: int) -> list[tuple[int, int]]:
 
 
 def sign(ring: Instructions, e: Expr) -> int:
-    """Return the sign of ``e``, with square 1 and derivative 0; an odd function of it."""
+    """Return the node of the sign of ``e``, which has the square 1 and the derivative 0; sign(-e) = -sign(e)."""
     if e.op == "num" and not e.is_zero:
         return ring.number(1 if e.args[0] > 0 else -1)
     if never_negative(e, ring.positive):
@@ -144,7 +147,7 @@ def sign(ring: Instructions, e: Expr) -> int:
 
 
 def _sign_of_constant(e: Expr) -> int:
-    """1 or -1 where a ball tells; 0 where ``e`` is no constant or no ball tells."""
+    """Return 1 or -1 if a ball proves this sign; 0 if ``e`` is not constant or its ball contains 0."""
     ball = interval_of(e) if is_constant(e) else None
     if ball is None or ball.contains(0):
         return 0
@@ -152,13 +155,13 @@ def _sign_of_constant(e: Expr) -> int:
 
 
 def leads_with_minus(e: Expr) -> bool:
-    """Return whether the first of the sorted terms has a minus sign: of ``e`` and ``-e`` one has."""
+    """Return whether the first of the sorted terms has a minus sign, which is so for exactly one of ``e``, ``-e``."""
     terms = sorted_sum(e)
     return bool(terms) and terms[0][1] < 0
 
 
 def inverse_function(ring: Instructions, name: str, e: Expr) -> int:
-    """Return the node of asin, acos, atan or atan2 of ``e``: acos is written by asin, a sign is taken out."""
+    """Return the node of ``e`` = asin u, atan u, atan2(y, x) or acos u = pi/2 - asin u; asin(-u) becomes -asin u."""
     u = e.args[1]
     if name == "acos":
         return ring.node(ex.HALF * ex.PI - ex.fn("asin", u))
@@ -173,18 +176,18 @@ def inverse_function(ring: Instructions, name: str, e: Expr) -> int:
 
 
 def _minus(u: Expr) -> bool:
-    """Return whether, of u and -u, this is the one that is written by the other."""
+    """Return whether an odd function of u is written as minus that of -u."""
     if u.op == "num":
         return bool(u.args[0] < 0)
     return leads_with_minus(u) if u.op in ("add", "mul") else False
 
 
 def log(ring: Instructions, u: Expr) -> int:
-    """Return log u: of a product of positive factors the sum, of a power a multiple, of an integer over its primes."""
+    """Return the node of log u; a product of positive factors, a power and a rational number are expanded."""
     if u.op == "mul":
-        apart, cofactor = known_signs(ring, u)
-        if apart:
-            return ring.total(*(log(ring, part) for part in [*apart, *([cofactor] if cofactor != ex.ONE else [])]))
+        positive, cofactor = known_signs(ring, u)
+        if positive:
+            return ring.total(*(log(ring, part) for part in [*positive, *([cofactor] if cofactor != ex.ONE else [])]))
     if u.op == "pow" and (never_negative(u.args[0], ring.positive) or u.args[1].op != "num" or u.args[1].args[0] % 2):
         return ring.product(ring.node(u.args[1]), log(ring, u.args[0]))
     if u.op == "fn" and u.args[0] == "exp":
@@ -195,7 +198,7 @@ def log(ring: Instructions, u: Expr) -> int:
 
 
 def _log_of_number(ring: Instructions, value: Fraction) -> int:
-    """Return the logarithm of a positive number over its primes."""
+    """Return the node of the logarithm of a positive number, as a sum over its primes."""
     logs = []
     for p, k in _primes(value):
         prime = ring.generator("log", p, Expr("fn", ("log", ex.num(p))), (ring.number(p),))
@@ -204,7 +207,7 @@ def _log_of_number(ring: Instructions, value: Fraction) -> int:
 
 
 def over_primes(u: Expr) -> Expr:
-    """Return an exponent with the logarithms of numbers in its terms as sums over primes: 4^w is (e^(w log 2))^2."""
+    """Return an exponent with logarithms of numbers expanded over primes, so that 4^w becomes (e^(w log 2))^2."""
     if u.op in ("add", "mul"):
         return (ex.add if u.op == "add" else ex.mul)(*map(over_primes, u.args))
     if u.op != "fn" or u.args[0] != "log":
@@ -218,5 +221,5 @@ def over_primes(u: Expr) -> Expr:
 
 
 def _primes(value: Fraction) -> list[tuple[int, int]]:
-    """Return the primes of a positive number with their powers."""
+    """Return (prime, exponent) pairs of a positive rational number, with negative exponents in the denominator."""
     return prime_powers(value.numerator) + [(p, -k) for p, k in prime_powers(value.denominator)]

@@ -1,11 +1,10 @@
 """Expressions lowered to rational arithmetic over independent generators.
 
-A `Ring` turns expressions into one shared straight-line program. What is not rational arithmetic
-becomes a *generator* (`Var`): sin and cos of the angles that the arguments have in common, exp, log,
-roots, inverse functions, unknown functions, pi. Arguments are split over a rational basis first
-(``sin(theta + 2 phi)`` is a polynomial in the sines and cosines of theta and phi), so that most
-identities hold in the ring; then *zero in the ring implies zero of the function*. A relation among
-generators that is missed can only make a false non-zero, which the balls find out.
+A `Ring` turns expressions into one shared straight-line program. Functions become *generators* (`Var`): sin and cos of
+the angles that the arguments have in common, exp, log, roots, inverse functions, unknown functions, pi. Arguments are
+split over a rational basis first (``sin(theta + 2 phi)`` is a polynomial in the sines and cosines of theta and phi), so
+that most identities are true in the ring. *An expression that is zero in the ring is zero as a function.* If a relation
+among generators is missed, an expression may wrongly seem not to be zero, which balls can show.
 """
 
 from __future__ import annotations
@@ -22,15 +21,15 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import linear_terms, sorted_sum, substitute
 from dofkit.expressions.tree import Expr
 
-#: sin(n u) is a polynomial in sin u and cos u up to this n; beyond, it is a generator of its own.
+#: sin(n u) is expanded to a polynomial in sin u and cos u up to this n; otherwise it is a new generator.
 MAX_MULTIPLE = 64
 
-#: (cos, sin) by nodes.
+#: The nodes of the cosine and the sine of an angle.
 Turn = tuple[int, int]
 
 
 def rotated(ring: Instructions, a: Turn, b: Turn) -> Turn:
-    """cos and sin of a sum of two angles."""
+    """Return cos and sin of the sum of two angles."""
     minus = ring.number(-1)
     return (
         ring.total(ring.product(a[0], b[0]), ring.product(minus, a[1], b[1])),
@@ -39,7 +38,7 @@ def rotated(ring: Instructions, a: Turn, b: Turn) -> Turn:
 
 
 def multiple(ring: Instructions, angle: Turn, n: int) -> Turn:
-    """cos and sin of n times an angle, n not 0."""
+    """Return cos and sin of n times an angle, n not 0."""
     if n < 0:
         cos, sin = multiple(ring, angle, -n)
         return cos, ring.product(ring.number(-1), sin)
@@ -51,7 +50,7 @@ def multiple(ring: Instructions, angle: Turn, n: int) -> Turn:
 
 
 def of_inverse(ring: Instructions, angle: Expr) -> Turn:
-    """cos and sin of asin u, acos u, atan u or atan2(y, x)."""
+    """Return cos and sin of an angle that is written as asin u, acos u, atan u or atan2(y, x)."""
     u = angle.args[1]
     if angle.args[0] in ("asin", "acos"):
         other = ring.node(ex.sqrt(ex.ONE - u * u))
@@ -86,7 +85,7 @@ _COSINES = (*_QUADRANT, *(-e for e in _QUADRANT[-2::-1]))
 
 
 def _angle_arguments(expressions: Iterable[Expr], alias: Mapping[Expr, Expr]) -> dict[tuple[str, Expr], int]:
-    """Return for every basic angle or exponent, the common denominator of its multiples."""
+    """Return {(family, basic angle or exponent): common denominator of its multiples}; families are "cis" and "exp"."""
     denominators: dict[tuple[str, Expr], int] = {}
     for node in _with_functions(expressions):
         family = _family(node) if node.op in ("fn", "pow") else None
@@ -102,7 +101,7 @@ def _angle_arguments(expressions: Iterable[Expr], alias: Mapping[Expr, Expr]) ->
 
 
 def _with_functions(expressions: Iterable[Expr]) -> set[Expr]:
-    """Return every node in which a function occurs."""
+    """Return every subexpression that contains a function."""
     nodes: set[Expr] = set()
     pending = [e for e in expressions if e.functions]
     while pending:
@@ -124,9 +123,9 @@ def _family(node: Expr) -> str | None:
 class Ring(Instructions):
     """The program and its generators.
 
-    ``expressions`` are all that will be asked for (their angles fix the basis). ``positive`` symbols are
-    their own absolute value. ``alias`` replaces symbols in the arguments of functions: where a geometric
-    constraint says theta = w t, cos(theta) and cos(w t) are one generator.
+    ``expressions`` are all that will be evaluated: their angles determine the basic angles. ``positive`` symbols are
+    equal to their absolute value. ``alias`` replaces symbols in the arguments of functions: with a geometric constraint
+    theta = w t, cos(theta) and cos(w t) are one generator.
     """
 
     def __init__(
@@ -144,14 +143,14 @@ class Ring(Instructions):
         self._turns: dict[Expr, tuple[int, int]] = {}
 
     def another(self, expressions: Iterable[Expr]) -> Ring:
-        """An empty ring for other expressions, whose points are points of this one: it splits arguments as finely."""
+        """Return an empty ring for other expressions, with basic angles so fine that its points are points of this."""
         ring = Ring(expressions, self.positive, self.alias)
         for key, denominator in self._denominators.items():
             ring._denominators[key] = lcm(ring._denominators.get(key, 1), denominator)
         return ring
 
     def _denominator(self, family: str, argument: Expr, factor: Fraction) -> int:
-        """Return the parts in which an argument is counted. Raises NoValueError for a fraction of one."""
+        """Return the denominator of a basic argument; raises NoValueError if ``factor`` is not a multiple of 1/it."""
         denominator = self._denominators.setdefault((family, argument), factor.denominator)
         if denominator % factor.denominator:
             raise NoValueError("an argument occurs in smaller parts than the ring was made for")
@@ -217,19 +216,19 @@ class Ring(Instructions):
 
     @property
     def related(self) -> bool:
-        """True where a function occurs of an argument and of a large multiple of it, as generators apart."""
+        """Whether a function of an argument and of a large multiple of it (`MAX_MULTIPLE`) are separate generators."""
         arguments = {(v.kind, v.key[0]) for v in self.vars if v.kind in ("exp", "cos")}
         bases = [(kind, self._bases.get(argument, argument)) for kind, argument in arguments]
         return len(set(bases)) < len(bases)
 
     def _large_multiple(self, argument: Expr, size: Fraction) -> Expr:
-        """Return a multiple that is an argument of its own."""
+        """Return a multiple of an argument as a new basic argument, recorded for `related`."""
         multiple = Expr("mul", (ex.num(size), argument))
         self._bases[multiple] = argument
         return multiple
 
     def _exp(self, u: Expr) -> int:
-        """exp of a sum as the product of powers of the basic exponentials; exp(r log x) = x^r."""
+        """Return the node of exp u, a product of powers of basic exponentials; exp(r log x) becomes x^r."""
         u = over_primes(substitute(u, self.alias))
         factors = []
         for term, factor in linear_terms(u).items():
@@ -245,7 +244,7 @@ class Ring(Instructions):
         return self.product(*factors) if factors else self.number(1)
 
     def _cis(self, u: Expr) -> tuple[int, int]:
-        """Return (cos u, sin u) as polynomials in those of the basic angles."""
+        """Return (cos u, sin u) as polynomials in the cosines and sines of basic angles."""
         turn = self._turns.get(u)
         if turn is None:
             turn = self._turns[u] = self._turn(u)
@@ -264,6 +263,7 @@ class Ring(Instructions):
         return reduce(partial(rotated, self), turns) if turns else (self.number(1), self.number(0))
 
     def _basic_angle(self, angle: Expr, factor: Fraction) -> tuple[int, int, int]:
+        """Return (cos b, sin b, n) for a basic angle b with factor * angle = n b."""
         denominator = self._denominator("cis", angle, factor)
         if abs(factor * denominator) > MAX_MULTIPLE:
             angle, factor, denominator = self._large_multiple(angle, abs(factor)), factor / abs(factor), 1
@@ -284,7 +284,7 @@ class Ring(Instructions):
         return self.generator("call", key, e, tuple(self.node(a) for a in arguments))
 
 
-#: How the node of an expression is built that is no sum and no product.
+#: The methods that build the nodes of expressions other than sums and products, by operation.
 _BUILDING: dict[str, Callable[[Ring, Expr], int]] = {
     "num": Ring._number,
     "sym": Ring.symbol,

@@ -1,1 +1,1 @@
-"""Geometric equations that Pfaffian forms integrate to, each proved by differentiating."""
+"""Integrals of single Pfaffian forms: potentials and integrating factors, each proved by differentiation."""

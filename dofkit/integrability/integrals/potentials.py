@@ -1,8 +1,8 @@
-"""The potential of a closed form, by antiderivatives in one variable, with exact algebra whose work is bounded.
+"""The potential of a closed form, by antiderivatives in one variable, with a bounded amount of exact algebra.
 
-Whoever uses a result differentiates it. A table gives the antiderivatives of powers, exponentials and trigonometric
-functions of linear arguments, so that ordinary forms need no SymPy; everything else is SymPy's. `Algebra` has quotients
-in lowest terms and identities with a proof.
+Results are not proved here: `search` differentiates them. A table contains the antiderivatives of powers, exponentials
+and trigonometric functions of linear arguments, so that common forms need no SymPy; SymPy computes all others.
+`Algebra` computes quotients in lowest terms and proves identities.
 """
 
 from __future__ import annotations
@@ -23,25 +23,25 @@ from dofkit.expressions.tree import Expr
 
 T = TypeVar("T")
 
-#: Canonical forms asked for in one integration; past it the search ends without a result.
+#: The budget of one integration, in steps (about one for each canonical form); beyond it there is no result.
 STEPS = 400
-#: Seconds that SymPy is given in one integration.
+#: Seconds that SymPy may take in one integration.
 SECONDS = 3.0
-#: The largest expression taken up, in nodes.
+#: The largest expression that is brought to canonical form, in nodes.
 MAX_NODES = 500
 
 
 class GivenUpError(Exception):
-    """The work went past its bound, or an expression has no canonical form."""
+    """The budget of steps is exhausted."""
 
 
 def size(e: Expr) -> int:
-    """Return the number of different nodes."""
+    """Return the number of different nodes of an expression."""
     return sum(1 for _ in ex.nodes(e))
 
 
 class Algebra:
-    """Canonical forms under one budget; ``positive`` symbols are their own absolute value."""
+    """Canonical forms of expressions, within one budget of steps and seconds; ``positive`` symbols are > 0."""
 
     def __init__(self, positive: frozenset[Expr]) -> None:
         self.positive = positive
@@ -51,21 +51,21 @@ class Algebra:
         self._vanishing: dict[Expr, bool] = {}
 
     def attempt(self, work: Callable[[], T]) -> T | None:
-        """Return the result of ``work``, or None where an expression has no canonical form or divides by zero."""
+        """Return the result of ``work``, or None where an expression has no canonical form or a divisor is 0."""
         try:
             return raising_no_value(work)()
         except NoValueError:
             return None
 
     def spend(self, expressions: Iterable[Expr]) -> None:
-        """Count a canonical form. Raises TooLargeError for too large ones, GivenUpError past the bound."""
+        """Deduct the steps for canonical forms. Raises TooLargeError above MAX_NODES; GivenUpError: see `tick`."""
         sizes = [size(e) for e in expressions]
         if max(sizes) > MAX_NODES:
             raise TooLargeError
         self.tick(sum(1 + nodes // 20 for nodes in sizes))
 
     def tick(self, steps: int = 1) -> None:
-        """Count work that is no canonical form."""
+        """Deduct steps from the budget. Raises GivenUpError when none remain."""
         self.steps -= steps
         if self.steps < 0:
             raise GivenUpError
@@ -107,16 +107,16 @@ class Algebra:
         return is_identically_zero(e, self.positive)
 
     def closed(self, form: dict[Expr, Expr]) -> bool:
-        """Return whether d(omega) = 0 is proved."""
+        """Return whether d(omega) = 0 is proved for the form omega."""
         items = list(form.items())
         return all(self.vanishes(diff(b, s) - diff(a, u)) for i, (s, a) in enumerate(items) for u, b in items[i + 1 :])
 
 
-#: Symbol -> coefficient, zeros too for the symbols that only coefficients mention.
+#: A one-form omega, symbol -> coefficient; 0 for symbols that occur only in coefficients.
 Form = dict[Expr, Expr]
-#: Orders of integration that are tried for a potential.
+#: Most orders of the variables of integration that are tried for a potential.
 MAX_ORDERS = 4
-#: The largest integrand given to SymPy, in nodes, and the steps of the budget that one takes.
+#: The largest integrand given to SymPy, in nodes, and the steps that this deducts from the budget.
 MAX_SYMPY, SYMPY_STEPS = 60, 20
 
 
@@ -131,18 +131,19 @@ def potential(work: Algebra, form: Form) -> Expr | None:
 
 
 def _potential_in_order(work: Algebra, form: Form, order: list[Expr]) -> Expr | None:
-    total, done = ex.ZERO, set[Expr]()
+    """Return the potential by integration over the symbols in this order; None if an antiderivative is not found."""
+    total, integrated = ex.ZERO, set[Expr]()
     for symbol in order:
         slope = form[symbol] - diff(total, symbol)
-        if not done.isdisjoint(slope.symbols):
-            slope = work.tidy(slope)
-            if not done.isdisjoint(slope.symbols):
+        if not integrated.isdisjoint(slope.symbols):
+            slope = work.tidy(slope)  # in a closed form the symbols integrated before cancel
+            if not integrated.isdisjoint(slope.symbols):
                 return None
-        part = ex.ZERO if slope.is_zero else antiderivative(work, slope, symbol)
-        if part is None:
+        summand = ex.ZERO if slope.is_zero else antiderivative(work, slope, symbol)
+        if summand is None:
             return None
-        total = total + part
-        done.add(symbol)
+        total = total + summand
+        integrated.add(symbol)
     return total
 
 
@@ -158,6 +159,7 @@ def antiderivative(work: Algebra, e: Expr, x: Expr) -> Expr | None:
 
 
 def _termwise(work: Algebra, e: Expr, x: Expr) -> Expr | None:
+    """Return the antiderivative of a sum of terms that are all in the table, else None."""
     integrals = []
     for term in e.args if e.op == "add" else (e,):
         work.tick()
@@ -170,14 +172,14 @@ def _termwise(work: Algebra, e: Expr, x: Expr) -> Expr | None:
 
 
 def as_power(e: Expr) -> tuple[Expr, Fraction]:
-    """Return (base, exponent), the exponent a number."""
+    """Return (base, exponent) of a power with a numeric exponent, (e, 1) for all else."""
     if e.op == "pow" and e.args[1].op == "num":
         return e.args[0], e.args[1].args[0]
     return e, Fraction(1)
 
 
 def collected_powers(term: Expr, x: Expr) -> tuple[Expr, list[Expr]]:
-    """Return the factors free of x, and the others with the powers of equal bases collected."""
+    """Return the product of the factors without x, and the factors with x, powers of equal bases multiplied."""
     constants, bases = [], dict[Expr, Fraction]()
     for factor in term.args if term.op == "mul" else (term,):
         if x in factor.symbols:
@@ -195,7 +197,7 @@ def _linear(u: Expr, x: Expr) -> Expr | None:
 
 
 def _of_factor(e: Expr, x: Expr) -> Expr | None:
-    """Return the antiderivative of one factor by the table."""
+    """Return the antiderivative by x of a power or function that is in the table, else None."""
     if e.op == "pow":
         return _of_power(e, x)
     if e.op == "call":
@@ -210,7 +212,7 @@ def _of_factor(e: Expr, x: Expr) -> Expr | None:
 
 
 def _of_function(name: str, u: Expr) -> Expr | None:
-    """Return the antiderivative of a function by its argument."""
+    """Return the antiderivative of the function ``name`` by its argument u; None if it is not in the table."""
     sin, cos = ex.fn("sin", u), ex.fn("cos", u)
     table = {
         "exp": ex.fn("exp", u), "sinh": ex.fn("cosh", u), "cosh": ex.fn("sinh", u),
@@ -222,6 +224,7 @@ def _of_function(name: str, u: Expr) -> Expr | None:
 
 
 def _of_power(e: Expr, x: Expr) -> Expr | None:
+    """Return the antiderivative by x of a power that is in the table, else None."""
     base, exponent = e.args
     if x in exponent.symbols:
         a = _linear(exponent, x)
@@ -235,7 +238,7 @@ def _of_power(e: Expr, x: Expr) -> Expr | None:
 
 
 def _of_wave_power(wave: Expr, exponent: Expr, x: Expr) -> Expr | None:
-    """Return the antiderivative of sin or cos of a linear argument to the power -2 or -1."""
+    """Return the antiderivative of sin or cos of a linear argument to the power -2 or -1; None for all else."""
     name, u = wave.args
     a = _linear(u, x)
     if a is None or exponent.op != "num" or exponent.args[0] not in (-1, -2):
@@ -247,7 +250,7 @@ def _of_wave_power(wave: Expr, exponent: Expr, x: Expr) -> Expr | None:
 
 
 def _of_inverse_root(base: Expr, x: Expr) -> Expr | None:
-    """Return the antiderivative of (a x^2 + b x + c)^(-1/2) for a number a."""
+    """Return the antiderivative of base^(-1/2) for base = a x^2 + b x + c, a a number; None for all else."""
     slope = diff(base, x)
     twice = _linear(slope, x)
     if twice is None or twice.op != "num":
@@ -260,7 +263,7 @@ def _of_inverse_root(base: Expr, x: Expr) -> Expr | None:
 
 
 def _of_unknown_function(e: Expr, x: Expr) -> Expr | None:
-    """Return the antiderivative of a derivative of an unknown function by the one argument that holds x."""
+    """Return the antiderivative of f'(u), f an unknown function, if x occurs, linearly, only in the argument u."""
     name, orders, arguments = e.args
     places = [i for i, u in enumerate(arguments) if x in u.symbols]
     a = _linear(arguments[places[0]], x)
@@ -270,7 +273,7 @@ def _of_unknown_function(e: Expr, x: Expr) -> Expr | None:
 
 
 def _by_sympy(work: Algebra, e: Expr, x: Expr) -> Expr | None:
-    """Return SymPy's antiderivative, or None where there is none, or none in time."""
+    """Return SymPy's antiderivative, or None if SymPy finds none within the seconds that remain of the budget."""
     if size(e) > MAX_SYMPY or any(n.op == "call" for n in ex.nodes(e)):
         return None
     work.tick(SYMPY_STEPS)

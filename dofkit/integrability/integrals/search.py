@@ -1,8 +1,7 @@
-"""Integrals of Pfaffian forms: f and mu with df = mu omega, proposed by rules and proved by differentiating.
+"""Integrals of one Pfaffian form omega: f and mu with df = mu omega, proposed by rules and proved by differentiation.
 
-A result is returned only where df = mu omega holds identically in the canonical ring, component by component, and mu
-is proved not to vanish at a point; a form for which no rule applies gives None. The work is bounded by a count of
-steps, and that of SymPy by time.
+A result is returned only if df = mu omega is an identity, component by component, and mu is proved non-zero at some
+point; a form for which no rule applies gives None. The work is bounded by a number of steps, that of SymPy by time.
 """
 
 from __future__ import annotations
@@ -35,19 +34,19 @@ __all__ = ["Integral", "integrate"]
 
 #: The largest form that is integrated, in nodes.
 MAX_FORM = 300
-#: Past so many variables only the cheap factors are tried.
+#: With more variables only the integrating factors of `simple` are tried.
 MAX_VARIABLES = 5
-#: A result this easy to read, with a factor no longer than that, ends the search.
+#: An integral and a factor whose lengths (see `cost`) are at most these end the search.
 EASY = 16
 LONG = 60
 
 
 @dataclass(frozen=True)
 class Integral:
-    """The configuration-level equation that a form integrates to, as text.
+    """The geometric equation of which a form omega is a consequence, as text.
 
-    ``factor``: the integrating factor mu, e.g. ``1/x^2``; None where the form is closed as written.
-    ``integral``: ``f = C``, e.g. ``y/x = C``; d f = mu omega.
+    ``factor``: the integrating factor mu, e.g. ``1/x^2``; None if the form is closed as written.
+    ``integral``: ``f = C``, e.g. ``y/x = C``, with df = mu omega.
     """
 
     factor: str | None
@@ -55,7 +54,7 @@ class Integral:
 
 
 def integrate(form: Pfaffian, positive: frozenset[Expr]) -> Integral | None:
-    """Return f = C and mu with df = mu omega in (q, t), proved, or None where no rule applies."""
+    """Return f = C and mu with a proof of df = mu omega in (q, t), or None where no rule applies."""
     work = Algebra(positive)
     try:
         return _integrate(work, form)
@@ -65,27 +64,27 @@ def integrate(form: Pfaffian, positive: frozenset[Expr]) -> Integral | None:
 
 @raising_no_value
 def _integrate(work: Algebra, form: Pfaffian) -> Integral | None:
-    whole = {s: ex.ZERO if work.vanishes(a) else a for s, a in form.components.items()}
-    sizes = [size(a) for a in whole.values() if not a.is_zero]
+    omega = {s: ex.ZERO if work.vanishes(a) else a for s, a in form.components.items()}
+    sizes = [size(a) for a in omega.values() if not a.is_zero]
     if not sizes or sum(sizes) > MAX_FORM:
         return None
-    if work.closed(whole):
-        closed = potential(work, whole)
-        if closed is not None:
-            for integral in dict.fromkeys((arranged(upright(closed)), arranged(closed), closed)):
-                if _proved(work, whole, (integral, ex.ONE)):
-                    return Integral(None, _equation(integral, whole))
-    return _with_factor(work, whole)
+    if work.closed(omega):
+        f = potential(work, omega)
+        if f is not None:
+            for integral in dict.fromkeys((arranged(upright(f)), arranged(f), f)):
+                if _proved(work, omega, (integral, ex.ONE)):
+                    return Integral(None, _equation(integral, omega))
+    return _with_factor(work, omega)
 
 
 def _with_factor(work: Algebra, form: Form) -> Integral | None:
-    """Return the simplest of the integrals that the first successful family of factors gives."""
+    """Return the simplest integral that `_pairs` yields before the budget is exhausted, or None."""
     best: Pair | None = None
     try:
         for pair in _pairs(work, form):
             if best is None or cost(pair) < cost(best):
                 best = pair
-            if all(here <= there for here, there in zip(cost(best), (EASY, LONG), strict=True)):
+            if all(length <= limit for length, limit in zip(cost(best), (EASY, LONG), strict=True)):
                 break
     except GivenUpError:
         pass
@@ -93,13 +92,14 @@ def _with_factor(work: Algebra, form: Form) -> Integral | None:
 
 
 def _equation(integral: Expr, form: Form) -> str:
-    """Return ``f = C`` as text, with C1, C2, ... where the form itself has a C."""
-    taken = {s.args[1] for s in form} | {s.args[1] for a in form.values() for s in a.symbols}
-    constant = next(name for name in chain(("C",), (f"C{i}" for i in count(1))) if name not in taken)
+    """Return ``f = C`` as text; the constant is named C1, C2, ... if C occurs in the form."""
+    names = {s.args[1] for s in form} | {s.args[1] for a in form.values() for s in a.symbols}
+    constant = next(name for name in chain(("C",), (f"C{i}" for i in count(1))) if name not in names)
     return f"{to_text(integral)} = {constant}"
 
 
 def _pairs(work: Algebra, form: Form) -> Iterator[Pair]:
+    """Yield (integral, factor) for the candidates of the first family of factors that gives any."""
     successful = False
     for family in (simple, of_powers) if len(form) <= MAX_VARIABLES else (simple,):
         for mu in family(work, form):
@@ -112,7 +112,7 @@ def _pairs(work: Algebra, form: Form) -> Iterator[Pair]:
 
 
 def _integral(work: Algebra, form: Form, mu: Expr) -> Pair | None:
-    """Return the integral that belongs to a factor, in its simplest proved form, with that factor."""
+    """Return (f, mu) in its simplest proved form if mu omega is closed and its potential is found, else None."""
     scaled = {s: a if a.is_zero else work.tidy(mu * a) for s, a in form.items()}
     if sum(map(size, scaled.values())) > 2 * MAX_FORM or not work.closed(scaled):
         return None
@@ -125,11 +125,11 @@ def _integral(work: Algebra, form: Form, mu: Expr) -> Pair | None:
 def _proved(work: Algebra, form: Form, pair: Pair) -> bool:
     """Return whether df = mu omega identically and mu is not zero."""
     integral, mu = pair
-    holds = all(work.vanishes(diff(integral, s) - mu * a) for s, a in form.items())
-    return holds and certainly_nonzero(mu, work.positive)
+    is_integral = all(work.vanishes(diff(integral, s) - mu * a) for s, a in form.items())
+    return is_integral and certainly_nonzero(mu, work.positive)
 
 
-# integrating factors: mu with d(mu omega) = 0, each used only once that is proved
+# candidates for integrating factors mu; `_integral` tests d(mu omega) = 0
 
 
 def exponential(e: Expr) -> Expr:
@@ -146,23 +146,23 @@ def exponential(e: Expr) -> Expr:
 
 
 def simple(work: Algebra, form: Form) -> Iterator[Expr]:
-    """Yield one over the common divisor of the coefficients, then one over each coefficient."""
-    seen: list[Expr] = []
+    """Yield 1/g for the greatest common divisor g of the coefficients, then for each coefficient g."""
+    divisors: list[Expr] = []
     for divisor in (_content(work, form), *form.values()):
-        if not divisor.is_zero and divisor not in seen and divisor.op != "num":
-            seen.append(divisor)
+        if not divisor.is_zero and divisor not in divisors and divisor.op != "num":
+            divisors.append(divisor)
             yield 1 / divisor
 
 
 def _content(work: Algebra, form: Form) -> Expr:
-    """Return the common divisor of the numerators over that of the denominators."""
-    present = [a for a in form.values() if not a.is_zero]
-    content = work.attempt(lambda: _common(work, present))
+    """Return the greatest common divisor of the numerators divided by that of the denominators; 1 if undefined."""
+    coefficients = [a for a in form.values() if not a.is_zero]
+    content = work.attempt(lambda: _common(work, coefficients))
     return ex.ONE if content is None else content
 
 
-def _common(work: Algebra, present: list[Expr]) -> Expr:
-    canon, quotients = work.lowered(present)
+def _common(work: Algebra, coefficients: list[Expr]) -> Expr:
+    canon, quotients = work.lowered(coefficients)
     top, bottom = quotients[0]
     for above, below in quotients[1:]:
         top, bottom = top.gcd(above), bottom.gcd(below)
@@ -170,10 +170,7 @@ def _common(work: Algebra, present: list[Expr]) -> Expr:
 
 
 def of_powers(work: Algebra, form: Form) -> Iterator[Expr]:
-    """Yield mu = prod g_k^c_k with constants c_k [Darboux1878].
-
-    The g_k are variables, factors of the coefficients, and exponentials.
-    """
+    """Yield mu = prod g_k^c_k with constants c_k, if one exists [Darboux1878]; for the g_k see `_candidates`."""
     logs = _candidates(work, form)
     if not logs:
         return
@@ -183,7 +180,7 @@ def of_powers(work: Algebra, form: Form) -> Iterator[Expr]:
 
 
 def _candidates(work: Algebra, form: Form) -> list[Expr]:
-    """Return the logarithms of possible factors, and the exponents x and x^2/2."""
+    """Return log g_k for the possible factors g_k: variables, factors of coefficients, x^2 + y^2, exp x, exp(x^2/2)."""
     variables, bases = list(form), dict.fromkeys(form)
     for coefficient in form.values():
         tidy = work.tidy(coefficient)
@@ -197,7 +194,10 @@ def _candidates(work: Algebra, form: Form) -> list[Expr]:
 
 
 def _constants(work: Algebra, form: Form, logs: list[Expr]) -> list[Expr] | None:
-    """Return c with sum c_k (dg_k ^ omega) + d(omega) = 0, by comparing coefficients."""
+    """Return c with sum c_k (d log g_k ^ omega) + d(omega) = 0, by comparing coefficients; None without a solution.
+
+    ``logs``: the log g_k. The form prod g_k^c_k omega is then closed.
+    """
     rows: list[list[Expr]] = []
     curls = exterior_derivative(form)
     for (i, s), (j, u) in combinations(enumerate(form), 2):
@@ -219,7 +219,7 @@ def _constants(work: Algebra, form: Form, logs: list[Expr]) -> list[Expr] | None
 
 
 def _compared(polys: list[Poly], fixed: frozenset[int], canon: Canon) -> list[list[Poly]]:
-    """Return one equation for every monomial in the generators that are not ``fixed``."""
+    """Return a row of coefficients, one for each of ``polys``, for every monomial in the generators not ``fixed``."""
     moving = set(range(len(canon.ring.vars))) - fixed
     by_monomial: dict[Monomial, list[Poly]] = {}
     for column, poly in enumerate(polys):
@@ -235,7 +235,7 @@ _KINDS = {"parameter": 0, "coordinate": 1, "time": 2}
 
 
 def _rank(factor: Expr) -> tuple[int, str]:
-    """Return the place of a factor: numbers, parameters, coordinates, time, then what is no power of a symbol."""
+    """Return the sort key of a factor: numbers, parameters, coordinates, time, then what is no power of a symbol."""
     base, _ = as_power(factor)
     if base.op == "num":
         return -1, ""
@@ -243,7 +243,7 @@ def _rank(factor: Expr) -> tuple[int, str]:
 
 
 def _place(term: Expr) -> tuple[bool, bool, list[tuple[int, str]]]:
-    """Return the place of a term: polynomial terms by their variables, then functions, numbers last."""
+    """Return the sort key of a term: polynomial terms by their variables, then terms with functions, numbers last."""
     moving = sorted(_rank(s) for s in term.symbols if s.args[0] != "parameter")
     return not term.symbols, any(n.op in ("fn", "call") for n in ex.nodes(term)), moving
 
@@ -257,8 +257,8 @@ def arranged(e: Expr) -> Expr:
         return ex.fn("exp", arranged(operands[1] * operands[0].args[1]))
     if e.op == "add":
         terms = sorted(operands, key=_place)
-        first = next((i for i, term in enumerate(terms) if not to_text(term).startswith("-")), 0)
-        return Expr("add", (terms[first], *terms[:first], *terms[first + 1 :]))
+        positive = next((i for i, term in enumerate(terms) if not to_text(term).startswith("-")), 0)
+        return Expr("add", (terms[positive], *terms[:positive], *terms[positive + 1 :]))
     return ex.rebuild(e, operands) if operands else e
 
 
@@ -267,6 +267,7 @@ def _is_exp(e: Expr) -> bool:
 
 
 def _product(factors: tuple[Expr, ...]) -> Expr:
+    """Return the product with its factors sorted, and all exponentials combined in one at the end."""
     others = sorted((p for p in factors if not _is_exp(p)), key=_rank)
     exponents = [p.args[1] for p in factors if _is_exp(p)]
     if exponents:
@@ -276,7 +277,7 @@ def _product(factors: tuple[Expr, ...]) -> Expr:
 
 
 def upright(e: Expr) -> Expr:
-    """Return -atan(u/v) as atan(v/u), which differs from it by a constant; not for a root v: u may be 0 there."""
+    """Return ``e`` with terms -atan(u/v) written as atan(v/u), which differs by a constant; not if v is a root."""
     if e.op == "add":
         return ex.add(*map(upright, e.args))
     if e.op != "mul" or e.args[0].op != "num" or e.args[0].args[0] > 0:
@@ -290,43 +291,42 @@ def upright(e: Expr) -> Expr:
 
 
 def cost(pair: Pair) -> tuple[int, int]:
-    """Return the lengths of integral and factor; functions and denominators count extra."""
+    """Return the lengths of integral and factor as text; functions and denominators count extra."""
     integral, factor = pair
-    return _reading(integral), _reading(factor)
+    return _length(integral), _length(factor)
 
 
-def _reading(e: Expr) -> int:
+def _length(e: Expr) -> int:
     below = sum(2 for n in ex.nodes(e) if as_power(n)[1] < 0)
     functions = sum(3 for n in ex.nodes(e) if n.op == "fn" or (n.op == "pow" and n.args[1].op != "num"))
     return len(to_text(e)) + functions + below
 
 
 def shapes(work: Algebra, pair: Pair) -> list[Pair]:
-    """Return ``pair`` and its equivalent forms, the simplest first."""
+    """Return ``pair`` and equivalent pairs (f replaced by a function of f, mu accordingly), the simplest first."""
     pairs = list(_scaled(work, pair))
-    for first in list(pairs):
-        for other in (_without_logs(first), _without_roots(first), _reciprocal(first)):
+    for simpler in list(pairs):
+        for other in (_without_logs(simpler), _without_roots(simpler), _reciprocal(simpler)):
             if other is not None:
                 pairs.extend(_scaled(work, other))
-    for first in pairs[2:]:
-        for other in (_without_roots(first), _reciprocal(first)):
+    for simpler in pairs[2:]:
+        for other in (_without_roots(simpler), _reciprocal(simpler)):
             if other is not None:
                 pairs.extend(_scaled(work, other))
     return sorted(dict.fromkeys(pairs), key=cost)
 
 
 def _scaled(work: Algebra, pair: Pair) -> Iterator[Pair]:
-    """Yield the pair as built and as one quotient, constant factors taken out."""
+    """Yield the pair, f divided by its constant factor and sorted: as built, with `upright`, and as one quotient."""
     integral, factor = pair
     for form in dict.fromkeys((upright(integral), integral, work.tidy(integral))):
         constant = _constant(form)
         plain = factor / constant
-        yield arranged(form / constant), min((arranged(mu) for mu in (work.tidy(plain), plain)), key=_reading)
+        yield arranged(form / constant), min((arranged(mu) for mu in (work.tidy(plain), plain)), key=_length)
 
 
 def _constant(e: Expr) -> Expr:
-    """Return a constant factor of ``e``: the factors of a product that hold parameters only, or the rational content of
-    a sum, negative where the coefficients of all its terms are. An integral is written without it."""
+    """Return the constant factor of a product, or the rational content of a sum (< 0 if all coefficients are)."""
     if e.op == "mul":
         return ex.mul(*(f for f in e.args if all(s.args[0] == "parameter" for s in f.symbols)))
     if e.op != "add":
@@ -351,7 +351,7 @@ def _logs(e: Expr) -> tuple[dict[Expr, Fraction], list[Expr]]:
 
 
 def _without_logs(pair: Pair) -> Pair | None:
-    """Return exp(k f) where f holds logarithms with rational coefficients."""
+    """Return the pair for exp(k f), with k such that c log(u) becomes u^(k c); None without such terms in f."""
     integral, factor = pair
     logs, terms = _logs(integral)
     if not logs:
@@ -360,23 +360,23 @@ def _without_logs(pair: Pair) -> Pair | None:
     powers = [ex.power(u, ex.num(c * k)) for u, c in logs.items()]
     if any(n.op in ("fn", "call") or as_power(n)[1] < 0 for term in terms for n in ex.nodes(term)):
         return None
-    whole = ex.mul(*powers, ex.fn("exp", ex.add(*terms) * k)) if terms else ex.mul(*powers)
-    return whole, whole * factor * k
+    exponential_of_f = ex.mul(*powers, ex.fn("exp", ex.add(*terms) * k)) if terms else ex.mul(*powers)
+    return exponential_of_f, exponential_of_f * factor * k
 
 
 def _without_roots(pair: Pair) -> Pair | None:
-    """Return f^k for a product of powers with fractions in the exponents."""
+    """Return the pair for f^k if f is a product of powers with fractional exponents and k clears them, else None."""
     integral, factor = pair
     powers = integral.args if integral.op == "mul" else (integral,)
     k = lcm(*(as_power(part)[1].denominator for part in powers))
     if k == 1 or k > 6:
         return None
-    whole = ex.mul(*(ex.power(base, ex.num(e * k)) for base, e in map(as_power, powers)))
-    return whole, factor * k * integral ** (k - 1)
+    power = ex.mul(*(ex.power(base, ex.num(e * k)) for base, e in map(as_power, powers)))
+    return power, factor * k * integral ** (k - 1)
 
 
 def _reciprocal(pair: Pair) -> Pair | None:
-    """Return 1/f for a product f."""
+    """Return the pair for 1/f; None if f is 0, a sum, or too large."""
     integral, factor = pair
     if integral.is_zero or integral.op == "add" or size(integral) > 60:
         return None

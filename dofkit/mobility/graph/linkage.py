@@ -1,6 +1,6 @@
-"""A graph of rigid links in general position: what is redundant, what is rigid, and what moves.
+"""A graph of rigid links in general position: redundant links, rigid clusters and freedom, without a scene.
 
-Plain graphs in, no scene needed. `linkage` answers everything about a graph, `redundant_links` one question.
+`linkage` returns all results for a graph, `redundant_links` the redundant links only.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     from dofkit.base.verdicts import Verdict
 
-#: The class that answers in each dimension.
+#: The class that analyses graphs of each dimension.
 _GRAPHS: dict[int, type[LineGraph | PlaneGraph | SpaceGraph]] = {1: LineGraph, 2: PlaneGraph, 3: SpaceGraph}
 
 

@@ -1,4 +1,4 @@
-"""Graphs of links as people give them, with joints and links numbered, and how certain an answer about one is."""
+"""Graphs of links as users give them, with joints and links numbered; links along a line; and the type `Proof`."""
 
 from __future__ import annotations
 
@@ -20,18 +20,18 @@ Ends = tuple[int, int]
 
 
 class LinkageError(DofkitError):
-    """A list of links is not one: a link joins a joint to itself, or is no pair; or the dimension is not 1, 2 or 3."""
+    """A link joins a joint to itself or is no pair, the dimension is not 1, 2 or 3, or a graph is too large."""
 
 
 class Proof(NamedTuple):
-    """How certain an answer is, and the theorem or computation that makes it so."""
+    """How certain an answer is, and the theorem or computation on which it is based."""
 
     verdict: Verdict
     reason: str
 
 
 class Graph(NamedTuple):
-    """The joints in the order in which they first occur, the links as given, and the numbers of each one's joints."""
+    """The joints in the order in which they first occur, the links as given, and the numbers of their two joints."""
 
     joints: tuple[Joint, ...]
     links: Sequence[Link]
@@ -39,7 +39,7 @@ class Graph(NamedTuple):
 
 
 def read(links: Iterable[Link] | Any, joints: Iterable[Joint] = ()) -> Graph:
-    """Return the graph with its joints numbered. Raises LinkageError that names the first link that is not one."""
+    """Return the graph with its joints numbered; raises LinkageError that names the first invalid link."""
     pairs = _pairs(links)
     names = chain(getattr(links, "nodes", ()), joints, chain.from_iterable(pairs))
     try:
@@ -95,13 +95,13 @@ class LineGraph:
                 self._forest.add_edge(a, b, number=i)
 
     def circuits(self, links: Sequence[int]) -> Iterator[tuple[int, list[int]]]:
-        """Yield redundant links, each with the earlier links with which it is a minimal dependent set."""
+        """Yield (link, the earlier links with which it is a minimal dependent set) for redundant ``links``."""
         for i in links:
             path = nx.shortest_path(self._forest, *self._ends[i])
             yield i, sorted(self._forest.edges[pair]["number"] for pair in pairwise(path))
 
     def groups(self) -> list[list[int]]:
-        """Return the classes of links of which any two lie in a minimal dependent set, without single links."""
+        """Return the classes of links of which any two are in a minimal dependent set, without single links."""
         links: dict[frozenset[int], list[int]] = {}
         for i, pair in enumerate(self._ends):
             links.setdefault(frozenset(pair), []).append(i)
@@ -114,5 +114,5 @@ class LineGraph:
         return sorted(map(sorted, nx.connected_components(self._forest)))
 
     def proof(self) -> Proof:
-        """Return how certain an answer is."""
+        """Return how certain the redundant links are, and why."""
         return _PROOF

@@ -1,15 +1,16 @@
 """Links in the plane: the (2,3) pebble game, circuits, groups and rigid clusters.
 
 Every joint has two pebbles. A link is independent of those before it if and only if all four pebbles of its joints can
-be gathered there, and then one of them is spent on it [JacobsHendrickson1997], which rests on [Laman1970]. Where the
-fourth cannot be had, the joints that were reached form a rigid block. Its links are then replaced by another set that
-makes the same block rigid, every joint held by the two ends of the link, so that later searches there are short.
+be gathered there; then one of them is put on the link ("covers" it) [JacobsHendrickson1997], by [Laman1970]. If the
+fourth cannot be gathered, the joints that were reached form a rigid block. The covered links of the block are then
+replaced by links from every joint to the two ends of the link, which make it rigid too, so that later searches are
+short.
 
-The links are first taken away, last to first, and with each the joints that have at most two links then. Such a joint
-makes its links independent of all others (0-extension [Henneberg1911]): it pays for them and nothing is searched. Only
-a link both of whose joints still have three, when all after it are gone, is played for, in the order of the links. It
-is redundant without a search where one block holds both ends, or a joint outside the block pays for two links to
-joints of the block other than the other end.
+First the links are removed, last to first, and with them all joints that then have at most two links. Such a joint
+makes its links independent of all others (0-extension [Henneberg1911]): its pebbles cover them without a search. The
+game is played only for the other links, whose joints still have three links each when all later ones are removed. It
+needs no search if one block contains both ends, or if a joint outside the block covers two links to joints of the block
+other than the other end: then the link is redundant.
 """
 
 from __future__ import annotations
@@ -29,14 +30,14 @@ _PROOF = Proof(
     "the (2,3) pebble game (Jacobs and Hendrickson 1997): links in the plane are independent in general position if "
     "and only if every n joints carry at most 2n - 3 of them (Pollaczek-Geiringer 1927, Laman 1970)",
 )
-#: No joint: the pebble is free.
+#: In place of a joint: the pebble is free.
 FREE = -1
 
 
 class Neighbours(NamedTuple):
     """The joints ``across[v]`` to which links of joint v lead, in the order of the links.
 
-    Link i lies between ``tail[i]`` and ``head[i]``; ``degree`` counts the links of a joint that are not taken off.
+    Link i joins ``tail[i]`` and ``head[i]``; ``degree[v]``: the number of links of joint v that are not yet removed.
     """
 
     tail: list[int]
@@ -46,7 +47,7 @@ class Neighbours(NamedTuple):
 
 
 def neighbours_of(ends: Sequence[Ends], joints: int) -> Neighbours:
-    """Return the links by joints."""
+    """Return the neighbours of all joints."""
     across: list[list[int]] = [[] for _ in range(joints)]
     for a, b in ends:
         across[a].append(b)
@@ -55,11 +56,11 @@ def neighbours_of(ends: Sequence[Ends], joints: int) -> Neighbours:
 
 
 class PebbleGame:
-    """The game of some links, played to its end; ``redundant`` are the links that those before them imply, ascending.
+    """The pebble game of some links, played to its end; ``redundant``: the links implied by earlier ones, ascending.
 
-    The pebbles of joint v lie on links to ``first[v]`` and ``second[v]``; where one is free it is the second. What a
-    joint pays for as it is taken off lies there from the beginning: nothing leads to it before the links of its
-    neighbours are played.
+    The pebbles of joint v cover links to ``first[v]`` and ``second[v]`` (`FREE` if a pebble is free, the second one
+    first). Links of removed joints are covered from the beginning: no search comes to such a joint before the links of
+    its neighbours are played.
     """
 
     def __init__(self, joints: int, ends: Sequence[Ends]) -> None:
@@ -68,7 +69,7 @@ class PebbleGame:
         self.blocks = RigidBlocks(joints)
         self.redundant: list[int] = []
         first, (tail, head, *_) = self.first, self.net
-        for i in reversed(self._played_for()):
+        for i in reversed(self._links_to_play()):
             a, b = tail[i], head[i]
             if self._is_rigid_pair(a, b):
                 self.redundant.append(i)
@@ -80,10 +81,10 @@ class PebbleGame:
                 self.redundant.append(i)
                 self._condense(a, b, reached)
 
-    def _played_for(self) -> list[int]:
-        """Return the links that go with no joint, last to first; all others are paid for."""
+    def _links_to_play(self) -> list[int]:
+        """Return the links that are not removed with a joint, last to first; cover all others."""
         tail, head, _, degree = self.net
-        self._take_off([v for v, number in enumerate(degree) if number <= 2])
+        self._remove_joints([v for v, number in enumerate(degree) if number <= 2])
         played, queue = [], list[int]()
         for i, a, b in zip(range(len(tail) - 1, -1, -1), reversed(tail), reversed(head), strict=True):
             d, e = degree[a], degree[b]
@@ -95,14 +96,14 @@ class PebbleGame:
                 if e <= 3:
                     queue.append(b)
                 if queue:
-                    self._take_off(queue)
+                    self._remove_joints(queue)
                     queue.clear()
         return played
 
-    def _take_off(self, queue: list[int]) -> None:
-        """Let joints of at most two links, to different joints, pay for these, and then others that have no more left.
+    def _remove_joints(self, queue: list[int]) -> None:
+        """Remove joints with at most two links, to different joints, which they cover; and so on for their neighbours.
 
-        A joint that is off has no links left, and a link that is gone by itself comes after all that are left.
+        A removed joint has the degree 0. Links removed without a joint come after all remaining ones in ``across``.
         """
         first, second, (_, _, across, degree) = self.first, self.second, self.net
         for v in queue:
@@ -128,12 +129,11 @@ class PebbleGame:
                 queue.append(w)
 
     def _is_rigid_pair(self, a: int, b: int) -> bool:
-        """Return whether one block contains both joints, and let it contain both from now on.
+        """Return whether one block fixes the distance of both joints; then let it contain both from now on.
 
-        A joint that lies in no block pays for links of its own, and none of them makes the block rigid: in their stead
-        it pays for links to the poles, so that what is paid for stays independent and spans the same. In every circuit
-        of the link between a and b all that such a joint pays for occurs, because at least three links meet at each of
-        its joints, and with it links of the block.
+        A joint that is added to the block covers links to its poles, instead of its own two links, so that the covered
+        links stay independent with the same span. Its own links and some of the block are in every circuit of the link
+        a-b, because at least three links of a circuit meet at each joint.
         """
         blocks, of = self.blocks, self.blocks.of
         g, h = of[a], of[b]
@@ -150,7 +150,7 @@ class PebbleGame:
         return True
 
     def _fixing(self, v: int, other: int) -> int:
-        """Return the rigid block to which v's two links fix it, neither leading to ``other``; or NONE."""
+        """Return the block to which v's two covered links fix it, neither leading to ``other``, or NONE."""
         of, w, x = self.blocks.of, self.first[v], self.second[v]
         if x < 0 or w == other or x == other:
             return NONE
@@ -158,7 +158,7 @@ class PebbleGame:
         return g if g == h or self.blocks.is_same(g, h) else NONE
 
     def gather(self, a: int, b: int) -> list[int] | None:
-        """Free both pebbles of a, and then of b; return the joints that were reached where the fourth cannot be had."""
+        """Gather both pebbles of a, then of b; return None if all four are free, else the joints that were reached."""
         first, second = self.first, self.second
         while second[a] >= 0 or first[a] >= 0:
             self.bring(a, a)
@@ -168,7 +168,7 @@ class PebbleGame:
         return reached
 
     def bring(self, root: int, held: int) -> list[int] | None:
-        """Free one more pebble at ``root``, keeping those of ``held``; return the joints reached if there is none."""
+        """Free one more pebble at ``root``, none from ``held``; return None, or the joints reached if there is none."""
         first, second = self.first, self.second
         via = {FREE: root, root: root, held: root}
         queue = [root]
@@ -183,7 +183,7 @@ class PebbleGame:
         return queue
 
     def _move(self, w: int, root: int, via: dict[int, int]) -> None:
-        """Move a free pebble of ``w`` to ``root``: every link on the way is paid for from its other end."""
+        """Move a free pebble of ``w`` to ``root``: every link on the path is then covered from its other end."""
         first, second = self.first, self.second
         in_first = first[w] < 0
         while w != root:
@@ -198,9 +198,9 @@ class PebbleGame:
         second[root] = FREE
 
     def _condense(self, a: int, b: int, reached: list[int]) -> None:
-        """Make one rigid block of a and the joints that were reached, all held by a and b.
+        """Unite a and the joints that were reached to one block with the poles a and b.
 
-        Both pebbles of a are free, and one of b. The links of each joint reached become two, to a and to b.
+        Each joint then covers links to a and to b; both pebbles of a and one of b are free.
         """
         first, second = self.first, self.second
         for v in reached:
@@ -209,28 +209,27 @@ class PebbleGame:
         self.blocks.unite([a, *(v for v in reached if v != a)], (a, b))
 
     def labels(self) -> list[int]:
-        """Return for every link the first one of its block, itself where it is in none."""
+        """Return for every link the number of the first link of its block; its own number if it is in none."""
         tail, head, *_ = self.net
         representative: dict[int, int] = {}
         blocks = (self.blocks.common(a, b) for a, b in zip(tail, head, strict=True))
         return [i if block < 0 else representative.setdefault(block, i) for i, block in enumerate(blocks)]
 
     def complete_blocks(self) -> None:
-        """Make every rigid set of joints a block, whether its links depend or not.
+        """Make every rigid set of joints a block, even if its links are independent.
 
-        Two links x-y and x-z turn together if and only if the distance of y and z is fixed: with three pebbles held at
-        x and y none can be had at z. All links of a cluster are found so, because a rigid graph stays connected
-        without a joint.
+        Links x-y and x-z rotate together if and only if the distance of y and z is fixed: with three pebbles kept at x
+        and y none can be gathered at z. All links of a cluster are so related: it is connected without any one joint.
         """
         for x in range(len(self.first)):
             check()
-            apart: list[int] = []
+            independent: list[int] = []
             for z in self.net.across[x]:
-                if not any(y == z or self._turn_together(x, y, z) for y in apart):
-                    apart.append(z)
+                if not any(y == z or self._rotate_together(x, y, z) for y in independent):
+                    independent.append(z)
 
-    def _turn_together(self, x: int, y: int, z: int) -> bool:
-        """Return whether links x-y and x-z turn together; then all joints between them become one block."""
+    def _rotate_together(self, x: int, y: int, z: int) -> bool:
+        """Return whether links x-y and x-z rotate together; then unite all joints that were reached to a block."""
         first, second, block = self.first, self.second, self.blocks.common(x, y)
         if block >= 0 and block == self.blocks.common(x, z):
             return True
@@ -259,15 +258,18 @@ class PlaneGraph:
         return self._game.redundant
 
     def circuits(self, links: Sequence[int]) -> Iterator[tuple[int, list[int]]]:
-        """With three pebbles at its ends, what they reach is tight, and lies in every tight set that holds both."""
+        """Yield (link, the independent links with which it is a minimal dependent set) for redundant ``links``.
+
+        With three pebbles at its ends, the joints reached are the smallest tight set with both; it covers the circuit.
+        """
         redundant = set(self.redundant)
         link = {frozenset(pair): i for i, pair in enumerate(self._ends) if i not in redundant}
         basis = PebbleGame(self._joints, [self._ends[i] for i in link.values()])
         for i in links:
             check()
             reached = basis.gather(*self._ends[i]) or ()
-            paid = ((v, w) for v in reached for w in (basis.first[v], basis.second[v]) if w >= 0)
-            yield i, sorted(link[frozenset(pair)] for pair in paid)
+            covered = ((v, w) for v in reached for w in (basis.first[v], basis.second[v]) if w >= 0)
+            yield i, sorted(link[frozenset(pair)] for pair in covered)
 
     @cached_property
     def _groups(self) -> list[list[int]]:
@@ -290,7 +292,7 @@ class PlaneGraph:
 
 
 def _by_label(labels: Sequence[Any]) -> list[list[int]]:
-    """Return the places of each label, in the order in which the labels first occur."""
+    """Return the positions of each label, in the order in which the labels first occur."""
     places: dict[Any, list[int]] = {}
     for place, label in enumerate(labels):
         places.setdefault(label, []).append(place)

@@ -1,30 +1,31 @@
-"""Rigid blocks of a plane framework while links are added: which joints each holds, and when two become one.
+"""Rigid blocks of a plane framework while links are added: the joints of each, and the union of two of them.
 
-A block is the set of joints of a connected component of the matroid, more than one link: superfluous links and all they
-depend on. It is rigid. Two that share two joints are one: ranks are submodular [Whitney1935], so that their union has
-rank 2n - 3 at most, less than the sum of theirs. And all links between two joints of a block belong to its component.
+A block is the set of joints of a connected component, with more than one link, of the rigidity matroid: redundant links
+and all links on which they depend. It is rigid. Two blocks that share two joints are united: ranks are submodular
+[Whitney1935], so that their union has at most the rank 2n - 3, less than the sum of theirs. All links between two
+joints of a block belong to its component.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-#: No block.
+#: In place of a block: there is none.
 NONE = -1
 
 
 class RigidBlocks:
-    """``of[v]``: a block of joint v, the one it was found in last, by a number that leads to the one it is now."""
+    """``of[v]``: the last block to which joint v was added (`NONE` without one); `now` gives its present number."""
 
     def __init__(self, joints: int) -> None:
         self.of = [NONE] * joints
-        #: Joints that were found in several, with the numbers of them all.
+        #: {joint in several blocks: the numbers of them all}.
         self.several: dict[int, set[int]] = {}
         self._became: list[int] = []
         self._poles: list[tuple[int, int]] = []
 
     def now(self, block: int) -> int:
-        """What a block has become."""
+        """Return the number of the block with which a block has been united (a union-find structure)."""
         became = self._became
         while became[block] != block:
             became[block] = became[became[block]]
@@ -32,28 +33,28 @@ class RigidBlocks:
         return block
 
     def is_same(self, g: int, h: int) -> bool:
-        """Return whether both are the same block, and neither is `NONE`."""
+        """Return whether g and h are the same block now, and neither is `NONE`."""
         return g >= 0 and h >= 0 and (g == h or self.now(g) == self.now(h))
 
     def holding(self, v: int) -> set[int]:
-        """All blocks of joint v."""
+        """Return all blocks that contain joint v."""
         if v in self.several:
             return {self.now(g) for g in self.several[v]}
         return {self.now(self.of[v])} if self.of[v] >= 0 else set()
 
     def common(self, v: int, w: int) -> int:
-        """Return the block that holds two joints."""
+        """Return the block that contains two joints; NONE if there is none."""
         of, several = self.of, self.several
         if v not in several and w not in several:
             return self.now(of[v]) if self.is_same(of[v], of[w]) else NONE
         return next(iter(self.holding(v) & self.holding(w)), NONE)
 
     def poles(self, block: int) -> tuple[int, int]:
-        """Two joints of a block by which the others are held."""
+        """Return the two joints of a block to which the pebbles of the others lead."""
         return self._poles[self.now(block)]
 
     def unite(self, joints: Sequence[int], poles: tuple[int, int]) -> None:
-        """A block of these joints; all that share two of them become one with it."""
+        """Make a block of these joints, united with all blocks that share two of them."""
         block = self._merged(joints)
         self._poles[block] = poles
         for v in joints:
@@ -63,7 +64,7 @@ class RigidBlocks:
             self.of[v] = block
 
     def _merged(self, joints: Iterable[int]) -> int:
-        """Return the blocks that hold two of the joints, as one; a new one where there is none."""
+        """Unite the blocks that contain two of the joints, and return their number; a new one if there is none."""
         once, block = set[int](), NONE
         for v in joints:
             for g in self.holding(v):

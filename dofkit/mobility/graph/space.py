@@ -1,12 +1,12 @@
-"""Links in space: no count decides which are independent (the double banana passes Maxwell's), so ranks do.
+"""Links in space: independence is decided by ranks, because no count does (the double banana satisfies Maxwell's).
 
 The rigidity matrix has a row (p_a - p_b) . (v_a - v_b) for every link a-b. It is eliminated at random positions modulo
-a random prime. What is independent there is independent in general position: a minor that is not 0 at a point is not
-0. What depends there is proved by a count where that is possible; else it is probable [SchwartzZippel].
+a random prime. Links that are independent there are independent in general position, because a nonzero minor is not 0
+identically. Dependences there are proved by a count if possible, otherwise they are probable [SchwartzZippel].
 
 Rigid clusters are the maximal sets of joints all of whose distances stay the same in a random motion. In general
-position a joint that is fixed to three joints of a cluster belongs to it, so they are the maximal cliques of the pairs
-that are fixed, and two of them share at most two joints.
+position a joint that is fixed to three joints of a cluster belongs to it, so that clusters are the maximal cliques of
+fixed pairs, and two clusters share at most two joints.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from dofkit.exact.matrices.sparse import SparseRow, components, echelon, rank_of
 from dofkit.exact.points.field import prime_for
 from dofkit.mobility.graph.links import Ends, LinkageError, Proof
 
-#: Joints of a part that is not rigid, beyond which its clusters are not separated.
+#: Bound on the joints of a flexible part that is divided into clusters.
 MAX_JOINTS = 2000
 _INDEPENDENT = "links are independent in general position where they are at one point modulo a prime"
 
@@ -50,7 +50,7 @@ class SpaceGraph:
 
     @cached_property
     def _circuits(self) -> dict[int, list[int]]:
-        """For every redundant link the earlier ones that it depends on."""
+        """{redundant link: the earlier links on which it depends}."""
         if len(self.redundant) == len(self._original):
             supports: dict[int, tuple[int, ...]] = {}
         else:
@@ -103,12 +103,12 @@ def _matrix(pairs: Iterable[Ends]) -> _Matrix:
 
 
 def chance_of_error(dependent: int, links: int) -> float:
-    """Return a bound of the chance that one of the dependences is none: each is a minor that is 0 [SchwartzZippel]."""
+    """Return a bound on the probability that some dependence is wrong: each is a minor that is 0 [SchwartzZippel]."""
     return dependent * links / 2**59
 
 
 def _rank(pairs: Sequence[Ends]) -> int:
-    """Return the rank of links of different pairs at a point modulo a prime: in general position it is no less."""
+    """Return the rank of links between different pairs at a random point, a lower bound of that in general position."""
     matrix = _matrix(pairs)
     return rank_of_rows(matrix.rows, matrix.p)
 
@@ -119,9 +119,9 @@ def _full_rank(joints: int) -> int:
 
 
 def rigid_sets(pairs: Sequence[Ends]) -> list[list[int]]:
-    """Return the maximal sets of joints (points) that keep their distances in a generic motion. Raises LinkageError.
+    """Return the maximal sets of joints that keep their distances in a generic motion; may raise LinkageError.
 
-    Links are of distinct pairs. Parts that share a single joint turn about it, so each part is looked at by itself.
+    ``pairs`` are distinct. Biconnected parts rotate about shared joints, so that each is analysed separately.
     """
     sets: list[list[int]] = []
     for block in nx.biconnected_component_edges(nx.Graph(list(pairs))):
@@ -148,16 +148,16 @@ def _fixed_pairs(pairs: Sequence[Ends], joints: Sequence[int]) -> list[Ends]:
 
 
 def _is_counted(circuit: Sequence[Ends]) -> bool:
-    """Return whether a count proves that links depend: Maxwell's [Maxwell1864], or that of hinged bodies."""
+    """Return whether a count proves that links are dependent: Maxwell's [Maxwell1864], or that of hinged bodies."""
     joints = {v for pair in circuit for v in pair}
     return len(circuit) > 3 * len(joints) - 6 or len(circuit) > hinged_bound(rigid_sets(circuit))
 
 
 def hinged_bound(bodies: Sequence[Sequence[int]]) -> int:
-    """Return a bound of the rank of links in general position, each of them in one of the bodies.
+    """Return a bound on the rank of links in general position, each of them in one of the bodies (sets of joints).
 
     r <= r(H) + sum of (3|X| - 6 - r(H in X)) over bodies X, for the pairs H of joints that two of them share: by
-    submodularity [Whitney1935], once all pairs of every body are linked. The double banana: 1 + 8 + 8 = 17.
+    submodularity [Whitney1935], after linking all pairs of every body. The double banana: 1 + 8 + 8 = 17.
     """
     shared = (x & y for x, y in combinations(map(frozenset, bodies), 2))
     hinges = sorted({(min(pair), max(pair)) for pair in shared if len(pair) == 2})

@@ -1,6 +1,6 @@
-"""Where an expression has a value: what its roots, logarithms, inverse functions and denominators ask for.
+"""Conditions under which an expression has a value, from its roots, logarithms, inverse functions and denominators.
 
-A relation that is rewritten (a factor dropped, a square root squared) is the old one only where these conditions hold.
+A rewritten relation (a factor dropped, a root squared) is equivalent to the original where these are satisfied.
 """
 
 from __future__ import annotations
@@ -26,19 +26,19 @@ from dofkit.relations.normal.zero_set import never_vanishes
 
 @dataclass(frozen=True)
 class DomainCondition:
-    """``expr`` >= 0, > 0 or != 0: no relation, but a part of the space outside of which the relation says nothing."""
+    """``expr`` >= 0, > 0 or != 0: the region in which a relation has a value; outside it is not satisfied."""
 
     expr: Expr
     sense: DomainSense
 
     @property
     def strict(self) -> bool:
-        """Return whether the sense is > 0."""
+        """Whether the sense is > 0."""
         return self.sense == ">"
 
 
 def conditions_of(e: Expr, positive: frozenset[Expr]) -> tuple[DomainCondition, ...]:
-    """Where ``e`` has a real value, less what always holds; a denominator counts in lowest terms."""
+    """Return the conditions for a real value of ``e`` that can fail; a quotient is put in lowest terms first."""
     result = list(dict.fromkeys(_conditions_of_nodes(e, in_no_function=True)))
     below = _denominator(e, positive)
     if below is not None:
@@ -47,7 +47,7 @@ def conditions_of(e: Expr, positive: frozenset[Expr]) -> tuple[DomainCondition, 
 
 
 def _conditions_of_nodes(e: Expr, in_no_function: bool) -> Iterator[DomainCondition]:
-    """Conditions of all nodes but for quotients that are in no function or root, which `_denominator` gives."""
+    """Yield the conditions of all nodes, except those of quotients outside functions and roots (see `_denominator`)."""
     rational = e.op in ("add", "mul") or (
         e.op == "pow" and e.args[1].op == "num" and e.args[1].args[0].denominator == 1
     )
@@ -65,7 +65,7 @@ def _required_by(e: Expr, in_no_function: bool) -> Iterator[DomainCondition]:
 
 
 def _denominator(e: Expr, positive: frozenset[Expr]) -> Expr | None:
-    """What is left below when all is one quotient in lowest terms."""
+    """Return the denominator of ``e`` as one quotient in lowest terms; None if it is constant or too large."""
     try:
         canon, [quotient] = quotients_of([e], positive)
         _, bottom = lowest_terms(*quotient)
@@ -85,10 +85,7 @@ def is_always_satisfied(c: DomainCondition, positive: frozenset[Expr]) -> bool:
 def is_satisfied_at(
     c: DomainCondition, configuration: Mapping[Expr, Expr], positive: frozenset[Expr], strictly: bool = False
 ) -> bool | None:
-    """Return whether a condition is satisfied at a configuration, ``strictly`` for > also in place of >=.
-
-    None where its sign there is not known.
-    """
+    """Return whether a condition is satisfied at a configuration (``strictly``: >= as >); None if not known."""
     sign = _sign(substitute(c.expr, configuration), positive)
     if sign is None:
         return None
@@ -108,12 +105,12 @@ def _sign(e: Expr, positive: frozenset[Expr]) -> int | None:
     return 0 if is_proved_zero(e, positive) else None
 
 
-#: Arguments whose signs are tried.
+#: Bound on the number of arguments whose signs are distinguished.
 MAX_ARGUMENTS = 4
 
 
 def arguments_of(e: Expr) -> list[Expr]:
-    """What stands in absolute values and in roots of squares."""
+    """Return the arguments u of absolute values abs(u) and of roots of squares sqrt(u^2) in ``e``."""
     if e.functions.isdisjoint(("abs", "pow")):
         return []
     every = list(ex.nodes(e))
@@ -123,7 +120,7 @@ def arguments_of(e: Expr) -> list[Expr]:
 
 
 def with_absolute_values(e: Expr, positive: frozenset[Expr]) -> Expr:
-    """``e`` with roots of squares that are written out as absolute values: sqrt(x^2 + 2 x y + y^2) is abs(x + y)."""
+    """Return ``e`` with roots of expanded squares as absolute values: sqrt(x^2 + 2 x y + y^2) becomes abs(x + y)."""
     if "pow" not in e.functions or not any(_root_of_sum(node) for node in ex.nodes(e)):
         return e
 
@@ -156,7 +153,7 @@ def holds_on_a_region(e: Expr, positive: frozenset[Expr]) -> bool:
 def by_signs(
     e: Expr, arguments: Sequence[Expr], positive: frozenset[Expr]
 ) -> Iterator[tuple[Expr, tuple[DomainCondition, ...]]]:
-    """``e`` for every choice of the signs of some arguments that can be, and the conditions that say the signs."""
+    """Yield (``e`` without absolute values, conditions) for every choice of the arguments' signs that is possible."""
     for signs in cartesian((1, -1), repeat=len(arguments)):
         mapping = dict(zip(arguments, signs, strict=True))
         plain = {u: with_signs(u, mapping) * s for u, s in mapping.items()}
@@ -165,14 +162,14 @@ def by_signs(
 
 
 def up_to_a_number(e: Expr) -> frozenset[tuple[Expr, Fraction]]:
-    """Equal for expressions that are multiples of each other."""
+    """Return a key that is equal for expressions that are multiples of each other by a number."""
     terms = linear_terms(e)
     first = terms[min(terms, key=repr)] if terms else 1
     return frozenset((s, c / first) for s, c in terms.items())
 
 
 def squared(e: Expr, positive: frozenset[Expr]) -> tuple[Expr, DomainCondition] | None:
-    """a sqrt(u) + b = 0 as a^2 u - b^2 = 0 where -a b >= 0; None where there is not one root, linearly, and b."""
+    """Return (a^2 u - b^2, the condition -a b >= 0) for ``e`` = a sqrt(u) + b; None if ``e`` is not so."""
     try:
         canon, [(top, _)] = quotients_of([e], positive)
         ring = canon.ring
@@ -194,7 +191,7 @@ def squared(e: Expr, positive: frozenset[Expr]) -> tuple[Expr, DomainCondition] 
 
 
 def _root_of_square(node: Expr) -> bool:
-    """sqrt(u^2) and the like."""
+    """Return whether a node is u^2 to the power k/2, k odd, as sqrt(u^2) is."""
     if node.op != "pow" or not _is_half(node.args[1]):
         return False
     inner = node.args[0]
@@ -202,7 +199,7 @@ def _root_of_square(node: Expr) -> bool:
 
 
 def with_signs(e: Expr, signs: Mapping[Expr, int]) -> Expr:
-    """``e`` with every absolute value replaced by its argument times the given sign."""
+    """Return ``e`` with abs(u) and sqrt(u^2) replaced by u times its sign, for the u in ``signs``."""
     if e.op == "fn" and e.args[0] == "abs" and e.args[1] in signs:
         return with_signs(e.args[1], signs) * signs[e.args[1]]
     if _root_of_square(e) and e.args[0].args[0] in signs:

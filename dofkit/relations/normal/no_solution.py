@@ -1,8 +1,8 @@
-"""Relations without a real solution: proofs by signs and by resultants; inequalities that hold somewhere, by a point.
+"""Proofs that relations have no real solution, by signs and by resultants, or that an inequality has one, by a point.
 
-What relations say is put to linear conditions on their terms (`sign_claims`): as they are written, and once what some
-of them give is put into the others. Resultants of two polynomials vanish wherever both do, so that one without a real
-zero is a proof.
+Claims are tested by linear conditions on their terms (`sign_claims`), as written and after some equations have been
+solved and substituted into the others. The resultant of two polynomials vanishes wherever both do; if it has no real
+zero, they have none in common.
 """
 
 from __future__ import annotations
@@ -32,32 +32,32 @@ from dofkit.relations.normal.semidefinite import never_holds
 from dofkit.relations.normal.sign_claims import SignClaim, are_contradictory
 from dofkit.relations.normal.zero_set import never_vanishes, zero_set
 
-#: More claims than this are not put to resultants.
+#: Resultants are computed for at most so many claims.
 MAX_CLAIMS = 40
-#: Resultants are taken of polynomials up to this size and degree, of so many pairs, and then of these.
+#: Bounds of resultants: terms and degrees of a pair of polynomials, number of pairs; rounds (resultants of resultants).
 MAX_RESULTANT_TERMS, MAX_RESULTANT_DEGREE, MAX_PAIRS, ROUNDS = 40, 8, 60, 2
 
 
 def no_solution(relations: Sequence[Expr], positive: frozenset[Expr], conditions: Sequence[Expr] = ()) -> bool:
-    """Return whether ``relations`` (= 0) and ``conditions`` (>= 0) are proved to hold together at no real point.
+    """Return whether it is proved that no real point satisfies ``relations`` (= 0) and ``conditions`` (>= 0).
 
-    Parameters may have any value (those of ``positive`` a positive one), unknown functions as well. False says nothing.
+    Parameters may have any value (those of ``positive`` a positive one), unknown functions as well. False: not proved.
     """
     return refuted([*(SignClaim(e, "=") for e in relations), *(SignClaim(e, ">=") for e in conditions)], positive)
 
 
 @false_without_value
 def refuted(claims: Sequence[SignClaim], positive: frozenset[Expr]) -> bool:
-    """Return whether it is proved that no real point satisfies all claims, at which all they hold has a value."""
+    """Return whether it is proved that no real point at which all expressions have a value satisfies all claims."""
     within = dict.fromkeys(d for c in claims for d in conditions_of(c.expr, positive))
     sided = [*claims, *(SignClaim(d.expr, d.sense) for d in within if d.sense != "!=")]
     return _is_refuted(sided, positive) or _is_refuted(_with_values(sided, positive), positive)
 
 
 def hold_nowhere(relations: Sequence[Expr], conditions: Sequence[DomainCondition], positive: frozenset[Expr]) -> bool:
-    """Return whether it is proved that ``conditions`` hold together at no real point at which ``relations`` are 0.
+    """Return whether it is proved that no real point satisfies ``relations`` (= 0) and ``conditions``.
 
-    u != 0 is written u s = 1 for some s.
+    u != 0 is written u s = 1 with a new unknown s.
     """
     claims = [SignClaim(g, "=") for g in relations]
     for k, c in enumerate(conditions):
@@ -67,9 +67,9 @@ def hold_nowhere(relations: Sequence[Expr], conditions: Sequence[DomainCondition
 
 
 def _is_refuted(claims: Sequence[SignClaim], positive: frozenset[Expr]) -> bool:
-    """Return whether one claim holds nowhere, or all contradict each other by signs, or by a resultant.
+    """Return whether one claim is never satisfied, or the claims contradict each other by signs or by a resultant.
 
-    u >= 0 is u = s^2 for some s.
+    u >= 0 is also written u = s^2 with a new unknown s.
     """
     if not claims:
         return False
@@ -85,16 +85,16 @@ def _is_refuted(claims: Sequence[SignClaim], positive: frozenset[Expr]) -> bool:
 
 
 def _with_values(claims: Sequence[SignClaim], positive: frozenset[Expr]) -> list[SignClaim]:
-    """Return the claims with the values put in that equations give; none where they give none. Raises NoValueError.
+    """Return the claims after solving equations and substituting; an empty list if none can be solved.
 
-    A sum of squares gives each of its terms. Where something has no value then, what is claimed is false: -1 > 0.
+    Every term of a sum of squares is an equation. If an expression has no value then, return the false claim -1 > 0.
     """
     relations = list[Expr]()
     for c in claims:
         branches = zero_set(c.expr, positive, c.expr.symbols)[0] if c.sense == "=" else ()
         relations += branches[0] if len(branches) == 1 else [c.expr] if c.sense == "=" else []
     try:
-        solved = explicit_relations(relations, _plain_coefficients)
+        solved = explicit_relations(relations, _number_coefficients)
         explicit = solved.by_others
         others = [SignClaim(substitute(c.expr, explicit), c.sense) for c in claims if c.sense != "="]
     except PoleError:
@@ -102,8 +102,8 @@ def _with_values(claims: Sequence[SignClaim], positive: frozenset[Expr]) -> list
     return [*(SignClaim(g, "=") for g in solved.implicit), *others] if explicit else []
 
 
-def _plain_coefficients(g: Expr) -> dict[Expr, Expr]:
-    """Return the coordinates and velocities of which a sum holds a multiple by a number, and nothing else."""
+def _number_coefficients(g: Expr) -> dict[Expr, Expr]:
+    """Return {symbol: number} for coordinates and velocities that occur in one term, number * symbol, of a sum."""
     terms = [ex.number_and_rest(t) for t in (g.args if g.op == "add" else (g,))]
     moving = [(s, number) for number, s in terms if s.op == "sym" and s.args[0] in ("coordinate", "velocity")]
     return {s: ex.num(number) for s, number in moving if sum(s in factor.symbols for _, factor in terms) == 1}
@@ -115,13 +115,13 @@ Poly = Any
 
 
 def _faithful(relations: Sequence[Expr], positive: frozenset[Expr]) -> bool:
-    """Return whether every root has a value in the ring wherever it has one, unlike sqrt(u^2 v) = |u| sqrt(v)."""
+    """Return whether every root has a value in the ring where it has one, unlike sqrt(u^2 v) = |u| sqrt(v) at u = 0."""
     ring = Ring((), positive)
     for node in {n for e in relations for n in ex.nodes(e)}:
         if node.op == "pow" and node.args[1].op == "num" and node.args[1].args[0].denominator % 2 == 0:
             base = node.args[0]
-            apart, remainder = known_signs(ring, base) if base.op == "mul" else ([], base)
-            if remainder != ex.ONE and any(f.symbols and f not in positive and not _is_exp(f) for f in apart):
+            nonnegative, remainder = known_signs(ring, base) if base.op == "mul" else ([], base)
+            if remainder != ex.ONE and any(f.symbols and f not in positive and not _is_exp(f) for f in nonnegative):
                 return False
     return True
 
@@ -132,7 +132,7 @@ def _is_exp(e: Expr) -> bool:
 
 @false_without_value
 def _some_resultant_never_vanishes(relations: Sequence[Expr], positive: frozenset[Expr]) -> bool:
-    """Return whether a polynomial that vanishes wherever the relations hold has no real zero: them, or a resultant."""
+    """Return whether a numerator of the relations, or a resultant of them, is proved to have no real zero."""
     if not _faithful(relations, positive):
         return False
     canon, quotients = quotients_of(relations, positive)
@@ -140,7 +140,7 @@ def _some_resultant_never_vanishes(relations: Sequence[Expr], positive: frozense
     present = {i for p in numerators for i in canon.generators_in(p)}
     numerators += [g for g in canon.relations if not present.isdisjoint(canon.generators_in(g))]
     for v in canon.ring.vars:
-        if v.kind == "sign":  # where its argument is 0 either sign satisfies them, and abs(u)/u has no value
+        if v.kind == "sign":  # abs(u)/u has no value where u is 0, but there either sign would do
             canon.ring.var_expr[v.index] = ex.coordinate(f"_sign {v.index}")
     polynomials = numerators
     for _ in range(ROUNDS):
@@ -149,12 +149,12 @@ def _some_resultant_never_vanishes(relations: Sequence[Expr], positive: frozense
 
 
 def _without_hidden_numbers(canon: Canon, p: Poly) -> bool:
-    """No generator is a number of its own: such numbers may be related, and their polynomials hidden zeros."""
+    """Return whether no generator in ``p`` is a constant; constants may be related, so that p is 0 unnoticed."""
     return all(canon.ring.var_expr[i].symbols for i in canon.generators_in(p))
 
 
 def _resultants(polynomials: list[Poly]) -> list[Poly]:
-    """The polynomials and the resultants of pairs: they vanish wherever both do."""
+    """Return the polynomials and the resultants of pairs, which vanish at their common zeros."""
     result = list(polynomials)
     for a, b in islice(combinations(polynomials, 2), MAX_PAIRS):
         if len(a) + len(b) > MAX_RESULTANT_TERMS:
@@ -167,9 +167,9 @@ def _resultants(polynomials: list[Poly]) -> list[Poly]:
     return result
 
 
-#: Values that are tried for every symbol, and for all alike.
+#: Values that are tried for all symbols alike, and at random for each.
 _SIMPLE = (ex.ZERO, ex.ONE, ex.MINUS_ONE, ex.TWO, ex.PI, ex.PI * ex.HALF, -ex.PI * ex.HALF)
-#: Random points, and how far out they lie.
+#: The number of random points, and the sizes of their values.
 POINTS, SCALES = 40, (1, 10, 1000, Fraction(1, 1000))
 #: Starts of the search along a slack variable.
 SEARCHES = 4
@@ -177,13 +177,13 @@ SEARCHES = 4
 
 @lru_cache(maxsize=512)
 def holds_somewhere(e: Expr, strict: bool, positive: frozenset[Expr]) -> bool | None:
-    """Return whether ``e >= 0`` (or > 0) at some real point; None if neither a point nor a proof was found.
+    """Return whether ``e >= 0`` (> 0 if ``strict``) at some real point; None if neither a point nor a proof was found.
 
     Parameters may have any value, those of ``positive`` a positive one; an unknown function may be any.
     """
     try:
         plain = _with_constant_functions(e)
-    except PoleError:  # a divisor holds derivatives of unknown functions only
+    except PoleError:  # a divisor consists of derivatives of unknown functions
         plain = None
     if plain is not None and any(_is_satisfied(plain, strict, point) for point in _points(plain, positive)):
         return True
@@ -193,7 +193,7 @@ def holds_somewhere(e: Expr, strict: bool, positive: frozenset[Expr]) -> bool | 
 
 
 def _with_constant_functions(e: Expr) -> Expr:
-    """``e`` where every unknown function is 1 everywhere: its derivatives are 0."""
+    """Return ``e`` with every unknown function equal to the constant 1, and its derivatives to 0."""
     if e.op in ("num", "sym", "const"):
         return e
     if e.op == "call":
@@ -202,15 +202,15 @@ def _with_constant_functions(e: Expr) -> Expr:
 
 
 def _points(e: Expr, positive: frozenset[Expr]) -> Iterator[dict[Expr, Expr]]:
-    """Simple points, then random ones, the same in every run."""
+    """Yield points to try, as {symbol: value}: simple ones, then random ones, the same in every run."""
     symbols = sorted(e.symbols, key=repr)
     for value in _SIMPLE:
         yield {s: ex.ONE if s in positive and value != ex.TWO else value for s in symbols}
     rng = random.Random("dofkit inequality")
     for k in range(POINTS):
         scale = SCALES[k % len(SCALES)]
-        drawn = {s: Fraction(rng.randrange(-512, 513), 256) * scale for s in symbols}
-        yield {s: ex.num(abs(v) or scale if s in positive else v) for s, v in drawn.items()}
+        random_point = {s: Fraction(rng.randrange(-512, 513), 256) * scale for s in symbols}
+        yield {s: ex.num(abs(v) or scale if s in positive else v) for s, v in random_point.items()}
         yield {s: ex.ONE if s in positive else rng.choice(_SIMPLE) for s in symbols}
 
 
@@ -227,7 +227,7 @@ def _is_satisfied(e: Expr, strict: bool, point: dict[Expr, Expr]) -> bool:
 
 
 def _holds_along_slack(e: Expr, strict: bool, positive: frozenset[Expr]) -> bool:
-    """Return whether e - s^2 has a certified zero, for a strict inequality one with s apart from 0."""
+    """Return whether e - s^2 has a certified zero, for a ``strict`` inequality one with s certainly not 0."""
     slack = ex.coordinate("_slack")
     unknowns: Sequence[Expr] = [*sorted(e.symbols, key=repr), slack]
     try:

@@ -1,9 +1,9 @@
-"""From a relation as written to what it says: finite, Pfaffian, nonlinear in velocities, or an inequality.
+"""The normal form of a relation: branches of pieces that are finite, Pfaffian or nonlinear in the velocities.
 
-Factors that never vanish are taken out, powers and sums of squares are replaced by what they force over
-the reals, products become branches. What was done is said in ``notes``.
+Factors that never vanish are removed, powers and sums of squares are replaced by equations with the same real
+solutions, products become branches. The ``notes`` of a `Normal` say what was done.
 
-Differentials are read through dq = qdot dt: a relation homogeneous of degree k in (dq, dt) is divided by dt^k.
+Differentials are written dq = qdot dt: a relation homogeneous of degree k in (dq, dt) is divided by dt^k.
 """
 
 from __future__ import annotations
@@ -59,19 +59,19 @@ class _Square(NamedTuple):
 
 
 def linear_branches(e: Expr, velocities: Sequence[Expr], positive: frozenset[Expr]) -> list[Conjunction] | None:
-    """Return the branches of ``e = 0``; None where it is not known to consist of branches linear in the velocities.
+    """Return the branches of ``e = 0`` if ``e`` is quadratic in the velocities and splits into linear factors.
 
-    A branch consists of expressions linear in the velocities, or free of them, that vanish together. The branches are
-    those of the numerator of ``e``: its denominator vanishes nowhere that ``e`` has a value.
+    A branch consists of expressions linear in the velocities, or free of them, that vanish together. None if it is not
+    known to split. The numerator of ``e`` is split: the denominator is not 0 where ``e`` has a value.
     """
     try:
-        canon, [(whole, _)] = quotients_of([e], positive)
+        canon, [(numerator, _)] = quotients_of([e], positive)
         generators = canon.ring.var_expr
         moving = {i for i, e in enumerate(generators) if any(s.args[0] == "velocity" for s in e.symbols)}
-        terms = canon.collected(whole, moving)
+        terms = canon.collected(numerator, moving)
         if any(sum(k for _, k in m) > 2 or any(generators[i] not in velocities for i, _ in m) for m in terms):
             return None
-        squares = (_completed(canon, whole, i, velocities, positive) for m in terms for i, k in m if k == 2)
+        squares = (_completed(canon, numerator, i, velocities, positive) for m in terms for i, k in m if k == 2)
         square = next((result for result in squares if result is not None), None)
     except NoValueError:
         return None
@@ -79,18 +79,18 @@ def linear_branches(e: Expr, velocities: Sequence[Expr], positive: frozenset[Exp
 
 
 def _completed(
-    canon: Canon, whole: Any, index: int, velocities: Sequence[Expr], positive: frozenset[Expr]
+    canon: Canon, form: Any, index: int, velocities: Sequence[Expr], positive: frozenset[Expr]
 ) -> _Square | None:
-    """Complete the square: ``whole`` = a v^2 + b v + c in the velocity v of number ``index`` is 4 a whole = L^2 - D.
+    """Complete the square of ``form`` = a v^2 + b v + c, v the velocity with generator ``index``: 4 a form = L^2 - D.
 
     L = 2 a v + b is ``slope``, 2 a is ``lead``, and D = b^2 - 4 a c (``discriminant``) is root^2 times ``radicand``;
-    factors that L and the root have in common are taken out.
-    None where D is no square of an expression linear in the velocities, or what is left of a may vanish.
+    factors that L and the root have in common are removed. None if the root is not linear in the velocities, the
+    radicand contains one, or the remaining factor of a may vanish.
     """
     place = len(canon.ring.vars) - 1 - index
-    slope = whole.derivative(place)
+    slope = form.derivative(place)
     lead = slope.derivative(place)
-    discriminant = canon.reduce(slope * slope - 2 * lead * whole)
+    discriminant = canon.reduce(slope * slope - 2 * lead * form)
     content = canon.unit * _square_content(discriminant)
     root = prod((f ** (k // 2) for f, k in canon.factors(discriminant)), start=content)
     radicand = divided(discriminant, root * root)
@@ -108,16 +108,16 @@ def _completed(
 
 
 def _square_content(poly: Any) -> fmpq:
-    """Return a rational number whose square, divided out of a polynomial, leaves integer coefficients."""
+    """Return a rational number r such that poly / r^2 has integer coefficients, the content's root if it is one."""
     coefficients = [Fraction(int(c.p), int(c.q)) for c in poly.to_dict().values()]
     below = lcm(*(c.denominator for c in coefficients))
-    whole = gcd(*(int(c * below) for c in coefficients)) * below
-    is_square = whole > 0 and isqrt(whole) ** 2 == whole
-    return fmpq(isqrt(whole) if is_square else 1, below)
+    content = gcd(*(int(c * below) for c in coefficients)) * below
+    is_square = content > 0 and isqrt(content) ** 2 == content
+    return fmpq(isqrt(content) if is_square else 1, below)
 
 
 def _branches(square: _Square, positive: frozenset[Expr]) -> list[Conjunction] | None:
-    """Return the branches of L^2 = r s^2; None where the sign of r depends on the configuration."""
+    """Return the branches of linear^2 = radicand root^2; None if the radicand may have either sign."""
     linear, radicand, root, sign = square
     if sign == 1 or (sign == 0 and not _varying(radicand)):
         size = ex.sqrt(radicand) * root
@@ -133,16 +133,17 @@ def _has(e: Expr, symbols: Collection[Expr]) -> bool:
 
 
 def _varying(e: Expr) -> frozenset[Expr]:
+    """Return the symbols that are not parameters."""
     return frozenset(s for s in e.symbols if s.args[0] != "parameter")
 
 
 def velocities_of(e: Expr) -> list[Expr]:
-    """The velocity symbols of an expression, by name."""
+    """Return the velocity symbols of an expression, sorted by name."""
     return sorted((s for s in e.symbols if s.args[0] == "velocity"), key=lambda s: str(s.args[1]))
 
 
 def linear_form(e: Expr) -> Pfaffian | None:
-    """``e`` as a form linear in the velocities as written, else None."""
+    """Return ``e`` as a one-form (without velocities: its ``dt`` only); None if it is not linear in velocities."""
     coefficients = {}
     velocities = velocities_of(e)
     for v in velocities:
@@ -155,7 +156,7 @@ def linear_form(e: Expr) -> Pfaffian | None:
 
 
 def normalise(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
-    """What ``e = 0`` says; ``written`` equations are reduced over the reals, those of joints are regular as they are.
+    """Return the normal form of ``e = 0``; only ``written`` equations are reduced, those of joints are regular.
 
     Raises TextError for second derivatives and for sums of differentials with finite terms.
     """
@@ -170,12 +171,12 @@ def normalise(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
         return _finite(form.dt, positive, written)
     if form is not None and form.coefficients:
         return Normal(((form,),))
-    return _defined(velocity_form, _nonlinear(velocity_form, positive), positive)
+    return _restricted_to_domain(velocity_form, _nonlinear(velocity_form, positive), positive)
 
 
-def _defined(e: Expr, normal: Normal, positive: frozenset[Expr], *more: DomainCondition) -> Normal:
-    """What a rewritten relation says where, as it was written, ``e``, it has a value at a configuration."""
-    if normal.branches == ((Nonlinear(e),),):
+def _restricted_to_domain(e: Expr, normal: Normal, positive: frozenset[Expr], *more: DomainCondition) -> Normal:
+    """Return a normal form with the conditions for a value of the original ``e``, and ``more``, in every branch."""
+    if normal.branches == ((Nonlinear(e),),):  # the relation was not rewritten
         return normal
     within = (*(c for c in conditions_of(e, positive) if not velocities_of(c.expr)), *more)
     if no_solution((), positive, [c.expr for c in within if c.sense != "!="]):
@@ -188,7 +189,7 @@ def _finite_branches(branches: Sequence[Conjunction], *notes: str) -> Normal:
 
 
 def _finite(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
-    """Return what e = 0 says of positions: branches of its real zero set if ``written``, else e itself."""
+    """Return the normal form of a geometric equation: branches of its real zeros if ``written``, else e itself."""
     if not written:
         return Normal(((Finite(e),),))
     folded = with_absolute_values(e, positive)
@@ -197,7 +198,7 @@ def _finite(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
     branches, notes = zero_set(e, positive, _moving(e))
     if branches == ((e,),):
         return _squared(e, positive)
-    return _defined(e, _finite_branches(branches, *notes), positive)
+    return _restricted_to_domain(e, _finite_branches(branches, *notes), positive)
 
 
 def _moving(e: Expr) -> frozenset[Expr]:
@@ -205,7 +206,7 @@ def _moving(e: Expr) -> frozenset[Expr]:
 
 
 def _by_signs(e: Expr, positive: frozenset[Expr]) -> Normal:
-    """A relation that holds on a whole region for some signs: every choice of signs is a branch of its own."""
+    """Return a branch for every choice of signs of absolute values, for a relation satisfied on a whole region."""
     always = conditions_of(e, positive)
     regions, others = list[tuple[DomainCondition, ...]](), list[tuple[Conjunction, tuple[DomainCondition, ...]]]()
     for signed, conditions in by_signs(e, arguments_of(e), positive):
@@ -213,42 +214,42 @@ def _by_signs(e: Expr, positive: frozenset[Expr]) -> Normal:
             regions.append(conditions)
         else:
             others += [(g, conditions) for g in zero_set(signed, positive, _moving(signed))[0]]
-    edges = [up_to_a_number(c.expr) for region in regions if len(region) == 1 for c in region]
+    boundaries = [up_to_a_number(c.expr) for region in regions if len(region) == 1 for c in region]
     branches: list[tuple[Piece, ...]] = [(*region, *always) for region in regions]
     for conjunction, conditions in others:
-        if not any(up_to_a_number(g) in edges for g in conjunction):
+        if not any(up_to_a_number(g) in boundaries for g in conjunction):
             branches.append((*map(Finite, conjunction), *conditions, *always))
     return Normal(tuple(branches), (REGION_NOTE,))
 
 
 def _squared(e: Expr, positive: frozenset[Expr]) -> Normal:
-    """A relation with one square root, squared where that shows more than a single regular relation."""
+    """Return the normal form of a relation: one with one square root is squared if the square then simplifies."""
     result = squared(e, positive)
     if result is not None:
         norm, condition = result
         branches, notes = zero_set(norm, positive, _moving(norm))
         if notes:
-            return _defined(e, _finite_branches(branches, SQUARED_NOTE, *notes), positive, condition)
+            return _restricted_to_domain(e, _finite_branches(branches, SQUARED_NOTE, *notes), positive, condition)
     return Normal(((Finite(e),),))
 
 
 def _nonlinear(e: Expr, positive: frozenset[Expr]) -> Normal:
-    """The normal form of a relation nonlinear in velocities, by factors; one with velocities in abs() stays whole."""
+    """Return the normal form of a relation nonlinear in velocities; with velocities in abs() it is not changed."""
     if any(velocities_of(u) for u in arguments_of(e)):
         return Normal(((Nonlinear(e),),))
     moving = frozenset(s for s in e.symbols if s.args[0] in ("velocity", "coordinate", "time"))
     branches, notes = zero_set(e, positive, moving)
     result: list[tuple[Piece, ...]] = []
-    said = list(notes)
+    all_notes = list(notes)
     for branch in branches:
-        answer = [_velocity_pieces(g, positive) for g in branch]
-        said += [note for _, note in answer if note]
-        result += [tuple(p for part in choice for p in part) for choice in cartesian(*(pieces for pieces, _ in answer))]
-    return Normal(tuple(result), tuple(dict.fromkeys(said)))
+        splits = [_velocity_pieces(g, positive) for g in branch]
+        all_notes += [note for _, note in splits if note]
+        result += [tuple(p for part in choice for p in part) for choice in cartesian(*(pieces for pieces, _ in splits))]
+    return Normal(tuple(result), tuple(dict.fromkeys(all_notes)))
 
 
 def _velocity_pieces(e: Expr, positive: frozenset[Expr]) -> tuple[list[tuple[Piece, ...]], str]:
-    """The branches of one irreducible relation in velocities, and what was done."""
+    """Return (the branches of one irreducible relation in velocities, a note on what was done or "")."""
     if linear_form(e) is not None:
         return [(_linear_piece(e),)], ""
     branches = linear_branches(e, velocities_of(e), positive)
@@ -259,6 +260,6 @@ def _velocity_pieces(e: Expr, positive: frozenset[Expr]) -> tuple[list[tuple[Pie
 
 
 def _linear_piece(e: Expr) -> Finite | Pfaffian:
-    """What an expression linear in the velocities, or free of them, says."""
+    """Return the piece ``e`` = 0 for an expression linear in the velocities, or free of them."""
     form = linear_form(e)
     return Finite(e) if form is None or not form.coefficients else form

@@ -1,4 +1,4 @@
-"""What a relation says: its pieces, branch by branch, and which relations are equal up to names."""
+"""The types of normal forms: pieces, branches, clauses; and which relations are equal up to names."""
 
 from __future__ import annotations
 
@@ -33,13 +33,13 @@ class Finite:
 
 @dataclass(frozen=True)
 class Pfaffian:
-    """sum a_i dq_i + b dt = 0; ``coefficients`` by coordinate, without zeros."""
+    """sum a_i dq_i + b dt = 0: nonzero ``coefficients`` a_i by coordinate, and b = ``dt``."""
 
     coefficients: Mapping[str, Expr]
     dt: Expr
 
     def items(self) -> Iterable[tuple[Expr, Expr]]:
-        """(symbol of the coordinate or of time, coefficient) for every coefficient as written."""
+        """Yield (symbol of the coordinate or of time, coefficient) for every nonzero coefficient."""
         for name, coefficient in self.coefficients.items():
             yield ex.coordinate(name), coefficient
         if not self.dt.is_zero:
@@ -47,12 +47,12 @@ class Pfaffian:
 
     @property
     def rate(self) -> Expr:
-        """The form with velocities in place of differentials."""
+        """The form divided by dt: sum a_i qdot_i + b."""
         return ex.add(*(e * ex.velocity(name) for name, e in self.coefficients.items()), self.dt)
 
     @property
     def components(self) -> dict[Expr, Expr]:
-        """The coefficient of every symbol that occurs, 0 for those that only coefficients mention."""
+        """The coefficient of every coordinate (and time) that occurs, 0 for those that occur in coefficients only."""
         written = dict(self.items())
         mentioned = {s for e in written.values() for s in e.symbols if s.args[0] in ("coordinate", "time")}
         return written | dict.fromkeys(sorted(mentioned - written.keys(), key=repr), ex.ZERO)
@@ -73,29 +73,29 @@ class Inequality:
     strict: bool = False
 
 
-#: What a branch of an equation consists of; with inequalities, what a constraint consists of.
+#: A branch of an equation consists of pieces, a constraint of clauses.
 Piece = Finite | Pfaffian | Nonlinear | DomainCondition
 Clause = Piece | Inequality
-#: All pieces of a branch hold together; one of the branches holds. No branch: nothing satisfies it.
+#: A point satisfies an equation if it satisfies all pieces of one branch. Without branches the solution set is empty.
 Branches = tuple[tuple[Piece, ...], ...]
 
 
 class Normal(NamedTuple):
-    """What a relation says, and what was done to see it."""
+    """The normal form of a relation: its branches, and notes for the user on how they were obtained."""
 
     branches: Branches
     notes: tuple[str, ...] = ()
 
     @property
     def pieces(self) -> tuple[Piece, ...]:
-        """Every piece of every branch that is a relation."""
+        """The pieces of all branches that are equations, not conditions."""
         if len(self.branches) == 1 and len(self.branches[0]) == 1:
             return () if isinstance(self.branches[0][0], DomainCondition) else self.branches[0]
         return tuple(piece for branch in self.branches for piece in branch if not isinstance(piece, DomainCondition))
 
 
 class JointEquation(Finite):
-    """g(q) = 0: equation ``number`` of the ``joint``, whose ``expr`` is written out when it is asked for."""
+    """g(q) = 0: equation ``number`` of a ``joint``; its ``expr`` is computed at first use."""
 
     def __init__(self, joint: Unwritten[Relation], number: int) -> None:
         object.__setattr__(self, "joint", joint)
@@ -113,12 +113,12 @@ class JointEquation(Finite):
 
 
 def unwritten(joint: Unwritten[Relation]) -> tuple[Normal, ...]:
-    """The equations of a joint as they stand: each says one thing over the reals."""
+    """Return the normal forms of a joint's equations, not written out; each is one regular geometric equation."""
     return tuple(Normal(((JointEquation(joint, k),),)) for k in range(len(joint)))
 
 
 class Reduced(NamedTuple):
-    """A constraint with every relation reduced; ``inequalities`` apart. ``written``: the relation of each normal."""
+    """A constraint with the normal form of each equation, its ``inequalities``, and the equations as ``written``."""
 
     constraint: Constraint
     normals: tuple[Normal, ...]
@@ -130,28 +130,28 @@ class Reduced(NamedTuple):
         return len(self.normals)
 
     def domain(self, inequalities: bool = False) -> tuple[DomainCondition, ...]:
-        """Where its equations (and ``inequalities``) have a value as written; in velocities, not differentials."""
+        """Return the conditions, in velocities, for a value of the written equations (and of ``inequalities``)."""
         relations = self.constraint.relations
         if isinstance(relations, Unwritten) or not (self.normals or self.inequalities):
             return ()
-        asked = (r for r in relations if r.sense == "=" or inequalities)
-        written = ((in_velocities(e)[0], sense) for r in asked for e, sense in r.domain)
+        selected = (r for r in relations if r.sense == "=" or inequalities)
+        written = ((in_velocities(e)[0], sense) for r in selected for e, sense in r.domain)
         return tuple(dict.fromkeys(DomainCondition(*required) for required in written))
 
 
-#: Under which a piece keeps its shape.
+#: The attribute of a piece in which its shape is kept.
 _SHAPE = "_shape"
 
 
 class PieceShape(NamedTuple):
-    """A piece without its names (``key``), and these in the order in which they first occur."""
+    """The structure of a piece without names (``key``), and its names in the order in which they first occur."""
 
     key: Hashable
     names: tuple[str, ...]
 
 
 def piece_shape(piece: Piece) -> PieceShape:
-    """A piece without its names; kept with the piece, which never changes."""
+    """Return the shape of a piece; equal keys mean equality up to names. It is kept with the (immutable) piece."""
     kept = vars(piece)
     result: PieceShape | None = kept.get(_SHAPE)
     if result is None:
@@ -186,7 +186,7 @@ def _coefficients(form: Pfaffian) -> Iterator[tuple[str | None, Expr]]:
 
 
 def in_names(normal: Normal, renaming: Renaming) -> Normal:
-    """Return what a relation says in other names."""
+    """Return a normal form with other names."""
     branches = [tuple([_renamed(piece, renaming) for piece in branch]) for branch in normal.branches]
     return normal._replace(branches=tuple(branches))
 

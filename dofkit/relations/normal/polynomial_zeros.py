@@ -1,4 +1,4 @@
-"""The real zeros of a polynomial in a ring's generators, by its factors: the branches, and what vanishes on each."""
+"""The real zeros of a polynomial in a ring's generators: branches of expressions that vanish together, by factors."""
 
 from __future__ import annotations
 
@@ -28,12 +28,12 @@ EXTREME_NOTE = (
 Factors = list[tuple[Any, int]]
 
 
-def apart(canon: Canon, factors: Factors, variables: frozenset[Expr]) -> tuple[list[tuple[Expr, ...]], Factors]:
-    """(branches, each a list of regular expressions, of the factors that vanish at extremes only; the other factors).
+def at_extremes(canon: Canon, factors: Factors, variables: frozenset[Expr]) -> tuple[list[tuple[Expr, ...]], Factors]:
+    """Return (branches of the factors that vanish only at extremes of sines and cosines, the other factors).
 
-    ``variables`` are coordinates and time; an angle with a velocity or an unknown function in it is left as it is.
+    Branches have expressions with nonzero gradient (`regular`). ``variables`` are coordinates and time.
     """
-    result: dict[Expr, set[int]] = {}
+    values_of: dict[Expr, set[int]] = {}
     branches: list[tuple[Expr, ...]] = []
     others: Factors = []
     for factor, multiplicity in factors:
@@ -42,10 +42,10 @@ def apart(canon: Canon, factors: Factors, variables: frozenset[Expr]) -> tuple[l
             others.append((factor, multiplicity))
         elif len(extremes) == 1:
             function, value = extremes[0]
-            result.setdefault(function, set()).add(value)
+            values_of.setdefault(function, set()).add(value)
         else:
             branches.append(tuple(regular(function, value) for function, value in extremes))
-    for function, extreme in result.items():
+    for function, extreme in values_of.items():
         both = len(extreme) == 2
         other = ex.fn("sin" if function.args[0] == "cos" else "cos", function.args[1])
         branches.append((other if both else regular(function, next(iter(extreme))),))
@@ -53,7 +53,7 @@ def apart(canon: Canon, factors: Factors, variables: frozenset[Expr]) -> tuple[l
 
 
 def extremes_of(e: Expr, variables: frozenset[Expr]) -> Sequence[tuple[Expr, int]] | None:
-    """(f_i, its value 1 or -1) for c + sum a_i f_i with |c| = sum |a_i|, sines and cosines f_i; else None."""
+    """Return the (f_i, 1 or -1) where e = c + sum a_i f_i is 0, if |c| = sum |a_i|, f_i sines or cosines; or None."""
     if e.functions.isdisjoint(("sin", "cos")):
         return None
     weights = dict(linear_terms(e))
@@ -61,11 +61,11 @@ def extremes_of(e: Expr, variables: frozenset[Expr]) -> Sequence[tuple[Expr, int
     if not weights or abs(constant) != sum(map(abs, weights.values())):
         return None
     extremes = [(f, -1 if (weight > 0) == (constant > 0) else 1) for f, weight in weights.items()]
-    return extremes if all(_plain(f, variables) for f in weights) else None
+    return extremes if all(_is_known(f, variables) for f in weights) else None
 
 
-def _plain(function: Expr, variables: frozenset[Expr]) -> bool:
-    """A sine or cosine of a known expression in the variables."""
+def _is_known(function: Expr, variables: frozenset[Expr]) -> bool:
+    """Return whether ``function`` is a sine or cosine of an expression in the variables without unknown functions."""
     if function.op != "fn" or function.args[0] not in ("cos", "sin"):
         return False
     argument = function.args[1]
@@ -75,7 +75,7 @@ def _plain(function: Expr, variables: frozenset[Expr]) -> bool:
 
 
 def regular(function: Expr, value: int) -> Expr:
-    """What is 0 where a sine or cosine has the value."""
+    """Return an expression in half the angle that is 0, with nonzero gradient, where ``function`` is 1 or -1."""
     half = ex.HALF * function.args[1]
     sin, cos = ex.fn("sin", half), ex.fn("cos", half)
     if function.args[0] == "cos":
@@ -83,7 +83,7 @@ def regular(function: Expr, value: int) -> Expr:
     return sin - cos if value == 1 else sin + cos
 
 
-#: More branches than this are not distinguished: the expression is then kept as it is.
+#: An expression with more branches than this is not split.
 MAX_BRANCHES = 16
 
 Conjunction = tuple[Expr, ...]
@@ -107,11 +107,11 @@ class TooManyBranchesError(Exception):
 
 
 class HiddenZeroError(Exception):
-    """A constant factor may be 0 by an identity that is not known."""
+    """It cannot be decided whether a constant factor is 0."""
 
 
 def branches_of(branches: list[Conjunction], notes: list[str]) -> Zeros:
-    """The zero set with these branches. Raises TooManyBranchesError."""
+    """Return the zero set with these branches, and with a note if there are several; may raise TooManyBranchesError."""
     if len(branches) > MAX_BRANCHES:
         raise TooManyBranchesError
     if len(branches) > 1:
@@ -120,23 +120,23 @@ def branches_of(branches: list[Conjunction], notes: list[str]) -> Zeros:
 
 
 def products_of(options: Iterable[Iterable[Conjunction]]) -> list[Conjunction]:
-    """What vanishes together, with one conjunction of each; none that holds another. Raises TooManyBranchesError."""
+    """Return the unions of one conjunction of each option that contain no other; may raise TooManyBranchesError."""
     combined: list[Conjunction] = [()]
     for option in options:
         every = [tuple(dict.fromkeys((*some, *more))) for some, more in cartesian(combined, option)]
-        combined = [b for k, b in enumerate(every) if not any(_holds(a, b, j < k) for j, a in enumerate(every))]
+        combined = [b for k, b in enumerate(every) if not any(_replaces(a, b, j < k) for j, a in enumerate(every))]
         if len(combined) > MAX_BRANCHES:
             raise TooManyBranchesError
     return combined
 
 
-def _holds(less: Conjunction, more: Conjunction, before: bool) -> bool:
-    """Return whether all of ``less`` stands in ``more``, and it is shorter, or equal and written before."""
+def _replaces(less: Conjunction, more: Conjunction, before: bool) -> bool:
+    """Return whether ``more`` contains ``less`` and is longer, or contains it and comes later."""
     return set(less) <= set(more) and (before or len(less) < len(more))
 
 
 def vanishes(constant: Expr, positive: frozenset[Expr]) -> bool:
-    """Return whether a constant is 0. Raises HiddenZeroError where neither that nor the contrary is certain."""
+    """Return whether a constant is proved to be 0; raises HiddenZeroError if neither this nor the contrary is."""
     if constant.op == "sym":
         return False
     zero, sure = zero_and_verdict(constant, positive)
@@ -146,7 +146,7 @@ def vanishes(constant: Expr, positive: frozenset[Expr]) -> bool:
 
 
 class PolynomialZeros:
-    """The zeros of polynomials in one ring's generators, in some variables; ``zeros_of``: those of an expression."""
+    """Zeros of polynomials in a ring's generators; ``zeros_of`` returns those of an expression (for exponents)."""
 
     def __init__(
         self, canon: Canon, positive: frozenset[Expr], variables: frozenset[Expr], zeros_of: Callable[[Expr], Zeros]
@@ -155,7 +155,7 @@ class PolynomialZeros:
         self.signs = Signs(canon, positive)
 
     def of(self, numerator: Any, bottom: Any, written: Expr) -> Zeros:
-        """The zeros of a quotient, which is written so."""
+        """Return the zeros of the quotient numerator / bottom, whose expression is ``written``."""
         if numerator == 0:
             return ((),), ()
         canon = self.canon
@@ -168,7 +168,7 @@ class PolynomialZeros:
         defined = [(f, k) for f, k in kept if not self._undefined(f, bottom)]
         if len(defined) < len(kept):
             kept, notes = defined, [POLE_NOTE]
-        extremes, remainder = apart(canon, kept, self.variables)
+        extremes, remainder = at_extremes(canon, kept, self.variables)
         if extremes:
             branches, notes = extremes, [*notes, EXTREME_NOTE]
         for factor, multiplicity in remainder:
@@ -183,7 +183,7 @@ class PolynomialZeros:
         return branches_of(branches, notes)
 
     def _undefined(self, factor: Any, bottom: Any) -> bool:
-        """Return whether a denominator vanishes where the factor does: by a common factor, or at a drawn point."""
+        """Return whether the denominator is 0 wherever the factor is: by a common factor, or at a random zero of it."""
         if bottom.is_constant():
             return False
         if not factor.gcd(bottom).is_constant():
@@ -205,6 +205,7 @@ class PolynomialZeros:
         return any(not self.variables.isdisjoint(s.symbols) for s in generators)
 
     def _factor(self, factor: Any, written: Expr | None) -> tuple[list[Conjunction], list[str]]:
+        """Return (branches, notes) of one irreducible factor; ``written`` if it is the whole expression."""
         exponent = difference_of_exponents(self.canon, factor)
         if exponent is not None:
             result, said = self.zeros_of(exponent)
@@ -223,12 +224,12 @@ class PolynomialZeros:
         return [(written if written is not None else self.canon.to_expr(factor),)], []
 
     def _monomials(self, even: list[list[int]]) -> tuple[list[Conjunction], list[str]]:
-        """Every monomial vanishes: of each, one generator does."""
+        """Return the branches on which every monomial vanishes, given for each the generators that may vanish."""
         options = [[(self._generator_zero(i),) for i in self._varying(zeros)] for zeros in even]
         return products_of(options), [SQUARES_NOTE] if len(even) > 1 else []
 
     def _varying(self, zeros: list[int]) -> list[int]:
-        """The generators that depend on the variables; generic constants do not vanish."""
+        """Return the generators that depend on the variables, or all if none does; constants are generic."""
         generators = self.canon.ring.var_expr
         return [i for i in zeros if not self.variables.isdisjoint(generators[i].symbols)] or zeros
 
@@ -238,7 +239,7 @@ class PolynomialZeros:
 
 
 def difference_of_exponents(canon: Canon, factor: Any) -> Expr | None:
-    """u - v - log(c) of exp(u) - c exp(v), c > 0; None of anything else, and where velocities occur."""
+    """Return u - v - log(c) for a factor exp(u) - c exp(v) with c > 0 and no velocities; None for any other factor."""
     terms = list(factor.to_dict().items())
     present = canon.generators_in(factor)
     if len(terms) != 2 or any(canon.ring.vars[i].kind != "exp" for i in present):
@@ -248,7 +249,7 @@ def difference_of_exponents(canon: Canon, factor: Any) -> Expr | None:
     moving = any(s.args[0] == "velocity" for e in generators.values() for s in e.symbols)
     if a * b > 0 or moving or any(e.op != "fn" for e in generators.values()):
         return None
-    last = len(first) - 1
+    last = len(first) - 1  # exponents are in reverse order of the generators
     powers = {i: int(first[last - i]) - int(second[last - i]) for i in present}
     scale = ex.fn("log", ex.num(fraction(fmpq(-a) / fmpq(b))))
     return ex.add(scale, *(ex.mul(ex.num(k), generators[i].args[1]) for i, k in powers.items()))

@@ -14,7 +14,7 @@ from dofkit.expressions.tree import Expr
 
 
 class Signs:
-    """What is known of the signs of a ring's generators."""
+    """Which generators of a ring are ``positive``, ``nonnegative``, or ``circular`` (sines and cosines), by index."""
 
     def __init__(self, canon: Canon, positive: frozenset[Expr]) -> None:
         self.positive = {
@@ -29,17 +29,17 @@ class Signs:
         self.n = len(canon.ring.vars)
 
     def bounded_away(self, poly: Any) -> bool:
-        """True for a polynomial in sines and cosines whose constant outweighs the rest."""
+        """Return whether ``poly`` is a polynomial in sines and cosines that is never 0, by its large constant."""
         constant, remainder = self._weights(poly)
         return constant > remainder
 
     def bounded(self, poly: Any) -> bool:
-        """True for one whose constant weighs as much as the rest, or more: it does not change its sign."""
+        """Return whether ``poly`` is a polynomial in sines and cosines with the sign of its constant, or 0."""
         constant, remainder = self._weights(poly)
         return constant >= remainder and constant > 0
 
     def _weights(self, poly: Any) -> tuple[Fraction, Fraction]:
-        """The sizes of the constant, and of the other terms together; 0 and 1 for what is unbounded."""
+        """Return (|constant|, bound on the sum of the other terms); (0, 1) if other generators occur."""
         constant = remainder = Fraction(0)
         for exponents, coefficient in poly.to_dict().items():
             present = {self.n - 1 - i for i, k in enumerate(exponents) if k}
@@ -52,7 +52,7 @@ class Signs:
         return constant, remainder
 
     def monomial(self, exponents: tuple[int, ...]) -> tuple[bool, list[int]]:
-        """(is it >= 0 everywhere, the generators of which one must vanish where it is 0)."""
+        """Return (whether a monomial is >= 0 everywhere, the generators one of which is 0 where it is 0)."""
         zeros = []
         for place, exponent in enumerate(exponents):
             index = self.n - 1 - place
@@ -65,10 +65,9 @@ class Signs:
 
 
 def sum_of_even(poly: Any, signs: Signs) -> list[list[int]] | None:
-    """For a polynomial all of whose terms are >= 0 (or all <= 0): per term, the generators that may vanish.
+    """Return, for each term, the generators one of which is 0 where the term is, if all terms are >= 0 or all <= 0.
 
-    The zero set is then that of every term. An empty list among them: the polynomial never vanishes.
-    None: some term changes sign.
+    The polynomial is 0 where all terms are; if a list is empty, nowhere. None if a term may have either sign.
     """
     if signs.bounded_away(poly):
         return [[]]
@@ -84,13 +83,13 @@ def sum_of_even(poly: Any, signs: Signs) -> list[list[int]] | None:
 
 
 def weak_sign(canon: Canon, signs: Signs, poly: Any) -> int:
-    """1 for a polynomial that is proved to be >= 0 everywhere, -1 for <= 0, else 0; by its terms, else its factors.
+    """Return 1 if a polynomial is proved to be >= 0 everywhere, -1 if <= 0, otherwise 0; by its terms or factors.
 
-    1 - cos(z)^2 = (1 - cos z)(1 + cos z) is a product of what is not negative. Raises TooLargeError.
+    Example: both factors of 1 - cos(z)^2 = (1 - cos z)(1 + cos z) are >= 0. Raises TooLargeError.
     """
-    whole = _sign_of_terms(signs, poly)
-    if whole or poly.is_constant():
-        return whole
+    sign_of_all = _sign_of_terms(signs, poly)
+    if sign_of_all or poly.is_constant():
+        return sign_of_all
     sign = 1 if poly.factor()[0] > 0 else -1
     for factor, multiplicity in canon.factors(poly):
         sign *= _sign_of_terms(signs, factor) ** multiplicity if multiplicity % 2 else 1
@@ -98,7 +97,7 @@ def weak_sign(canon: Canon, signs: Signs, poly: Any) -> int:
 
 
 def _sign_of_terms(signs: Signs, poly: Any) -> int:
-    """The sign of a polynomial whose terms all have it, or whose constant outweighs sines and cosines; else 0."""
+    """Return the common sign of all terms, or the sign of a constant that outweighs sines and cosines; else 0."""
     if signs.bounded(poly):
         return 1 if next(c for exponents, c in poly.to_dict().items() if not any(exponents)) > 0 else -1
     if sum_of_even(poly, signs) is None:
@@ -108,9 +107,9 @@ def _sign_of_terms(signs: Signs, poly: Any) -> int:
 
 @false_without_value
 def never_holds(e: Expr, strict: bool, positive: frozenset[Expr]) -> bool:
-    """True where ``e >= 0`` (or > 0) is proved to hold nowhere: -e is a sum of terms that are >= 0, one of them > 0.
+    """Return whether ``e >= 0`` (> 0 if ``strict``) is proved to be false everywhere, by the signs of the terms of e.
 
-    For > 0 it is enough that no term, or a product with only such factors, is > 0.
+    All terms must be <= 0, and one < 0 if not ``strict``. False: not proved.
     """
     canon, [(top, bottom)] = quotients_of([e], positive)
     if top == 0:
@@ -133,14 +132,14 @@ def _never_positive(canon: Canon, signs: Signs, poly: Any) -> bool:
 
 
 def _some_positive(poly: Any) -> bool:
-    """With terms of one sign: is that sign +?"""
+    """Return whether a polynomial whose terms have one sign is >= 0."""
     return any(c > 0 for c in poly.to_dict().values())
 
 
 def semidefinite(canon: Canon, signs: Signs, factor: Any) -> list[Expr] | None:
-    """A semidefinite quadratic polynomial with rational coefficients as the linear forms that vanish with it.
+    """Return linear expressions whose common zeros are those of a positive semidefinite quadratic polynomial.
 
-    An empty list: it is definite, with no zero. None: indefinite, or no such polynomial.
+    An empty list if it has no zero. None if it is indefinite, or not quadratic with rational coefficients.
     """
     if factor.total_degree() != 2:
         return None
@@ -157,15 +156,15 @@ def semidefinite(canon: Canon, signs: Signs, factor: Any) -> list[Expr] | None:
     linear = []
     for r in range(rank):
         entries = [reduced[r, c] for c in range(size + 1)]
-        answer = [i for i, v in zip(present, entries[:size], strict=True) if v != 0]
-        if not answer or (len(answer) == 1 and answer[0] in signs.positive and entries[size] == 0):
+        occurring = [i for i, v in zip(present, entries[:size], strict=True) if v != 0]
+        if not occurring or (len(occurring) == 1 and occurring[0] in signs.positive and entries[size] == 0):
             return []
         linear.append(ex.add(*(ex.mul(ex.num(fraction(v)), s) for v, s in zip(entries, generators, strict=True))))
     return linear
 
 
 def _quadratic_form(canon: Canon, factor: Any, place: dict[int, int]) -> list[list[Fraction]]:
-    """The symmetric matrix of the homogenised quadratic polynomial; the last row and column are for 1."""
+    """Return the symmetric matrix of a quadratic polynomial; the last row and column belong to the constant 1."""
     n, total = len(place), len(canon.ring.vars)
     form = [[Fraction(0)] * (n + 1) for _ in range(n + 1)]
     for exponents, coefficient in factor.to_dict().items():
@@ -181,14 +180,14 @@ def _quadratic_form(canon: Canon, factor: Any, place: dict[int, int]) -> list[li
 
 
 def fraction(value: fmpq) -> Fraction:
-    """The same number, as Python's."""
+    """Return a FLINT number as a Fraction."""
     return Fraction(int(value.p), int(value.q))
 
 
 def _semidefinite_rows(form: list[list[Fraction]]) -> list[list[fmpq]] | None:
-    """Rows that span the range of a form that is nowhere negative (Lagrange's reduction [Sylvester1852]), else None.
+    """Return rows that span the range of a positive semidefinite form (Lagrange's reduction [Sylvester1852]), or None.
 
-    The first coefficient of a factor is positive, so that no form is negative everywhere.
+    Negative semidefinite forms do not occur: the first coefficient of a factor is positive.
     """
     n = len(form)
     work = [row[:] for row in form]

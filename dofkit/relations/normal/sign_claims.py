@@ -1,7 +1,8 @@
-"""Equations and inequalities that contradict each other by their terms and the signs of these.
+"""Contradictions between equations and inequalities, by the signs of their terms.
 
-They are linear conditions on their terms, taken for unknowns of their own, beside the signs and bounds that terms have
-wherever they have a value [Motzkin1936]; then so are products of two inequalities.
+Every term is replaced by a new unknown. Equations and inequalities are then linear in these, and so are known signs
+and bounds of terms; a linear program decides whether they contradict each other [Motzkin1936]. If they do not, products
+of two inequalities are added.
 """
 
 from __future__ import annotations
@@ -19,13 +20,13 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import linear_terms
 from dofkit.expressions.tree import Expr
 
-#: Inequalities of which products are taken.
+#: Products are formed only if there are at most so many inequalities.
 MAX_FACTORS = 8
-#: Terms of all together, or twice as many as claims where those are more.
+#: Bound on the number of terms (or twice the number of claims, if that is larger).
 MAX_TERMS = 80
-#: Functions that are nowhere negative, and those that are above 0.
+#: Functions that are >= 0, and functions that are > 0.
 _NOT_NEGATIVE, _POSITIVE = frozenset({"abs", "acos"}), frozenset({"exp", "cosh"})
-#: Functions with the size that they do not exceed, and those that do not reach it; 11/7 is more than pi/2.
+#: Bounds on the absolute values of functions, and the functions that do not reach their bounds (11/7 > pi/2).
 _BOUNDS = {name: Fraction(1) for name in ("sin", "cos", "tanh")} | {
     name: Fraction(11, 7) * turns for name, turns in (("asin", 1), ("atan", 1), ("acos", 2), ("atan2", 2))
 }
@@ -43,7 +44,7 @@ class SignClaim(NamedTuple):
 
 
 def are_contradictory(claims: Sequence[SignClaim], positive: frozenset[Expr]) -> bool:
-    """Return whether no real point satisfies all claims: proved where True, False says nothing.
+    """Return whether it is proved that no real point satisfies all claims.
 
     Parameters may have any value (those of ``positive`` a positive one), and so may every value of an unknown function.
     """
@@ -57,12 +58,12 @@ def are_contradictory(claims: Sequence[SignClaim], positive: frozenset[Expr]) ->
 
 @lru_cache(maxsize=4096)
 def _terms(e: Expr) -> Mapping[Expr, Fraction]:
-    """The expression as a combination of its terms."""
+    """Return an expression as {term: number}."""
     return linear_terms(e)
 
 
 def contradictory(claims: Sequence[SignClaim], positive: frozenset[Expr]) -> bool:
-    """True where no values of the terms, taken for unknowns of their own, satisfy the claims and the terms' signs."""
+    """Return whether no values of the terms, as independent unknowns, satisfy the claims and the terms' bounds."""
     terms = sorted({u for c in claims for u in _terms(c.expr) if u != ex.ONE}, key=repr)
     facts = [*claims, *(fact for u in terms for fact in _facts(u, positive))]
     order = sorted({u for c in facts for u in _terms(c.expr)} - {ex.ONE}, key=repr)
@@ -72,7 +73,7 @@ def contradictory(claims: Sequence[SignClaim], positive: frozenset[Expr]) -> boo
 
 
 def point_of_linear(claims: Sequence[SignClaim]) -> Mapping[Expr, Expr] | None:
-    """Return exact values of the symbols at which all claims hold; None where there are none or not all is linear."""
+    """Return exact values of the symbols that satisfy all claims; None if there are none or a claim is not linear."""
     order = sorted({u for c in claims for u in _terms(c.expr)} - {ex.ONE}, key=repr)
     if any(u.op != "sym" for u in order):
         return None
@@ -88,7 +89,7 @@ def _linear_condition(claim: SignClaim, order: Sequence[Expr]) -> LinearConditio
 
 
 def _facts(term: Expr, positive: frozenset[Expr]) -> Iterator[SignClaim]:
-    """What holds of a term wherever it has a value."""
+    """Yield the sign and the bounds of a term, which it has wherever it has a value."""
     sense = _sign(term, positive)
     if sense is not None:
         yield SignClaim(term, sense)
@@ -103,7 +104,7 @@ def _facts(term: Expr, positive: frozenset[Expr]) -> Iterator[SignClaim]:
 
 
 def _sign(term: Expr, positive: frozenset[Expr]) -> Sense | None:
-    """>= or > where a product is so wherever it has a value; None where that is not seen."""
+    """Return ">" or ">=" if the factors of a term show that it is > 0 or >= 0; otherwise None."""
     signs = [_sign_of_factor(f, positive) for f in (term.args if term.op == "mul" else (term,))]
     if None in signs:
         return None
@@ -125,7 +126,7 @@ def _sign_of_factor(factor: Expr, positive: frozenset[Expr]) -> Sense | None:
 
 
 def _products(claims: Sequence[SignClaim], positive: frozenset[Expr]) -> Iterator[SignClaim]:
-    """Inequalities times each other, positive parameters and what bounds functions among them."""
+    """Yield products of two inequalities, among them positive symbols and bounds of functions."""
     symbols = frozenset[Expr]().union(*(c.expr.symbols for c in claims))
     factors = [c for c in claims if c.sense != "="]
     factors += [SignClaim(s, ">") for s in sorted(symbols & positive, key=repr)]

@@ -1,8 +1,8 @@
 """The real zero set of one expression: powers, products, sums of squares and factors without zeros.
 
-``zero_set`` returns branches (a union) of lists of expressions that vanish together, each regular where it can
-be made so: g^2 = 0 becomes g = 0, a sum of squares becomes all of its terms, a factor that never vanishes
-is dropped, a product becomes branches. No branch: no real zero.
+``zero_set`` returns branches, whose union is the zero set. A branch is a list of expressions that vanish together,
+with nonzero gradients if possible: g^2 becomes g, a sum of squares becomes all of its terms, a product becomes
+branches, and a factor that never vanishes is removed. Without branches there is no real zero.
 """
 
 from __future__ import annotations
@@ -31,9 +31,9 @@ from dofkit.relations.normal.polynomial_zeros import (
 
 
 def zero_set(e: Expr, positive: frozenset[Expr], variables: frozenset[Expr]) -> Zeros:
-    """The real zeros of ``e`` in ``variables`` (coordinates, velocities, time), and what was done.
+    """Return (branches of the real zeros of ``e``, notes); the branch (e,) alone if ``e`` cannot be split.
 
-    Symbols outside ``variables`` are generic constants; those of ``positive`` are > 0.
+    ``variables`` are coordinates, velocities, time; other symbols are generic constants, those in ``positive`` > 0.
     """
     if _is_linear(e, variables):
         return ((e,),), ()
@@ -44,7 +44,7 @@ def zero_set(e: Expr, positive: frozenset[Expr], variables: frozenset[Expr]) -> 
 
 
 def _is_linear(e: Expr, variables: frozenset[Expr]) -> bool:
-    """A sum of numbers times different symbols, one of them a variable: regular as it is."""
+    """Return whether ``e`` is a linear combination of symbols with at least one variable (its gradient is not 0)."""
     seen = False
     for term in e.args if e.op == "add" else (e,):
         remainder = term.args[-1] if term.op == "mul" and len(term.args) == 2 and term.args[0].op == "num" else term
@@ -55,14 +55,14 @@ def _is_linear(e: Expr, variables: frozenset[Expr]) -> bool:
 
 
 class _WrittenZeros:
-    """The zeros of an expression by the way in which it is written, else by its polynomial."""
+    """Computes the zeros of an expression by its structure as written, or else by its polynomial in generators."""
 
     def __init__(self, positive: frozenset[Expr], variables: frozenset[Expr]) -> None:
         self.positive = positive
         self.variables = variables
 
     def of(self, e: Expr) -> Zeros:
-        """The branches of the zeros of ``e``, and what was done."""
+        """Return (branches of the zeros of ``e``, notes)."""
         structural = self._structural(e)
         return self._polynomial(e) if structural is None else structural
 
@@ -89,11 +89,11 @@ class _WrittenZeros:
     def _product(self, e: Expr) -> Zeros | None:
         branches: list[Conjunction] = []
         notes: list[str] = []
-        below = [factor.args[0] for factor in e.args if _below(factor)]
+        below = [factor.args[0] for factor in e.args if _is_denominator(factor)]
         if any(not self.variables.isdisjoint(g.symbols) and self.of(g)[0] for g in below):
             return None
         for factor in e.args:
-            if factor.op == "num" or _below(factor):
+            if factor.op == "num" or _is_denominator(factor):
                 continue
             if self.variables.isdisjoint(factor.symbols):
                 if vanishes(factor, self.positive):
@@ -105,18 +105,17 @@ class _WrittenZeros:
         return branches_of(branches, notes)
 
     def _even_sum(self, e: Expr) -> Zeros | None:
-        """A sum of even powers with coefficients of one sign, as written."""
+        """Return the zeros of a sum all of whose terms are written as >= 0, or all as <= 0; None for other sums."""
         signs = {sign_as_written(term, self.positive) for term in e.args}
         if len(signs) != 1 or None in signs:
             return None
         return self._together([self.of(term) for term in e.args])
 
     def _together(self, zeros: list[Zeros]) -> Zeros:
-        notes = [SQUARES_NOTE]
-        for branches, _ in zeros:
-            if not branches:
-                return (), (EMPTY_NOTE,)
-        return tuple(products_of(branches for branches, _ in zeros)), tuple(notes)
+        """Return the common zeros of several expressions."""
+        if not all(branches for branches, _ in zeros):
+            return (), (EMPTY_NOTE,)
+        return tuple(products_of(branches for branches, _ in zeros)), (SQUARES_NOTE,)
 
     def _polynomial(self, e: Expr) -> Zeros:
         canon, [quotient] = quotients_of([e], self.positive)
@@ -124,7 +123,7 @@ class _WrittenZeros:
 
 
 def sign_as_written(term: Expr, positive: frozenset[Expr]) -> int | None:
-    """Return the sign of a term that its factors show not to change; None where it may, or where that is unknown."""
+    """Return 1 if the factors of a term show that it is >= 0, -1 if <= 0, otherwise None."""
     sign = 1
     for factor in term.args if term.op == "mul" else (term,):
         if factor.op == "num":
@@ -134,12 +133,12 @@ def sign_as_written(term: Expr, positive: frozenset[Expr]) -> int | None:
     return sign
 
 
-def _below(factor: Expr) -> bool:
-    """A factor that stands below the line."""
+def _is_denominator(factor: Expr) -> bool:
+    """Return whether a factor is a power with a negative number as exponent."""
     return factor.op == "pow" and factor.args[1].op == "num" and bool(factor.args[1].args[0] < 0)
 
 
 def never_vanishes(e: Expr, positive: frozenset[Expr]) -> bool:
-    """True where ``e`` is proved to be zero at no real point; False says nothing."""
+    """Return whether ``e`` is proved to be nonzero at every real point; False: not proved."""
     branches, _ = zero_set(e, positive, e.symbols)
     return not branches
