@@ -169,7 +169,7 @@ def _see(fault: Fault, value: Mapping[str, Any]) -> str | None:
 def _hint(fault: Fault, value: Mapping[str, Any]) -> str:
     """Return the hint of a fault: its own or one of hints.yaml, with a declaration or an example line if useful."""
     hints = package_table(__package__, "hints.yaml")["hints"].items()
-    hint = _said_twice(fault, value) or _direction(fault, value) or fault.hint
+    hint = _said_twice(fault, value) or _direction(fault, value) or _owner(fault, value) or fault.hint
     hint = hint or next((hint for pattern, hint in hints if re.search(pattern, fault.message)), None)
     undeclared = re.match(r"`(\w+)` is not declared(, and numbers)?", fault.message)
     name = undeclared[1] if undeclared else ""
@@ -204,6 +204,20 @@ def _direction(fault: Fault, value: Mapping[str, Any]) -> str | None:
         return None
     letters = ("x", "x or y", "x, y or z")[dimension_of(value) - 1]
     return f"a direction is {letters}, or its components"
+
+
+def _owner(fault: Fault, value: Mapping[str, Any]) -> str | None:
+    """Return what to write where the configuration has the name of a body or a particle in place of coordinates."""
+    name = fault.where[1] if fault.where[:1] == ("configuration",) and len(fault.where) == 2 else None
+    for section, what in (("bodies", "body"), ("particles", "particle")):
+        for entry in listed if isinstance(listed := value.get(section), (list, tuple)) else ():
+            own = entry if isinstance(entry, Mapping) else {"name": entry}
+            if name is not None and own.get("name") == name:
+                names = own.get("coordinates") or [f"x_{name}"]
+                return (
+                    f"'{name}' is a {what}: give its coordinates by their names, as `configuration: {{{names[0]}: 0}}`"
+                )
+    return None
 
 
 def _line(fault: Fault, hint: str, value: Mapping[str, Any]) -> str | None:
