@@ -157,10 +157,11 @@ def _nearly_dependent(placement: Placement, dimension: int, columns: int, rank: 
             return None
         rows += conditions
     j = [[float(row.get(c, 0.0)) for c in range(columns)] for row in rows]
-    by_size = _gap(j, rank)
-    if by_size is None or _gap(_about_centroids(j, placement, dimension), rank) is None:
+    gap = _gap(j, rank)
+    # a near-dependence only in one choice of origin and unit is none
+    if gap is None or _gap(_about_centroids(j, placement, dimension), rank) is None:
         return None
-    small, large = by_size
+    small, large = gap
     tolerance = 10.0 ** ceil(log10(max(small, 1e-12)))
     return (
         f"the equations are nearly dependent at the reference configuration (singular values of {small:.1e} "

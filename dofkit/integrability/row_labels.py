@@ -284,7 +284,7 @@ def integrable_names(forms: Codistribution, point: FieldPoint, span: Span) -> tu
 def ball_labels(block: Block, forms: Codistribution, real: RealPoint, result: Answer) -> Span | None:
     """Set freedoms, labels and verdict from balls at a real point, and return its Lie algebra; None if it is singular.
 
-    A ball that contains 0 counts as 0, so that a result is at best numeric unless no such ball matters.
+    A ball that contains 0 counts as 0, which is only numeric evidence; a ball that excludes 0 is a proof.
     """
     at = values(forms.chart.ring, real.point)
     matrix = forms.rows.matrix(at, arb(0))

@@ -147,6 +147,7 @@ def _through_one_point(g: Geometry, axes: Sequence[NamedLine]) -> list[NamedLine
 
 
 def _of_slides(g: Geometry, members: Sequence[Connection]) -> Iterator[str]:
+    """Yield what is special about the directions of sliding joints: some are parallel, or all are in one plane."""
     slides = [
         NamedLine(g.names[c.constraint], (), g.unit(at.directions[0]))
         for c in members

@@ -139,15 +139,15 @@ WHOLE_TURNS, MOST_PARTS, MOST_ORDER = 12, 360, 10**5
 
 
 def circle_order(rings: Iterable[Ring]) -> int:
-    """Return the common denominator of all angles pi/D; where pi is written, also of what x = pi/9 can produce."""
+    """Return the common denominator D of all angles k pi/D; if pi occurs, also of those in relations like x = pi/9."""
     rings = tuple(rings)
     keys = (var.key for ring in rings for var in ring.vars if var.kind in ("cos", "sin"))
     order = lcm(1, *(denominator for angle, denominator in keys if angle == ex.PI))
-    turning = [ring for ring in rings if {"pi", "cos"} <= {"cos" if v.kind == "sin" else v.kind for v in ring.vars}]
-    for ring in turning:
-        written = {part.denominator for op, part in ring.code if op == NUM}
+    with_pi = [ring for ring in rings if {"pi", "cos"} <= {"cos" if v.kind == "sin" else v.kind for v in ring.vars}]
+    for ring in with_pi:
+        denominators = {part.denominator for op, part in ring.code if op == NUM}
         order = lcm(order, WHOLE_TURNS)
-        for denominator in sorted(d for d in written if d <= MOST_PARTS):
+        for denominator in sorted(d for d in denominators if d <= MOST_PARTS):
             order = lcm(order, denominator) if lcm(order, denominator) <= MOST_ORDER else order
     return order
 

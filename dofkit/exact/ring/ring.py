@@ -193,10 +193,10 @@ class Ring(Instructions):
         name, u = e.args[0], e.args[1]
         if name in ("sin", "cos", "tan", "cot", "sec", "csc"):
             cos, sin = self._cis(u)
-            inverse = {"tan": (sin, cos), "cot": (cos, sin), "sec": (None, cos), "csc": (None, sin)}
+            quotients = {"tan": (sin, cos), "cot": (cos, sin), "sec": (None, cos), "csc": (None, sin)}
             if name in ("sin", "cos"):
                 return sin if name == "sin" else cos
-            top, bottom = inverse[name]
+            top, bottom = quotients[name]
             below = self.power_node(bottom, -1)
             return below if top is None else self.product(top, below)
         if name in ("sinh", "cosh", "tanh"):

@@ -105,6 +105,7 @@ class JointEquation(Finite):
     number: int
 
     def __getattr__(self, name: str) -> Expr:
+        """Compute and set ``expr``, which is not set by __init__."""
         if name != "expr":
             raise AttributeError(name)
         written = self.joint[self.number].expr
