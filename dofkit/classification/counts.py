@@ -112,13 +112,13 @@ class CountsBeside:
     def mobility(self) -> Mobility | None:
         """Return Gruebler's and Kutzbach's count; None without bodies and joints."""
         study = self.study
-        others = sum(
+        total = sum(
             r.constraint.facts.joint or all(isinstance(p, Finite) for p in n.pieces)
             for r in study.reduced
             for n in r.normals
         )
         equations = [r.equations for r in study.reduced]
-        return kutzbach_count(study.system, equations, others, study.outcome.velocity_dof, self._exact)
+        return kutzbach_count(study.system, equations, total, study.outcome.velocity_dof, self._exact)
 
     def _exact(self) -> Placement | None:
         return None if self.study.system.tolerance is not None else self._placement

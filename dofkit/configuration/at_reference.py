@@ -233,7 +233,7 @@ def _by_balls(chart: Chart, pose: Mapping[Expr, Expr]) -> AtReference | None:
         local = _at_fixed_time(criteria.local_dimension(Germ(None, manifold, rigid, chart.time)), timed)
     pattern = sparse(dependencies(matrix, part))
     names = tuple(of_q.columns) if rank == of_q.rank else ()
-    return AtReference(n - of_q.rank, local, pattern, 2, rank, rigid, names)
+    return AtReference(n - of_q.rank, local, pattern, 2, rank, rigid, names)  # the pattern is modulo 2
 
 
 def ball_matrix(chart: Chart, ball: BallPoint, exact: bool) -> list[list[arb]] | None:

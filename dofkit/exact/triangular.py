@@ -125,6 +125,7 @@ class Planner:
 
 
 def _is_parameter(ring: Ring, unknown: Unknown) -> bool:
+    """Return whether an unknown is a parameter of the scene, not one that dofkit introduced (with the prefix _)."""
     var = ring.vars[unknown[1]]
     if unknown[0] == "angle" or var.kind != "symbol":
         return False

@@ -141,8 +141,8 @@ def _is_same(a: Answer, b: Answer) -> bool:
 def _answer(block: Block, setting: Setting) -> Answer:
     """Return the answer by the engines of the setting, for geometric equations only or with differential ones."""
     if not block.forms and not block.nonlinear:
-        large = eliminated(block, setting) if setting.reference is None else None
-        finite = finite_answer(block, setting) if large is None else large
+        of_linear = eliminated(block, setting) if setting.reference is None else None
+        finite = finite_answer(block, setting) if of_linear is None else of_linear
         finite.derived = None if finite.dof is None else (len(block.coordinates) - finite.dof,)
         return finite if "closed" in setting.reductions else _tested(block, setting, finite)
     return _mixed_answer(block, setting)
