@@ -123,7 +123,7 @@ def univariate(ring: Ring, node: int, unknown: Unknown, point: FieldPoint) -> Re
     x = residue_polynomial([0, 1], point.p)
     constant_one = residue_polynomial([1], point.p)
     if unknown[0] == "angle":
-        below = 5 * (constant_one + x * x)
+        below = 5 * (constant_one + x * x)  # the denominator of `circle`
         cos, sin = (Rational(top, below) for top in circle(x, constant_one))
         var = ring.vars[unknown[1]]
         pair = {var.index: cos if var.kind == "cos" else sin, var.partner: sin if var.kind == "cos" else cos}
