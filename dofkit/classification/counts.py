@@ -65,6 +65,7 @@ class CountsBeside:
         )
 
     def _differs(self, dof: int) -> str | None:
+        """Return why the freedom differs from that in general position, or None where it does not."""
         here = self.study.outcome.velocity_dof if self.instantaneous is None else self.instantaneous
         if here is None or here == dof:
             return None

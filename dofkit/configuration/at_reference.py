@@ -133,10 +133,7 @@ def _with_fewer(
     fields: Sequence[Sequence[Any]],
     asked: Sequence[criteria.Criterion] = criteria.CRITERIA,
 ) -> tuple[LocalDimension, int]:
-    """Return (local dimension, number of coordinates that were eliminated), after solving linear equations.
-
-    ``fields``: the rigid motions of the system over the chart's columns.
-    """
+    """Return (local dimension, number of coordinates eliminated by linear equations); ``fields``: the rigid motions."""
     small, free = smaller(chart)
     spared = chart.coordinates - small.coordinates
     here = point if small is chart else point_at(small, pose, 3)

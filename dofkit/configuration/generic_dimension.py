@@ -134,6 +134,7 @@ def _depends_on_unknown_function(e: Expr) -> bool:
 
 
 def _outside_calls(e: Expr) -> Iterator[Expr]:
+    """Yield the symbols of ``e`` that occur outside the arguments of unknown functions."""
     if e.op == "sym":
         yield e
     elif e.op != "call":

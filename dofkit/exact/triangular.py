@@ -178,6 +178,7 @@ class TriangularSolver:
         return self._first_complete(lambda _: base.copy(), DRAWS // 4)
 
     def _first_complete(self, begin: Callable[[int], FieldPoint], draws: int) -> FieldPoint | None:
+        """Return the first of the points begin(0), begin(1), ... that can be completed, or None."""
         if self.plan.stuck or self.plan.contradictory:
             return None
         for k in range(draws):

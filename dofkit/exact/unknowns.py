@@ -152,6 +152,7 @@ class _PointAlong(NamedTuple):
         return self.point.number(value)
 
     def generator(self, var: Var, args: Sequence[Any]) -> Any:
+        """Return the value of a generator: by ``pair``, as recorded at ``point``, or a random one."""
         if var.index in self.pair:
             return self.pair[var.index]
         value = self.point.values.get((var.kind, var.key))

@@ -92,6 +92,7 @@ def _of_texts(g: Geometry, members: Sequence[int]) -> Iterator[str]:
 
 
 def _facts_of_set(g: Geometry, members: Sequence[Connection]) -> Iterator[str]:
+    """Yield what is special about axes, sliding directions, bars and points of some connections."""
     axes = list(_axes(g, members))
     bars = [*_links(g, members), *_bars(g, members)]
     if len(axes) > MOST or len(bars) > MOST:

@@ -231,10 +231,7 @@ def conditional(normal: Normal) -> bool:
 
 
 def copies(reduced: Sequence[Reduced]) -> dict[int, int]:
-    """Return {copy: original} for constraints whose relations equal those of an earlier one, up to numerical factors.
-
-    Only constraints with the same symbols are compared.
-    """
+    """Return {copy: original} for constraints whose relations are those of an earlier one up to numerical factors."""
     alike: dict[Hashable, list[int]] = {}
     for i, r in enumerate(reduced):
         check()

@@ -290,6 +290,7 @@ def label_in_system(
 
 
 def _label_of_row(t: LabelledRow, integrable: Sequence[Pfaffian]) -> TraitAnswer:
+    """Return (whether a row is holonomic in the system, verdict)."""
     if isinstance(t.row.piece, Finite) or t.row.piece in integrable:
         return True, "proved"
     if isinstance(t.row.piece, Nonlinear) and not t.reduced:

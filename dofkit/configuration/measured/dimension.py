@@ -202,10 +202,7 @@ def _definite_combination(problem: _Problem) -> Conclusion | None:
 
 
 def _continued(problem: _Problem) -> Conclusion | None:
-    """Conclude the instantaneous freedom if random motions can be continued in both directions.
-
-    All second-order forms must be 0 within their error.
-    """
+    """Conclude the instantaneous freedom if second-order forms are 0 and random motions continue in both directions."""
     reach = reach_of(problem.pose.tolerance)
     if not problem.forms.vanish or not all(is_motion(*paths, reach) for paths in problem.paths):
         return None

@@ -251,6 +251,7 @@ class Ring(Instructions):
         return turn
 
     def _turn(self, u: Expr) -> tuple[int, int]:
+        """Return (cos u, sin u) by the addition theorem over the terms of u."""
         u = substitute(u, self.alias)
         turns = []
         for angle, factor in linear_terms(u).items():

@@ -67,6 +67,7 @@ class _WrittenZeros:
         return self._polynomial(e) if structural is None else structural
 
     def _structural(self, e: Expr) -> Zeros | None:
+        """Return (branches, notes) by the form in which ``e`` is written; None if it is no product, power etc."""
         if e.op == "num":
             return (((),), ()) if e.is_zero else ((), (EMPTY_NOTE,))
         if e.op == "mul":
@@ -87,6 +88,7 @@ class _WrittenZeros:
         return None
 
     def _product(self, e: Expr) -> Zeros | None:
+        """Return (branches, notes) of a product: those of its factors; None if a denominator may be 0."""
         branches: list[Conjunction] = []
         notes: list[str] = []
         below = [factor.args[0] for factor in e.args if _is_denominator(factor)]
