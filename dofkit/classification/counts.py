@@ -65,6 +65,7 @@ class CountsBeside:
         )
 
     def _differs(self, dof: int) -> str | None:
+        """Return why the freedom differs from that in general position, or None where it does not."""
         here = self.study.outcome.velocity_dof if self.instantaneous is None else self.instantaneous
         if here is None or here == dof:
             return None
@@ -112,13 +113,13 @@ class CountsBeside:
     def mobility(self) -> Mobility | None:
         """Return Gruebler's and Kutzbach's count; None without bodies and joints."""
         study = self.study
-        others = sum(
+        total = sum(
             r.constraint.facts.joint or all(isinstance(p, Finite) for p in n.pieces)
             for r in study.reduced
             for n in r.normals
         )
         equations = [r.equations for r in study.reduced]
-        return kutzbach_count(study.system, equations, others, study.outcome.velocity_dof, self._exact)
+        return kutzbach_count(study.system, equations, total, study.outcome.velocity_dof, self._exact)
 
     def _exact(self) -> Placement | None:
         return None if self.study.system.tolerance is not None else self._placement
@@ -157,10 +158,11 @@ def _nearly_dependent(placement: Placement, dimension: int, columns: int, rank: 
             return None
         rows += conditions
     j = [[float(row.get(c, 0.0)) for c in range(columns)] for row in rows]
-    by_size = _gap(j, rank)
-    if by_size is None or _gap(_about_centroids(j, placement, dimension), rank) is None:
+    gap = _gap(j, rank)
+    # a near-dependence only in one choice of origin and unit is none
+    if gap is None or _gap(_about_centroids(j, placement, dimension), rank) is None:
         return None
-    small, large = by_size
+    small, large = gap
     tolerance = 10.0 ** ceil(log10(max(small, 1e-12)))
     return (
         f"the equations are nearly dependent at the reference configuration (singular values of {small:.1e} "

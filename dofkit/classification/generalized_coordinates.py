@@ -149,10 +149,7 @@ def _of_block(block: Block, a: Answer, setting: Setting, rotations: Sequence[Rot
 
 
 def _dependent_at_reference(group: TurnedGroup, setting: Setting, places_first: bool = False) -> tuple[str, ...]:
-    """Return coordinates that the rows at the reference can be solved for, later ones preferred.
-
-    With ``places_first``, positions x, y, z are preferred to angles.
-    """
+    """Return coordinates for which the rows at the reference can be solved, later ones (or x, y, z) preferred."""
     result = rows_at_reference(group, setting)
     if result is None:
         return ()

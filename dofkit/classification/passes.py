@@ -127,6 +127,7 @@ def agreed(values: Values) -> dict[str, Any]:
 
 
 def _without(values: dict[str, Any], row: Agreement) -> dict[str, Any]:
+    """Return the values with the fields of a violated ``row`` withheld, and a warning."""
     withheld: dict[str, Any] = {name: [] if name == "redundancies" else None for name in row.fields}
     verdicts = values["verdicts"] | {name: UNDECIDED for name in row.fields if name in values["verdicts"]}
     warnings = [*values["warnings"], CONTRADICTION.format(law=row.law, fields=", ".join(row.fields))]

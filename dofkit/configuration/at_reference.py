@@ -133,10 +133,7 @@ def _with_fewer(
     fields: Sequence[Sequence[Any]],
     asked: Sequence[criteria.Criterion] = criteria.CRITERIA,
 ) -> tuple[LocalDimension, int]:
-    """Return (local dimension, number of coordinates that were eliminated), after solving linear equations.
-
-    ``fields``: the rigid motions of the system over the chart's columns.
-    """
+    """Return (local dimension, number of coordinates eliminated by linear equations); ``fields``: the rigid motions."""
     small, free = smaller(chart)
     spared = chart.coordinates - small.coordinates
     here = point if small is chart else point_at(small, pose, 3)
@@ -233,7 +230,7 @@ def _by_balls(chart: Chart, pose: Mapping[Expr, Expr]) -> AtReference | None:
         local = _at_fixed_time(criteria.local_dimension(Germ(None, manifold, rigid, chart.time)), timed)
     pattern = sparse(dependencies(matrix, part))
     names = tuple(of_q.columns) if rank == of_q.rank else ()
-    return AtReference(n - of_q.rank, local, pattern, 2, rank, rigid, names)
+    return AtReference(n - of_q.rank, local, pattern, 2, rank, rigid, names)  # the pattern is modulo 2
 
 
 def ball_matrix(chart: Chart, ball: BallPoint, exact: bool) -> list[list[arb]] | None:

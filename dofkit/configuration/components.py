@@ -109,7 +109,7 @@ def _length(e: Expr) -> tuple[int, str]:
 
 
 def _variety_of(chart: Chart, relations: Sequence[Expr], find: Callable[[Chart], Variety]) -> Variety:
-    """Return the variety of other relations; an undecided one if they have no value at the points that are tried."""
+    """Return the variety of ``relations`` in the chart; undecided if they have no value at the points tried."""
     try:
         return find(_restricted(chart, relations))
     except NoValueError:
@@ -131,18 +131,18 @@ def by_cases(chart: Chart, variety: Variety, find: Callable[[Chart], Variety]) -
     set_cases = _cases_of_set(chart)
     if set_cases is None:
         return variety
-    solved, _, together = set_cases
-    if not together:
+    solved, _, choices = set_cases
+    if not choices:
         parametric = [g for g in solved.implicit if any(s.args[0] == "parameter" for s in g.symbols)]
         return Variety(False, None, "probable" if parametric else "proved", reasons=[NO_CASE], argument="cases")
-    for choice in together[:MAX_TOGETHER]:
+    for choice in choices[:MAX_TOGETHER]:
         relations = _relations_of(solved, choice)
         if set(relations) == set(chart.relations) and not variety.parted:
             continue
-        seen = _variety_of(chart, relations, find)
-        samples = [p for p in seen.samples if on_variety(chart, p)]
-        if seen.consistent and samples:
-            return replace(seen, samples=samples)
+        of_case = _variety_of(chart, relations, find)
+        samples = [p for p in of_case.samples if on_variety(chart, p)]
+        if of_case.consistent and samples:
+            return replace(of_case, samples=samples)
     return variety
 
 

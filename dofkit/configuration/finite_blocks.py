@@ -53,6 +53,7 @@ def _within_tolerance(block: Block, chart: Chart) -> Answer:
 
 
 def _finite_answer(chart: Chart) -> Answer:
+    """Return the answer at the reference configuration if it satisfies the relations, otherwise by generic points."""
     setting = chart.setting
     if setting.reference is not None:
         local = _local_answer(chart, setting.reference)
@@ -137,7 +138,7 @@ def _local_answer(chart: Chart, reference: Mapping[Expr, Expr]) -> Answer | None
 
 
 def _confined_answer(chart: Chart, result: Answer) -> Answer:
-    """Return the answer if no motion passes through the reference: inconsistent if none exists at all, or undecided."""
+    """Return the answer if no motion passes through the reference: undecided, or inconsistent if no point exists."""
     elsewhere = find(chart, {})
     if elsewhere.consistent is False:
         return replace(_answer_of(elsewhere), method=result.method)
@@ -161,7 +162,7 @@ def _measured_answer(chart: Chart, freedom: MeasuredFreedom) -> Answer:
     exact = "only an exact zero counts as a zero singular value"
     gap = gap_in_words(freedom.gap, "singular value") if isfinite(freedom.gap) else exact
     result.reasons.append(f"{freedom.reason}; {gap}")
-    result.matrix, result.modulus = sparse(freedom.dependencies), 2
+    result.matrix, result.modulus = sparse(freedom.dependencies), 2  # entries 0 and 1: which rows depend on which
     result.dependent = tuple(str(chart.symbols[c].args[1]) for c in freedom.columns)
     result.degenerate = dimension != freedom.instantaneous
     return result

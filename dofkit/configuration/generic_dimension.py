@@ -64,7 +64,7 @@ def variety_at(chart: Chart, samples: list[FieldPoint], seed: int, core: Sequenc
 
 
 def near_real_point(chart: Chart, real: RealPoint | None, core: Sequence[int]) -> Variety:
-    """Return the variety near a real point, without points over GF(p)."""
+    """Return the variety by the rank at a real point, a zero of the relations ``core``, without points over GF(p)."""
     if real is None:
         return Variety(None, None, "undecided", reasons=["no configuration satisfying all equations was found"])
     columns = len(chart.columns)
@@ -73,7 +73,7 @@ def near_real_point(chart: Chart, real: RealPoint | None, core: Sequence[int]) -
         return Variety(True, columns - real.part.rank - timed, "proved", [], real, argument="regular point")
     if not real.certain:
         return _undecided(Variety(None, None, "undecided", [], real), SINGULAR)
-    if real.part.gap > 1e3:
+    if real.part.gap > 1e3:  # `CLEAR` of at_reference
         why = gap_in_words(real.part.gap, "pivot")
         dimension = columns - real.part.rank - timed
         return Variety(True, dimension, "numeric", [], real, [why], argument="regular point", gap=real.part.gap)
@@ -134,6 +134,7 @@ def _depends_on_unknown_function(e: Expr) -> bool:
 
 
 def _outside_calls(e: Expr) -> Iterator[Expr]:
+    """Yield the symbols of ``e`` that occur outside the arguments of unknown functions."""
     if e.op == "sym":
         yield e
     elif e.op != "call":

@@ -123,10 +123,7 @@ def _number(value: Any) -> fmpq:
 
 
 def eliminated(block: Block, setting: Setting) -> Answer | None:
-    """Return the answer of a large block of linear geometric equations; None for other blocks.
-
-    Smaller ones are analysed at points like all others, and then `confirmed`.
-    """
+    """Return the answer of a large block of linear geometric equations; None for others, which may be `confirmed`."""
     small = len(block.coordinates) <= BALL_COLUMNS or block.forms
     if small or setting.engines != BOTH or setting.tolerance is not None or "eliminations" not in setting.reductions:
         return None

@@ -24,7 +24,7 @@ Displacement = dict[int, list[tuple[int, int | None]]]
 def displacement_fields(chart: Chart) -> list[Displacement]:
     """Return the fields of translations and rotations of all particles and planar bodies of a block.
 
-    None unless every coordinate is a position x, y, z or the angle of a planar body.
+    Empty unless every coordinate is a position x, y, z or the angle of a planar body.
     """
     place = {str(s.args[1]): i for i, s in enumerate(chart.symbols) if s != ex.TIME}
     here = [c for c in chart.setting.roles if c.name in place]

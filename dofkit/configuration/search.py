@@ -49,10 +49,7 @@ EMPTY = "no real configuration satisfies all equations: signs of terms, or a res
 
 
 def find(chart: Chart, pose: Mapping[Expr, Expr], seed: int = 0) -> Variety:
-    """Return the variety of a block: generic points, and the dimension of its largest component.
-
-    If no real point is found, a proof that there is none is tried.
-    """
+    """Return the variety of a block: generic points and the largest dimension; or a proof that it has no real point."""
     variety, find_variety = _variety(chart, pose, seed), partial(_variety, pose={}, seed=seed)
     if _fixes_time(chart, variety):
         variety = Variety(None, None, "undecided", reasons=[FIXED], parted=True)

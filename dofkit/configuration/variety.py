@@ -158,7 +158,7 @@ def pose_point(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> FieldPoint
     if fixed is None:
         return None
     written = repr(sorted((repr(s), repr(v)) for s, v in occurring.items())).encode()
-    salt = sha256(written).hexdigest() if occurring else ""
+    salt = sha256(written).hexdigest() if occurring else ""  # the random values also depend on the pose
     for attempt in range(TRIES):
         try:
             point = field_point([chart.ring], 1000 * seed + attempt, salt=salt)

@@ -125,6 +125,7 @@ class Planner:
 
 
 def _is_parameter(ring: Ring, unknown: Unknown) -> bool:
+    """Return whether an unknown is a parameter of the scene, not one that dofkit introduced (with the prefix _)."""
     var = ring.vars[unknown[1]]
     if unknown[0] == "angle" or var.kind != "symbol":
         return False
@@ -177,6 +178,7 @@ class TriangularSolver:
         return self._first_complete(lambda _: base.copy(), DRAWS // 4)
 
     def _first_complete(self, begin: Callable[[int], FieldPoint], draws: int) -> FieldPoint | None:
+        """Return the first of the points begin(0), begin(1), ... that can be completed, or None."""
         if self.plan.stuck or self.plan.contradictory:
             return None
         for k in range(draws):

@@ -123,7 +123,7 @@ def univariate(ring: Ring, node: int, unknown: Unknown, point: FieldPoint) -> Re
     x = residue_polynomial([0, 1], point.p)
     constant_one = residue_polynomial([1], point.p)
     if unknown[0] == "angle":
-        below = 5 * (constant_one + x * x)
+        below = 5 * (constant_one + x * x)  # the denominator of `circle`
         cos, sin = (Rational(top, below) for top in circle(x, constant_one))
         var = ring.vars[unknown[1]]
         pair = {var.index: cos if var.kind == "cos" else sin, var.partner: sin if var.kind == "cos" else cos}
@@ -152,6 +152,7 @@ class _PointAlong(NamedTuple):
         return self.point.number(value)
 
     def generator(self, var: Var, args: Sequence[Any]) -> Any:
+        """Return the value of a generator: by ``pair``, as recorded at ``point``, or a random one."""
         if var.index in self.pair:
             return self.pair[var.index]
         value = self.point.values.get((var.kind, var.key))

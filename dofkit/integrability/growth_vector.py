@@ -319,9 +319,9 @@ def _derived(flows: Sequence[AdmissibleCurve], dimensions: Sequence[int], step: 
 def _random_bracket(flows: Sequence[AdmissibleCurve], step: int) -> tuple[Scalar, ...]:
     """Return [Y, Z] at the point for random fields Y, Z of S_step."""
     weights = [[[random_column(f, f.pulled[k].ncols()) for k in range(step)] for f in flows] for _ in range(2)]
-    values_at = [_combined([f.pulled for f in flows], w) for w in weights]
-    moved = [_combined([varied_frame(f, values_at[1 - i]) for f in flows], weights[i]) for i in range(2)]
-    return columns_of(moved[1] - moved[0])[0]
+    fields = [_combined([f.pulled for f in flows], w) for w in weights]
+    derivatives = [_combined([varied_frame(f, fields[1 - i]) for f in flows], weights[i]) for i in range(2)]
+    return columns_of(derivatives[1] - derivatives[0])[0]
 
 
 def _combined(series: Sequence[MatrixSeries], weights: Sequence[Sequence[Matrix]]) -> Matrix:

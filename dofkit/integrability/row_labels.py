@@ -148,7 +148,7 @@ def field_labels(
         result.verdict = weakest(result.verdict, "probable")
         result.reasons.append("the freedom differs between points; the generic value is given")
     _set_labels(forms_at_points, proof_of, result)
-    result.dependent = integrable_names(forms, forms_at_points.point, forms_at_points.sampled.span)
+    result.dependent = dependent_coordinates(forms, forms_at_points.point, forms_at_points.sampled.span)
 
 
 def _set_freedom(forms_at_points: SampledForms, result: Answer, setting: Setting) -> None:
@@ -273,7 +273,7 @@ def _modulo_the_others(place: int, sampled: SampledSpan, p: int) -> bool:
     return all(sum(map(mul, vector, pairings)) == 0 for vector in null_vectors(paired))
 
 
-def integrable_names(forms: Codistribution, point: FieldPoint, span: Span) -> tuple[str, ...]:
+def dependent_coordinates(forms: Codistribution, point: FieldPoint, span: Span) -> tuple[str, ...]:
     """Return the names of the dependent coordinates: pivots of the annihilator of the Lie algebra at a point."""
     if not span.vectors:
         return tuple(str(s.args[1]) for s in forms.chart.symbols if s != ex.TIME)
@@ -284,7 +284,7 @@ def integrable_names(forms: Codistribution, point: FieldPoint, span: Span) -> tu
 def ball_labels(block: Block, forms: Codistribution, real: RealPoint, result: Answer) -> Span | None:
     """Set freedoms, labels and verdict from balls at a real point, and return its Lie algebra; None if it is singular.
 
-    A ball that contains 0 counts as 0, so that a result is at best numeric unless no such ball matters.
+    A ball that contains 0 counts as 0, which is only numeric evidence; a ball that excludes 0 is a proof.
     """
     at = values(forms.chart.ring, real.point)
     matrix = forms.rows.matrix(at, arb(0))
@@ -355,7 +355,7 @@ def set_at_reference(forms: Codistribution, reference: tuple[FieldPoint, Sampled
     The matrix, that at a generic point, would then give wrong dependences there.
     """
     point, sampled = reference
-    result.dependent = integrable_names(forms, point, sampled.span)
+    result.dependent = dependent_coordinates(forms, point, sampled.span)
     independent = echelon(result.matrix, result.modulus).independent
     if rank_of([sampled.matrix[k] for k in independent], point.p) < len(independent):
         result.matrix = []

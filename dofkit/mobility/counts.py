@@ -74,14 +74,14 @@ def freedom_of_body(system: System) -> int:
 
 
 def kutzbach_count(
-    system: System, equations: Sequence[int], others: int, freedom: int | None, placed: PlacementMaker
+    system: System, equations: Sequence[int], total: int, freedom: int | None, placed: PlacementMaker
 ) -> Mobility | None:
-    """Return Kutzbach's count and why it differs from ``freedom``; ``others``: number of all equations to count."""
+    """Return Kutzbach's count and why it is not ``freedom``; None without joints. ``total``: the equations to count."""
     joints = joints_of(system, equations)
     if not joints:
         return None
     whole, bodies = freedom_of_body(system), len(system.bodies)
-    terms = _terms(system, joints, others - sum(equations[j.constraint] for j in joints))
+    terms = _terms(system, joints, total - sum(equations[j.constraint] for j in joints))
     base = whole * (bodies - len(joints)) + sum(j.freedom for j in joints)
     kutzbach = base + sum(number for _, number, _ in terms)
     letters = "".join(f" {sign} {letter}" for sign, _, letter in terms)

@@ -158,9 +158,9 @@ def _has_rational_geometry(c: Connection, system: System) -> bool:
 
 
 def _connected_members(constraint: Constraint, c: Connection | None, owners: Mapping[str, Node]) -> set[Node]:
-    """Return the members that a constraint connects, with the ground unless it is invariant when all move as one."""
+    """Return the members that a constraint connects, with GROUND unless rigid motions of all members preserve it."""
     members: set[Node] = set() if c is None else {*c.members}
     named = {owners[name] for name in constraint.mentioned if name in owners}
     facts = constraint.facts
-    moves = facts.bars or facts.merged or facts.welded or bool(facts.freedoms) or (c is not None and bool(c.rates))
-    return members | named | (set() if moves and named <= members else {GROUND})
+    invariant = facts.bars or facts.merged or facts.welded or bool(facts.freedoms) or (c is not None and bool(c.rates))
+    return members | named | (set() if invariant and named <= members else {GROUND})

@@ -191,6 +191,7 @@ def _placement(system: System, numbers: _NumberSource) -> Placement:
 
 
 def _located_connection(c: Connection, members: Mapping[str, Member], numbers: _NumberSource, d: int) -> Located:
+    """Return a connection with its numbers; directions that it does not state get random ones."""
     wanted = max(len(c.directions), c.facts.directions)
     return Located(
         c.facts,

@@ -92,6 +92,7 @@ def _of_texts(g: Geometry, members: Sequence[int]) -> Iterator[str]:
 
 
 def _facts_of_set(g: Geometry, members: Sequence[Connection]) -> Iterator[str]:
+    """Yield what is special about axes, sliding directions, bars and points of some connections."""
     axes = list(_axes(g, members))
     bars = [*_links(g, members), *_bars(g, members)]
     if len(axes) > MOST or len(bars) > MOST:
@@ -147,6 +148,7 @@ def _through_one_point(g: Geometry, axes: Sequence[NamedLine]) -> list[NamedLine
 
 
 def _of_slides(g: Geometry, members: Sequence[Connection]) -> Iterator[str]:
+    """Yield what is special about the directions of sliding joints: some are parallel, or all are in one plane."""
     slides = [
         NamedLine(g.names[c.constraint], (), g.unit(at.directions[0]))
         for c in members

@@ -248,6 +248,7 @@ def _signs(
 
 
 def _point(ring: Ring, nodes: Sequence[int], symbols: Sequence[Expr], setting: Setting, seed: int) -> BallPoint | None:
+    """Return a certified real zero of the nodes, or a random point if there are no nodes; None if none is found."""
     if nodes:
         moving = [s for s in symbols if s.args[0] != "parameter"]
         result = RealSearch(ring, nodes, moving, setting.positive).search(seed)

@@ -271,10 +271,7 @@ class BlockImplication:
 
 
 class NearReference(BlockImplication):
-    """Implications between geometric equations near the reference, at which they are satisfied.
-
-    The premises ``others`` have to be independent there.
-    """
+    """Implications between geometric equations near a reference that satisfies them; premises must be independent."""
 
     @cached_property
     def _relations(self) -> ImpliedRelations:

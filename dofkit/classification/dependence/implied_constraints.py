@@ -165,7 +165,7 @@ class ConstraintSets:
         self._answers: dict[tuple[int, ...], tuple[bool | None, bool]] = {(): (True, True)}
 
     def inconsistent(self, numbers: Sequence[int]) -> bool:
-        """Return whether some constraints are proved, or as good as proved, to be inconsistent."""
+        """Return whether the answer for some constraints is that they are inconsistent, proved or not."""
         key = tuple(numbers)
         if key not in self._answers:
             self._answers[key] = self._solved(numbers)

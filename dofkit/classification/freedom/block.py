@@ -128,6 +128,7 @@ def _confirmed_by_balls(field: Answer, balls: Answer) -> Answer:
 
 
 def _is_same(a: Answer, b: Answer) -> bool:
+    """Return whether two answers agree in freedoms, labels, hidden equations and independent rows."""
     numbers = a.dof is not None and (a.dof, a.velocity_dof, a.instantaneous) == (b.dof, b.velocity_dof, b.instantaneous)
     labels = all(label.holonomic == b.labels[i].holonomic for i, label in a.labels.items() if i in b.labels)
     return (
@@ -141,8 +142,8 @@ def _is_same(a: Answer, b: Answer) -> bool:
 def _answer(block: Block, setting: Setting) -> Answer:
     """Return the answer by the engines of the setting, for geometric equations only or with differential ones."""
     if not block.forms and not block.nonlinear:
-        large = eliminated(block, setting) if setting.reference is None else None
-        finite = finite_answer(block, setting) if large is None else large
+        of_linear = eliminated(block, setting) if setting.reference is None else None
+        finite = finite_answer(block, setting) if of_linear is None else of_linear
         finite.derived = None if finite.dof is None else (len(block.coordinates) - finite.dof,)
         return finite if "closed" in setting.reductions else _tested(block, setting, finite)
     return _mixed_answer(block, setting)
@@ -158,6 +159,7 @@ def _tested(block: Block, setting: Setting, finite: Answer) -> Answer:
 
 
 def _mixed_answer(block: Block, setting: Setting) -> Answer:
+    """Return the answer of a block with differential relations."""
     if block.finite and is_measured(block, setting):
         return Answer(None, verdict="undecided", reasons=[MEASURED])
     result = _prolonged(block, setting, Answer())

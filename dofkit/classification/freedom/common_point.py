@@ -229,7 +229,7 @@ def _names_of(c: DomainCondition, owner: int) -> frozenset[Hashable]:
 
 
 def _with_conditions(blocks: Sequence[Block], domain: Sequence[tuple[int, DomainCondition]]) -> list[Block]:
-    """Return the blocks with the conditions whose coordinates are all theirs; one without goes with its constraint."""
+    """Return each block with the conditions in its coordinates only, or in none but from a constraint of the block."""
     result = list(blocks)
     for owner, c in domain:
         names = coordinates_in(c.expr)

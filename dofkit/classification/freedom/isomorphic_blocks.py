@@ -18,10 +18,7 @@ _FREE = (None, "")
 
 
 class Likeness(NamedTuple):
-    """``key``: equal for blocks that are equal up to ``names``: of coordinates, then of unnamed parameters.
-
-    The names of two such blocks correspond to each other in order.
-    """
+    """``key``: equal for blocks that are equal up to ``names``, of coordinates, then unnamed parameters, in order."""
 
     key: Hashable
     names: tuple[str, ...]

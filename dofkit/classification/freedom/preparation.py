@@ -49,7 +49,7 @@ def prepared(system: System, reductions: Reductions = ALL) -> tuple[list[Reduced
     """Return (every constraint with its normal forms, the setting); raises SceneError as `reduce_all` does."""
     positive = frozenset(ex.parameter(p) for p, sign in system.parameters.items() if sign == "positive")
     generic = tuple([ex.parameter(p) for p in system.generic])
-    positive |= frozenset([p for p in generic if p.args[1].startswith("_L")])
+    positive |= frozenset([p for p in generic if p.args[1].startswith("_L")])  # squared lengths without a number
     exact = system.joints and system.tolerance is None
     bridging = bridges(system) if "bridges" in reductions and exact else Bridges()
     reduced = reduce_all(system, positive, bridging.joints)
@@ -231,10 +231,7 @@ def conditional(normal: Normal) -> bool:
 
 
 def copies(reduced: Sequence[Reduced]) -> dict[int, int]:
-    """Return {copy: original} for constraints whose relations equal those of an earlier one, up to numerical factors.
-
-    Only constraints with the same symbols are compared.
-    """
+    """Return {copy: original} for constraints whose relations are those of an earlier one up to numerical factors."""
     alike: dict[Hashable, list[int]] = {}
     for i, r in enumerate(reduced):
         check()

@@ -33,7 +33,7 @@ def with_values_in_motion(
 ) -> list[Answer]:
     """Return the answers, inconsistent if no motion satisfies the ``domain``, undecided if none is known to do so.
 
-    ``domain``: (constraint, condition in velocities for a value of it as written); ``answered`` analyses a block.
+    ``domain``: (constraint, condition in velocities for it to have a value as written). ``answered`` analyses a block.
     """
     names = frozenset[str]().union(*(coordinates_in(c.expr) for _, c in domain))
     members = [i for i, block in enumerate(blocks) if not names.isdisjoint(block.coordinates)]

@@ -127,10 +127,10 @@ def _is_still(piece: Clause) -> bool:
 
 
 def _integrable_forms(normals: Sequence[Normal], rows: Sequence[LabelledRow]) -> list[Pfaffian]:
-    """Return the forms whose integrability is tested, each once: of the branches of the same kind as the one used.
+    """Return the forms whose integrability is tested, each once: of the branches of the same kind as those in ``rows``.
 
-    The kind is the number of forms, and whether there is a geometric equation: xdot^2 - 2 z xdot ydot + ydot^2 = 0
-    means xdot = ydot = 0 where abs(z) < 1, and one of two forms where abs(z) > 1.
+    The kind is (number of forms, whether there is a geometric equation): xdot^2 - 2 z xdot ydot + ydot^2 = 0 means
+    xdot = ydot = 0 if abs(z) < 1, one form if abs(z) > 1. Without forms in ``rows``: kinds without equation, or all.
     """
     used = [t.row.piece for t in rows if isinstance(t.row.piece, Pfaffian)]
     chosen: list[Pfaffian] = []
@@ -290,6 +290,7 @@ def label_in_system(
 
 
 def _label_of_row(t: LabelledRow, integrable: Sequence[Pfaffian]) -> TraitAnswer:
+    """Return (whether a row is holonomic in the system, verdict)."""
     if isinstance(t.row.piece, Finite) or t.row.piece in integrable:
         return True, "proved"
     if isinstance(t.row.piece, Nonlinear) and not t.reduced:

@@ -87,6 +87,7 @@ def reason_of(
 
 
 def _nonlinear(labels: EntryLabels) -> str:
+    """Return the reason for the labels of a constraint that is nonlinear in the velocities."""
     if labels.in_system:
         return (
             "On its own it is not linear in the velocities; together with the other constraints it is "
@@ -100,6 +101,7 @@ def _nonlinear(labels: EntryLabels) -> str:
 
 
 def _pfaffian(labels: EntryLabels, proofs: Sequence[Integrability], others: Others) -> str:
+    """Return the reason for the labels of a Pfaffian constraint."""
     if labels.in_system is None:
         return f"Not decided: {labels.undecided or 'the engines found no regular point to decide at'}."
     if labels.in_system and labels.alone:

@@ -184,7 +184,7 @@ class RowPolynomials:
         return not short or not self._never_vanishes(self.canon.reduce(sum(p * p for p in polynomials)))
 
     def _eliminate(self, r: int, c: int) -> None:
-        """Make the column c of all rows but r zero."""
+        """Make the column c zero in all rows but r; raises TooLargeError if their polynomials have too many terms."""
         check()
         pivot = self.rows[r]
         for k, row in enumerate(self.rows):
@@ -212,10 +212,7 @@ class RowPolynomials:
         return [[row[c] for c in columns] for r, row in enumerate(self.rows) if r not in done]
 
     def curvature(self) -> list[list[Poly]]:
-        """Return d(omega)(u, v) of every form on all pairs of kernel vectors, without rows of zeros.
-
-        The vectors span the kernel where no pivot vanishes.
-        """
+        """Return the non-zero rows d(omega)(u, v), omega a form, for all pairs of the vectors of `_kernel_vector`."""
         self._eliminate_rest()
         result = []
         vectors = [self._kernel_vector(column) for column in self.free]

@@ -38,7 +38,7 @@ ORDER, RADIUS = 6, 2.0**-90
 
 
 def largest_branch(ball: Manifold, forms: Sequence[Form], wanted: int) -> int | None:
-    """Return the largest dimension of the branches that are found through the point, or None; ``wanted`` ends it.
+    """Return the largest dimension of the branches found through the point, or None; ``wanted`` ends the search.
 
     A branch begins along a real zero of the second-order ``forms`` and is followed towards the point: at each distance
     a real point of the set is computed in high precision, the rank of all relations there is decided by a gap, and the

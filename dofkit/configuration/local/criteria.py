@@ -78,6 +78,7 @@ def local_dimension(germ: Germ, asked: Sequence[Criterion] = CRITERIA) -> LocalD
 
 @raising_no_value
 def _decision(germ: Germ, asked: Sequence[Criterion]) -> LocalDimension:
+    """Return the local dimension by the first criterion that concludes, or `UNDECIDED`."""
     for criterion in asked:
         conclusion = criterion.decide(germ)
         if conclusion is not None:

@@ -229,6 +229,7 @@ def _explicit_columns(ring: Ring, row: int) -> Iterable[tuple[int, list[int]]]:
 
 
 def _column_of(ring: Ring, term: int) -> int | None:
+    """Return the column of a term that is a number times a symbol, else None."""
     op, payload = ring.code[term]
     if op == MUL:
         factors = [i for i in payload if ring.code[i][0] != NUM]

@@ -148,10 +148,7 @@ def _search(forms: Sequence[Form], rank_wanted: int) -> list[float] | None:
 
 
 def signature_of(form: Form) -> tuple[int, int]:
-    """Return (positive, negative): certified numbers of squares, by Lagrange's reduction with pivots that exclude 0.
-
-    They do not depend on the reduction [Sylvester1852].
-    """
+    """Return certified numbers (positive, negative) of squares in Lagrange's reduction [Sylvester1852]."""
     n = len(form)
     work = [list(row) for row in form]
     remaining = set(range(n))

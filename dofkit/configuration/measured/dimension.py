@@ -97,7 +97,7 @@ def _compared_with_exact(freedom: MeasuredFreedom, exact: AtReference) -> Measur
 
 
 def _within_tolerance(chart: Chart, at: Mapping[Expr, float]) -> MeasuredFreedom:
-    """Return the freedom by singular values and the criteria, without the geometry exactly as written."""
+    """Return the freedom by singular values and `CRITERIA`; unlike `measured_freedom` without the exact geometry."""
     equations, tolerance = ScaledEquations(chart, at), float(chart.setting.tolerance or 0)
     n = chart.coordinates
     if not chart.nodes:
@@ -113,7 +113,7 @@ def _within_tolerance(chart: Chart, at: Mapping[Expr, float]) -> MeasuredFreedom
     below = float(singular[rank]) if rank < len(singular) else 0.0
     gap = float(singular[rank - 1]) / below if rank and below > 0 else float("inf")
     lever = equations.lever(timed)
-    least = tolerance * SLACK / (lever * lever if lever > NEAR else 1.0)
+    least = tolerance * SLACK / (lever * lever if lever > NEAR else 1.0)  # smaller by distance^2, see NEAR
     if np.any((singular > least) & (singular < tolerance * GREY)):
         return MeasuredFreedom(None, None, [], (), gap, "a singular value near the tolerance leaves the rank undecided")
     problem = _Problem(MeasuredPose(equations, at, timed, rank, tolerance), lever > FAR_AWAY)
@@ -202,10 +202,7 @@ def _definite_combination(problem: _Problem) -> Conclusion | None:
 
 
 def _continued(problem: _Problem) -> Conclusion | None:
-    """Conclude the instantaneous freedom if random motions can be continued in both directions.
-
-    All second-order forms must be 0 within their error.
-    """
+    """Conclude the instantaneous freedom if second-order forms are 0 and random motions continue in both directions."""
     reach = reach_of(problem.pose.tolerance)
     if not problem.forms.vanish or not all(is_motion(*paths, reach) for paths in problem.paths):
         return None

@@ -149,6 +149,7 @@ class FloatPoint(_RealPoint):
 
 
 def _real_root(u: float, degree: int) -> float:
+    """Return the real root of a number; raises ValueError for an even root of a negative one."""
     if u >= 0:
         return float(u ** (1 / degree))
     if degree % 2 == 0:
@@ -175,6 +176,7 @@ class BallPoint(_RealPoint):
         return value
 
     def _value(self, var: Var, args: Sequence[Scalar]) -> arb:
+        """Return the ball of a generator whose arguments have the values ``args``."""
         if var.kind == "symbol":
             return arb(self.symbols[var.key])
         if var.kind == "pi":
@@ -205,6 +207,7 @@ def random_values(ring: Ring, positive: frozenset[Expr], seed: int) -> dict[Expr
 
 
 def _random_value(symbol: Expr, rng: random.Random, seed: int, positive: bool) -> float:
+    """Return a random multiple of 1/512; that of time or a named parameter depends only on its name and ``seed``."""
     kind, name = symbol.args
     constant = kind in ("time", "parameter")
     low = 256 if positive or constant else -1024

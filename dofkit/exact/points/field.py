@@ -139,15 +139,15 @@ WHOLE_TURNS, MOST_PARTS, MOST_ORDER = 12, 360, 10**5
 
 
 def circle_order(rings: Iterable[Ring]) -> int:
-    """Return the common denominator of all angles pi/D; where pi is written, also of what x = pi/9 can produce."""
+    """Return the common denominator D of all angles k pi/D; if pi occurs, also of those in relations like x = pi/9."""
     rings = tuple(rings)
     keys = (var.key for ring in rings for var in ring.vars if var.kind in ("cos", "sin"))
     order = lcm(1, *(denominator for angle, denominator in keys if angle == ex.PI))
-    turning = [ring for ring in rings if {"pi", "cos"} <= {"cos" if v.kind == "sin" else v.kind for v in ring.vars}]
-    for ring in turning:
-        written = {part.denominator for op, part in ring.code if op == NUM}
+    with_pi = [ring for ring in rings if {"pi", "cos"} <= {"cos" if v.kind == "sin" else v.kind for v in ring.vars}]
+    for ring in with_pi:
+        denominators = {part.denominator for op, part in ring.code if op == NUM}
         order = lcm(order, WHOLE_TURNS)
-        for denominator in sorted(d for d in written if d <= MOST_PARTS):
+        for denominator in sorted(d for d in denominators if d <= MOST_PARTS):
             order = lcm(order, denominator) if lcm(order, denominator) <= MOST_ORDER else order
     return order
 
@@ -260,6 +260,7 @@ class FieldPoint:
         return self._taken[key]
 
     def _draw(self, var: Var, args: Sequence[Scalar]) -> Scalar:
+        """Return a random value for a generator; recorded here for pi, angles and functions with equal arguments."""
         if var.kind in ("cos", "sin"):
             self._draw_angle(var, args)
             return self.values[var.kind, var.key]
@@ -267,14 +268,15 @@ class FieldPoint:
             return self._exponentials.at(args[0], self.random)
         if args:
             return self._of_arguments(var, args, partial(self._draw_value, var, args))
-        drawn = self.random()
+        value = self.random()
         if var.kind == "symbol":
-            self._drawn.add(int(drawn))
+            self._drawn.add(int(value))
         if var.kind == "pi":
-            self.set(var, drawn)
-        return drawn
+            self.set(var, value)
+        return value
 
     def _draw_value(self, var: Var, args: Sequence[Scalar]) -> Scalar:
+        """Return a value of a root, sign or other function; functions that vanish at 0 get the value 0 there."""
         if var.kind == "root":
             return self._root(var, args[0])
         if var.kind == "sign":
@@ -284,6 +286,7 @@ class FieldPoint:
         return self.random()
 
     def _draw_angle(self, var: Var, args: Sequence[Scalar]) -> None:
+        """Set cosine and sine of an angle: by a root of unity for pi/D, otherwise at random."""
         angle, denominator = var.key
         if angle == ex.PI:
             cos, sin = self._root_of_unity(denominator)
@@ -310,6 +313,7 @@ class FieldPoint:
         return (1 + w) / (1 - w)
 
     def _setup_unity(self) -> None:
+        """Set, once, a primitive root of unity for exp(pi i / order), and i, a root of -1."""
         if self._zeta is None:
             n = lcm(4, 2 * self.order)
             factors = [int(q) for q, _ in fmpz(n).factor()]
@@ -328,6 +332,7 @@ class FieldPoint:
         return (zeta + inverse) / 2, (zeta - inverse) / (2 * self._imaginary)
 
     def _root(self, var: Var, value: Scalar) -> Scalar:
+        """Return a random one of the roots of ``value`` modulo p; raises NoPointError if there is none."""
         if isinstance(var.key[0], ex.Expr) and var.degree == 2:
             cyclotomic = self._root_in_circle(int(var.key[0].args[0]))
             if cyclotomic is not None:

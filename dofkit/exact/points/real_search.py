@@ -249,10 +249,7 @@ def are_joined(search: RealSearch, start: Mapping[Expr, arb], end: RealPoint, ra
 
 
 def at_another_time(search: RealSearch, seed: int = 0) -> RealPoint | None:
-    """Return a certain point at some other time, or None; the search in floats takes time as an unknown.
-
-    Example: x^2 + y^2 = t, x y = sin(t) have a solution only after t = 1.9.
-    """
+    """Return a certain point at some other time, or None; the search in floats takes time as an unknown."""
     if TIME in search.unknowns or search.ring.var_index(TIME) is None:
         return None
     timed = RealSearch(search.ring, search.nodes, [*search.unknowns, TIME], search.positive)

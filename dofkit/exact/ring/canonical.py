@@ -56,6 +56,7 @@ class Canon:
         return self._memo[node]
 
     def _compute(self, node: int) -> Quotient:
+        """Return the quotient of a node from those of its operands."""
         op, payload = self.ring.code[node]
         if op == NUM:
             return self.ctx.constant(fmpq(payload.numerator, payload.denominator)), self.unit

@@ -81,6 +81,7 @@ def _new_root(ring: Instructions, key: Key, radicand: Expr, node: int) -> int:
 
 
 def _root_of_power(ring: Instructions, radicand: Expr, degree: int) -> int:
+    """Return the node of a root of base^exponent, with |base| or a sign where the exponent is even."""
     base, exponent = radicand.args[0], radicand.args[1].args[0]
     whole, fraction = divmod(exponent / degree, 1)
     even_inside = exponent.denominator == 1 and exponent % 2 == 0 and degree % 2 == 0

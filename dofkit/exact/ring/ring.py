@@ -193,10 +193,10 @@ class Ring(Instructions):
         name, u = e.args[0], e.args[1]
         if name in ("sin", "cos", "tan", "cot", "sec", "csc"):
             cos, sin = self._cis(u)
-            inverse = {"tan": (sin, cos), "cot": (cos, sin), "sec": (None, cos), "csc": (None, sin)}
+            quotients = {"tan": (sin, cos), "cot": (cos, sin), "sec": (None, cos), "csc": (None, sin)}
             if name in ("sin", "cos"):
                 return sin if name == "sin" else cos
-            top, bottom = inverse[name]
+            top, bottom = quotients[name]
             below = self.power_node(bottom, -1)
             return below if top is None else self.product(top, below)
         if name in ("sinh", "cosh", "tanh"):
@@ -251,6 +251,7 @@ class Ring(Instructions):
         return turn
 
     def _turn(self, u: Expr) -> tuple[int, int]:
+        """Return (cos u, sin u) by the addition theorem over the terms of u."""
         u = substitute(u, self.alias)
         turns = []
         for angle, factor in linear_terms(u).items():

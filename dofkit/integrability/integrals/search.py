@@ -162,6 +162,7 @@ def _content(work: Algebra, form: Form) -> Expr:
 
 
 def _common(work: Algebra, coefficients: list[Expr]) -> Expr:
+    """Return what `_content` returns, or raise an exception where it is undefined."""
     canon, quotients = work.lowered(coefficients)
     top, bottom = quotients[0]
     for above, below in quotients[1:]:

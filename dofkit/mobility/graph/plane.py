@@ -35,24 +35,24 @@ FREE = -1
 
 
 class Neighbours(NamedTuple):
-    """The joints ``across[v]`` to which links of joint v lead, in the order of the links.
+    """The joints ``adjacent[v]`` to which links of joint v lead, in the order of the links.
 
     Link i joins ``tail[i]`` and ``head[i]``; ``degree[v]``: the number of links of joint v that are not yet removed.
     """
 
     tail: list[int]
     head: list[int]
-    across: list[list[int]]
+    adjacent: list[list[int]]
     degree: list[int]
 
 
 def neighbours_of(ends: Sequence[Ends], joints: int) -> Neighbours:
     """Return the neighbours of all joints."""
-    across: list[list[int]] = [[] for _ in range(joints)]
+    adjacent: list[list[int]] = [[] for _ in range(joints)]
     for a, b in ends:
-        across[a].append(b)
-        across[b].append(a)
-    return Neighbours([a for a, _ in ends], [b for _, b in ends], across, list(map(len, across)))
+        adjacent[a].append(b)
+        adjacent[b].append(a)
+    return Neighbours([a for a, _ in ends], [b for _, b in ends], adjacent, list(map(len, adjacent)))
 
 
 class PebbleGame:
@@ -101,16 +101,16 @@ class PebbleGame:
         return played
 
     def _remove_joints(self, queue: list[int]) -> None:
-        """Remove joints with at most two links, to different joints, which they cover; and so on for their neighbours.
+        """Remove the joints in ``queue``, with at most two links, to different joints, then others that become such.
 
-        A removed joint has the degree 0. Links removed without a joint come after all remaining ones in ``across``.
+        A removed joint has the degree 0 and covers its links. Links removed without a joint come last in ``adjacent``.
         """
-        first, second, (_, _, across, degree) = self.first, self.second, self.net
+        first, second, (_, _, adjacent, degree) = self.first, self.second, self.net
         for v in queue:
             number = degree[v]
             if not number:
                 continue
-            joined = iter(across[v])
+            joined = iter(adjacent[v])
             while not degree[w := next(joined)]:
                 pass
             if number == 2:
@@ -224,7 +224,7 @@ class PebbleGame:
         for x in range(len(self.first)):
             check()
             independent: list[int] = []
-            for z in self.net.across[x]:
+            for z in self.net.adjacent[x]:
                 if not any(y == z or self._rotate_together(x, y, z) for y in independent):
                     independent.append(z)
 

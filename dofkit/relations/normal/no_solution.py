@@ -55,10 +55,7 @@ def refuted(claims: Sequence[SignClaim], positive: frozenset[Expr]) -> bool:
 
 
 def hold_nowhere(relations: Sequence[Expr], conditions: Sequence[DomainCondition], positive: frozenset[Expr]) -> bool:
-    """Return whether it is proved that no real point satisfies ``relations`` (= 0) and ``conditions``.
-
-    u != 0 is written u s = 1 with a new unknown s.
-    """
+    """Return whether ``relations`` (= 0) and ``conditions`` are proved to have no real solution; u != 0 is u s = 1."""
     claims = [SignClaim(g, "=") for g in relations]
     for k, c in enumerate(conditions):
         inverse = c.expr * ex.coordinate(f"_slack {k}") - ex.ONE
@@ -215,6 +212,7 @@ def _points(e: Expr, positive: frozenset[Expr]) -> Iterator[dict[Expr, Expr]]:
 
 
 def _is_satisfied(e: Expr, strict: bool, point: dict[Expr, Expr]) -> bool:
+    """Return whether e > 0 (or e >= 0, if not ``strict``) is proved at a point."""
     check()
     try:
         there = substitute(e, point)

@@ -108,7 +108,7 @@ def _completed(
 
 
 def _square_content(poly: Any) -> fmpq:
-    """Return a rational number r such that poly / r^2 has integer coefficients, the content's root if it is one."""
+    """Return a rational r such that poly / r^2 has integer coefficients, with r^2 the content if that is a square."""
     coefficients = [Fraction(int(c.p), int(c.q)) for c in poly.to_dict().values()]
     below = lcm(*(c.denominator for c in coefficients))
     content = gcd(*(int(c * below) for c in coefficients)) * below

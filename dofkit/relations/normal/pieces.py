@@ -105,6 +105,7 @@ class JointEquation(Finite):
     number: int
 
     def __getattr__(self, name: str) -> Expr:
+        """Compute and set ``expr``, which is not set by __init__."""
         if name != "expr":
             raise AttributeError(name)
         written = self.joint[self.number].expr
@@ -171,6 +172,7 @@ def _sense(piece: Finite | Nonlinear | Inequality | DomainCondition) -> str | bo
 
 
 def _form_shape(form: Pfaffian) -> PieceShape:
+    """Return the shape of a form: equal for forms that are equal up to names."""
     places: dict[str, int] = {}
     key: list[Hashable] = [type(form).__name__]
     for name, e in _coefficients(form):
@@ -192,6 +194,7 @@ def in_names(normal: Normal, renaming: Renaming) -> Normal:
 
 
 def _renamed(piece: Piece, renaming: Renaming) -> Piece:
+    """Return a piece with other names; its shape is set from that of the original."""
     names, shape, renamed = renaming.names, piece_shape(piece), renaming.of
     renamed_piece: Piece
     if isinstance(piece, Pfaffian):

@@ -111,7 +111,7 @@ class HiddenZeroError(Exception):
 
 
 def branches_of(branches: list[Conjunction], notes: list[str]) -> Zeros:
-    """Return the zero set with these branches, and with a note if there are several; may raise TooManyBranchesError."""
+    """Return (branches, notes), a note added to ``notes`` for several branches; raises TooManyBranchesError."""
     if len(branches) > MAX_BRANCHES:
         raise TooManyBranchesError
     if len(branches) > 1:

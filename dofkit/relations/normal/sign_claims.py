@@ -112,6 +112,7 @@ def _sign(term: Expr, positive: frozenset[Expr]) -> Sense | None:
 
 
 def _sign_of_factor(factor: Expr, positive: frozenset[Expr]) -> Sense | None:
+    """Return ">" or ">=" if a factor is seen to be positive or nonnegative, else None."""
     if factor in positive or factor.op == "const" or (factor.op == "fn" and factor.args[0] in _POSITIVE):
         return ">"
     if factor.op == "fn" and factor.args[0] in _NOT_NEGATIVE:

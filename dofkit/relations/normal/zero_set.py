@@ -45,13 +45,13 @@ def zero_set(e: Expr, positive: frozenset[Expr], variables: frozenset[Expr]) -> 
 
 def _is_linear(e: Expr, variables: frozenset[Expr]) -> bool:
     """Return whether ``e`` is a linear combination of symbols with at least one variable (its gradient is not 0)."""
-    seen = False
+    has_variable = False
     for term in e.args if e.op == "add" else (e,):
-        remainder = term.args[-1] if term.op == "mul" and len(term.args) == 2 and term.args[0].op == "num" else term
-        if remainder.op not in ("sym", "num"):
+        symbol = term.args[-1] if term.op == "mul" and len(term.args) == 2 and term.args[0].op == "num" else term
+        if symbol.op not in ("sym", "num"):
             return False
-        seen = seen or remainder in variables
-    return seen
+        has_variable = has_variable or symbol in variables
+    return has_variable
 
 
 class _WrittenZeros:
@@ -67,6 +67,7 @@ class _WrittenZeros:
         return self._polynomial(e) if structural is None else structural
 
     def _structural(self, e: Expr) -> Zeros | None:
+        """Return (branches, notes) by the form in which ``e`` is written; None if it is no product, power etc."""
         if e.op == "num":
             return (((),), ()) if e.is_zero else ((), (EMPTY_NOTE,))
         if e.op == "mul":
@@ -87,6 +88,7 @@ class _WrittenZeros:
         return None
 
     def _product(self, e: Expr) -> Zeros | None:
+        """Return (branches, notes) of a product: those of its factors; None if a denominator may be 0."""
         branches: list[Conjunction] = []
         notes: list[str] = []
         below = [factor.args[0] for factor in e.args if _is_denominator(factor)]
