@@ -30,6 +30,7 @@ from dofkit.configuration.variety import (
     time_is_free,
 )
 from dofkit.exact.matrices.certified import ball_part
+from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.program import VAR, reachable
 from dofkit.exact.ring.ring import Ring
@@ -109,16 +110,23 @@ def _variety(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> Variety:
         refuted = _refuted(chart, solver)
         if refuted is not None:
             return refuted
-        drawn = [p for p in (solver.draw(seed + k + 1) for k in range(samples_for(chart))) if p is not None]
-        drawn = [p for p in drawn if on_variety(chart, p)]
+        drawn = _drawn(chart, solver, seed)
         if drawn:
             return variety_at(chart, drawn, seed, core)
     samples = pose_samples(chart, pose, seed)
-    return (
-        variety_at(chart, samples, seed, core)
-        if samples
-        else near_real_point(chart, real_point(chart, seed, core), core)
-    )
+    if samples:
+        return variety_at(chart, samples, seed, core)
+    real = real_point(chart, seed, core)
+    independent = [] if real is None else [core[row] for row in real.part.rows]
+    if 0 < len(independent) < len(core):  # what depends on them leaves them one unknown each
+        samples = _drawn(chart, TriangularSolver(chart.ring, independent, seed=seed), seed)
+    return variety_at(chart, samples, seed, core) if samples else near_real_point(chart, real, core)
+
+
+def _drawn(chart: Chart, solver: TriangularSolver, seed: int) -> list[FieldPoint]:
+    """Return random points over GF(p) that a solver of some relations finds, as far as they satisfy all."""
+    drawn = (solver.draw(seed + k + 1) for k in range(samples_for(chart)))
+    return [p for p in drawn if p is not None and on_variety(chart, p)]
 
 
 def _reductions(chart: Chart, solved: Explicit) -> Iterator[tuple[Explicit, list[int]]]:

@@ -16,7 +16,7 @@ from dofkit.exact.analyticity import is_analytic
 from dofkit.exact.ring.program import false_without_value
 from dofkit.exact.zero import is_zero, odd_constants
 from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import substitute
+from dofkit.expressions.calculus import linear_terms, substitute
 from dofkit.expressions.renaming import Renaming, Unwritten, kinds_in, shape_of
 from dofkit.expressions.tree import Expr
 from dofkit.mobility.joint_tree import Bridges, bridges
@@ -246,7 +246,9 @@ def copies(reduced: Sequence[Reduced]) -> dict[int, int]:
     seen: dict[Hashable, int] = {}
     result = {}
     for i in sorted(i for numbers in alike.values() if len(numbers) > 1 for i in numbers):
-        keys = [tuple(tuple(map(_scaled, branch)) for branch in normal.branches) for normal in reduced[i].normals]
+        keys = [
+            frozenset(frozenset(map(_scaled, branch)) for branch in normal.branches) for normal in reduced[i].normals
+        ]
         key: Hashable = keys[0] if len(keys) == 1 else frozenset(Counter(keys).items())
         if key in seen:
             result[i] = seen[key]
@@ -256,16 +258,12 @@ def copies(reduced: Sequence[Reduced]) -> dict[int, int]:
 
 
 def _mentioned(normals: Sequence[Normal]) -> Hashable:
-    """The same for relations that are each other's up to a number: what their first pieces mention, in any order."""
-    first = [_symbols_of(normal.branches[0]) for normal in normals]
-    return first[0] if len(first) == 1 else frozenset(first)
+    """The same for relations that are each other's up to a number: the symbols that each mentions."""
+    return frozenset([frozenset[object]().union(*map(_symbols_of, normal.pieces)) for normal in normals])
 
 
-def _symbols_of(branch: Sequence[Piece]) -> Hashable:
-    piece = branch[0] if branch else None
-    if isinstance(piece, Pfaffian):
-        return frozenset(piece.coefficients)
-    return piece if piece is None else piece.expr.symbols
+def _symbols_of(piece: Piece) -> frozenset[str] | frozenset[Expr]:
+    return frozenset(piece.coefficients) if isinstance(piece, Pfaffian) else piece.expr.symbols
 
 
 def _says_nothing(normal: Normal) -> bool:
@@ -274,13 +272,10 @@ def _says_nothing(normal: Normal) -> bool:
     return branches in ((), ((),)) or any(isinstance(p, JointEquation) for p in branches[0])
 
 
-def _scaled(piece: object) -> Hashable:
-    """A piece with the first coefficient made 1."""
-    if isinstance(piece, Finite):
-        first = piece.expr.args[0] if piece.expr.op == "add" else piece.expr
-        number = first.args[0] if first.op == "mul" and first.args[0].op == "num" else first
-        numeric = number.op == "num" and not number.is_zero
-        return ex.mul(piece.expr, ex.power(number, ex.MINUS_ONE)) if numeric else piece.expr
-    if isinstance(piece, Pfaffian):
-        return type(piece), tuple(piece.coefficients.items()), piece.dt
-    return piece
+def _scaled(piece: Piece) -> Hashable:
+    """Return the terms of a piece with their factors, of which the first by name is made 1."""
+    if isinstance(piece, DomainCondition):
+        return piece
+    terms = linear_terms(piece.rate if isinstance(piece, Pfaffian) else piece.expr)
+    first = min(terms, key=repr, default=ex.ONE)
+    return type(piece), frozenset((term, factor / terms[first]) for term, factor in terms.items())
