@@ -27,6 +27,8 @@ MOMENTS, LATER, TICKS = 8, 4.0, 512
 HALVINGS = 8
 #: Multiplications by which the Jacobian is eliminated exactly at a point near the zero set.
 MAX_ELIMINATED = 20_000
+#: How far unknowns move to see whether relations stay dependent, in parts of random numbers.
+NEARBY = 2.0**-12
 #: A Newton step smaller than the precision by so many bits ends the refinement.
 SPARE_BITS = 16
 #: So often a box around two points is made wider, and by how much at least.
@@ -187,7 +189,24 @@ class RealSearch:
         except NoValueError:
             return None
         consistent = all(at[n].contains(0) for n in self.nodes)
+        if consistent and len(rows) < len(self.nodes):
+            consistent = self._vanish_nearby(exact, rows, columns, seed)
         return RealPoint(point, ball_part(matrix), certified, consistent, matrix, len(rows))
+
+    @false_without_value
+    def _vanish_nearby(
+        self, exact: Mapping[Expr, arb], rows: Sequence[int], columns: Sequence[int], seed: int
+    ) -> bool:
+        """Return whether all relations vanish where other unknowns move a little and these rows are solved again.
+
+        Where they do not, the rows depend on each other at a singular point only.
+        """
+        drawn = random_values(self.ring, self.positive, seed)
+        free = {u: NEARBY * drawn[u] for k, u in enumerate(self.unknowns) if k not in columns}
+        moved = {s: v.mid() + free.get(s, 0) for s, v in exact.items()}
+        solved = self._newton(moved, rows, columns, seed) if rows else (moved, True)
+        at = None if solved is None else values(self.ring, BallPoint(solved[0], seed), self.upto)
+        return at is not None and all(at[n].contains(0) for n in self.nodes)
 
     def _newton(
         self, exact: dict[Expr, arb], rows: Sequence[int], columns: Sequence[int], seed: int
