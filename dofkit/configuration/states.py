@@ -15,7 +15,7 @@ from dofkit.exact.points.balls import BallPoint, RealPoint, jacobian
 from dofkit.exact.points.field import FieldPoint, field_point
 from dofkit.exact.points.frames import rank_over
 from dofkit.exact.points.real_search import RealSearch, at_another_time
-from dofkit.exact.ring.program import Scalar, values, vanish
+from dofkit.exact.ring.program import Scalar, false_without_value, values, vanish
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.triangular import TriangularSolver
 from dofkit.exact.unknowns import Unit, unit_of
@@ -33,6 +33,8 @@ from dofkit.relations.velocity_reductions import rate
 TRIES = 3
 #: Random configurations at which real velocities are looked for.
 STARTS = 6
+#: Starts of a short search, and the steps of each.
+NEAR_STARTS, NEAR_STEPS = 3, 25
 #: Functions that repeat are looked at far out as well, from this state on.
 FAR_FROM, FAR = 4, 16.0
 #: Functions that are one branch of several; what a relation may be solved for.
@@ -159,6 +161,13 @@ class States:
                 if state is not None and state.certain:
                     return state
         return search.search(seed) or at_another_time(search, seed)
+
+    @false_without_value
+    def has_near_real_state(self) -> bool:
+        """Return whether a short search from random starts finds a certified real state."""
+        search = self._search(self.relations, [*self.places, *self.setting.generic, *self.rates])
+        state = search.search(starts=NEAR_STARTS, steps=NEAR_STEPS) if "balls" in self.setting.engines else None
+        return state is not None and state.certain
 
     def _spread(self, symbols: dict[Expr, float], seed: int) -> dict[Expr, float]:
         """Where to begin: far out for later states where angles occur, as what holds near 0 need not hold a turn on."""

@@ -16,7 +16,6 @@ from flint import Ordering, fmpq, fmpq_mat, fmpz_mpoly_ctx, fmpz_mpoly_vec
 from dofkit.base.deadline import check
 from dofkit.base.errors import NoValueError
 from dofkit.exact.ring.canonical import Canon, quotients_of
-from dofkit.exact.ring.program import false_without_value
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions.tree import Expr
 
@@ -53,14 +52,16 @@ def dimension_of(canon: Canon, generators: Sequence[Poly], moving: Sequence[int]
     return unseen + len(next(free for free in choices if not any(used <= set(free) for used in leading)))
 
 
-@false_without_value
-def have_complex_points(relations: Sequence[Expr], positive: frozenset[Expr]) -> bool:
-    """Return whether relations are known to be satisfied at some complex point; parameters are generic."""
+def have_complex_points(relations: Sequence[Expr], positive: frozenset[Expr]) -> bool | None:
+    """Return whether relations are satisfied at some complex point, None if undecided; parameters are generic."""
     symbols = {s for e in relations for s in e.symbols if s.args[0] != "parameter"}
-    canon, quotients = quotients_of(relations, positive)
-    moving = [k for s in symbols if (k := canon.ring.var_index(s)) is not None]
-    dimension = dimension_of(canon, [top for top, _ in quotients], moving)
-    return dimension is not None and dimension >= 0
+    try:
+        canon, quotients = quotients_of(relations, positive)
+        moving = [k for s in symbols if (k := canon.ring.var_index(s)) is not None]
+        dimension = dimension_of(canon, [top for top, _ in quotients], moving)
+    except NoValueError:
+        return None
+    return None if dimension is None else dimension >= 0
 
 
 def _integer_polynomials(

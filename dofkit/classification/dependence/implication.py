@@ -19,11 +19,13 @@ from dofkit.classification.freedom.branches import in_time
 from dofkit.classification.freedom.preparation import all_of, branches_at_reference, conditional, passes_reference
 from dofkit.configuration.implied_relations import ImpliedRelations
 from dofkit.configuration.states import States, value_at
+from dofkit.configuration.variety import field_jacobian, point_at
 from dofkit.exact.ideals import have_complex_points
-from dofkit.exact.matrices.sparse import echelon
+from dofkit.exact.matrices.sparse import echelon, rank_of_rows
 from dofkit.exact.points.balls import BallPoint
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import vanishes
+from dofkit.exact.zero import odd_constants
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import BITS, Answer
@@ -83,6 +85,9 @@ def _on(alternative: Alternative, relation: Normal, setting: Setting) -> bool | 
     None where it is on some branches of the relations hidden in the rows, and on others not: of those through the
     reference configuration, if there are any.
     """
+    near = None if setting.reference is None else _on_near(alternative.rows, relation, setting)
+    if near is not None:
+        return near
     here = replace(setting, reference=None, pose={}, grows=False, flag=False)
     names = sorted({n for r in alternative.rows for n in coordinates_of(r.piece)})
     blocks, _ = split(names, alternative.rows)
@@ -97,6 +102,28 @@ def _on(alternative: Alternative, relation: Normal, setting: Setting) -> bool | 
         hidden = [h for h in hidden if passes_reference([*map(Finite, h)], setting)] or hidden
     held = {_on_hidden(alternative, relation, answers, h, here) for h in hidden}
     return held.pop() if len(held) == 1 else None
+
+
+def _on_near(rows: Sequence[Row], relation: Normal, setting: Setting) -> bool | None:
+    """Return whether one of the relation's branches is satisfied near the reference configuration where the rows are.
+
+    None where the rows are not geometric equations that are independent there, or a branch has conditions.
+    """
+    branches = [[Row(0, p) for p in branch] for branch in relation.branches]
+    all_rows = (*rows, *(row for branch in branches for row in branch))
+    if not rows or not all(isinstance(row.piece, Finite) for row in all_rows):
+        return None
+    block = Block(tuple(sorted({n for row in all_rows for n in coordinates_of(row.piece)})), all_rows)
+    chart, premises = make_chart(block, setting), range(len(rows))
+    point = point_at(chart, {**(setting.reference or {}), ex.TIME: ex.ZERO}, 3)
+    independent = point is not None and rank_of_rows(field_jacobian(chart, point)[: len(rows)], point.p) == len(rows)
+    if not independent or odd_constants(chart.ring, named=True):
+        return None
+    near, start, answers = ImpliedRelations(chart, setting.reference or {}), len(rows), list[bool | None]()
+    for branch in branches:
+        answers.append(all_of(near.follows(start + k, premises) for k in range(len(branch))))
+        start += len(branch)
+    return _any(answers)
 
 
 def _on_hidden(
@@ -134,7 +161,7 @@ def _on_all_components(rows: Sequence[Row], branches: Sequence[AskedBranch], set
 
     Drawn states may miss one: two minors of a matrix imply the third, but not where the column that they share is 0.
     The branches fail at a complex point where s g = 1 has a solution [Rabinowitsch1929]; that is certified at a real
-    one, and undecided where none is found. True also where the ideal is too large to tell.
+    one, and undecided where none is found. True also where the ideal is too large to tell and no real one is found.
     """
     relations = [r.piece.expr for r in rows if isinstance(r.piece, Finite)]
     if not explicit_relations(relations).implicit:
@@ -142,11 +169,15 @@ def _on_all_components(rows: Sequence[Row], branches: Sequence[AskedBranch], set
     answer: list[bool | None] = [True]
     for choice in cartesian(*(b.relations for b in branches)):
         beyond = ex.mul(ex.coordinate(SLACK), *choice) - ex.ONE
-        if not have_complex_points([*relations, beyond], setting.positive):
+        complex_points = have_complex_points([*relations, beyond], setting.positive)
+        if complex_points is False:
             continue
         names = {str(s.args[1]) for g in (*relations, beyond) for s in g.symbols if s.args[0] == "coordinate"}
         states = States(sorted(names), [*rows, Row(0, Finite(beyond))], (), setting, (), True)
-        answer.append(None if next(states.certain(STATES), None) is None else False)
+        if complex_points is None:
+            answer.append(not states.has_near_real_state())
+        else:
+            answer.append(None if next(states.certain(STATES), None) is None else False)
     return all_of(answer)
 
 

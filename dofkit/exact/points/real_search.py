@@ -194,9 +194,7 @@ class RealSearch:
         return RealPoint(point, ball_part(matrix), certified, consistent, matrix, len(rows))
 
     @false_without_value
-    def _vanish_nearby(
-        self, exact: Mapping[Expr, arb], rows: Sequence[int], columns: Sequence[int], seed: int
-    ) -> bool:
+    def _vanish_nearby(self, exact: Mapping[Expr, arb], rows: Sequence[int], columns: Sequence[int], seed: int) -> bool:
         """Return whether all relations vanish where other unknowns move a little and these rows are solved again.
 
         Where they do not, the rows depend on each other at a singular point only.
