@@ -15,7 +15,7 @@ from dofkit.exact.points.balls import BallPoint, RealPoint, jacobian
 from dofkit.exact.points.field import FieldPoint, field_point
 from dofkit.exact.points.frames import rank_over
 from dofkit.exact.points.real_search import RealSearch, at_another_time
-from dofkit.exact.ring.program import Scalar, false_without_value, values, vanish
+from dofkit.exact.ring.program import Scalar, false_without_value, none_without_value, values, vanish
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.triangular import TriangularSolver
 from dofkit.exact.unknowns import Unit, unit_of
@@ -231,9 +231,7 @@ def moves(ring: Ring, index: int) -> bool:
     return any(s.args[0] == "velocity" for s in ring.var_expr[index].symbols)
 
 
+@none_without_value
 def value_at(ring: Ring, point: FieldPoint | BallPoint, node: int) -> Scalar | None:
     """Return the value of a node; None where it has none there."""
-    try:
-        return values(ring, point, node + 1)[node]
-    except NoValueError:
-        return None
+    return values(ring, point, node + 1)[node]

@@ -119,11 +119,8 @@ def _on_near(rows: Sequence[Row], relation: Normal, setting: Setting) -> bool | 
     independent = point is not None and rank_of_rows(field_jacobian(chart, point)[: len(rows)], point.p) == len(rows)
     if not independent or odd_constants(chart.ring, named=True):
         return None
-    near, start, answers = ImpliedRelations(chart, setting.reference or {}), len(rows), list[bool | None]()
-    for branch in branches:
-        answers.append(all_of(near.follows(start + k, premises) for k in range(len(branch))))
-        start += len(branch)
-    return _any(answers)
+    near, numbers = ImpliedRelations(chart, setting.reference or {}), iter(range(len(rows), len(all_rows)))
+    return _any([all_of([near.follows(next(numbers), premises) for _ in branch]) for branch in branches])
 
 
 def _on_hidden(

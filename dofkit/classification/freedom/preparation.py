@@ -16,13 +16,13 @@ from dofkit.exact.analyticity import is_analytic
 from dofkit.exact.ring.program import false_without_value
 from dofkit.exact.zero import is_zero, odd_constants
 from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import linear_terms, substitute
+from dofkit.expressions.calculus import substitute
 from dofkit.expressions.renaming import Renaming, Unwritten, kinds_in, shape_of
 from dofkit.expressions.tree import Expr
 from dofkit.mobility.joint_tree import Bridges, bridges
 from dofkit.mobility.placement import RowsAtReference
 from dofkit.relations.blocks import Block, Row, coordinates_of, make_chart
-from dofkit.relations.normal.domain import DomainCondition, arguments_of, is_satisfied_at
+from dofkit.relations.normal.domain import DomainCondition, arguments_of, is_satisfied_at, up_to_a_number
 from dofkit.relations.normal.normal_form import normalise
 from dofkit.relations.normal.pieces import (
     INSTANT_NOTE,
@@ -246,14 +246,10 @@ def copies(reduced: Sequence[Reduced]) -> dict[int, int]:
     seen: dict[Hashable, int] = {}
     result = {}
     for i in sorted(i for numbers in alike.values() if len(numbers) > 1 for i in numbers):
-        keys = [
-            frozenset(frozenset(map(_scaled, branch)) for branch in normal.branches) for normal in reduced[i].normals
-        ]
-        key: Hashable = keys[0] if len(keys) == 1 else frozenset(Counter(keys).items())
-        if key in seen:
-            result[i] = seen[key]
-        else:
-            seen[key] = i
+        keys = Counter(frozenset(frozenset(map(_scaled, b)) for b in normal.branches) for normal in reduced[i].normals)
+        original = seen.setdefault(frozenset(keys.items()), i)
+        if original != i:
+            result[i] = original
     return result
 
 
@@ -273,9 +269,7 @@ def _says_nothing(normal: Normal) -> bool:
 
 
 def _scaled(piece: Piece) -> Hashable:
-    """Return the terms of a piece with their factors, of which the first by name is made 1."""
+    """Return the same for pieces that are multiples of each other."""
     if isinstance(piece, DomainCondition):
         return piece
-    terms = linear_terms(piece.rate if isinstance(piece, Pfaffian) else piece.expr)
-    first = min(terms, key=repr, default=ex.ONE)
-    return type(piece), frozenset((term, factor / terms[first]) for term, factor in terms.items())
+    return type(piece), up_to_a_number(piece.rate if isinstance(piece, Pfaffian) else piece.expr)
