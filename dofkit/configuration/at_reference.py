@@ -21,7 +21,6 @@ from typing import Any
 
 from flint import arb, ctx
 
-from dofkit.base.errors import NoValueError
 from dofkit.base.libraries import nx
 from dofkit.base.verdicts import VERDICTS
 from dofkit.base.wording import gap_in_words
@@ -44,7 +43,7 @@ from dofkit.exact.matrices.sparse import (
 from dofkit.exact.points.balls import BallPoint, RealPoint, exact_rank, jacobian, precision, rational_values
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.real_search import RealSearch, are_joined
-from dofkit.exact.ring.program import values
+from dofkit.exact.ring.program import none_without_value, values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
@@ -233,20 +232,19 @@ def _by_balls(chart: Chart, pose: Mapping[Expr, Expr]) -> AtReference | None:
     return AtReference(n - of_q.rank, local, pattern, 2, rank, rigid, names)  # the pattern is modulo 2
 
 
+@none_without_value
 def ball_matrix(chart: Chart, ball: BallPoint, exact: bool) -> list[list[arb]] | None:
     """Return the Jacobian over all columns; None if it has no value, or (``exact``) a relation's ball excludes 0."""
-    try:
-        at = values(chart.ring, ball)
-        if exact and not all(at[node].contains(0) for node in chart.nodes):
-            return None
-        present = [c for c in chart.columns if c >= 0]
-        slopes = jacobian(chart.ring, at, ball, chart.nodes, present, arb(0))
-    except NoValueError:
+    at = values(chart.ring, ball)
+    if exact and not all(at[node].contains(0) for node in chart.nodes):
         return None
+    present = [c for c in chart.columns if c >= 0]
+    slopes = jacobian(chart.ring, at, ball, chart.nodes, present, arb(0))
     place = {c: i for i, c in enumerate(present)}
     return [[row[place[c]] if c >= 0 else arb(0) for c in chart.columns] for row in slopes]
 
 
+@none_without_value
 def ball_point(chart: Chart, pose: Mapping[Expr, Expr]) -> BallPoint | None:
     """Return a pose as a point of balls, with random values of the other symbols; None if a value is undefined."""
     rng, symbols = random.Random("dofkit reference"), dict[Expr, Any]()
@@ -257,10 +255,7 @@ def ball_point(chart: Chart, pose: Mapping[Expr, Expr]) -> BallPoint | None:
             ring = Ring([pose[s]])
             node = ring.node(pose[s])
             constants = {v.key: symbols.get(v.key, arb(3) / 4) for v in ring.vars if v.kind == "symbol"}
-            try:
-                symbols[s] = values(ring, BallPoint(constants))[node]
-            except NoValueError:
-                return None
+            symbols[s] = values(ring, BallPoint(constants))[node]
     return BallPoint(symbols)
 
 

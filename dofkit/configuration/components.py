@@ -23,7 +23,7 @@ from dofkit.configuration.variety import BRANCHED, Variety, chart_of_relations, 
 from dofkit.exact.analyticity import is_analytic
 from dofkit.exact.matrices.sparse import components, rank_of_rows
 from dofkit.exact.ring.canonical import is_identically_zero, quotients_of
-from dofkit.exact.ring.program import false_without_value
+from dofkit.exact.ring.program import false_without_value, none_without_value
 from dofkit.exact.zero import independent_generators
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
@@ -266,10 +266,8 @@ def _relations_of(solved: Explicit, choice: Choice) -> list[Expr]:
     return [*solved.explicit.values(), *(g for case in choice for g in case.relations)]
 
 
+@none_without_value
 def _cases(part: RelationPart, chart: Chart) -> list[all_cases.BoundedCase] | None:
     """Return the cases of a part with the bounds on their dimensions; None if they are too many."""
-    try:
-        nonzero = [g for g in part.relations if is_identically_zero(g, chart.setting.positive) is not True]
-        return all_cases.cases_of(nonzero, part.unknowns, chart.setting.positive)
-    except NoValueError:
-        return None
+    nonzero = [g for g in part.relations if is_identically_zero(g, chart.setting.positive) is not True]
+    return all_cases.cases_of(nonzero, part.unknowns, chart.setting.positive)

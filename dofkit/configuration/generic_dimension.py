@@ -26,7 +26,7 @@ from dofkit.exact.matrices.sparse import Pivots, rank_of_rows
 from dofkit.exact.points.balls import BallPoint, RealPoint, jacobian, precision
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.real_search import RealSearch, at_another_time
-from dofkit.exact.ring.program import raising_no_value, values
+from dofkit.exact.ring.program import none_without_value, raising_no_value, values
 from dofkit.exact.zero import independent_on_set
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
@@ -195,15 +195,13 @@ SHIFT = arb(2) ** (-BITS // 2)
 MAX_ROWS, TINY = 20, 1e-12
 
 
+@none_without_value
 def numeric_local(chart: Chart, real: RealPoint) -> LocalDimension | None:
     """Return the local dimension near a singular point that a real search converged to; None if it is not known."""
     if len(chart.nodes) > MAX_ROWS or precision() > DEPENDENT_BITS:
         return None  # long numbers may differ by less than what counts as 0
     with ctx.workprec(BITS):
-        try:
-            return _dimension_near(chart, real)
-        except NoValueError:
-            return None
+        return _dimension_near(chart, real)
 
 
 @raising_no_value

@@ -35,7 +35,7 @@ from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.points.series import Series
 from dofkit.exact.residues import modulus
-from dofkit.exact.ring.program import values
+from dofkit.exact.ring.program import none_without_value, values
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Chart
@@ -152,14 +152,12 @@ def pivots_among(chart: Chart, point: FieldPoint, rows: Sequence[int]) -> Pivots
     return replace(frame, rows=tuple(rows[r] for r in frame.rows))
 
 
+@none_without_value
 def _within_tolerance(chart: Chart, pose: Mapping[Expr, Expr], rank: int) -> bool | None:
     """Return whether the set of a chart has codimension ``rank`` within the tolerance; None if undecided."""
     if "balls" not in chart.setting.engines:
         return None
-    try:
-        freedom = measured_freedom(chart, pose)
-    except NoValueError:
-        return None
+    freedom = measured_freedom(chart, pose)
     return None if freedom is None or freedom.dimension is None else freedom.dimension == chart.coordinates - rank
 
 

@@ -30,6 +30,7 @@ from dofkit.configuration.variety import (
     time_is_free,
 )
 from dofkit.exact.matrices.certified import ball_part
+from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.program import VAR, reachable
 from dofkit.exact.ring.ring import Ring
@@ -107,16 +108,23 @@ def _variety(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> Variety:
         refuted = _refuted(chart, solver)
         if refuted is not None:
             return refuted
-        points = [p for p in (solver.draw(seed + k + 1) for k in range(samples_for(chart))) if p is not None]
-        points = [p for p in points if on_variety(chart, p)]
+        points = _random_points(chart, solver, seed)
         if points:
             return variety_at(chart, points, seed, core)
     samples = pose_samples(chart, pose, seed)
-    return (
-        variety_at(chart, samples, seed, core)
-        if samples
-        else near_real_point(chart, real_point(chart, seed, core), core)
-    )
+    if samples:
+        return variety_at(chart, samples, seed, core)
+    real = real_point(chart, seed, core)
+    independent = [] if real is None else [core[row] for row in real.part.rows]
+    if 0 < len(independent) < len(core):  # what depends on them leaves them one unknown each
+        samples = _random_points(chart, TriangularSolver(chart.ring, independent, seed=seed), seed)
+    return variety_at(chart, samples, seed, core) if samples else near_real_point(chart, real, core)
+
+
+def _random_points(chart: Chart, solver: TriangularSolver, seed: int) -> list[FieldPoint]:
+    """Return random points over GF(p) that a solver of some relations finds, as far as they satisfy all."""
+    points = (solver.draw(seed + k + 1) for k in range(samples_for(chart)))
+    return [p for p in points if p is not None and on_variety(chart, p)]
 
 
 def _reductions(chart: Chart, solved: Explicit) -> Iterator[tuple[Explicit, list[int]]]:

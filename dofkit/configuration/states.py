@@ -15,7 +15,7 @@ from dofkit.exact.points.balls import BallPoint, RealPoint, jacobian
 from dofkit.exact.points.field import FieldPoint, field_point
 from dofkit.exact.points.frames import rank_over
 from dofkit.exact.points.real_search import RealSearch, at_another_time
-from dofkit.exact.ring.program import Scalar, values, vanish
+from dofkit.exact.ring.program import Scalar, false_without_value, none_without_value, values, vanish
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.triangular import TriangularSolver
 from dofkit.exact.unknowns import Unknown, unknown_of
@@ -33,6 +33,8 @@ from dofkit.relations.velocity_reductions import rate
 TRIES = 3
 #: Random configurations at which real velocities are searched.
 STARTS = 6
+#: Starts of a short search, and the steps of each.
+NEAR_STARTS, NEAR_STEPS = 3, 25
 #: If angles occur, searches from this number on begin farther from 0, by this factor.
 FAR_FROM, FAR = 4, 16.0
 #: Generators that are one branch of several; generators that a relation may be solved for.
@@ -159,6 +161,13 @@ class States:
                     return state
         return search.search(seed) or at_another_time(search, seed)
 
+    @false_without_value
+    def has_near_real_state(self) -> bool:
+        """Return whether a short search from random starts finds a certified real state."""
+        search = self._search(self.relations, [*self.places, *self.setting.generic, *self.rates])
+        state = search.search(starts=NEAR_STARTS, steps=NEAR_STEPS) if "balls" in self.setting.engines else None
+        return state is not None and state.certain
+
     def _spread(self, symbols: dict[Expr, float], seed: int) -> dict[Expr, float]:
         """Return starting values, for later searches farther from 0 if angles occur (to cover several turns)."""
         if seed < FAR_FROM or not any(v.kind in ("sin", "cos") for v in self.ring.vars):
@@ -221,9 +230,7 @@ def moves(ring: Ring, index: int) -> bool:
     return any(s.args[0] == "velocity" for s in ring.var_expr[index].symbols)
 
 
+@none_without_value
 def value_at(ring: Ring, point: FieldPoint | BallPoint, node: int) -> Scalar | None:
     """Return the value of a node at a point; None if it has none."""
-    try:
-        return values(ring, point, node + 1)[node]
-    except NoValueError:
-        return None
+    return values(ring, point, node + 1)[node]

@@ -14,9 +14,8 @@ from typing import Any
 from flint import Ordering, fmpq, fmpq_mat, fmpz_mpoly_ctx, fmpz_mpoly_vec
 
 from dofkit.base.deadline import check
-from dofkit.base.errors import NoValueError
 from dofkit.exact.ring.canonical import Canon, quotients_of
-from dofkit.exact.ring.program import false_without_value
+from dofkit.exact.ring.program import none_without_value
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions.tree import Expr
 
@@ -53,14 +52,14 @@ def dimension_of(canon: Canon, generators: Sequence[Poly], moving: Sequence[int]
     return unseen + len(next(free for free in choices if not any(used <= set(free) for used in leading)))
 
 
-@false_without_value
-def have_complex_points(relations: Sequence[Expr], positive: frozenset[Expr]) -> bool:
-    """Return whether relations are proved to be satisfied at some complex point; parameters are generic."""
+@none_without_value
+def have_complex_points(relations: Sequence[Expr], positive: frozenset[Expr]) -> bool | None:
+    """Return whether relations are satisfied at some complex point, None if undecided; parameters are generic."""
     symbols = {s for e in relations for s in e.symbols if s.args[0] != "parameter"}
     canon, quotients = quotients_of(relations, positive)
     moving = [k for s in symbols if (k := canon.ring.var_index(s)) is not None]
     dimension = dimension_of(canon, [top for top, _ in quotients], moving)
-    return dimension is not None and dimension >= 0
+    return None if dimension is None else dimension >= 0
 
 
 def _integer_polynomials(
@@ -141,16 +140,14 @@ def _basis(polynomials: Sequence[Poly]) -> list[Poly] | None:
 # -- linear combinations of lower degree -----------------------------------------------------------
 
 
+@none_without_value
 def echelon_by_degree(relations: Sequence[Expr], positive: frozenset[Expr]) -> tuple[Expr, ...] | None:
     """Return polynomials in echelon form with the linear span of the relations' numerators; None if too large.
 
     Terms of the highest degree are eliminated first: for two circles one of the polynomials is their radical line.
     """
-    try:
-        canon, quotients = quotients_of(relations, positive)
-        tables = [top.to_dict() for top, _ in quotients]
-    except NoValueError:
-        return None
+    canon, quotients = quotients_of(relations, positive)
+    tables = [top.to_dict() for top, _ in quotients]
     monomials = sorted({m for table in tables for m in table}, key=lambda m: (-sum(m), m))
     if not monomials or len(monomials) * len(tables) > COMBINED_ENTRIES:
         return None

@@ -16,7 +16,6 @@ from fractions import Fraction
 from itertools import combinations, combinations_with_replacement
 
 from dofkit.base.deadline import check
-from dofkit.base.errors import NoValueError
 from dofkit.configuration.variety import pose_point
 from dofkit.exact.matrices.sparse import Pivots, rank_of, reconstructed
 from dofkit.exact.points.field import FieldPoint
@@ -24,7 +23,7 @@ from dofkit.exact.points.frames import field_frame, kernel, pairing
 from dofkit.exact.points.series import Series, SeriesPoint
 from dofkit.exact.residues import Residue, null_vectors, residue_matrix, residue_polynomial
 from dofkit.exact.ring.canonical import Canon, Poly, determinant, polynomials, remainder
-from dofkit.exact.ring.program import Scalar, false_without_value, gradient, values
+from dofkit.exact.ring.program import Scalar, false_without_value, gradient, none_without_value, values
 from dofkit.exact.triangular import TriangularSolver
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, exterior_derivative
@@ -238,34 +237,30 @@ def _moves(e: Expr) -> bool:
     return any(s.args[0] in ("coordinate", "time") for s in e.symbols)
 
 
+@none_without_value
 def _sample_at(forms: Codistribution, point: FieldPoint | None) -> FormSample | None:
     """Return the sample at a point; None if there is no point, or a function has no value there."""
     if point is None:
         return None
-    try:
-        matrix = forms.rows.matrix(values(forms.chart.ring, point), point.number(Fraction(0)))
-    except NoValueError:
-        return None
+    matrix = forms.rows.matrix(values(forms.chart.ring, point), point.number(Fraction(0)))
     return _sample_of(forms, point, field_frame(matrix, len(forms.chart.columns), point.p), point)
 
 
+@none_without_value
 def _sample_of(
     forms: Codistribution, base: FieldPoint, frame: Pivots, point: FieldPoint | SeriesPoint
 ) -> FormSample | None:
     """Return the sample at ``base``, or along a curve through it; None if a function has no value or series."""
     ring, columns = forms.chart.ring, forms.chart.columns
     unit = point.number(Fraction(1))
-    try:
-        at = values(ring, point)
-        matrix = forms.rows.matrix(at, unit * 0)
-        basis = kernel(matrix, frame, unit * 0) if frame.free else []
-        gradients = []
-        for v, node in zip(ring.vars, ring.var_node, strict=True):
-            g = gradient(ring, at, point, [(node, unit)]) if _moves(ring.var_expr[v.index]) else {}
-            gradients.append({i: g[c] for i, c in enumerate(columns) if c in g})
-        return FormSample(base, frame, [at[node] for node in ring.var_node], gradients, basis, matrix)
-    except NoValueError:
-        return None
+    at = values(ring, point)
+    matrix = forms.rows.matrix(at, unit * 0)
+    basis = kernel(matrix, frame, unit * 0) if frame.free else []
+    gradients = []
+    for v, node in zip(ring.vars, ring.var_node, strict=True):
+        g = gradient(ring, at, point, [(node, unit)]) if _moves(ring.var_expr[v.index]) else {}
+        gradients.append({i: g[c] for i, c in enumerate(columns) if c in g})
+    return FormSample(base, frame, [at[node] for node in ring.var_node], gradients, basis, matrix)
 
 
 def is_short(forms: Codistribution) -> bool:
@@ -293,6 +288,7 @@ class BorderedMinors:
         vanishes = self.is_combination(slopes, on_relation=True)
         return None if self.chart.nodes and vanishes is False else vanishes
 
+    @none_without_value
     def is_combination(self, row: Mapping[int, int], on_relation: bool) -> bool | None:
         """Return whether a row {column: node} is a combination of the rows wherever their minor is not 0.
 
@@ -300,10 +296,7 @@ class BorderedMinors:
         """
         if len(self.frame.rows) > MAX_ROWS:
             return None
-        try:
-            return all(minor == 0 for minor in self._of(row, on_relation))
-        except NoValueError:
-            return None
+        return all(minor == 0 for minor in self._of(row, on_relation))
 
     @false_without_value
     def are_involutive(self, forms: Sequence[Mapping[Expr, Expr]]) -> bool:

@@ -21,7 +21,6 @@ from typing import Any
 from flint import arb, arb_mat, arb_poly, fmpz
 
 from dofkit.base.deadline import affordable, check
-from dofkit.base.errors import NoValueError
 from dofkit.configuration.generic_dimension import real_point
 from dofkit.configuration.variety import Variety
 from dofkit.exact.matrices.certified import ball_part
@@ -31,7 +30,7 @@ from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import FormRows, field_frame, kernel, rank_over
 from dofkit.exact.points.series import Series, SeriesPoint, zero_poly
 from dofkit.exact.residues import ResiduePolynomial, modulus, residue_matrix, residue_polynomial
-from dofkit.exact.ring.program import Scalar, gradient, raising_no_value, values
+from dofkit.exact.ring.program import Scalar, gradient, none_without_value, raising_no_value, values
 from dofkit.expressions import tree as ex
 from dofkit.integrability.pfaffian_system import Codistribution
 
@@ -335,29 +334,25 @@ class SampledSpan:
     frame: Pivots
 
 
+@none_without_value
 def span_at(forms: Codistribution, point: FieldPoint, special: bool = False) -> SampledSpan | None:
     """Return the Lie algebra at a point over GF(p) (``special``: see `lie_span`); None if a form is undefined there."""
-    try:
-        zero = point.number(ex.ZERO.args[0])
-        matrix = forms.rows.matrix(values(forms.chart.ring, point), zero)
-        frame = field_frame(matrix, len(forms.chart.symbols), point.p)
-        return SampledSpan(lie_span(forms.rows, frame, point, special), matrix, frame)
-    except NoValueError:
-        return None
+    zero = point.number(ex.ZERO.args[0])
+    matrix = forms.rows.matrix(values(forms.chart.ring, point), zero)
+    frame = field_frame(matrix, len(forms.chart.symbols), point.p)
+    return SampledSpan(lie_span(forms.rows, frame, point, special), matrix, frame)
 
 
+@none_without_value
 def ball_span(forms: Codistribution, rank: int, point: BallPoint) -> tuple[Span, list[list[arb]]] | None:
     """Return (the Lie algebra in balls, the matrix of the rows); None if their rank at the point is not ``rank``."""
-    try:
-        matrix = forms.rows.matrix(values(forms.chart.ring, point), arb(0))
-        part = ball_part(matrix)
-        if part.rank != rank:
-            return None
-        free = tuple(c for c in range(len(forms.chart.symbols)) if c not in set(part.columns))
-        point.rng.seed("dofkit curve")
-        return lie_span(forms.rows, Pivots(tuple(part.rows), tuple(part.columns), free), point), matrix
-    except NoValueError:
+    matrix = forms.rows.matrix(values(forms.chart.ring, point), arb(0))
+    part = ball_part(matrix)
+    if part.rank != rank:
         return None
+    free = tuple(c for c in range(len(forms.chart.symbols)) if c not in set(part.columns))
+    point.rng.seed("dofkit curve")
+    return lie_span(forms.rows, Pivots(tuple(part.rows), tuple(part.columns), free), point), matrix
 
 
 def on_the_same_part(forms: Codistribution, variety: Variety, largest: SampledSpan) -> RealPoint | None:

@@ -19,11 +19,10 @@ from dataclasses import dataclass
 from itertools import combinations
 
 from dofkit.base.deadline import check
-from dofkit.base.errors import NoValueError
 from dofkit.base.verdicts import Verdict
 from dofkit.exact.matrices.sparse import SparseRow, last_columns, rank_of_rows
 from dofkit.exact.points.field import FieldPoint, field_point, prime_for
-from dofkit.exact.ring.program import gradient, raising_no_value, values
+from dofkit.exact.ring.program import gradient, none_without_value, raising_no_value, values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.renaming import coordinates_in
@@ -98,6 +97,7 @@ def _as_formulas(system: System, rows: Sequence[Row]) -> list[Row]:
     return [row for row in rows if row.constraint not in placed]
 
 
+@none_without_value
 def _at_random_places(
     system: System, written: Sequence[Row], setting: Setting, seed: int
 ) -> tuple[Placement, list[SparseRow]] | None:
@@ -112,10 +112,7 @@ def _at_random_places(
         index = ring.var_index(symbol)
         if index is not None:
             point.set(ring.vars[index], point.number(ex.ONE.args[0]) * value)
-    try:
-        return placement, _slopes(system, ring, nodes, point)
-    except NoValueError:
-        return None
+    return placement, _slopes(system, ring, nodes, point)
 
 
 def _values(system: System, placement: Placement) -> Mapping[Expr, int]:

@@ -25,7 +25,7 @@ from dofkit.exact.matrices.sparse import rank_of_rows
 from dofkit.exact.points.balls import BallPoint, jacobian
 from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.canonical import quotients_of
-from dofkit.exact.ring.program import POW, false_without_value, values
+from dofkit.exact.ring.program import POW, false_without_value, none_without_value, values
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero import is_proved_zero
 from dofkit.expressions import tree as ex
@@ -151,6 +151,7 @@ class Regularity:
     def _flat(self, some: Sequence[Reduced], choice: Sequence[Sequence[Piece]]) -> bool:
         return any(_is_flat(r, choice, self.setting.positive) for r in some)
 
+    @none_without_value
     def _ranks(self, on: Sequence[Finite], *sets: Sequence[Expr]) -> list[int] | None:
         """Return the ranks of the gradients of sets of expressions at a generic point of ``on`` = 0; None if none."""
         blocks, _ = split(self.coordinates, [Row(0, p) for p in on])
@@ -159,17 +160,14 @@ class Regularity:
         chart = make_chart(joined, self.setting, more=list(chain(*sets)))
         result = find(chart, {}, 7)
         nodes = [[chart.ring.node(e) for e in s] for s in sets]
-        try:
-            if result.samples:
-                point = result.samples[0]
-                return [rank_of_rows(field_jacobian(chart, point, some), point.p) for some in nodes]
-            if result.real is None or not result.real.certified:
-                return None
-            real, columns = result.real.point, [c for c in chart.columns if c >= 0]
-            at = values(chart.ring, real)
-            slopes = [jacobian(chart.ring, at, real, some, columns, arb(0)) for some in nodes]
-        except NoValueError:
+        if result.samples:
+            point = result.samples[0]
+            return [rank_of_rows(field_jacobian(chart, point, some), point.p) for some in nodes]
+        if result.real is None or not result.real.certified:
             return None
+        real, columns = result.real.point, [c for c in chart.columns if c >= 0]
+        at = values(chart.ring, real)
+        slopes = [jacobian(chart.ring, at, real, some, columns, arb(0)) for some in nodes]
         return [ball_part(j).rank for j in slopes]
 
 

@@ -19,11 +19,13 @@ from dofkit.classification.freedom.branches import in_time
 from dofkit.classification.freedom.preparation import all_of, branches_at_reference, conditional, passes_reference
 from dofkit.configuration.implied_relations import ImpliedRelations
 from dofkit.configuration.states import States, value_at
+from dofkit.configuration.variety import field_jacobian, point_at
 from dofkit.exact.ideals import have_complex_points
-from dofkit.exact.matrices.sparse import echelon
+from dofkit.exact.matrices.sparse import echelon, rank_of_rows
 from dofkit.exact.points.balls import BallPoint
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import vanishes
+from dofkit.exact.zero import odd_constants
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import BITS, Answer
@@ -83,6 +85,9 @@ def _on(alternative: Alternative, relation: Normal, setting: Setting) -> bool | 
     None also if it is satisfied on some branches of the hidden relations and not on others; only those through the
     reference configuration count, if there are any.
     """
+    near = None if setting.reference is None else _on_near(alternative.rows, relation, setting)
+    if near is not None:
+        return near
     here = replace(setting, reference=None, pose={}, grows=False, flag=False)
     names = sorted({n for r in alternative.rows for n in coordinates_of(r.piece)})
     blocks, _ = split(names, alternative.rows)
@@ -97,6 +102,25 @@ def _on(alternative: Alternative, relation: Normal, setting: Setting) -> bool | 
         hidden = [h for h in hidden if passes_reference([*map(Finite, h)], setting)] or hidden
     satisfied = {_on_hidden(alternative, relation, answers, h, here) for h in hidden}
     return satisfied.pop() if len(satisfied) == 1 else None
+
+
+def _on_near(rows: Sequence[Row], relation: Normal, setting: Setting) -> bool | None:
+    """Return whether one of the relation's branches is satisfied near the reference configuration where the rows are.
+
+    None where the rows are not geometric equations that are independent there, or a branch has conditions.
+    """
+    branches = [[Row(0, p) for p in branch] for branch in relation.branches]
+    all_rows = (*rows, *(row for branch in branches for row in branch))
+    if not rows or not all(isinstance(row.piece, Finite) for row in all_rows):
+        return None
+    block = Block(tuple(sorted({n for row in all_rows for n in coordinates_of(row.piece)})), all_rows)
+    chart, premises = make_chart(block, setting), range(len(rows))
+    point = point_at(chart, {**(setting.reference or {}), ex.TIME: ex.ZERO}, 3)
+    independent = point is not None and rank_of_rows(field_jacobian(chart, point)[: len(rows)], point.p) == len(rows)
+    if not independent or odd_constants(chart.ring, named=True):
+        return None
+    near, numbers = ImpliedRelations(chart, setting.reference or {}), iter(range(len(rows), len(all_rows)))
+    return _any([all_of([near.follows(next(numbers), premises) for _ in branch]) for branch in branches])
 
 
 def _on_hidden(
@@ -134,7 +158,7 @@ def _on_all_components(rows: Sequence[Row], branches: Sequence[ImpliedBranch], s
 
     Example: two minors of a matrix imply the third, but not where the column that they share is 0. The relation fails
     at a complex point if s g = 1 has a solution [Rabinowitsch1929]; False if it fails at a certified real point, None
-    if no real one is found. True also if the ideal is too large.
+    if no real one is found. True also if the ideal is too large to decide and no real one is found.
     """
     relations = [r.piece.expr for r in rows if isinstance(r.piece, Finite)]
     if not explicit_relations(relations).implicit:
@@ -142,11 +166,15 @@ def _on_all_components(rows: Sequence[Row], branches: Sequence[ImpliedBranch], s
     on_choices: list[bool | None] = [True]
     for choice in cartesian(*(b.relations for b in branches)):
         beyond = ex.mul(ex.coordinate(SLACK), *choice) - ex.ONE
-        if not have_complex_points([*relations, beyond], setting.positive):
+        complex_points = have_complex_points([*relations, beyond], setting.positive)
+        if complex_points is False:
             continue
         names = {str(s.args[1]) for g in (*relations, beyond) for s in g.symbols if s.args[0] == "coordinate"}
         states = States(sorted(names), [*rows, Row(0, Finite(beyond))], (), setting, (), True)
-        on_choices.append(None if next(states.certain(STATES), None) is None else False)
+        if complex_points is None:
+            on_choices.append(not states.has_near_real_state())
+        else:
+            on_choices.append(None if next(states.certain(STATES), None) is None else False)
     return all_of(on_choices)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 from dofkit.base.verdicts import weakest
@@ -238,18 +238,16 @@ def _points(forms: Codistribution, setting: Setting) -> Variety:
     if reference is None or alike or points == []:
         result = find(forms.chart, setting.pose)
         return result if alike else replace(result, about="component")
-    if points and is_irreducible(forms.chart) and _as_large(forms, reference):
+    here = at_reference(forms.chart, reference) if points else None
+    if here is None or here.local.dimension != forms.n - here.rank:
+        return Variety(None, None, "undecided", reasons=[IRREGULAR])
+    if here.local.verdict != "numeric" and is_irreducible(forms.chart):
         return find(forms.chart, setting.pose)
-    near = next(near_reference(forms.chart, forms.finite), None) if points else None
+    near = next(near_reference(forms.chart, here.rank), None)
     if near is None:
         return Variety(None, None, "undecided", reasons=[IRREGULAR])
-    return Variety(True, forms.n - forms.finite, "proved", real=near, about="reference", argument="regular point")
-
-
-def _as_large(forms: Codistribution, reference: Mapping[Expr, Expr]) -> bool:
-    """Return whether an irreducible set has the same dimension near the reference as at generic points."""
-    here = at_reference(forms.chart, reference)
-    return here is not None and here.local.dimension == forms.n - forms.finite and here.local.verdict != "numeric"
+    verdict, dimension = here.local.verdict, here.local.dimension
+    return Variety(True, dimension, verdict, real=near, about="reference", argument="regular point")
 
 
 def _largest(a: Answer) -> tuple[int, int, int]:

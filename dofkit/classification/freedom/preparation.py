@@ -22,7 +22,7 @@ from dofkit.expressions.tree import Expr
 from dofkit.mobility.joint_tree import Bridges, bridges
 from dofkit.mobility.placement import RowsAtReference
 from dofkit.relations.blocks import Block, Row, coordinates_of, make_chart
-from dofkit.relations.normal.domain import DomainCondition, arguments_of, is_satisfied_at
+from dofkit.relations.normal.domain import DomainCondition, arguments_of, is_satisfied_at, up_to_a_number
 from dofkit.relations.normal.normal_form import normalise
 from dofkit.relations.normal.pieces import (
     INSTANT_NOTE,
@@ -240,26 +240,20 @@ def copies(reduced: Sequence[Reduced]) -> dict[int, int]:
     seen: dict[Hashable, int] = {}
     result = {}
     for i in sorted(i for numbers in alike.values() if len(numbers) > 1 for i in numbers):
-        keys = [tuple(tuple(map(_scaled, branch)) for branch in normal.branches) for normal in reduced[i].normals]
-        key: Hashable = keys[0] if len(keys) == 1 else frozenset(Counter(keys).items())
-        if key in seen:
-            result[i] = seen[key]
-        else:
-            seen[key] = i
+        keys = Counter(frozenset(frozenset(map(_scaled, b)) for b in normal.branches) for normal in reduced[i].normals)
+        original = seen.setdefault(frozenset(keys.items()), i)
+        if original != i:
+            result[i] = original
     return result
 
 
 def _mentioned(normals: Sequence[Normal]) -> Hashable:
-    """Return a key that is equal for multiples of the same relations: the symbols of their first pieces."""
-    first = [_symbols_of(normal.branches[0]) for normal in normals]
-    return first[0] if len(first) == 1 else frozenset(first)
+    """Return a key that is equal for multiples of the same relations: the set of symbols that each mentions."""
+    return frozenset([frozenset[object]().union(*map(_symbols_of, normal.pieces)) for normal in normals])
 
 
-def _symbols_of(branch: Sequence[Piece]) -> Hashable:
-    piece = branch[0] if branch else None
-    if isinstance(piece, Pfaffian):
-        return frozenset(piece.coefficients)
-    return piece if piece is None else piece.expr.symbols
+def _symbols_of(piece: Piece) -> frozenset[str] | frozenset[Expr]:
+    return frozenset(piece.coefficients) if isinstance(piece, Pfaffian) else piece.expr.symbols
 
 
 def _is_not_compared(normal: Normal) -> bool:
@@ -268,13 +262,8 @@ def _is_not_compared(normal: Normal) -> bool:
     return branches in ((), ((),)) or any(isinstance(p, JointEquation) for p in branches[0])
 
 
-def _scaled(piece: object) -> Hashable:
-    """Return a key of a piece, for a finite one its expression with the first coefficient made 1."""
-    if isinstance(piece, Finite):
-        first = piece.expr.args[0] if piece.expr.op == "add" else piece.expr
-        number = first.args[0] if first.op == "mul" and first.args[0].op == "num" else first
-        numeric = number.op == "num" and not number.is_zero
-        return ex.mul(piece.expr, ex.power(number, ex.MINUS_ONE)) if numeric else piece.expr
-    if isinstance(piece, Pfaffian):
-        return type(piece), tuple(piece.coefficients.items()), piece.dt
-    return piece
+def _scaled(piece: Piece) -> Hashable:
+    """Return a key that is equal for pieces that are multiples of each other."""
+    if isinstance(piece, DomainCondition):
+        return piece
+    return type(piece), up_to_a_number(piece.rate if isinstance(piece, Pfaffian) else piece.expr)

@@ -19,7 +19,7 @@ from flint import arb, ctx, fmpq, fmpq_mat
 
 from dofkit.base.errors import NoValueError
 from dofkit.exact.matrices.certified import PivotedPart
-from dofkit.exact.ring.program import NoPointError, OutsideDomainError, Scalar, Var, gradient, values
+from dofkit.exact.ring.program import NoPointError, OutsideDomainError, Scalar, Var, gradient, values, vanish
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions.rational_values import exact_root, value_at
 from dofkit.expressions.tree import Expr
@@ -265,11 +265,7 @@ def rational_values(pose: Mapping[Expr, Expr]) -> dict[Expr, Fraction]:
 
 def vanish_exactly(ring: Ring, nodes: Sequence[int], symbols: Mapping[Expr, Fraction]) -> bool:
     """Return whether all nodes are 0 at a rational point; False also if a value there is not rational."""
-    try:
-        at = values(ring, ExactPoint(symbols))
-    except NoValueError:
-        return False
-    return all(at[node] == 0 for node in nodes)
+    return vanish(ring, ExactPoint(symbols), nodes)
 
 
 def exact_rank(

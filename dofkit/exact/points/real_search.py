@@ -16,7 +16,7 @@ from dofkit.base.errors import NoValueError
 from dofkit.exact.matrices.certified import PivotedPart, ball_part, independent_part
 from dofkit.exact.matrices.dense import largest, length, step
 from dofkit.exact.points.balls import BallPoint, FloatPoint, RealPoint, jacobian, precision, random_values
-from dofkit.exact.ring.program import false_without_value, raising_no_value, values
+from dofkit.exact.ring.program import false_without_value, none_without_value, raising_no_value, values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions.tree import TIME, Expr
 
@@ -27,6 +27,8 @@ MOMENTS, LATER, TICKS = 8, 4.0, 512
 HALVINGS = 8
 #: Bound on the multiplications of an elimination with balls at a point near the zero set.
 MAX_ELIMINATED = 20_000
+#: How far unknowns move to see whether relations stay dependent, in parts of random numbers.
+NEARBY = 2.0**-12
 #: A relative Newton step below 2^(SPARE_BITS - precision) ends the refinement.
 SPARE_BITS = 16
 #: How often the box around two points is made wider, and by how much at least.
@@ -155,17 +157,16 @@ class RealSearch:
         other = self._refined(symbols, part.rows, part.columns, seed)
         return other if other is not None and other.certain else refined
 
+    @none_without_value
     def _part_at(self, symbols: Mapping[Expr, float], seed: int) -> PivotedPart | None:
         """Return a nonsingular submatrix of the Jacobian in balls at a point; None if it is too large or has a pole."""
         if len(self.nodes) ** 2 * len(self.columns) > MAX_ELIMINATED:
             return None
         point = BallPoint({s: arb(v) for s, v in symbols.items()}, seed)
-        try:
-            at = values(self.ring, point, self.upto)
-            return ball_part(jacobian(self.ring, at, point, self.nodes, self.columns, arb(0)))
-        except NoValueError:
-            return None
+        at = values(self.ring, point, self.upto)
+        return ball_part(jacobian(self.ring, at, point, self.nodes, self.columns, arb(0)))
 
+    @none_without_value
     def _refined(
         self, symbols: Mapping[Expr, float], rows: Sequence[int], columns: Sequence[int], seed: int
     ) -> RealPoint | None:
@@ -177,13 +178,12 @@ class RealSearch:
                 return None
             exact, certified = moved
         point = BallPoint(exact, seed)
-        try:
-            at = values(self.ring, point, self.upto)
-            ranked = self.columns if self.ranked is None else self.ranked
-            matrix = jacobian(self.ring, at, point, self.nodes, ranked, arb(0))
-        except NoValueError:
-            return None
+        at = values(self.ring, point, self.upto)
+        ranked = self.columns if self.ranked is None else self.ranked
+        matrix = jacobian(self.ring, at, point, self.nodes, ranked, arb(0))
         consistent = all(at[n].contains(0) for n in self.nodes)
+        if consistent and len(rows) < len(self.nodes):
+            consistent = _vanish_nearby(self, exact, rows, columns, seed)
         return RealPoint(point, ball_part(matrix), certified, consistent, matrix, len(rows))
 
     def _newton(
@@ -223,6 +223,22 @@ class RealSearch:
         at = values(self.ring, point, self.upto)
         j = jacobian(self.ring, at, point, nodes, indices, arb(0))
         return arb_mat([[at[n]] for n in nodes]), arb_mat(j)
+
+
+@false_without_value
+def _vanish_nearby(
+    search: RealSearch, exact: Mapping[Expr, arb], rows: Sequence[int], columns: Sequence[int], seed: int
+) -> bool:
+    """Return whether all relations vanish where other unknowns move a little and these rows are solved again.
+
+    Where they do not, the rows depend on each other at a singular point only.
+    """
+    drawn = random_values(search.ring, search.positive, seed)
+    free = {u: NEARBY * drawn[u] for k, u in enumerate(search.unknowns) if k not in columns}
+    moved = {s: v.mid() + free.get(s, 0) for s, v in exact.items()}
+    solved = search._newton(moved, rows, columns, seed) if rows else (moved, True)
+    at = None if solved is None else values(search.ring, BallPoint(solved[0], seed), search.upto)
+    return at is not None and all(at[n].contains(0) for n in search.nodes)
 
 
 @false_without_value

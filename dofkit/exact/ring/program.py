@@ -82,6 +82,19 @@ def false_without_value(function: Callable[P, Decision]) -> Callable[P, Decision
     return decision
 
 
+def none_without_value(function: Callable[P, T]) -> Callable[P, T | None]:
+    """Return a function that is None, for not known, where something that it works out has no value."""
+
+    @wraps(function)
+    def known(*args: P.args, **kwargs: P.kwargs) -> T | None:
+        try:
+            return function(*args, **kwargs)
+        except NoValueError:
+            return None
+
+    return known
+
+
 @dataclass(frozen=True)
 class Var:
     """A generator.
@@ -237,12 +250,10 @@ def value_of(ring: Instructions, point: Point, node: int, through_generators: bo
     return out[node]
 
 
+@false_without_value
 def vanish(ring: Instructions, point: Point, nodes: Sequence[int]) -> bool:
     """Return whether all ``nodes`` are 0 at a point; False if the program has no value there."""
-    try:
-        at = values(ring, point)
-    except NoValueError:
-        return False
+    at = values(ring, point)
     return all(at[n] == 0 for n in nodes)
 
 

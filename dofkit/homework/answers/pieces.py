@@ -18,7 +18,7 @@ from dofkit.homework.judgement import DoubtError, Given
 #: Equations in one answer.
 MOST_PIECES = 40
 #: The number of an equation behind it.
-_NUMBER_AFTER = re.compile(r"(?<=\S)\s+\((?:\d{1,2}|[IVX]{1,4}|\*)\)\s*\Z")
+_NUMBER_AFTER = re.compile(r"(?<=[^\s=+\-−*·×/^<>≤≥])\s+\((?:\d{1,2}|[IVX]{1,4}|\*)\)\s*\Z")
 _RELATION = re.compile(r"[=<>≤≥]")
 _ENUMERATED = pattern("pieces: enumerated")
 _AND = pattern("pieces: and")

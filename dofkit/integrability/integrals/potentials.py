@@ -14,7 +14,7 @@ from typing import TypeVar
 from dofkit.base.deadline import OutOfTimeError, by_processor, check, checked_calls, remaining_seconds, thread_time
 from dofkit.base.errors import NoValueError
 from dofkit.exact.ring.canonical import Canon, is_identically_zero, quotients_of
-from dofkit.exact.ring.program import TooLargeError, raising_no_value
+from dofkit.exact.ring.program import TooLargeError, none_without_value, raising_no_value
 from dofkit.exact.ring.quotients import MAX_TERMS, Quotient, factored, rationalised
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, expand
@@ -52,10 +52,7 @@ class Algebra:
 
     def attempt(self, work: Callable[[], T]) -> T | None:
         """Return the result of ``work``, or None where an expression has no canonical form or a divisor is 0."""
-        try:
-            return raising_no_value(work)()
-        except NoValueError:
-            return None
+        return none_without_value(raising_no_value(work))()
 
     def spend(self, expressions: Iterable[Expr]) -> None:
         """Deduct the steps for canonical forms. Raises TooLargeError above MAX_NODES; GivenUpError: see `tick`."""

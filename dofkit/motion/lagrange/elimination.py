@@ -13,7 +13,7 @@ from typing import NamedTuple
 from dofkit.base.deadline import check
 from dofkit.base.errors import NoValueError
 from dofkit.exact.ring.canonical import is_identically_zero, square_root
-from dofkit.exact.ring.program import raising_no_value
+from dofkit.exact.ring.program import false_without_value, none_without_value, raising_no_value
 from dofkit.expressions import calculus
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
@@ -163,6 +163,7 @@ class Eliminator:
         candidates.sort(key=lambda pair: pair[1].cost)
         return next((pair for pair in candidates if self._checked(*pair)), None)
 
+    @none_without_value
     def _solved(self, g: Expr, name: str, order: tuple[int, int]) -> Candidate | None:
         """Return g = 0 solved for a coordinate in which it is linear or quadratic, else None; ``order`` is a cost."""
         q = ex.coordinate(name)
@@ -171,10 +172,7 @@ class Eliminator:
         first = diff(g, q)
         second = diff(first, q)
         at_zero = {q: ZERO}
-        try:
-            start, slope = substitute(g, at_zero), substitute(first, at_zero)
-        except NoValueError:
-            return None
+        start, slope = substitute(g, at_zero), substitute(first, at_zero)
         if second.is_zero or is_identically_zero(second, self.positive):
             if is_identically_zero(slope, self.positive) is not False:
                 return None
@@ -189,21 +187,16 @@ class Eliminator:
     def _tidy(self, e: Expr) -> Expr:
         return ex.add(*(ex.mul(*(t.args if t.op == "mul" else (t,))) for t in (e.args if e.op == "add" else (e,))))
 
+    @false_without_value
     def _checked(self, relation: EliminatedRelation, candidate: Candidate) -> bool:
         """Return whether the relation is proved to be 0 with the solution (and the other root), and short enough."""
-        q = ex.coordinate(candidate.name)
-        for value in (candidate.value, candidate.other):
-            if value is None:
-                continue
-            if sum(1 for _ in ex.nodes(value)) > LONGEST_SOLUTION:
-                return False
-            try:
-                inserted = substitute(relation.expr, {q: value})
-            except NoValueError:
-                return False
-            if is_identically_zero(inserted, self.positive) is not True:
-                return False
-        return True
+        q, solutions = ex.coordinate(candidate.name), (candidate.value, candidate.other)
+        return all(
+            sum(1 for _ in ex.nodes(value)) <= LONGEST_SOLUTION
+            and is_identically_zero(substitute(relation.expr, {q: value}), self.positive) is True
+            for value in solutions
+            if value is not None
+        )
 
     def _chosen(self, name: str, first: Expr, second: Expr, solved: Mapping[str, Expr]) -> tuple[Expr, str]:
         """Return (chosen root, note on the other branch); the first root if nothing distinguishes them."""

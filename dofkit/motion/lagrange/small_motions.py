@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 from dofkit.base.errors import NoValueError
 from dofkit.exact.ring.canonical import is_identically_zero
-from dofkit.exact.ring.program import raising_no_value
+from dofkit.exact.ring.program import none_without_value, raising_no_value
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.sympy_bridge import Bridge
@@ -91,16 +91,14 @@ class _Linearization:
         """Return whether a determinant may be 0: False only if it is proved not to be."""
         return is_identically_zero(self.bridge.expr(det.expand()), self.model.positive) is not False
 
+    @none_without_value
     def balancing(self, place: Place) -> Place | None:
         """Return the multipliers that balance the forces at ``place``; None if no equilibrium is proved there."""
-        try:
-            if not all(self._vanishes(_at_rest(e, place)) for e in (*self.model.holonomic, *self.model.nonholonomic)):
-                return None
-            forces = [_at_rest(e, place) for e in self.derived.equations.values()]
-            multipliers = self._multipliers(forces)
-            if multipliers is None or not all(self._vanishes(substitute(e, multipliers)) for e in forces):
-                return None
-        except NoValueError:
+        if not all(self._vanishes(_at_rest(e, place)) for e in (*self.model.holonomic, *self.model.nonholonomic)):
+            return None
+        forces = [_at_rest(e, place) for e in self.derived.equations.values()]
+        multipliers = self._multipliers(forces)
+        if multipliers is None or not all(self._vanishes(substitute(e, multipliers)) for e in forces):
             return None
         return multipliers
 

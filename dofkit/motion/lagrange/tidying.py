@@ -15,6 +15,7 @@ from typing import Any
 from dofkit.base.deadline import OutOfTimeError, by_processor, check, remaining_seconds, thread_time
 from dofkit.base.errors import NoValueError
 from dofkit.exact.ring.canonical import Canon, Poly, is_identically_zero, lowest_terms, quotients_of
+from dofkit.exact.ring.program import none_without_value
 from dofkit.expressions import tree as ex
 from dofkit.expressions.sympy_bridge import Bridge, UntranslatableError
 from dofkit.expressions.text.printing import to_text
@@ -111,15 +112,13 @@ def terms(e: Expr) -> int:
     return max(memo.values())
 
 
+@none_without_value
 def by_rates(e: Expr, positive: frozenset[Expr]) -> Expr | None:
     """Return ``e`` as a sum over monomials in velocities and accelerations with factored coefficients, or None."""
-    try:
-        canon, [(top, bottom)] = quotients_of([e], positive)
-        if any(_is_rate(canon, i) for i in canon.generators_in(bottom)):
-            return None
-        terms = [ex.mul(_factored(canon, part, bottom), rates) for rates, part in _grouped(canon, top)]
-    except NoValueError:
+    canon, [(top, bottom)] = quotients_of([e], positive)
+    if any(_is_rate(canon, i) for i in canon.generators_in(bottom)):
         return None
+    terms = [ex.mul(_factored(canon, part, bottom), rates) for rates, part in _grouped(canon, top)]
     return ex.add(*terms) if terms else ex.ZERO
 
 

@@ -10,10 +10,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product as cartesian
 
-from dofkit.base.errors import NoValueError
 from dofkit.exact.points.balls import random_ball_point
 from dofkit.exact.ring.canonical import lowest_terms, quotients_of, square_root
-from dofkit.exact.ring.program import false_without_value, values
+from dofkit.exact.ring.program import false_without_value, none_without_value, values
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero import is_proved_zero
 from dofkit.expressions import tree as ex
@@ -64,14 +63,12 @@ def _required_by(e: Expr, in_no_function: bool) -> Iterator[DomainCondition]:
         yield from (DomainCondition(*required) for required in of_function(*e.args))
 
 
+@none_without_value
 def _denominator(e: Expr, positive: frozenset[Expr]) -> Expr | None:
     """Return the denominator of ``e`` as one quotient in lowest terms; None if it is constant or too large."""
-    try:
-        canon, [quotient] = quotients_of([e], positive)
-        _, bottom = lowest_terms(*quotient)
-        return None if bottom.is_constant() else canon.to_expr(bottom)
-    except NoValueError:
-        return None
+    canon, [quotient] = quotients_of([e], positive)
+    _, bottom = lowest_terms(*quotient)
+    return None if bottom.is_constant() else canon.to_expr(bottom)
 
 
 def is_always_satisfied(c: DomainCondition, positive: frozenset[Expr]) -> bool:
@@ -168,25 +165,23 @@ def up_to_a_number(e: Expr) -> frozenset[tuple[Expr, Fraction]]:
     return frozenset((s, c / first) for s, c in terms.items())
 
 
+@none_without_value
 def squared(e: Expr, positive: frozenset[Expr]) -> tuple[Expr, DomainCondition] | None:
     """Return (a^2 u - b^2, the condition -a b >= 0) for ``e`` = a sqrt(u) + b; None if ``e`` is not so."""
-    try:
-        canon, [(top, _)] = quotients_of([e], positive)
-        ring = canon.ring
-        roots = [v for v in ring.vars if v.kind == "root" and ring.var_expr[v.index].symbols]
-        if len(roots) != 1 or roots[0].degree != 2:
-            return None
-        index = roots[0].index
-        if any(ring.var_expr[index] in ex.nodes(ring.var_expr[v.index]) for v in ring.vars if v.index != index):
-            return None
-        coefficients = canon.collected(top, {index})
-        a, b = coefficients.pop(((index, 1),), None), coefficients.pop((), None)
-        if a is None or b is None or coefficients:
-            return None
-        u, below = canon.quotient(roots[0].args[0])
-        norm, sided = canon.reduce(a * a * u - b * b * below), canon.reduce(-a * b)
-    except NoValueError:
+    canon, [(top, _)] = quotients_of([e], positive)
+    ring = canon.ring
+    roots = [v for v in ring.vars if v.kind == "root" and ring.var_expr[v.index].symbols]
+    if len(roots) != 1 or roots[0].degree != 2:
         return None
+    index = roots[0].index
+    if any(ring.var_expr[index] in ex.nodes(ring.var_expr[v.index]) for v in ring.vars if v.index != index):
+        return None
+    coefficients = canon.collected(top, {index})
+    a, b = coefficients.pop(((index, 1),), None), coefficients.pop((), None)
+    if a is None or b is None or coefficients:
+        return None
+    u, below = canon.quotient(roots[0].args[0])
+    norm, sided = canon.reduce(a * a * u - b * b * below), canon.reduce(-a * b)
     return canon.to_expr(norm), DomainCondition(canon.to_expr(sided), ">=")
 
 

@@ -16,8 +16,8 @@ from typing import Any, NamedTuple
 
 from flint import fmpq
 
-from dofkit.base.errors import NoValueError
 from dofkit.exact.ring.canonical import Canon, divided, lowest_terms, quotients_of
+from dofkit.exact.ring.program import none_without_value
 from dofkit.exact.zero import is_proved_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import cleared, diff, in_velocities, refuse_accelerations, substitute
@@ -58,23 +58,21 @@ class _Square(NamedTuple):
     sign: int
 
 
+@none_without_value
 def linear_branches(e: Expr, velocities: Sequence[Expr], positive: frozenset[Expr]) -> list[Conjunction] | None:
     """Return the branches of ``e = 0`` if ``e`` is quadratic in the velocities and splits into linear factors.
 
     A branch consists of expressions linear in the velocities, or free of them, that vanish together. None if it is not
     known to split. The numerator of ``e`` is split: the denominator is not 0 where ``e`` has a value.
     """
-    try:
-        canon, [(numerator, _)] = quotients_of([e], positive)
-        generators = canon.ring.var_expr
-        moving = {i for i, e in enumerate(generators) if any(s.args[0] == "velocity" for s in e.symbols)}
-        terms = canon.collected(numerator, moving)
-        if any(sum(k for _, k in m) > 2 or any(generators[i] not in velocities for i, _ in m) for m in terms):
-            return None
-        squares = (_completed(canon, numerator, i, velocities, positive) for m in terms for i, k in m if k == 2)
-        square = next((result for result in squares if result is not None), None)
-    except NoValueError:
+    canon, [(numerator, _)] = quotients_of([e], positive)
+    generators = canon.ring.var_expr
+    moving = {i for i, e in enumerate(generators) if any(s.args[0] == "velocity" for s in e.symbols)}
+    terms = canon.collected(numerator, moving)
+    if any(sum(k for _, k in m) > 2 or any(generators[i] not in velocities for i, _ in m) for m in terms):
         return None
+    squares = (_completed(canon, numerator, i, velocities, positive) for m in terms for i, k in m if k == 2)
+    square = next((result for result in squares if result is not None), None)
     return None if square is None else _branches(square, positive)
 
 

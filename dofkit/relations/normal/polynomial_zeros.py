@@ -9,9 +9,8 @@ from typing import Any
 
 from flint import fmpq
 
-from dofkit.base.errors import NoValueError
 from dofkit.exact.ring.canonical import Canon
-from dofkit.exact.ring.program import values
+from dofkit.exact.ring.program import false_without_value, values
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.triangular import TriangularSolver
 from dofkit.exact.zero import zero_and_verdict
@@ -182,6 +181,7 @@ class PolynomialZeros:
             return (), (EMPTY_NOTE,)
         return branches_of(branches, notes)
 
+    @false_without_value
     def _undefined(self, factor: Any, bottom: Any) -> bool:
         """Return whether the denominator is 0 wherever the factor is: by a common factor, or at a random zero of it."""
         if bottom.is_constant():
@@ -195,10 +195,7 @@ class PolynomialZeros:
         ring = Ring([zero, pole], self.positive)
         nodes = ring.node(zero), ring.node(pole)
         point = TriangularSolver(ring, nodes[:1]).draw(1)
-        try:
-            return point is not None and bool(values(ring, point)[nodes[1]] == 0)
-        except NoValueError:
-            return False
+        return point is not None and bool(values(ring, point)[nodes[1]] == 0)
 
     def _depends(self, factor: Any) -> bool:
         generators = (self.canon.ring.var_expr[i] for i in self.canon.generators_in(factor))
