@@ -1,4 +1,4 @@
-"""Numbers as people write them: digits and words, with what is counted, a sum before them, a reason after them."""
+"""Reads a number as people write it: digits or words, with a unit, a calculation before it, a reason after it."""
 
 from __future__ import annotations
 
@@ -27,26 +27,26 @@ from dofkit.homework.judgement import DoubtError
 _HINT = "write a number such as 3"
 _COMMA = re.compile(r"(?<=\d),(?=\d)")
 _GROUP = re.compile(r"\s*\(([^()]*)\)")
-#: A factor of a sum: `3(4 - 1) - 2 4`; at the end it may be what the number before it stands for.
+#: A factor in parentheses within a calculation, `3(4 - 1) - 2 4`; at the end it may repeat the number before it.
 _FACTOR = re.compile(r"\d\([^()]*\d[^()]*\)\s*[-+*/=−·⋅×]")
 _SEGMENT = re.compile(
     r"[;\n]|,(?!\d)|:(?!=)|(?<=[^\d\s])\.(?=\s)|\s[-–—]\s(?=[^\W\d_]{3})|"
     r"⇒(?=\s*[^\W\d_]+\s*=)|(?<=\s)(?:so|therefore|hence|thus|also|donc|luego|quindi|portanto|daher|folglich)(?=\s)",
     re.IGNORECASE,
 )
-#: What is replaced by what follows it: `not 3 but 2`.
+#: A number that is corrected by the next one, and dropped: `not 3 but 2`.
 _REPLACED = re.compile(
     r"\b(?:not|nicht|pas|no|non|n[aã]o)\s+(?:\d+|[^\W\d_]+)\s*,?\s*(?:but|sondern|mais|sino|ma|mas)\s+(?=\S)",
     re.IGNORECASE,
 )
-#: A bracket that gives another number under a condition: `(4 with the winch)`.
+#: A parenthesis with another number under a condition: `(4 with the winch)`.
 _CONDITION = re.compile(
     r"\s*(?:\d+|[^\W\d_]+)\s+(?:with|without|if|when|mit|ohne|wenn|falls|avec|sans|si|con|sin|senza|com|sem)\b",
     re.IGNORECASE,
 )
 #: Brackets of a set, and a number in bold letters of Markdown.
 _BRACKETS, _BOLD = re.compile(r"[{}\[\]]"), re.compile(r"\A\s*\*\*([^*]+)\*\*(?=\s*\Z)")
-#: What bounds a number without telling it; another number beside it in parentheses; a number before a further name.
+#: Signs and words of a bound on the number; words for an alternative; a number with a name before a sign of equality.
 _BOUND = re.compile(
     r"[<>≤≥≠±∈]|!=|\\(?:leq?|geq?|neq?|lt|gt|in)(?![a-z])"
     r"|\b(?:plus|moins|m[aá]s|menos|pi[uù]|meno|mais)\s+(?:de|di|do|que|d['’])(?![^\W\d_])",
@@ -54,12 +54,12 @@ _BOUND = re.compile(
 )
 _OTHERWISE = re.compile(r"\b(?:or|oder|ou|oppure|rather|actually|eigentlich)\b", re.IGNORECASE)
 _BEFORE_NAME = re.compile(r"\s*\d+(?:\s+[^\W\d_]+){1,2}\s*")
-#: In a part of more words `one` may be an article.
+#: In a segment of more words, `one` may be an article.
 _ARTICLE_WORDS = 2
-#: A denial of so many words without a number says something of what else there is.
+#: A denial of at least so many words without a number is a remark on something else.
 _REMARK_WORDS = 4
 _ALONE = re.compile(r"(?<![\w^*/+.-])(?:\d{1,4}|[^\W\d_]+)(?![\w^*/+.])")
-#: What other quantities are called.
+#: Names of other quantities.
 _OTHERS = words("n k f dof x y z t theta phi")
 _NAMED = re.compile(r"\s*([^\W\d_]+)\s*(?:=|[<>≤≥≠∈]|!=|\\(?:leq?|geq?|neq?|lt|gt|in)\b)")
 _SIGNS = re.compile(r"==|=|≈|≅|→|⇒")
@@ -69,7 +69,7 @@ _WORD = re.compile(
 )
 _OPERATORS = {"minus": "-", "less": "-", "moins": "-", "menos": "-", "meno": "-", "plus": "+", "mas": "+", "piu": "+",
               "times": "*", "mal": "*"}  # fmt: skip
-#: What has or is a number, with words before it: `das Doppelpendel hat`.
+#: Words up to a verb before the number: `das Doppelpendel hat`.
 _STATED = re.compile(
     r"\A[^\d=<>]*\b(?:has|have|had|hat|haben|ha|a|à|possède|possede|possiede|tiene|tem|is|are|ist|sind|est|sont|es|son|è|é|são"
     r"|gives|leaves|ergibt|bleiben|bleibt|reste|restent|donne)\s+(?=\S)",
@@ -123,28 +123,28 @@ def number(answer: object, called: frozenset[str] = frozenset(), foreign: frozen
 
 
 def _concluded(script: Script) -> Script:
-    """Return what follows the last conclusion, if there is a number in it."""
+    """Return the script after the conclusion word such as `therefore`, if a number follows; else the whole script."""
     ends = [match.end() for match in CONCLUSION.finditer(script.text)]
-    last = script.cut(ends[-1]) if ends else script
-    return last if ends and (_FIGURE.search(last.text) or plain(last.text) in NUMBERS) else script
+    conclusion = script.cut(ends[-1]) if ends else script
+    return conclusion if ends and (_FIGURE.search(conclusion.text) or plain(conclusion.text) in NUMBERS) else script
 
 
 def _is_foreign(text: str, foreign: frozenset[str]) -> bool:
-    """Return whether a number is followed by the noun of another quantity, and not by one of its own."""
+    """Return whether the number of a segment is followed by the noun of another quantity."""
     after = re.split(r"\d+", text)[-1] if re.search(r"\d", text) else text
     said = [plain(m[0]) for m in _WORD.finditer(after)]
     return not foreign.isdisjoint(said) and "=" not in text
 
 
 def _numbers_alone(text: str) -> set[int]:
-    """The numbers that stand alone in a part that is not read; `one` is an article in what is longer than two words."""
+    """Return the numbers that stand alone in an unreadable segment; in more than two words `one` is an article."""
     alone = [plain(w) for w in _ALONE.findall(text)]
     least = 1 if len(alone) > _ARTICLE_WORDS else 0
     return {int(w) if w.isdecimal() else NUMBERS[w] for w in alone if w.isdecimal() or NUMBERS.get(w, 0) > least}
 
 
 def _segments(script: Script) -> Iterator[Script]:
-    """What stands between separators, and a number in parentheses that repeats one; other parentheses are remarks."""
+    """Yield the parts between separators, and numbers in parentheses after a number; other parentheses are remarks."""
     for group in _GROUP.finditer(script.text):
         before = script.text[: group.start()].rstrip()
         if before and before[-1] not in "+-*/=(^−·⋅×" and not _FACTOR.match(script.text, len(before) - 1):
@@ -173,23 +173,23 @@ def _only_number(text: str) -> bool:
 
 
 def _segment(script: Script) -> Fraction | None:
-    """The number of a part; None where it holds none. Raises DoubtError where its sums do not agree."""
+    """Return the number of a segment, or None if it contains none. Raises DoubtError if its two sides differ."""
     place, amounts, failure = 0, list[Fraction](), None
     text = script.text
     bound = _BOUND.search(text)
     if bound is not None:
         raise DoubtError("it gives a bound, not the number.", script.columns[bound.start()], _HINT)
     for cut in [*(m.span() for m in _SIGNS.finditer(text)), (len(text), len(text))]:
-        piece = script.cut(place, cut[0])
+        side = script.cut(place, cut[0])
         place = cut[1]
         try:
-            value = _value(piece)
+            value = _value(side)
         except TextError as error:
             failure = error
             if place >= len(text):
                 raise
-            if _BEFORE_NAME.fullmatch(piece.text):
-                raise DoubtError("it gives more than one number.", piece.columns[0], _HINT) from None
+            if _BEFORE_NAME.fullmatch(side.text):
+                raise DoubtError("it gives more than one number.", side.columns[0], _HINT) from None
             continue
         if value is not None:
             amounts.append(value)
@@ -206,7 +206,7 @@ def _segment(script: Script) -> Fraction | None:
 
 
 def _value(script: Script) -> Fraction | None:
-    """The number of a piece without signs of equality; None where it has words only."""
+    """Return the number of a text without signs of equality, or None if there are only words."""
     words = [plain(m[0]) for m in _WORD.finditer(script.text)]
     if (
         any(w in _NONE for w in words)
@@ -235,7 +235,7 @@ def _value(script: Script) -> Fraction | None:
 
 
 def _counted(match: re.Match[str], leads: bool) -> str:
-    """A word of a number: its digits, its sign, nothing for what is counted, itself for any other."""
+    """Return the text for a word: digits for a number, a sign for an operator, "" for a unit, else the word itself."""
     word = plain(match[0]).replace(". ", "").replace(".", "")
     if word in _OPERATORS:
         return _OPERATORS[word]

@@ -1,4 +1,4 @@
-"""Labels as people write them, in six languages, negated in theirs."""
+"""Reads labels (holonomic, scleronomic, bilateral) as people write them, with negations, in six languages."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from dofkit.homework.judgement import DoubtError, Given
 
 
 class Terms(NamedTuple):
-    """What a part is called where it holds, and where it does not, each with what people write for it."""
+    """The word for a label (``holds``) and for its opposite (``fails``), and the spellings of each."""
 
     holds: str
     fails: str
@@ -25,7 +25,7 @@ class Terms(NamedTuple):
 
 
 def _forms(*stems: str) -> tuple[str, ...]:
-    """A stem with the endings that it takes: `scleronom` -> scleronomic, scleronome, scleronoma, ..."""
+    """Return stems with all endings: `scleronom` -> scleronomic, scleronome, scleronoma, ..."""
     endings = ("", "ic", "ical", "ous", "e", "er", "es", "en", "em", "a", "o", "as", "os", "i", "ica", "ico", "isch")
     return tuple(stem + ending for stem in stems for ending in endings)
 
@@ -57,46 +57,46 @@ _WORDS: dict[str, tuple[str, bool]] = {
     for words, holds in ((terms.positive, True), (terms.negative, False))
     for word in words
 }
-#: Labels that may be cut short, and the fewest letters of them: `hol.`, `skl.`
+#: Labels that may be abbreviated, and the fewest letters of an abbreviation: `hol.`, `skl.`
 _STEMS = ("holonom", "scleronom", "skleronom", "rheonom", "bilateral", "unilateral")
 _FEWEST = 3
-#: What misspelt labels are compared with.
+#: The spellings with which misspelt labels are compared.
 _GUESSED = [w for w in _WORDS if w[:3] in ("hol", "scl", "skl", "rhe", "bil", "uni")]
 _LONGEST = 24
 _NEGATIONS = word_list("label_words: negations")
-#: Words over which a negation reaches.
+#: Words that may be between a negation and its label.
 _FILLING = word_list("label_words: filling")  # fmt: skip
 #: Words of other meanings that look like labels.
 _OTHERS = frozenset({"integrable", "nonintegrable", "noncommutative", "nonlinear", "nonzero", "integrabel"})
-#: How alike a misspelt word and the label that is meant are.
+#: The least similarity of a misspelt word and the label that is meant.
 ALIKE = 0.86
 _HYPHEN = re.compile("[-\u2010-\u2015_]")
 _SLASH = re.compile(r"[/|+()\[\]]|(?<=[a-z])\.(?=[a-z])")
 _SAID = "|".join(sorted({*YES, *NO, "não", "sí", "sì"}))
 _ENDS = r"\b(?=\s*(?:[,;.)\n]|$|(?:and|und|et|y|e)\s|[^\W\d_][\w-]*\s*[:=]))"
-#: `holonomic: yes, scleronomic: no`, and `holonomic not`; `holonomic: yes and no` and such say neither.
+#: `holonomic: yes, scleronomic: no`, and `holonomic not`; `holonomic: yes and no` contradicts itself.
 _TOLD = re.compile(rf"([^\W\d_][\w\u2010-\u2015-]*)(\s*[:=]\s*|\s+[-\u2013\u2014]?\s*)({_SAID}){_ENDS}", re.IGNORECASE)
 _TOLD_TWICE = re.compile(
     rf"\b({_SAID})(?:\s*[,/&|]\s*|\s+(?:and|und|et|y|e|or|oder|ou|o)\s+|\s+)({_SAID}){_ENDS}", re.IGNORECASE
 )
-#: A label that is corrected; a negation in parentheses, joined to a label or before it.
+#: A correction of a label; a negation in parentheses before a label.
 _TAKEN_BACK = re.compile(
     r"[,;]\s*(?:no|not|nope|nein|nicht|non|nao|não|wait|sorry)\s*[,;:!]"
     r"|\((?:no|not|non|nicht|nao|não|pas|ne|an|in|un|nicht)-?\)\s*-?(?=[^\W\d_])",
     re.IGNORECASE,
 )
-#: `rheo-/scleronomic`: the end of a label is said once for two.
+#: `rheo-/scleronomic`: the ending is written once for two labels.
 _SHORTENED = re.compile(
     r"\b((?:non-?|nicht-?|an)?holo|(?:e?scler|skler)o|rh?eo)-(?=\s*(?:[/&]|(?:and|und|et|y|e|or|oder|ou|o)\s))"
     r"|\b(bi|uni)-(?=\s*(?:[/&]|(?:and|und|et|y|e|or|oder|ou|o)\s))",
     re.IGNORECASE,
 )
-#: Words that leave a label open, but not a number.
+#: Words that make a label ambiguous, but not a number.
 _HALF_SAID = words("? half halb semi mezzo demi medio meio")
-#: A negated group may mean each or not all.
+#: A negated group: it may mean that none or that not all are true.
 _GROUP_DENIED = re.compile(r"\b(?:not|nicht|non|no|pas|nao|não)\s*\([^()]*\w[\s,&]+\w[^()]*\)", re.IGNORECASE)
 _JOINED = re.compile(r"([^\W\d_][\w\u2010-\u2015-]*)\s*(?:[/&+]|\b(?:and|und|et|y|e|or|oder|ou)\b)\s*\Z", re.IGNORECASE)
-#: What a negation that stands apart from the labels may speak of, in the same clause or in brackets.
+#: What a negation without a label may be about: a reason near the label, such as integrability or time.
 _REASONED = re.compile(
     r"integr|time|zeit|temps|tiempo|tempo|veloc|geschwind|vitess|depend|abhang|explici|explizi|side|seitig|(?<!')\bt\b"
 )
@@ -110,7 +110,7 @@ _ASKED = re.compile(
 )
 _ITALIAN_NOR = re.compile(r"\bné\b", re.IGNORECASE)
 _TIMELESS, _TIMED = " timeindependent ", " timedependent "
-#: What is said in several words.
+#: Phrases that mean a label.
 _PHRASES = tuple(
     (re.compile(pattern, re.IGNORECASE), by)
     for pattern, by in (
@@ -137,16 +137,16 @@ _ABOUT = {
     "scleronomic": re.compile(r"\btime|zeit|temps|tiempo|tempo\b"),
     "bilateral": re.compile(r"\bside|seitig|\bcote|\blado|\blato"),
 }
-#: Of every part that is mentioned whether it is said to hold; both where an answer contradicts itself.
+#: {label: {whether it is claimed to hold}} of the labels that are mentioned; both values for a contradiction.
 Labels = Mapping[str, frozenset[bool]]
 _HINT = "the labels are holonomic or non-holonomic, scleronomic or rheonomic, bilateral or unilateral"
 
 
 def read_labels(answer: Given) -> Labels:
-    """Return, of each label in an answer, whether it is said to hold; both values if it contradicts itself.
+    """Return for each label in an answer whether it is claimed to hold; both values if the answer contradicts itself.
 
-    A negation before a label, joined to it or not, turns it round; what else a sentence says is read over. Raises
-    TextError where there is no label, or a word that may be one and cannot be read; DoubtError for questions.
+    A negation before a label, joined to it or not, inverts it; other words are ignored. Raises TextError if there is
+    no label, or a word that may be one but cannot be read; DoubtError for questions and unclear negations.
     """
     labels: dict[str, frozenset[bool]] = {}
     negated, unread = False, None
@@ -178,7 +178,7 @@ def read_labels(answer: Given) -> Labels:
 
 
 def _reasoned(following: list[Word]) -> None:
-    """Raises DoubtError where a negation among these words speaks of nothing that is a reason for a label."""
+    """Raise DoubtError if these words around a negation contain no reason for a label (`_REASONED`)."""
     if _REASONED.search(" ".join(plain(w.text) for w in following)) is None:
         raise DoubtError("it is not clear what is negated.", following[0].column, _HINT)
 
@@ -212,7 +212,7 @@ def _split(answer: Given) -> list[Word]:
 
 
 def _answered(match: re.Match[str]) -> str:
-    """A label that a word after it affirms or denies."""
+    """Return the replacement of a label with a reply (`holonomic: no` -> `not holonomic`)."""
     label, reply = match[1], plain(match[3])
     if _label(plain(label)) is None:
         return match[0]
@@ -223,7 +223,7 @@ def _answered(match: re.Match[str]) -> str:
 
 
 def _parted(text: str) -> list[str]:
-    """`holonomic-scleronomic` is two labels."""
+    """Return the halves of two labels with a hyphen (`holonomic-scleronomic`), else the text alone."""
     halves = _HYPHEN.split(text)
     if len(halves) == 2 and all(_label(plain(part)) for part in halves):
         return halves
@@ -232,7 +232,7 @@ def _parted(text: str) -> list[str]:
 
 @lru_cache(maxsize=4096)
 def _label(text: str) -> tuple[str, bool] | None:
-    """The part that a word names and whether it says that it holds; misspelt labels are read too."""
+    """Return (label, whether it is claimed to hold) for a word, even a misspelt one, or None."""
     bare = _HYPHEN.sub("", text)
     if bare in _WORDS:
         return _WORDS[bare]
@@ -247,15 +247,15 @@ def _label(text: str) -> tuple[str, bool] | None:
 
 
 def mentions(part: str, answer: Given) -> bool:
-    """Return whether a part is described in other words, such as `integrable` or `time`."""
+    """Return whether an answer describes the label ``part`` in other words, such as `integrable` or `time`."""
     return isinstance(answer, str) and _ABOUT[part].search(plain(answer)) is not None
 
 
 def word_of(part: str, holds: bool) -> str:
-    """Return the name of a part."""
+    """Return the word for a label that holds, or for its opposite."""
     return TERMS[part].holds if holds else TERMS[part].fails
 
 
 def label_text(claims: Mapping[str, bool]) -> str:
-    """Claims as they were understood: of every part that is mentioned whether it is said to hold."""
+    """Return the claimed labels as text, separated by commas."""
     return ", ".join(word_of(part, claims[part]) for part in TERMS if part in claims)

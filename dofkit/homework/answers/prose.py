@@ -1,4 +1,4 @@
-"""The words around an answer, in English, German, French, Spanish, Italian and Portuguese."""
+"""Word lists for texts of answers, in English, German, French, Spanish, Italian and Portuguese."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _MARKS = re.compile("[\u0300-\u036f]")
 
 
 def words(text: str) -> frozenset[str]:
-    """The words of a text, as a set."""
+    """Return the set of the words of a text."""
     return frozenset(text.split())
 
 
@@ -25,14 +25,14 @@ def _word_lists() -> dict[str, str]:
 
 
 def word_list(name: str) -> frozenset[str]:
-    """Return a list of `words.yaml`."""
+    """Return the words or phrases of a list in `words.yaml`."""
     text = _word_lists()[name]
     return frozenset(text.split("|")) if "|" in text else words(text)
 
 
 @lru_cache(maxsize=4096)
 def plain(text: str) -> str:
-    """A text in small letters, without accents, blanks around it and the stop at its end.
+    """Return a text in lower case, without accents, blanks around it and the full stop at its end.
 
     >>> plain(" Non intégrable. ")
     'non integrable'
@@ -53,42 +53,42 @@ NUMBERS: dict[str, int] = {
     ))
     for word in forms.split()
 }  # fmt: skip
-#: Nouns that say what is counted: a number of constraints is no number of degrees of freedom, and the other way round.
+#: Nouns of counted quantities: a number of constraints is not a number of degrees of freedom.
 CONSTRAINT_NOUNS = word_list("constraint_nouns")
 FREEDOM_NOUNS = word_list("freedom_nouns")
-#: What is counted.
+#: All nouns of counted quantities.
 UNITS = word_list("units") | CONSTRAINT_NOUNS | FREEDOM_NOUNS
-#: What leads to a number.
+#: Words that lead to a number.
 LEADING = word_list("leading")
-#: After these comes a reason, which is read over.
+#: Words before a reason, which is ignored.
 REASONS = re.compile(
     r"\b(?:because|since|as there|due to|weil|da|denn|wegen|car|parce que|puisque|porque|ya que|pues|perche|perché|"
     r"poiche|poiché|pois|já que)\b",
     re.IGNORECASE,
 )
-#: Words that turn a statement round or leave it open.
+#: Words that negate a statement.
 NEGATIONS = words("not no nicht kein keine pas nao não non never isn't")
-#: Words that take back what is said, or leave it open.
+#: Words that question an answer.
 DOUBTS = word_list("doubts")
-#: Words of a remark that take back what it follows, where there are few; and what does in any.
+#: Words that question the answer in a remark of at most `_DOUBTFUL_WORDS` words; phrases that do so in any remark.
 _TAKING_BACK = word_list("taking_back")
 _DOUBTFUL_WORDS = 3
 _UNSURE = re.compile(
     r"\b(?:not|nicht|pas|no|non|nao)\s+(?:quite\s+|ganz\s+)?(?:sure?|certain|sicher|segur[oa]|sicur[oa]|cert[oa])\b"
 )
-#: What draws a conclusion.
+#: Words before a conclusion.
 CONCLUSION = re.compile(
     r"(?:[.,;]|\s)\s*(?:so|therefore|hence|thus|donc|luego|quindi|portanto|daher|folglich)\b\s*:?\s*(?=\S)",
     re.IGNORECASE,
 )
-#: What is answered to a word such as `holonomic:`.
+#: Replies after a word such as `holonomic:`.
 YES = words("yes true ja wahr oui vrai si sim vero verdadero verdadera verdadeiro")
 NO = words("no false not nein falsch nicht non faux falso falsa nao")
-#: Alone they are no answer at all.
+#: Texts that are no answer.
 NOTHING_SAID = frozenset(
     ("", "-", "--", "---", "–", "—", "−", "/", "?", "??", "???", "...", "…", "n/a", "na", "x?", ".")
 )
-#: Words between words of an answer that say nothing.
+#: Words without meaning for the answer.
 FILLING = word_list("filling")
 
 
@@ -104,5 +104,5 @@ def takes_back(remark: str) -> bool:
 
 
 def says_nothing(answer: object) -> bool:
-    """Return whether there is no answer: nothing, a dash, a question mark."""
+    """Return whether a text is no answer: empty, a dash, or a question mark."""
     return isinstance(answer, str) and answer.strip().lower() in NOTHING_SAID

@@ -1,4 +1,4 @@
-"""The relations of an answer, in every way in which it can be read, with the names that it brings with it."""
+"""Reads the relations of an answer in every possible way, with the names that the answer introduces itself."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from dofkit.homework.answers.pieces import Pieces, pieces_of, plainer
 from dofkit.homework.judgement import DoubtError
 from dofkit.scene.added_equations import Read, as_text
 
-#: Names of its own in an answer, and ways to read it.
+#: The most names that an answer may introduce, and the most ways to read it.
 MOST_OWN, MOST_READINGS = 8, 8
 _OWN = re.compile(
     r"(?!d\b|dt\b)[A-Za-zα-ωΑ-Ω](?:[A-Za-z]?\d{0,2}|_\w{1,5})|const\w*|konst\w*|cte|cst|cost|kst|lam\w{0,3}|mult\w{0,8}"
@@ -29,9 +29,9 @@ _CARTESIAN = frozenset("xyzXYZ")
 _LONG = frozenset({*GREEK.values(), "varphi", "vartheta"})
 _RATE = re.compile(r"(.+?)_?d?dot([_0-9]\w*)?")
 _RELATION = re.compile(r"[=<>≤≥]")
-#: Of a quotient of two numbers before a factor everybody reads the first way: `1/2(m v^2)` is half of it.
+#: `1/2(m v^2)` as (1/2)*(m v^2): the usual reading of a quotient of two numbers before a factor.
 _HALF = re.compile(r"\(\d+/\d+\)\*\(")
-#: Names of constants of integration.
+#: Usual names of constants of integration.
 _OF_INTEGRATION = re.compile(r"[CcKk](?:_?\d)?|[A-Za-z]+_?0|const\w*|konst\w*|c[st]t?e?")
 #: Words that are one name, never a product.
 _WHOLE = re.compile(r"const|konst|cst|cte|lam|mu|mult", re.IGNORECASE)
@@ -42,16 +42,16 @@ _SIGNS, _PLUS, _MINUS = re.compile("[±∓]"), re.compile("±"), re.compile("∓
 
 
 def is_constant_name(name: str) -> bool:
-    """Return whether a name is one that constants of integration usually have."""
+    """Return whether a name is usual for a constant of integration: C, k_1, x_0, const."""
     return _OF_INTEGRATION.fullmatch(name) is not None
 
 
 class AnswerReading(NamedTuple):
     """One way to read an answer.
 
-    ``bare``: which relations were written without a sign, as `x y`; ``undeclared``: names that nobody declared;
-    ``moving``: those of them whose derivatives occur; ``derived``: arrows stand between the equations; ``places``: the
-    columns of the names of its own; ``rank``: how much the reading supposes, 0 for nothing.
+    ``bare``: for each relation whether it has no sign such as `=`; ``undeclared``: names that the answer introduces;
+    ``moving``: undeclared names whose derivatives occur; ``derived``: whether arrows lead from each equation to the
+    next; ``places``: the columns of undeclared names; ``rank``: the number of less usual interpretations.
     """
 
     relations: tuple[Comparison, ...]
@@ -64,26 +64,26 @@ class AnswerReading(NamedTuple):
 
     @property
     def text(self) -> str:
-        """In the grammar of scenes."""
+        """The relations as text in the grammar of scenes."""
         return "; ".join(as_text(c) for c in self.relations)
 
     @property
     def claim(self) -> AnswerReading:
-        """The last relation alone, to which arrows lead."""
+        """The reading with only the last relation, to which arrows lead."""
         return self._replace(relations=self.relations[-1:], bare=self.bare[-1:], derived=False)
 
     @property
     def symbols(self) -> set[Expr]:
-        """Return every symbol of its relations."""
+        """All symbols of the relations."""
         return {s for c in self.relations for e in (c.left, c.right) for s in e.symbols}
 
     @property
     def on_coordinates(self) -> bool:
-        """Return whether it contains coordinates of the scene."""
+        """Whether the relations contain coordinates of the scene."""
         return any(s.args[0] != "parameter" and s.args[-1] not in self.undeclared for s in self.symbols)
 
     def with_own(self, names: Iterable[str]) -> AnswerReading:
-        """Return the reading with these coordinates as names of the answer's own."""
+        """Return the reading with the given coordinates as undeclared names."""
         used = {n: {s.args[0] for s in self.symbols if s.args[-1] == n} for n in names}
         moving = frozenset(n for n, kinds in used.items() if kinds - {"coordinate"})
         still = {coordinate(n): parameter(n) for n, kinds in used.items() if kinds and n not in moving}
@@ -95,18 +95,18 @@ class AnswerReading(NamedTuple):
         return self._replace(relations=relations, undeclared=undeclared, moving=self.moving | moving)
 
     def read(self, constants: frozenset[str] = frozenset()) -> Read:
-        """As equations for a scene."""
+        """Return the reading as equations for a scene; ``constants``: names of constants of integration."""
         moving = any(s.args[0] not in ("coordinate", "parameter", "time") for s in self.symbols)
         return Read(tuple(as_text(c) for c in self.relations), constants, self.text, moving)
 
 
 @dataclass(frozen=True)
 class AnswerNames:
-    """The declared names, the answer's own, and spellings of declared ones.
+    """The declared names, those that the answer introduces (``undeclared``), and other spellings (``meant``).
 
-    ``choice``: which reading was taken of each kind of doubt, the same
-    in the whole answer; ``signs_apart``: `±` makes two readings, not one product. ``usual``: words that are read as the
-    usual names of quantities, such as `v_x`; ``frequencies``: omega may also be a frequency.
+    ``choice``: {kind of ambiguity: number of the reading}, the same in the whole answer; ``signs_apart``: whether `±`
+    makes two readings, not one product. ``usual``: words read as usual names of quantities, such as `v_x`;
+    ``frequencies``: whether omega may also be a frequency.
     """
 
     names: Names
@@ -123,7 +123,7 @@ class AnswerNames:
     frequencies: bool = False
 
     def as_names(self) -> Names:
-        """The words of this vocabulary as the names of a text; `e` is Euler's number unless it is declared."""
+        """Return the names for the parser; with ``euler``, `e` is Euler's number."""
         base = self.names
         more: dict[str, Expr] = {**({"e": E} if self.euler else {}), **self.usual}
         for word, name in self.meant.items():
@@ -149,7 +149,7 @@ class AnswerNames:
         )
 
     def with_word(self, word: str) -> AnswerNames | None:
-        """The same with what an unknown word stands for; None where it can stand for nothing."""
+        """Return the vocabulary extended by a meaning of an unknown word, or None if it cannot have one."""
         word = in_words(word)
         if word == "e" and not self.euler:
             return replace(self, euler=True)
@@ -179,14 +179,14 @@ class AnswerNames:
         return replace(self.names, allow_accelerations=self.accelerations)
 
     def _twin(self, word: str) -> str | None:
-        """The one declared name that differs by capitals and `_` only, or the one coordinate that begins so: `x_P`."""
+        """Return the only declared name that differs in case and `_`, or the only coordinate `word_...`, or None."""
         declared = (*self.names.coordinates, *self.names.parameters)
         twins = {name for name in declared if unmarked(name) == unmarked(word)}
         twins = twins or {name for name in self.names.coordinates if name.partition("_")[0] == word}
         return twins.pop() if len(twins) == 1 else None
 
     def _may_be_own(self, word: str) -> bool:
-        """Return whether it is a short name; z, and ``x_A`` if x is declared, are meant for coordinates."""
+        """Return whether an answer may introduce this short name; not x, y, z, nor ``x_A`` if x is declared."""
         if word in _CARTESIAN:
             return False
         stem, _, index = word.partition("_")
@@ -197,7 +197,7 @@ class AnswerNames:
         return fits and not (declared and index and not index.isdigit())
 
     def _letter(self, word: str) -> AnswerNames | None:
-        """With the one letter of a word that is no name, where all the others are: `Cx` is C x, `Ce^x` C e^x."""
+        """Return the vocabulary with the only undeclared letter of a product: `Cx` is C x; None if there is not one."""
         if len(word) < 2 or spelled(word) in _LONG or "_" in word or _WHOLE.match(word):
             return None
         candidates = []
@@ -217,7 +217,7 @@ class AnswerNames:
 
 
 def with_explained_names(readings: Iterable[AnswerReading], names: DeclaredNames) -> list[AnswerReading]:
-    """Return the readings whose undeclared names may stand for something.
+    """Return the readings whose undeclared names can be explained.
 
     They may be constants of integration, other names of declared constants that the answer does not mention, or names
     that several of its relations define. Raises UnknownNameError if there is no such reading.
@@ -244,9 +244,9 @@ def with_explained_names(readings: Iterable[AnswerReading], names: DeclaredNames
 def readings_of(
     answer: object, vocabulary: AnswerNames, lead: Callable[[Script], Script] | None = None
 ) -> list[AnswerReading]:
-    """Every way to read an answer; ``lead`` takes away what stands before each of its parts.
+    """Return all readings of an answer; ``lead`` removes a text before each of its equations.
 
-    Raises TextError, its column counted within the text that was written.
+    Raises TextError with its column in the original text.
     """
     pieces = pieces_of(answer, vocabulary.names)
     defined = {word for script in pieces.scripts for word in _defined_constants(script, vocabulary)}
@@ -294,7 +294,7 @@ def _readable(script: Script, vocabulary: AnswerNames) -> bool:
 
 
 def _spliced_readings(script: Script, vocabulary: AnswerNames) -> Iterator[tuple[tuple[Comparison, ...], AnswerNames]]:
-    """The relations of one piece, in every way, and the names known then."""
+    """Yield (relations, extended vocabulary) for every reading of one equation."""
     if vocabulary.signs_apart and _SIGNS.search(script.text):
         for up, down in ("+-", "-+"):
             yield from _spliced_readings(script.replaced(_PLUS, up).replaced(_MINUS, down), vocabulary)
@@ -336,7 +336,7 @@ def _spliced_readings(script: Script, vocabulary: AnswerNames) -> Iterator[tuple
 
 
 def _is_of_constants(reading: str, names: Names) -> bool:
-    """Return whether a function of constants alone stands before what moves: `sin(omega) t` for `sin omega t`."""
+    """Return whether a reading begins with a function of constants, as `sin(omega) t` for `sin omega t`."""
     function = _FUNCTION_FIRST.match(reading)
     moving = {"t", *names.coordinates}
     return function is not None and moving.isdisjoint(in_words(word) for word in _WORDS.findall(function["inside"]))
@@ -353,7 +353,7 @@ def _as_frequency(
 
 
 def _defined_constants(script: Script, vocabulary: AnswerNames) -> Iterator[str]:
-    """Yield the name that a piece defines by constants alone, as `omega^2 = g/l` does."""
+    """Yield a usual name that an equation defines by constants alone, as in `omega^2 = g/l`."""
     match = _DEFINITION.match(script.text)
     words = set() if match is None else {in_words(w.strip("\\")) for w in _WORDS.findall(match["value"])}
     moving = {"t", *vocabulary.names.coordinates}
@@ -364,7 +364,7 @@ def _defined_constants(script: Script, vocabulary: AnswerNames) -> Iterator[str]
 
 
 def _of_other_meaning(script: Script, vocabulary: AnswerNames) -> tuple[str, ...]:
-    """Return the words that cannot be the usual names of quantities which the same text writes in full."""
+    """Return the words that are not usual names here, because the quantity also occurs under its declared name."""
     if not vocabulary.usual:
         return ()
     plain_names = replace(vocabulary, usual={}, undeclared=(*vocabulary.undeclared, *vocabulary.usual))
@@ -377,7 +377,7 @@ def _of_other_meaning(script: Script, vocabulary: AnswerNames) -> tuple[str, ...
 
 
 def _with_both_signs(script: Script) -> Script:
-    """`y = ± sqrt(a)` is (y - sqrt(a)) (y + sqrt(a)) = 0."""
+    """Return an equation with `±` as a product: `y = ± sqrt(a)` is (y - sqrt(a)) (y + sqrt(a)) = 0."""
     if not _SIGNS.search(script.text):
         return script
     sides = script.text.split("=")
