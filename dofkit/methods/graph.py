@@ -36,7 +36,7 @@ def dof(scene: Scene | System) -> Reply:
 
 
 def integrability(scene: Scene | System) -> Reply:
-    """Return the label True for all constraints, because links and joints are geometric equations."""
+    """Return True for all constraints, since links and joints are geometric; for others the reply that names one."""
     system = _joined(scene)
     if isinstance(system, Reply):
         return system
