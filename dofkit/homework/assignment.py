@@ -177,6 +177,7 @@ def load_assignment(source: str | os.PathLike[str] | Mapping[str, Any], base: Pa
 
 
 def _prepared(value: Mapping[str, Any], base: Path, document: Document | None) -> Prepared:
+    """Return a checked assignment with its keys and variants. Raises AssignmentError with all faults."""
     try:
         assignment = Assignment.model_validate(value)
         assignment = assignment.model_copy(update={"problems": tuple(map(weighted, assignment.problems))})
@@ -266,6 +267,7 @@ def _within(fault: Fault, i: int, problem: Problem, pick: Pick) -> Fault:
 
 
 def _scene_faults(i: int, problem: Problem, key: Key) -> Iterator[Fault]:
+    """Yield the faults of a problem's scene, variant, offered coordinates, placeholders and questions."""
     if key.report.consistent is False:
         message = f"the scene of problem '{problem.id}' is inconsistent: {', '.join(key.report.conflicting)}"
         yield Fault(message, ("problems", i, "scene"), hint="no motion satisfies its constraints; correct the scene")

@@ -117,6 +117,7 @@ class Grader:
         )
 
     def _problem(self, problem: Problem, answers: Mapping[str, Given]) -> Iterator[Identity | Item]:
+        """Yield the item of each question, and before a new answer is judged its identity."""
         earlier: dict[str, Fraction] = {}
         for question in problem.questions:
             answer = answers.get(question.id)

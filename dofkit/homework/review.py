@@ -259,6 +259,7 @@ class _TableReader:
         return {} if self.faults else {name: i for i, name in enumerate(names) if name in COLUMNS}
 
     def _row(self, line: int, columns: Mapping[str, int], values: Sequence[str]) -> None:
+        """Add a row to ``rows``, or record its faults."""
         cells = {name: _bare(values[i]) if i < len(values) else "" for name, i in columns.items()}
         identity, before = cells["id"], len(self.faults)
         is_id = _ID.fullmatch(identity) is not None
@@ -285,6 +286,7 @@ class _TableReader:
     def _decision(
         self, line: int, columns: Mapping[str, int], cells: Mapping[str, str], most: Fraction | None
     ) -> Decision | None:
+        """Return the decision in a row; None without points, and after a fault, which is recorded."""
         text, remark = cells["points"], cells.get("remark", "")
         if len(remark) > MOST_REMARKED:
             message = f"the remark has {len(remark)} characters"

@@ -215,9 +215,8 @@ def _value(script: Script) -> Fraction | None:
     ):
         return Fraction(0)
     counted = _FIGURE.search(script.text) is not None or any(w in NUMBERS for w in words)
-    if any(w in DOUBTS for w in words) or (
-        any(w in NEGATIONS for w in words) and (counted or len(words) < _REMARK_WORDS)
-    ):
+    negated = any(w in NEGATIONS for w in words) and (counted or len(words) < _REMARK_WORDS)
+    if negated or any(w in DOUBTS for w in words):
         raise DoubtError("it is not clear which number is claimed.", script.columns[0], _HINT)
     if script.text.rstrip().endswith("?"):
         raise DoubtError("a question mark makes the answer ambiguous.", script.columns[0], _HINT)

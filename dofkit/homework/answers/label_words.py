@@ -187,6 +187,7 @@ _ORDINARY = frozenset({"nombre", "name", "phenomenon", "denominator"})
 
 
 def _split(answer: Given) -> list[Word]:
+    """Return the words of an answer, phrases replaced by labels. Raises DoubtError for questions and corrections."""
     if not isinstance(answer, str):
         return split_words(answer)
     script: Script = script_of(one_text(answer))

@@ -225,9 +225,8 @@ def _is_lead(text: str, names: Names) -> bool:
     """Return whether a text before an equation is a title: words without declared names, or a name with a colon."""
     lead_words = re.findall(r"\w+", text)
     least = 0 if ":" in text else 1
-    return not any(len(w) > least and _is_declared(w, names) for w in lead_words) and (
-        len(lead_words) > 1 or ":" in text
-    )
+    is_title = len(lead_words) > 1 or ":" in text
+    return is_title and not any(len(w) > least and _is_declared(w, names) for w in lead_words)
 
 
 def _of_coordinates(text: str, names: Names) -> bool:

@@ -257,6 +257,7 @@ def readings_of(
 
 
 def _readings(pieces: Pieces, vocabulary: AnswerNames) -> Iterator[AnswerReading]:
+    """Yield all combinations of readings of the equations. Raises DoubtError if there are too many."""
     readings: list[tuple[tuple[Comparison, ...], tuple[bool, ...], AnswerNames]] = [((), (), vocabulary)]
     for n, script in enumerate(pieces.scripts):
         more = []

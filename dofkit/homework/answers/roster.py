@@ -214,9 +214,8 @@ def _members(fields: Mapping[str, int], rows: Iterable[tuple[int, list[str]]], f
         identifiers = (getattr(member, name) for name in (*_UNIQUE, "name"))
         student = next((text for text in identifiers if shared[plain_name(text)] == 1), None)
         if student is None:
-            raise RosterError(
-                f"{file}, line {member.line}: '{member.name}' shares every name, address and number with others"
-            )
+            place = f"{file}, line {member.line}"
+            raise RosterError(f"{place}: '{member.name}' shares every name, address and number with others")
         yield replace(member, student=student)
 
 

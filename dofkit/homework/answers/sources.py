@@ -147,6 +147,7 @@ def _folder(folder: str, columns: Columns, left_out: frozenset[str]) -> Iterator
 
 
 def _file(path: str, columns: Columns, within: bool = False) -> Iterator[Handed]:
+    """Yield the submissions of a file; ``within`` a folder, files of other formats give an error."""
     suffix = os.path.splitext(path)[1].lower()
     try:
         if within and (not stat.S_ISREG(os.stat(path).st_mode) or suffix not in (*DOCUMENTS, *LINES, *TABLES)):

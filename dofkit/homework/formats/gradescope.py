@@ -57,9 +57,8 @@ def _first_output(result: Result, language: Language) -> str:
     """Return the text about the submission before points are shown."""
     doubt = result.doubt
     lines = [] if doubt is None else [in_language(language, "This result is not final: {fault}.", fault=plain(doubt))]
-    return "\n".join(
-        [*lines, in_language(language, "The list shows how each answer was read; points are shown later.")]
-    )
+    lines.append(in_language(language, "The list shows how each answer was read; points are shown later."))
+    return "\n".join(lines)
 
 
 def _reading(item: Item, language: Language) -> dict[str, Any]:

@@ -32,9 +32,8 @@ def document(result: Result, prepared: Prepared) -> dict[str, Any]:
     if len(text(fields)) > MOST_BYTES:
         too_many = in_language(language, "There are too many answers to be listed one by one.")
         errors = [shortened(error, MOST_CHARACTERS) for error in fields.get("format_errors", [])[:50]]
-        fields |= {"tests": [], "message": f"{fields['message']}\n{too_many}"} | (
-            {"format_errors": errors} if errors else {}
-        )
+        fields |= {"tests": [], "message": f"{fields['message']}\n{too_many}"}
+        fields |= {"format_errors": errors} if errors else {}
     return fields
 
 

@@ -124,9 +124,8 @@ class SheetComposer:
 
     def _force(self, force: Force) -> str:
         if force.type == "gravity" and isinstance(force.acceleration, str):
-            return self._text(
-                "Gravity acts on all masses, with the acceleration {value}.", value=f"${force.acceleration}$"
-            )
+            sentence = "Gravity acts on all masses, with the acceleration {value}."
+            return self._text(sentence, value=f"${force.acceleration}$")
         if force.type == "gravity":
             return self._text("Gravity acts on all masses.")
         ends = [*(force.between or ()), *([] if force.point is None else [force.point])]
@@ -152,9 +151,8 @@ class SheetComposer:
             lead = self._text("Example (for a different system):")
             yield self._text(cls.how) + (f" {lead} `{cls.example}`" if cls.example else "")
         yield self._text("Greek letters may be typed directly or as words such as theta and omega. LaTeX is accepted.")
-        yield self._text(
-            "Decimals are written with a point or a comma; exact numbers such as 1/3 or sqrt(2) are preferred."
-        )
+        decimals = "Decimals are written with a point or a comma; exact numbers such as 1/3 or sqrt(2) are preferred."
+        yield self._text(decimals)
 
 
 def asked_equations(problem: Problem) -> set[str]:

@@ -86,6 +86,7 @@ class EquationComparison:
         return replace(needs_review(reading.text, "the answer contradicts itself."), readings=tuple(readings))
 
     def _compared_reading(self, reading: AnswerReading) -> Judgement:
+        """Return the judgement after undeclared names are read as constants, eliminated or matched to declared ones."""
         if not reading.undeclared:
             return self._declared(reading)
         if not reading.on_coordinates:
@@ -250,6 +251,5 @@ def _equations(key: Key, name: str) -> str:
 def _sayable(key: Key, expr: Expr) -> bool:
     """Return whether all names in an expression are declared, except squares of unnamed lengths."""
     declared = {*key.declared.names.coordinates, *key.declared.names.parameters}
-    return all(
-        s.args[0] == "time" or str(s.args[-1]) in declared or _UNNAMED.fullmatch(str(s.args[-1])) for s in expr.symbols
-    )
+    names = {str(s.args[-1]) for s in expr.symbols if s.args[0] != "time"}
+    return all(name in declared or _UNNAMED.fullmatch(name) for name in names)

@@ -95,6 +95,7 @@ def _mentions(e: Expr, name: str) -> bool:
 
 
 def _eliminated(sums: Sequence[Expr], symbol: Expr, scene: Scene) -> list[Expr] | None:
+    """Return expressions (each is 0) without ``symbol``, equivalent for the other symbols, or None."""
     holding = [e for e in sums if symbol in e.symbols]
     untouched = [e for e in sums if symbol not in e.symbols]
     for e in holding:
@@ -197,9 +198,8 @@ def never_zero(e: Expr, scene: Scene) -> bool:
         return all(never_zero(factor, scene) for factor in e.args)
     if e.op == "pow":
         return never_zero(e.args[0], scene)
-    return (
-        e.op == "sym" and e.args[0] == "parameter" and scene.parameters.get(str(e.args[1])) in ("positive", "nonzero")
-    )
+    is_parameter = e.op == "sym" and e.args[0] == "parameter"
+    return is_parameter and scene.parameters.get(str(e.args[1])) in ("positive", "nonzero")
 
 
 def renamed(

@@ -70,10 +70,9 @@ def _has_values(e: Expr) -> bool:
 
 def _difference(scene: Scene, region: Sequence[Condition], other: Sequence[Condition]) -> tuple[bool | None, str]:
     """Return (whether ``region`` has a point outside ``other``, or None if undecided; this point as text)."""
-    systems = [
-        [*case, *failing] for case in _cases_of_all(region) for condition in other for failing in _failing(condition)
-    ]
-    open_cases = len(systems) > MOST_CASES
+    failing = [system for condition in other for system in _failing(condition)]
+    systems = [[*case, *outside] for case in _cases_of_all(region) for outside in failing]
+    undecided = len(systems) > MOST_CASES
     for system in systems[:MOST_CASES]:
         texts = [f"{to_text(c.e)} {'>' if c.strict else '>='} 0" for c in system]
         more = tuple(Equation(name=f"region {n}", text=text) for n, text in enumerate(texts))
@@ -83,8 +82,8 @@ def _difference(scene: Scene, region: Sequence[Condition], other: Sequence[Condi
             continue
         if report.feasible:
             return True, counterexample(scene, (), (), [c.e for c in system])
-        open_cases = open_cases or report.feasible is None
-    return None if open_cases else False, ""
+        undecided = undecided or report.feasible is None
+    return None if undecided else False, ""
 
 
 def _cases_of_all(region: Sequence[Condition]) -> Iterator[list[Condition]]:

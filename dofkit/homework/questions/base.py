@@ -27,9 +27,8 @@ def _points(value: object) -> object:
     if points < 0:
         raise fault_error(f"points are not negative, as {value} is", "write 0 or more")
     if points > MOST_POINTS or 0 < points < FEWEST_POINTS:
-        raise fault_error(
-            f"a question cannot be worth {value} points", f"write 0, or {float(FEWEST_POINTS)} to {MOST_POINTS}"
-        )
+        hint = f"write 0, or {float(FEWEST_POINTS)} to {MOST_POINTS}"
+        raise fault_error(f"a question cannot be worth {value} points", hint)
     return points
 
 

@@ -117,9 +117,8 @@ class _OfCoordinate(_Value):
         if same is None:
             return needs_review(text, "it could not be decided whether this is equal to the correct expression.")
         if motion.motions and reduced is not None and motion.zero(expression - unreduced) is not False:
-            return needs_review(
-                text, "it may be written in the original coordinates, before the constraints are substituted."
-            )
+            why = "it may be written in the original coordinates, before the constraints are substituted."
+            return needs_review(text, why)
         if motion.zero(expression + wanted):
             return wrong(text, "SIGN")
         return wrong(text, self.code)

@@ -14,9 +14,8 @@ Language = Literal["en", "de", "fr", "es"]
 
 @cache
 def _rows(name: str) -> list[dict[str, str]]:
-    rows: list[dict[str, str]] = read_document(
-        files("dofkit.homework.sentences").joinpath(name).read_bytes(), name
-    ).value
+    data = files("dofkit.homework.sentences").joinpath(name).read_bytes()
+    rows: list[dict[str, str]] = read_document(data, name).value
     return rows
 
 
