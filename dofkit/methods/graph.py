@@ -59,7 +59,7 @@ def _verdict(system: System) -> Verdict:
 
 
 def _redundant(system: System) -> list[int]:
-    """Return a maximal redundant set of constraints in general position, the last written first."""
+    """Return the numbers of a maximal redundant set in general position, preferring constraints written last."""
     pairs = linked_particles(system)
     if pairs is not None and len({i for i, _ in pairs}) == len(pairs):
         return [pairs[k][0] for k in linkage([pair for _, pair in pairs], system.dimension).redundant_places]
