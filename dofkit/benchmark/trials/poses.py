@@ -141,16 +141,16 @@ def rounded_poses() -> Iterator[KnownScene]:
 
 
 def measured_poses() -> Iterator[KnownScene]:
-    """Mechanisms at singular poses with rounded positions and a tolerance: the truth is that of the exact ones."""
+    """Yield mechanisms at singular poses, rounded and with a tolerance: the truth is that of the exact positions."""
     for digits in DIGITS:
         for pose in NEAR:
-            drawn = pose.framework_at(ZERO).moved(turned).moved(rounded(digits))
+            framework = pose.framework_at(ZERO).moved(turned).moved(rounded(digits))
             name = f"{pose.name}, {digits} digits with tolerance"
-            yield pose.scene(name, drawn, pose.freedom(ZERO), tolerance=f"1e-{digits}")
+            yield pose.scene(name, framework, pose.freedom(ZERO), tolerance=f"1e-{digits}")
 
 
 def measured_elsewhere() -> Iterator[KnownScene]:
-    """Exact positions with a tolerance, of any size and anywhere."""
+    """Yield scenes with exact positions and a tolerance, scaled and moved by every entry of `MOVES`."""
     for how in MOVES:
         for step in (ZERO, Fraction(1, 2)):
             yield from (_moved(p, step, how, f", within {TOLERANCE}", tolerance=TOLERANCE) for p in NEAR)
