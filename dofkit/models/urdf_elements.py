@@ -131,7 +131,7 @@ class Robot:
         return values
 
     def poses(self) -> Poses:
-        """Return the poses in the reference configuration, with the root links at the origin."""
+        """Return the poses in the reference configuration, along a tree of joints from the root links at the origin."""
         drawn = self.drawn()
         below: dict[str, list[RobotJoint]] = {}
         for joint in self.joints:
