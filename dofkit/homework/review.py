@@ -224,7 +224,7 @@ class _TableReader:
         self.faults: list[Fault] = []
         self.rows: dict[str, ReviewRow] = {}
         self.unasked: list[tuple[int, int, str]] = []
-        self.matches = False
+        self.has_known_question = False
 
     def table(self, text: str) -> FilledTable:
         """Return all rows. Raises ReviewError."""
@@ -235,7 +235,7 @@ class _TableReader:
                 self._row(row.line, columns, row.cells)
             else:
                 self._fault(row.error, row.line, 1, "save the table as CSV again")
-        for line, column, identity in () if self.matches else self.unasked:
+        for line, column, identity in () if self.has_known_question else self.unasked:
             self._no_answer(identity, line, column)
         if self.faults:
             raise ReviewError(tuple(self.faults[:MOST_FAULTS]), self.source)
@@ -264,7 +264,7 @@ class _TableReader:
         identity, before = cells["id"], len(self.faults)
         is_id = _ID.fullmatch(identity) is not None
         most = self.most_points.get(identity.partition("-")[0]) if is_id else None
-        self.matches |= most is not None
+        self.has_known_question |= most is not None
         if not is_id:
             self._no_answer(identity, line, columns["id"] + 1)
         elif most is None:
