@@ -136,6 +136,7 @@ class ComposedText:
         raise UnreadableError
 
     def _take(self, event: Any) -> None:
+        """Process one event of PyYAML's parser."""
         if isinstance(event, ScalarEvent):
             self._scalar(event)
         elif isinstance(event, CollectionStartEvent):
@@ -167,6 +168,7 @@ class ComposedText:
         self._add(done.value, done.size)
 
     def _alias(self, event: AliasEvent) -> None:
+        """Add the value that an alias names, or take it as a key."""
         name = str(event.anchor)
         if name not in self._anchors:
             inside = any(part.anchor == name for part in self._stack)
@@ -182,6 +184,7 @@ class ComposedText:
             self._add(value, size)
 
     def _scalar(self, event: ScalarEvent) -> None:
+        """Add the value of a scalar, or take its text as a key; an invalid number is recorded as a fault."""
         self._check_tag(event)
         text = _whole_characters(event.value)
         if text is None:
@@ -227,6 +230,7 @@ class ComposedText:
             self._fault(event, f"the key '{key[:60]}' is written twice", "keep one of the two")
 
     def _add(self, value: Any, size: int) -> None:
+        """Add a complete value to the innermost collection, or make it the document."""
         if not self._stack:
             self.value = value
             return

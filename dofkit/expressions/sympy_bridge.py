@@ -54,6 +54,7 @@ class Bridge:
         return self._memo[e]
 
     def _to_sympy(self, e: Expr) -> Any:
+        """Return a node in SymPy, whose operands are in the memo already."""
         sp = self._sympy
         if e.op == "num":
             return sp.Rational(e.args[0].numerator, e.args[0].denominator)
@@ -103,6 +104,7 @@ class Bridge:
         return translated
 
     def _from_sympy(self, e: Any) -> Expr:
+        """Return a SymPy expression as an `Expr`. Raises UntranslatableError."""
         sp = self._sympy
         if e.is_Rational:
             return ex.num(Fraction(int(e.p), int(e.q)))

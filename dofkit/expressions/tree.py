@@ -104,7 +104,7 @@ class Expr:
 
     @property
     def symbols(self) -> frozenset[Expr]:
-        """Every ``sym`` node that occurs."""
+        """All ``sym`` nodes in the expression."""
         if self._symbols is None:
             if self.op == "sym":
                 self._symbols = frozenset((self,))
@@ -199,7 +199,7 @@ _ONCE: Fraction = ONE.args[0]
 
 
 def number_and_rest(term: Expr) -> tuple[Fraction, Expr]:
-    """Return ``term`` as a number times the rest."""
+    """Return (number, other factors), whose product is ``term``."""
     if term.op == "num":
         return term.args[0], ONE
     if term.op == "mul" and term.args[0].op == "num":

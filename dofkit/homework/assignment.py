@@ -1,4 +1,4 @@
-"""Assignments: problems over scenes, and the questions asked of each."""
+"""Assignments: problems about scenes, each with questions."""
 
 from __future__ import annotations
 
@@ -36,9 +36,9 @@ from dofkit.scene.hints import with_hint, without_echoes
 from dofkit.scene.reading import load
 from dofkit.scene.scene import Scene
 
-#: A scene of more constraints is refused: grading starts with working out all that may be asked of it.
+#: The most constraints of a scene: every answer that a question may need is computed before grading.
 MOST_CONSTRAINTS = 5000
-#: One choice of many, with which no answer is compared.
+#: A field with many correct values, with which no answer is compared.
 UNASKED = "generalized_coordinates"
 FeedbackLevel = Literal["hint", "full"]
 Visibility = Literal["visible", "after_due_date", "after_published", "hidden"]
@@ -46,11 +46,11 @@ UnreadablePolicy = Literal["review", "zero"]
 
 
 class AssignmentError(FaultsError):
-    """What is no assignment: all its faults at once."""
+    """An invalid assignment, with all its faults."""
 
 
 class Assignment(WrittenModel):
-    """What a lecturer hands out."""
+    """An assignment as the lecturer writes it."""
 
     title: str = Field(description="its title")
     convention: Convention = Field(
@@ -86,11 +86,11 @@ class Combination(NamedTuple):
 
 @dataclass(frozen=True)
 class Prepared:
-    """An assignment with its scenes: everything that grading needs. ``keys`` by problem; ``base``: its folder.
+    """An assignment with everything that grading needs. ``keys``: {problem: key}; ``base``: its folder.
 
-    ``decisions``: what a person decided of answers, which goes before all that dofkit finds. ``combinations``: the
-    variants of the problems that vary; ``marks``: of one student's sheet the variant of each question whose right
-    answer depends on it; ``variant``: what distinguishes the sheet from others.
+    ``decisions``: points that a person gave, which replace those of dofkit. ``combinations``: {problem: its variants};
+    ``marks``: in one student's sheet {(problem, question): variant} for questions whose right answer depends on it;
+    ``variant``: what distinguishes the sheet from others.
     """
 
     assignment: Assignment
@@ -102,22 +102,22 @@ class Prepared:
     variant: str = ""
 
     def questions(self) -> Iterator[tuple[Problem, QuestionBase]]:
-        """Every question with its problem, in order."""
+        """Yield (problem, question) for every question, in order."""
         for problem in self.assignment.problems:
             for question in problem.questions:
                 yield problem, question
 
     def most_points(self) -> dict[tuple[str, str], Fraction]:
-        """Return how many points each question is worth."""
+        """Return {(problem, question): points}."""
         return {(problem.id, question.id): question.points for problem, question in self.questions()}
 
     @cached_property
     def max_score(self) -> float:
-        """Return how many points there are in all."""
+        """The sum of the points of all questions."""
         return float(sum(self.most_points().values()))
 
     def columns(self) -> dict[str, tuple[str, str]]:
-        """The problem and the question of every column ``PROBLEM.QUESTION`` of a table of answers."""
+        """Return {PROBLEM.QUESTION: (problem, question)}, the columns of a table of answers."""
         return {f"{problem.id}.{question.id}": (problem.id, question.id) for problem, question in self.questions()}
 
 
@@ -169,6 +169,7 @@ def load_assignment(source: str | os.PathLike[str] | Mapping[str, Any], base: Pa
 
 
 def _prepared(value: Mapping[str, Any], base: Path, document: Document | None) -> Prepared:
+    """Return a checked assignment with its keys and variants. Raises AssignmentError with all faults."""
     try:
         assignment = Assignment.model_validate(value)
         assignment = assignment.model_copy(update={"problems": tuple(map(weighted, assignment.problems))})
@@ -200,7 +201,7 @@ def _prepared(value: Mapping[str, Any], base: Path, document: Document | None) -
 
 
 def _variants(problem: Problem, base: Path, faults: list[Fault], i: int) -> Iterator[tuple[Pick, Problem]]:
-    """Yield the variants of a problem, the first values first; the problem itself if it does not vary."""
+    """Yield (values, problem with these values) for each variant; ({}, problem) if it does not vary."""
     if not problem.vary:
         yield {}, problem
         return
@@ -215,26 +216,26 @@ def _variants(problem: Problem, base: Path, faults: list[Fault], i: int) -> Iter
 
 
 def _written_scene(source: str, base: Path) -> object:
-    """Return what the file of a scene, or of one in the catalog, says."""
+    """Return the parsed document of a scene's file, or of a scene in the catalog."""
     file = find(base / source if (base / source).is_file() else source)
     return read_document(file.data, file.name).value
 
 
 def _of_variant(fault: Fault, problem: Problem, pick: Pick) -> Fault:
-    """Return a fault that says of which variant it is one."""
+    """Return a fault with the values of its variant in the message."""
     if not problem.vary:
         return fault
     return replace(fault, message=f"for {pick_text(problem.vary, pick)}: {fault.message}")
 
 
 def _without_shortness(faults: Sequence[Fault]) -> tuple[Fault, ...]:
-    """The faults less that a list is too short where its entries are at fault."""
+    """Return the faults without "list too short" if the list only lost its faulty entries."""
     inside = {fault.where[:n] for fault in faults for n in range(len(fault.where))}
     return tuple(f for f in faults if not (f.where in inside and f.message.startswith("at least")))
 
 
 def _scene(problem: Problem, base: Path) -> Scene:
-    """Return the scene of a problem. Raises SceneError, also for one of too many constraints."""
+    """Return the scene of a problem. Raises SceneError, also if it has too many constraints."""
     if isinstance(problem.scene, dict):
         scene = load(problem.scene, name=problem.id)
     else:
@@ -248,7 +249,7 @@ def _scene(problem: Problem, base: Path) -> Scene:
 
 
 def _within(fault: Fault, i: int, problem: Problem, pick: Pick) -> Fault:
-    """Return a fault of a scene as a fault of the assignment; one of a file says which."""
+    """Return a fault of a scene as a fault of the assignment; a scene's own file is named in the message."""
     where = ("problems", i, "scene")
     fault = _of_variant(fault, problem, pick)
     if isinstance(problem.scene, dict):
@@ -258,6 +259,7 @@ def _within(fault: Fault, i: int, problem: Problem, pick: Pick) -> Fault:
 
 
 def _scene_faults(i: int, problem: Problem, key: Key) -> Iterator[Fault]:
+    """Yield the faults of a problem's scene, variant, offered coordinates, placeholders and questions."""
     if key.report.consistent is False:
         message = f"the scene of problem '{problem.id}' is inconsistent: {', '.join(key.report.conflicting)}"
         yield Fault(message, ("problems", i, "scene"), hint="no motion satisfies its constraints; correct the scene")

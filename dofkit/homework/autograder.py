@@ -1,11 +1,11 @@
-"""One submission, graded where Gradescope has put it: ``python -m dofkit.homework.autograder ASSIGNMENT``.
+"""Grades the submission in Gradescope's folder: ``python -m dofkit.homework.autograder ASSIGNMENT``.
 
-A result in which every answer is open is written first: it stands where the grading is cut short.
-What a student wrote says nothing of who the student is: that is the platform's to say, where it does. Where a
-submission names another ``student`` than its user a person has to look at it, and the result says so.
+A result in which every answer is undecided is written first: it remains if grading is interrupted.
+The student is the platform's user, not the name in the submission. If a submission names another ``student``, a person
+has to review it, and the result says so.
 
-What a person decided comes back: a ``review.csv`` beside the assignment's file is applied to all who give those
-answers. So it is put there, and the submissions are graded again.
+Points that a person gave in a ``review.csv`` beside the assignment's file are applied to all equal answers when the
+submissions are graded again.
 """
 
 from __future__ import annotations
@@ -34,24 +34,24 @@ from dofkit.homework.result import Result
 from dofkit.homework.runs.batch import MODULES, Keeper, Orders
 from dofkit.homework.variants import NobodysVariantError, sheet_of
 
-#: Gradescope's folder, the result in it, and the seconds of processor time for a submission.
+#: Gradescope's folder, the file of the result in it, and the seconds of processor time for a submission.
 ROOT, RESULTS, SECONDS = Path("/autograder"), "results/results.json", 240.0
-#: A longer file of the platform is not read.
+#: The most bytes of a platform's file that are read.
 MOST_BYTES = 8_000_000
 
 
 def undecided(prepared: Prepared, student: str, reason: str) -> Result:
-    """The result in which every answer needs a review."""
+    """Return a result in which every answer needs a review, for the given reason."""
     review = needs_review("", reason)
     items = [item_of(prepared, problem, question, review) for problem, question in prepared.questions()]
     return Result(student=student, score=0.0, max_score=prepared.max_score, items=items, needs_review=len(items))
 
 
 def grade_at(root: Path, assignment: Path, memory: int) -> Result:
-    """Grade what was handed in and write the result. Raises AssignmentError, and OSError where nothing can be written.
+    """Grade the submission below ``root``, write the result and return it.
 
-    ``memory``: the bytes that the process may take in which answers are judged. Raises ReviewError where the
-    ``review.csv`` beside the assignment cannot be used; then the result stands that was there before.
+    ``memory``: the limit in bytes of the process that judges answers. Raises AssignmentError, OSError if nothing can be
+    written, and ReviewError if the ``review.csv`` beside the assignment is unusable; then no result is written.
     """
     metadata = _object(_json(root / "submission_metadata.json"))
     users = _users(metadata)
@@ -74,7 +74,7 @@ def grade_at(root: Path, assignment: Path, memory: int) -> Result:
 
 
 def _users(metadata: Mapping[str, Any]) -> list[Participant]:
-    """Those who handed in, called by their addresses, or by their names."""
+    """Return the users who submitted, with their address, name or id as ``student``."""
     users = metadata.get("users")
     persons = [_object(user) for user in users] if isinstance(users, list) else []
     identities = [[clean(str(user.get(key) or "")) for key in ("email", "name", "sid", "id")] for user in persons]
@@ -86,14 +86,14 @@ def _users(metadata: Mapping[str, Any]) -> list[Participant]:
 
 
 def _visibility(prepared: Prepared, metadata: Mapping[str, Any]) -> Visibility:
-    """Return when points are shown: without a due date when grades are published."""
+    """Return when points are shown: as the assignment says, but without a due date when grades are published."""
     visibility, dates = prepared.assignment.visibility, _object(metadata.get("assignment"))
     endless = "due_date" in dates and not (dates["due_date"] or dates.get("late_due_date"))
     return "after_published" if visibility == "after_due_date" and endless else visibility
 
 
 def _only_hand_in(folder: Path, prepared: Prepared) -> Handed | Result:
-    """The one thing that was handed in, or the result that says why there is none."""
+    """Return the only submission, or the result that says why there is none or more than one."""
     submitted: list[Handed] = []
     for handed in hand_ins([str(folder)], prepared.columns()):
         path = Path(handed.place.file)
@@ -109,7 +109,7 @@ def _only_hand_in(folder: Path, prepared: Prepared) -> Handed | Result:
 
 
 def _result(handed: Handed, prepared: Prepared, memory: int) -> Result:
-    """The result of what was handed in; each answer has its share of the time."""
+    """Return the result of a submission; each answer gets a share of the time."""
     orders = Orders.of(prepared)
     share = SECONDS / (2 * len(prepared.columns()) + 2)
     orders = replace(orders, seconds=min(orders.seconds, share), hard=min(orders.hard, 2 * share))
@@ -119,7 +119,7 @@ def _result(handed: Handed, prepared: Prepared, memory: int) -> Result:
 
 
 def _write(root: Path, fields: dict[str, Any]) -> None:
-    """Write the result whole: it never stands there in part."""
+    """Write the result atomically, by renaming a temporary file."""
     path = root / RESULTS
     path.parent.mkdir(parents=True, exist_ok=True)
     temporary = path.with_name(f".{path.name}.new")
@@ -141,7 +141,7 @@ def _object(value: object) -> Mapping[str, Any]:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Grade at Gradescope; the exit status says whether a result was written."""
+    """Grade on Gradescope; return the exit status, 0 if a result was written, else 2."""
     parser = argparse.ArgumentParser(prog="python -m dofkit.homework.autograder", description=__doc__)
     parser.add_argument("assignment", type=Path)
     parser.add_argument("--root", type=Path, default=ROOT, help="the platform's folder")

@@ -43,20 +43,20 @@ from dofkit.homework.variants import NobodysVariantError, sheet_of
 
 #: Seconds of processor time for one answer; what is not decided then needs a review.
 ANSWER_SECONDS = 5.0
-#: Answers that are remembered, each of at most so many characters.
+#: The most judgements that are kept, each for an answer of fewer characters than this.
 MOST_REMEMBERED, LONGEST_REMEMBERED = 10_000, 4000
-#: Answers to what was not asked that are listed, and characters of their names.
+#: The most answers to other questions that are listed, and the most characters of their names.
 MOST_UNASKED, LONGEST_NAME = 100, 200
 
-#: An answer to judge, as a text: its problem, its question, what it says, and the numbers that it may follow from.
+#: The key of a judgement: a text of problem, question, answer, earlier numbers and variant.
 Identity = str
 
 
 class Grader:
-    """Grades submissions of one assignment; the same answer is judged once.
+    """Grades submissions of one assignment; equal answers are judged once.
 
-    ``condemned``: why answers are not to be judged, such as those that broke a worker; they need a review.
-    ``check_only``: answers are read and not judged, so that there are no points.
+    ``condemned``: {identity: reason} of answers that are not judged, because they broke a worker; they need a review.
+    ``check_only``: whether answers are only read, so that there are no points.
     """
 
     def __init__(self, prepared: Prepared, seconds: float = ANSWER_SECONDS, check_only: bool = False) -> None:
@@ -68,13 +68,13 @@ class Grader:
         self._variants: dict[str, Grader] = {}
 
     def grade(self, submission: Submission) -> Result:
-        """Every question with what the student answered, in the assignment's order; then what was not asked."""
+        """Return the result: all questions in the assignment's order, then answers to other questions."""
         return next(step for step in self.steps(submission) if isinstance(step, Result))
 
     def steps(self, submission: Submission) -> Iterator[Identity | Result]:
-        """Yield every answer that takes work before it is judged, and at the end the result.
+        """Yield the identity of every new answer before it is judged, and at the end the result.
 
-        What fails outside one answer is the error of this submission alone; nobody else loses a result by it.
+        A failure outside of an answer becomes the error of this submission, and does not affect others.
         """
         error = submission.error
         try:
@@ -117,6 +117,7 @@ class Grader:
         )
 
     def _problem(self, problem: Problem, answers: Mapping[str, Given]) -> Iterator[Identity | Item]:
+        """Yield the item of each question, and before a new answer is judged its identity."""
         earlier: dict[str, Fraction] = {}
         for question in problem.questions:
             answer = answers.get(question.id)
@@ -138,14 +139,14 @@ class Grader:
                 earlier.setdefault(question.kind(), claimed)
 
     def _decision(self, problem: Problem, question: QuestionBase, answer: Given) -> Decision | None:
-        """Return what a person decided about this answer, whoever gave it."""
+        """Return the decision of a person about equal answers of any student, or None."""
         if self.check_only or not self.prepared.decisions:
             return None
         variant = self.prepared.marks.get((problem.id, question.id), "")
         return self.prepared.decisions.get(answer_id(problem.id, question.id, shown_text(answer), variant))
 
     def _decided(self, problem: Problem, question: QuestionBase, decision: Decision, answer: Given) -> Item:
-        """An answer with the points that a person gave it."""
+        """Return the item of an answer with the points that a person gave."""
         share = decision.points / question.points if question.points else FULL
         judgement = partly(share, "", why=decision.remark or "A person has reviewed this answer.")
         item = item_of(self.prepared, problem, question, judgement, answer)
@@ -154,7 +155,7 @@ class Grader:
     def _judged(
         self, identity: Identity, problem: Problem, question: QuestionBase, answer: Given, earlier: Earlier
     ) -> Judgement:
-        """Return what an answer is worth; after the same earlier answers always the same."""
+        """Return the judgement of an answer, which is kept for equal answers."""
         if identity in self.condemned:
             return needs_review("", self.condemned[identity])
         judgement = self._judgements.get(identity)
@@ -180,7 +181,7 @@ class Grader:
             return needs_review("", say("an internal error occurred ({error}).", error=type(error).__name__))
 
     def _read(self, question: QuestionBase, answer: Given, key: Key, earlier: Earlier) -> Judgement:
-        """Return what an answer is worth, or why it is undecided if it cannot be read in one way."""
+        """Return the judgement of all readings of an answer, or that it cannot be read."""
         try:
             readings = question.readings(answer, key.declared)
         except DoubtError as error:
@@ -200,7 +201,7 @@ class Grader:
         return replace(judgement, read_as=understood, certain=certain and not several)
 
     def _number(self, question: QuestionBase, answer: Given, key: Key) -> Fraction | None:
-        """Return the number that an answer claims, from which later ones may follow, whoever judged it; or None."""
+        """Return the number that an answer claims, on which later answers may be based, or None."""
         if not isinstance(question, NumberQuestion):
             return None
         try:
@@ -212,7 +213,7 @@ class Grader:
             return None
 
     def _unread(self, error: TextError, answer: Given) -> Judgement:
-        """Return that an answer could not be read, and where; of a list no place is known."""
+        """Return the judgement that an answer could not be read, with the column for a text."""
         judgement = unreadable(error if isinstance(answer, str) else TextError(error.message, 1, error.hint))
         return judgement if self.prepared.assignment.unreadable == "review" else replace(judgement, share=NOTHING)
 
@@ -220,7 +221,7 @@ class Grader:
 def item_of(
     prepared: Prepared, problem: Problem, question: QuestionBase, judgement: Judgement, answer: Given | None = None
 ) -> Item:
-    """Return what the result says of one answer."""
+    """Return the item of one answer in the result."""
     return Item(
         problem=problem.id,
         question=question.id,
@@ -250,7 +251,7 @@ _NO_QUESTION = "There is no question '{word}' ({hint})."
 
 
 def unasked(prepared: Prepared, submission: Submission) -> Iterator[Item]:
-    """Answers to questions that were not asked: they count nothing, and say what was meant."""
+    """Yield items for answers to questions that do not exist: without points, with a hint on the name."""
     asked: dict[str, list[str]] = {}
     for problem, question in prepared.questions():
         asked.setdefault(problem.id, []).append(question.id)
@@ -261,12 +262,12 @@ def unasked(prepared: Prepared, submission: Submission) -> Iterator[Item]:
         if question not in asked.get(problem, ())
     )
     for problem_id, question_id in islice(places, MOST_UNASKED):
-        what, word, names = "question", question_id, asked.get(problem_id)
+        kind, word, names = "question", question_id, asked.get(problem_id)
         if names is None:
-            what, word, names = "problem", problem_id, [*asked]
+            kind, word, names = "problem", problem_id, [*asked]
         near = nearest(word, names)
-        hint = f"did you mean '{near}'?" if near else f"the {what}s are {', '.join(names[:12])}"
-        sentence = _NO_PROBLEM if what == "problem" else _NO_QUESTION
+        hint = f"did you mean '{near}'?" if near else f"the {kind}s are {', '.join(names[:12])}"
+        sentence = _NO_PROBLEM if kind == "problem" else _NO_QUESTION
         yield Item(
             problem=problem_id[:LONGEST_NAME], question=question_id[:LONGEST_NAME], score=0.0, max_score=0.0,
             status="unreadable", codes=[], read_as="",

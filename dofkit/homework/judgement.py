@@ -1,4 +1,4 @@
-"""What is found of one answer, before points are counted."""
+"""The judgement of one answer, as a share of its points."""
 
 from __future__ import annotations
 
@@ -11,21 +11,21 @@ from dofkit.base.errors import TextError
 from dofkit.homework.result import Status
 from dofkit.homework.sentences import Language, Said, meanings, say
 
-#: What stands in a submission as an answer.
+#: The types of an answer in a submission.
 Given = str | int | float | Fraction | Sequence["Given"]
 
-#: What feedback says: a whole sentence, or one with places; nothing where it is empty.
+#: A sentence of feedback, also with placeholders; an empty one is left out.
 Sentence = str | Said
 
 FULL, HALF, NOTHING = Fraction(1), Fraction(1, 2), Fraction(0)
 
 
 class DoubtError(TextError):
-    """An answer that can be read, in more than one way: a person has to look."""
+    """An answer that is ambiguous, so that a person must review it."""
 
 
 class JudgedReading(NamedTuple):
-    """One way to read an answer that is open, and its share of the points; None where that is open too."""
+    """One reading of an undecided answer, and its share of the points, or None if that is undecided."""
 
     read_as: str
     share: Fraction | None
@@ -34,8 +34,8 @@ class JudgedReading(NamedTuple):
 class Reading(NamedTuple):
     """One way to understand an answer, by its text, the question's kind and the declared names alone.
 
-    ``value``: what the question judges; ``text``: the same in words or in the grammar of scenes. ``rank``: 0 for a
-    plain reading, larger for one that supposes more. ``certain``: False if it has names that nobody declared.
+    ``value``: what the question judges; ``text``: the value in words or in the grammar of scenes. ``rank``: 0 for the
+    plainest readings, larger for less usual ones. ``certain``: whether all its names are declared.
     """
 
     value: Any
@@ -46,9 +46,9 @@ class Reading(NamedTuple):
 
 @dataclass(frozen=True)
 class Judgement:
-    """``share``: of the question's points; None where it could not be decided. ``said``: the feedback.
+    """``share``: of the question's points; None if undecided. ``said``: the feedback.
 
-    ``ways``: of what is open the readings that it may have. ``certain``: it reads in one way, in declared names.
+    ``readings``: of an undecided answer; ``certain``: whether there is one reading, in declared names.
     """
 
     status: Status
@@ -61,7 +61,7 @@ class Judgement:
     certain: bool = True
 
     def saying(self, *sentences: Sentence) -> Judgement:
-        """The same with more feedback."""
+        """Return the judgement with more feedback."""
         return replace(self, said=(*self.said, *_said(*sentences)))
 
     def feedback(self, language: Language = "en") -> str:
@@ -74,42 +74,42 @@ def _said(*sentences: Sentence) -> tuple[Said, ...]:
 
 
 def right(read_as: str, *feedback: Sentence) -> Judgement:
-    """Full points."""
+    """Return the judgement with full points."""
     return Judgement("right", FULL, read_as, (), _said(*feedback))
 
 
 def wrong(read_as: str, *codes: str, why: Sentence = "") -> Judgement:
-    """Return that there are no points; ``why``: by default what the first code means."""
+    """Return the judgement without points; ``why``: the feedback, by default the meaning of the first code."""
     return partly(NOTHING, read_as, *codes, why=why)
 
 
 def partly(share: Fraction, read_as: str, *codes: str, why: Sentence = "") -> Judgement:
-    """Return that there is a part of the points; all of them is right, none is wrong."""
+    """Return the judgement with a share of the points; its status is right for the full share, wrong for none."""
     feedback = _said(why or (meanings()[codes[0]] if codes else ""))
     status: Status = "right" if share >= FULL else "partly" if share > 0 else "wrong"
     return Judgement(status, min(max(share, NOTHING), FULL), read_as, codes, feedback)
 
 
 def needs_review(read_as: str, reason: Sentence) -> Judgement:
-    """Not decided: a person has to look."""
+    """Return the judgement that a person must review the answer, for the given reason."""
     (why,) = _said(reason)
     sentences = (Said("A person will review this answer:"), why)
     return Judgement("needs_review", None, read_as, (), sentences)
 
 
 def unreadable(error: TextError) -> Judgement:
-    """Return what could not be read, and where: open until a person decides."""
+    """Return the judgement that an answer could not be read, with its column; undecided until a person reviews it."""
     said = say("{fault} ({hint})", fault=error.message, hint=error.hint) if error.hint else None
     sentence = say("{fault}", fault=error.message) if said is None else said
     return Judgement("unreadable", None, "", (), (sentence,), error.column or 1)
 
 
 def verdict(readings: Sequence[Reading], judge: Callable[[Reading], Judgement]) -> Judgement:
-    """Return the one judgement of all readings of an answer.
+    """Return one judgement of an answer for all its readings.
 
-    It is right if a plausible reading is right and none as plausible is worth less; it is wrong only if every reading
-    is wrong. Otherwise a person has to look, who sees what each reading would earn. A reading that the scene cannot
-    hold counts only if there is no other. Raises its TextError then.
+    It is right if one of the plainest readings is right and none of them is worth less; wrong only if all readings are
+    wrong. Otherwise a person must review it, and sees the points of each reading. Readings for which ``judge`` raises
+    TextError are ignored; if there are no others, the first error is raised.
     """
     judged: list[tuple[int, Judgement]] = []
     failure: TextError | None = None
@@ -127,8 +127,8 @@ def verdict(readings: Sequence[Reading], judge: Callable[[Reading], Judgement]) 
     first = judged[0][1]
     plausible = [judgement for rank, judgement in judged if rank == judged[0][0]]
     text = " or ".join(dict.fromkeys(candidate.read_as for candidate in plausible))
-    same = all((candidate.status, candidate.share) == (first.status, first.share) for candidate in plausible)
-    if same and (first.status == "right" or all(judgement.share == first.share for _, judgement in judged)):
+    agree = all((candidate.status, candidate.share) == (first.status, first.share) for candidate in plausible)
+    if agree and (first.status == "right" or all(judgement.share == first.share for _, judgement in judged)):
         return replace(first, read_as=text)
     full = [candidate for candidate in plausible if candidate.status == "right"]
     if full and all(candidate.share in (FULL, None) for candidate in plausible):
@@ -138,6 +138,6 @@ def verdict(readings: Sequence[Reading], judge: Callable[[Reading], Judgement]) 
 
 
 def shown_text_of(readings: Sequence[Reading]) -> str:
-    """Return how an answer is understood: its plainest readings, with "or" between them."""
+    """Return the texts of the plainest readings of an answer, separated by "or"."""
     least = min((reading.rank for reading in readings), default=0)
     return " or ".join(dict.fromkeys(reading.text for reading in readings if reading.rank == least))

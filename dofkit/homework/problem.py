@@ -1,4 +1,4 @@
-"""One problem of an assignment: its text and picture, its scene, what is asked, and what may differ by student."""
+"""One problem of an assignment: text, picture, scene, questions, and values that differ between students."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ from dofkit.homework.sentences import Language, described
 from dofkit.scene.constraints import ConstraintBase
 from dofkit.scene.fields import Listed, TaggedUnion, Text, WrittenModel, as_written, fault_error, suggestion
 
-#: Which value of each varying name a variant has, by its index.
+#: {varying name: index of its value in a variant}.
 Pick = dict[str, int]
-#: Variants of one problem, and values of one list.
+#: The most variants of one problem.
 MOST_COMBINATIONS = 64
-#: A figure that is drawn from the scene, and none at all.
+#: The values of `figure` for a picture drawn from the scene, and for none.
 DRAWN, UNDRAWN = "scene", "none"
 _PLACE = re.compile(r"\[\[\s*([\w.-]+)\s*\]\]")
 
@@ -40,7 +40,7 @@ _QUESTION = TaggedUnion(
 
 
 def _varying(value: object) -> object:
-    """Check ``{NAME: [VALUE, ...]}``; no lists at all are none."""
+    """Return ``vary`` ({name: values}) after checks, or None if nothing varies. Raises an error of pydantic."""
     if value is False or value is None:
         return None
     shape = "write `vary: {n: [2, 3, 5]}`, and `[[n]]` where a value stands in the scene and the text"
@@ -60,12 +60,12 @@ def _varying(value: object) -> object:
 
 
 def combinations_of(vary: Mapping[str, Sequence[Any]]) -> list[Pick]:
-    """Return every combination of the values of a problem that varies, the first values first."""
+    """Return all combinations of values as indices, the first values first."""
     return [dict(zip(vary, chosen, strict=True)) for chosen in product(*(range(len(o)) for o in vary.values()))]
 
 
 def pick_text(vary: Mapping[str, Sequence[Any]], pick: Pick) -> str:
-    """Return a combination in words, as `n = 3, support = driven`."""
+    """Return a combination as text: `n = 3, support = driven`."""
     texts = []
     for name, options in vary.items():
         value = options[pick.get(name, 0)]
@@ -75,13 +75,12 @@ def pick_text(vary: Mapping[str, Sequence[Any]], pick: Pick) -> str:
 
 
 def with_values(value: Any, vary: Mapping[str, Sequence[Any]], pick: Pick) -> Any:
-    """Return what is written with the values of a combination in the places ``[[NAME]]`` and ``[[NAME.FIELD]]``."""
+    """Return texts and mappings with a combination's values in place of ``[[NAME]]`` and ``[[NAME.FIELD]]``."""
     table: dict[str, Any] = {}
     for name, options in vary.items():
         option = options[pick[name]]
-        table |= (
-            {f"{name}.{key}": part for key, part in option.items()} if isinstance(option, Mapping) else {name: option}
-        )
+        fields = isinstance(option, Mapping)
+        table |= {f"{name}.{key}": part for key, part in option.items()} if fields else {name: option}
     return _with_values(value, table)
 
 
@@ -103,7 +102,7 @@ def _as_text(value: Any) -> str:
 
 
 class Problem(WrittenModel):
-    """A scene and what is asked of it."""
+    """A scene and the questions about it."""
 
     id: Identifier = Field(description="its name, unique within the assignment")
     title: str | None = Field(None, description="its title")
@@ -128,7 +127,7 @@ class Problem(WrittenModel):
 
 
 class StudentVariant(WrittenModel):
-    """Who has which variant."""
+    """A student, and the variant of each problem."""
 
     student: str = Field(min_length=1, description="the name of the student in results")
     known_as: Annotated[tuple[str, ...], Listed] = Field(
@@ -140,12 +139,12 @@ class StudentVariant(WrittenModel):
 
 
 class Variants(WrittenModel):
-    """That students have variants, and which."""
+    """The variants of all students."""
 
     students: tuple[StudentVariant, ...] = Field((), description="the students")
 
     def find(self, text: str) -> StudentVariant | None:
-        """Return whose name, address or number it is; None for nobody's, and for that of two."""
+        """Return the student with a name, address or number; None if there is none or more than one."""
         matches = [
             member
             for member in self.students
@@ -155,7 +154,7 @@ class Variants(WrittenModel):
 
 
 def weighted(problem: Problem) -> Problem:
-    """The problem with its questions' points as shares of its own, where it has points."""
+    """Return the problem with the points of its questions scaled to the problem's points, if it has points."""
     whole = sum((q.points for q in problem.questions), Fraction(0))
     if problem.points is None or not whole or whole == problem.points:
         return problem
@@ -164,7 +163,7 @@ def weighted(problem: Problem) -> Problem:
 
 
 def constraint_text(constraint: ConstraintBase, language: Language = "en") -> str:
-    """A constraint as a sheet tells it: its equations as formulas, else its words."""
+    """Return a constraint in Markdown for a sheet: its equations as formulas, else its description."""
     texts = list(constraint.texts()) if constraint.facts.written and not constraint.facts.lettered else []
     if texts and all(typeset(text) for text in texts):
         return ", ".join(f"${text}$" for text in texts)
@@ -172,7 +171,7 @@ def constraint_text(constraint: ConstraintBase, language: Language = "en") -> st
 
 
 def marked(text: str) -> str:
-    """A text on one line that Markdown shows as it stands.
+    """Return a text on one line that Markdown shows literally.
 
     >>> print(marked("x_A * 2"))
     x\\_A \\* 2
@@ -181,6 +180,6 @@ def marked(text: str) -> str:
 
 
 def faults_of_places(text: str, vary: Mapping[str, Any] | None) -> Iterator[Fault]:
-    """Yield the places of a text that no value fills."""
+    """Yield faults for placeholders ``[[NAME]]`` in a text that are not replaced by a value."""
     for match in _PLACE.finditer(text):
         yield Fault(f"[[{match[1]}]] is not a name in `vary`", (), hint=suggestion(match[1], list(vary or ()), "names"))

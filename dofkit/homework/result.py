@@ -1,4 +1,4 @@
-"""What a graded submission says: points, how every answer was read, stable codes and feedback."""
+"""The result of a submission: points, how every answer was read, stable codes and feedback."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from pydantic import BaseModel, Field
 from dofkit.base.display import Displayed
 from dofkit.report import ReportModel
 
-#: ``read``: of an answer that was only read.
+#: The status of an answer; ``read``: it was only read, not graded.
 Status = Literal["right", "partly", "wrong", "unreadable", "missing", "needs_review", "read"]
 
 
@@ -20,21 +20,20 @@ def json_line(model: BaseModel) -> str:
 
 
 class PossibleReading(ReportModel):
-    """A way to read an answer that is open, and what it would earn; None where that is open too."""
+    """A reading of an undecided answer, and the points that it would earn, or None if these are undecided."""
 
     read_as: str
     score: float | None
 
 
 class Item(ReportModel):
-    """One answer. ``score`` is None where it waits for a person: never zero then, never full marks.
+    """One answer. ``score`` is None (neither zero nor full marks) if a person must review it.
 
-    ``codes`` are stable names of what went wrong, the most likely first; ``answer`` is the answer as typed, at most
-    2 000 characters of it, and ``read_as`` the answer as it was understood. ``column`` is where an unreadable answer
-    could not be read further, from 1. ``readings``: the
-    ways to read an open answer, and what each would earn. ``certain``: its text reads in one way, in declared names
-    alone; that does not depend on the key. ``decided_by``: the person who gave the points.
-    ``variant``: of the problem, where every student has another: its structure and a mark.
+    ``codes`` are stable names of what went wrong, the most likely first; ``answer`` is the answer as typed (at
+    most 2000 characters), and ``read_as`` the answer as it was understood. ``column`` (from 1) is where reading of an
+    unreadable answer stopped. ``readings``: the readings of an undecided answer, and their points. ``certain``: whether
+    there is one reading, in declared names, which does not depend on the key. ``decided_by``: the person who gave the
+    points. ``variant``: the values on which the right answer depends, if the problem varies.
     """
 
     problem: str
@@ -54,11 +53,11 @@ class Item(ReportModel):
 
 
 class Result(Displayed, ReportModel):
-    """One student's submission. ``score`` is the sum of what is decided; ``needs_review`` answers are open beside it:
-    those that could not be decided, and those that could not be read unless the assignment gives them zero points.
+    """The result of one submission. ``score``: the sum of the decided points; ``needs_review``: the number of undecided
+    answers, also of unreadable ones unless the assignment gives them zero points.
 
     ``error``: why the submission could not be graded; then there are no items and ``score`` is None. ``doubt``: why a
-    person has to say whose it is, where its file and the ``student`` in it, or the platform's user, are not the same.
+    person must decide who submitted it, because the file, the ``student`` in it or the platform's user disagree.
     """
 
     _in_brief: ClassVar[tuple[str, ...]] = ("student", "score", "max_score", "error")

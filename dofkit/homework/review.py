@@ -1,7 +1,7 @@
-"""The queue of a review: every different answer that waits for a person or was decided by one, and its identity.
+"""The queue of a review: the different answers that a person must decide or has decided, each with its identity.
 
-The identity of an answer stands for the question and for what was answered, not for the student. It begins with a
-letter, so that no spreadsheet takes it for a number, a date or a formula.
+The identity of an answer depends on the question and the text of the answer, not on the student. It begins with a
+letter, so that no spreadsheet reads it as a number, a date or a formula.
 """
 
 from __future__ import annotations
@@ -21,42 +21,42 @@ from dofkit.homework.answers.spreadsheet import SpreadsheetRow, decoded, spreads
 from dofkit.homework.answers.submission import clean
 from dofkit.homework.result import Item, Result
 
-#: The columns of the table, in order; those that a person fills in come last.
+#: The columns of the table, in order; a person fills in the last three.
 COLUMNS = (
     "id", "problem", "question", "variant", "text", "why", "readings", "would_earn", "max_points", "students",
     "given_by", "points", "remark", "decided_by",
 )  # fmt: skip
-#: Who decided, where the table does not say.
+#: The name of the person who decided, if the table does not give one.
 SOMEONE = "review"
 
 
 class Decision(NamedTuple):
-    """The points that a person gave an answer, what the person says to it, and who that is."""
+    """The points that a person gave to an answer, a remark, and the name of the person."""
 
     points: Fraction
     remark: str = ""
     by: str = SOMEONE
 
 
-#: What a person decided, by the answer's identity.
+#: {identity of an answer: decision of a person}.
 Decisions = Mapping[str, Decision]
 
 
 @dataclass(frozen=True)
 class ReviewRow:
-    """One row, every cell as text; ``decision`` is what its last columns say, None until there is one."""
+    """One row as {column: text}; ``decision``: that of its last columns, or None if there is none."""
 
     cells: Mapping[str, str]
     decision: Decision | None = None
 
     @property
     def filled(self) -> bool:
-        """Return whether a person has written anything into it."""
+        """Whether a person has written points or a remark into the row."""
         return self.decision is not None or bool(self.cells.get("remark") or self.cells.get("points"))
 
 
 def question_mark(problem: str, question: str) -> str:
-    """The part of an identity that stands for the question.
+    """Return the part of an identity that depends on the question only.
 
     >>> question_mark("p", "f") != question_mark("p", "g")
     True
@@ -65,7 +65,7 @@ def question_mark(problem: str, question: str) -> str:
 
 
 def answer_id(problem: str, question: str, text: str, variant: str = "") -> str:
-    """The identity of an answer; blanks tell nothing. ``variant``: of the problem, where students have different ones.
+    """Return the identity of an answer, regardless of blanks. ``variant``: that of the problem, if it varies.
 
     >>> answer_id("p", "f", "x  = 1") == answer_id("p", "f", " x = 1\\n") != answer_id("p", "f", "x = 2")
     True
@@ -78,13 +78,13 @@ def _digest(*texts: str) -> str:
     return hashlib.blake2b("\0".join(texts).encode("utf-8", "surrogatepass"), digest_size=8).hexdigest()
 
 
-#: Students of one answer who are named.
+#: The most students of one answer who are named.
 MOST_NAMED = 20
 
 
 @dataclass
 class QueuedAnswer:
-    """A different answer: an ``item`` that it got, and how many gave it; the first of them have their pages."""
+    """An answer: one of its items, the number of students who gave it, and (name, link) of the first of them."""
 
     id: str
     item: Item
@@ -93,25 +93,25 @@ class QueuedAnswer:
 
     @property
     def open(self) -> bool:
-        """Return whether it awaits review."""
+        """Whether the answer is undecided."""
         return self.item.score is None
 
     def add(self, student: str, link: str) -> None:
-        """One more student who gave it; ``link``: where the student's page is."""
+        """Count one more student who gave the answer; ``link``: to the student's page."""
         self.count += 1
         if len(self.given_by) < MOST_NAMED:
             self.given_by.append((student, link))
 
 
 class Queue:
-    """``add`` every result, then look at ``open_answers``; questions are in the order given."""
+    """Collects the answers of results: ``add`` every result, then use ``open_answers`` or ``rows``."""
 
     def __init__(self, questions: Sequence[tuple[str, str]]) -> None:
         self._order = {place: i for i, place in enumerate(questions)}
         self.answers: dict[str, QueuedAnswer] = {}
 
     def add(self, result: Result, link: str = "") -> None:
-        """One more submission."""
+        """Add the undecided answers of a result, and those that a person has decided."""
         for item in result.items:
             if item.score is None or item.decided_by is not None:
                 identity = answer_id(item.problem, item.question, item.answer or "", item.variant or "")
@@ -119,16 +119,16 @@ class Queue:
                 queued.add(result.student, link)
 
     def open_answers(self) -> list[QueuedAnswer]:
-        """Return the answers that await review: by question, those of most students first."""
+        """Return the undecided answers, by question, the most frequent first."""
         return sorted(
             (queued for queued in self.answers.values() if queued.open),
             key=lambda queued: (self._order.get((queued.item.problem, queued.item.question), -1), -queued.count),
         )
 
     def rows(self, before: Mapping[str, ReviewRow]) -> Iterator[ReviewRow]:
-        """The rows to write: what is open first, then what a person has written into before, whoever gave it now.
+        """Yield the rows to write: undecided answers first, then rows that a person has filled in.
 
-        ``before``: the rows that were there; none that a person has written into is lost.
+        ``before``: the earlier rows; those that a person has filled in are kept, even if no student gives the answer.
         """
         for queued in self.open_answers():
             old = before.get(queued.id)
@@ -142,7 +142,7 @@ class Queue:
 
 
 def cells_of(queued: QueuedAnswer) -> dict[str, str]:
-    """The cells of an open answer that dofkit fills in."""
+    """Return the cells of an undecided answer that dofkit fills in."""
     item = queued.item
     readings = [(r.read_as, r.score) for r in item.readings] or ([(item.read_as, None)] if item.read_as else [])
     place = f"column {item.column}: " if item.column is not None and item.status == "unreadable" else ""
@@ -166,18 +166,18 @@ def _who(queued: QueuedAnswer) -> dict[str, str]:
     return {"students": str(queued.count), "given_by": named}
 
 
-#: What a person writes may be so long; faults of a table that are listed; bytes that are read.
+#: The most characters of a remark; the most faults of a table that are listed; the most bytes that are read.
 MOST_REMARKED, MOST_FAULTS, MOST_BYTES = 2000, 50, 200_000_000
 _NEEDED = ("id", "points")
 _ID = re.compile(r"q[0-9a-f]{8}-[0-9a-f]{16}")
 _POINTS = re.compile(r"[+-]?(?:\d{1,9}(?:[.,]\d{1,9})?|\d{1,9}/[1-9]\d{0,8})")
 
-#: The most points of every question of an assignment.
+#: {(problem, question): points} of an assignment.
 Asked = Mapping[tuple[str, str], Fraction]
 
 
 class ReviewError(FaultsError):
-    """A table of a review that cannot be used: all its faults, each with its line and column."""
+    """An unusable table of a review, with all its faults and their lines and columns."""
 
     @property
     def file(self) -> str | None:
@@ -190,19 +190,19 @@ class ReviewError(FaultsError):
 
 @dataclass(frozen=True)
 class FilledTable:
-    """``rows``: by the answer's identity, in the order of the file; ``delimiter``: between its cells."""
+    """``rows``: {identity: row} in the order of the file; ``delimiter``: the separator of its cells."""
 
     rows: Mapping[str, ReviewRow] = field(default_factory=dict)
     delimiter: str | None = None
 
     @property
     def decisions(self) -> dict[str, Decision]:
-        """Return what a person decided, by the answer's identity."""
+        """{identity: decision} of the rows with decisions."""
         return {identity: row.decision for identity, row in self.rows.items() if row.decision is not None}
 
 
 def read_table(path: Path, asked: Asked) -> FilledTable:
-    """The rows of a table. Raises ReviewError with every fault at once, and OSError."""
+    """Return the rows of a table. Raises ReviewError with all faults, and OSError."""
     with path.open("rb") as file:
         data = file.read(MOST_BYTES)
     text = decoded(data)
@@ -212,9 +212,9 @@ def read_table(path: Path, asked: Asked) -> FilledTable:
 
 
 class _TableReader:
-    """Reads one table and gathers its faults.
+    """Reads one table and collects its faults.
 
-    A row of a question that is not asked any more stays and decides nothing; a table of such rows alone is of another
+    A row of a question that no longer exists is kept and decides nothing; a table of such rows alone belongs to another
     assignment.
     """
 
@@ -224,10 +224,10 @@ class _TableReader:
         self.faults: list[Fault] = []
         self.rows: dict[str, ReviewRow] = {}
         self.unasked: list[tuple[int, int, str]] = []
-        self.matches = False
+        self.has_known_question = False
 
     def table(self, text: str) -> FilledTable:
-        """All rows. Raises ReviewError."""
+        """Return all rows. Raises ReviewError."""
         delimiter, rows = spreadsheet(text, lambda cells: any(name in COLUMNS for name in cells))
         columns = self._header(next(rows, SpreadsheetRow(1, [])))
         for row in rows if columns else ():
@@ -235,7 +235,7 @@ class _TableReader:
                 self._row(row.line, columns, row.cells)
             else:
                 self._fault(row.error, row.line, 1, "save the table as CSV again")
-        for line, column, identity in () if self.matches else self.unasked:
+        for line, column, identity in () if self.has_known_question else self.unasked:
             self._no_answer(identity, line, column)
         if self.faults:
             raise ReviewError(tuple(self.faults[:MOST_FAULTS]), self.source)
@@ -245,7 +245,7 @@ class _TableReader:
         self.faults.append(Fault(message, (), line, column, hint))
 
     def _header(self, row: SpreadsheetRow) -> dict[str, int]:
-        """Return where each column stands; nothing where one is missing."""
+        """Return {name: number of the column}; empty if a column is missing."""
         line, cells, _ = row
         names = [cell.strip().lower() for cell in cells]
         for name in _NEEDED:
@@ -259,11 +259,12 @@ class _TableReader:
         return {} if self.faults else {name: i for i, name in enumerate(names) if name in COLUMNS}
 
     def _row(self, line: int, columns: Mapping[str, int], values: Sequence[str]) -> None:
+        """Add a row to ``rows``, or record its faults."""
         cells = {name: _bare(values[i]) if i < len(values) else "" for name, i in columns.items()}
         identity, before = cells["id"], len(self.faults)
         is_id = _ID.fullmatch(identity) is not None
         most = self.most_points.get(identity.partition("-")[0]) if is_id else None
-        self.matches |= most is not None
+        self.has_known_question |= most is not None
         if not is_id:
             self._no_answer(identity, line, columns["id"] + 1)
         elif most is None:
@@ -285,6 +286,7 @@ class _TableReader:
     def _decision(
         self, line: int, columns: Mapping[str, int], cells: Mapping[str, str], most: Fraction | None
     ) -> Decision | None:
+        """Return the decision in a row; None without points, and after a fault, which is recorded."""
         text, remark = cells["points"], cells.get("remark", "")
         if len(remark) > MOST_REMARKED:
             message = f"the remark has {len(remark)} characters"
@@ -303,6 +305,6 @@ class _TableReader:
 
 
 def _bare(cell: str) -> str:
-    """A cell without the apostrophe that keeps spreadsheets from reading it as a formula or a number."""
+    """Return a cell without the apostrophe by which spreadsheets read it as text."""
     cell = cell.strip()
     return cell[1:] if cell.startswith("'") else cell

@@ -1,4 +1,4 @@
-"""The JSON Schemas of what is read and written besides scenes."""
+"""The JSON Schemas of assignments, results and reports."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from dofkit.homework.result import Result
 from dofkit.report import Report
 from dofkit.scene.schema import identified
 
-#: By what they describe.
+#: {what the schema describes: function that returns it}.
 SCHEMAS: dict[str, Callable[[], dict[str, Any]]] = {
     "assignment": lambda: identified(Assignment.model_json_schema(), "assignment"),
     "result": lambda: identified(Result.model_json_schema(mode="serialization"), "result"),

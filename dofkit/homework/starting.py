@@ -1,4 +1,4 @@
-"""A starting assignment: of each scene the questions most worth asking; and an empty submission to fill in."""
+"""A first assignment with the best questions for each scene; and an empty submission to fill in."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from dofkit.homework.key.key import Key
 from dofkit.homework.questions import KINDS, MOTION, AnyQuestion
 from dofkit.scene.reading import load
 
-#: A constraint of fewer equations is one to write down.
+#: The equations of a constraint are asked for only if there are fewer than this.
 FEW = 3
 _NOT_PLAIN = re.compile(r"[^\w-]+")
 _QUESTION: TypeAdapter[Any] = TypeAdapter(AnyQuestion)
 
 
 def starting(sources: Sequence[str]) -> str:
-    """The YAML of an assignment over these scenes: catalog names or paths. Raises SceneError."""
+    """Return the YAML of an assignment about scenes (catalog names or paths). Raises SceneError."""
     problems: list[dict[str, Any]] = []
     for source in sources:
         scene = load(source)
@@ -49,7 +49,7 @@ def template(prepared: Prepared, form: str) -> str:
 
 
 def best_questions(key: Key) -> Iterator[dict[str, Any]]:
-    """Yield one question of each kind whose answer is not plain from the scene, about what is least ideal."""
+    """Yield one question of each kind, unless its answer is obvious, about the constraint with most negative labels."""
     chosen: dict[str, dict[str, Any]] = {}
     for question in sorted(questions(key), key=lambda question: -_labels_that_fail(question, key)):
         if not _is_plain(question, key):
@@ -58,13 +58,13 @@ def best_questions(key: Key) -> Iterator[dict[str, Any]]:
 
 
 def _labels_that_fail(asked: Mapping[str, Any], key: Key) -> int:
-    """Return how many labels of the constraint that is asked about do not hold."""
+    """Return how many labels (holonomic, scleronomic, bilateral) are false for the constraint of a question."""
     entry = key.constraints.get(asked.get("constraint", ""))
     return 0 if entry is None else [entry.holonomic, entry.scleronomic, entry.bilateral].count(False)
 
 
 def _is_plain(asked: Mapping[str, Any], key: Key) -> bool:
-    """Return whether an answer is plain from how the scene is written."""
+    """Return whether an answer is obvious from the text of the scene, or too long."""
     report, entry = key.report, key.constraints.get(asked.get("constraint", ""))
     if asked["ask"] == "equation" and entry is not None:
         facts = dict(zip(key.constraints, key.scene.constraints, strict=True))[entry.name].facts
@@ -77,7 +77,7 @@ def _is_plain(asked: Mapping[str, Any], key: Key) -> bool:
 
 
 def questions(key: Key) -> Iterator[dict[str, Any]]:
-    """Every question that a scene can be asked, as it is written in an assignment."""
+    """Yield all possible questions about a scene, as they are written in an assignment."""
     taken: list[str] = []
     for asked in _candidates(key):
         question = _QUESTION.validate_python({"id": "q", **asked})
@@ -90,7 +90,7 @@ def questions(key: Key) -> Iterator[dict[str, Any]]:
 
 
 def _candidates(key: Key) -> Iterator[Mapping[str, str]]:
-    """Yield every kind of question, about each constraint or coordinate where it needs one."""
+    """Yield every kind of question, for each constraint or coordinate if it needs one."""
     about = {"constraint": [*key.constraints], "coordinate": key.report.generalized_coordinates or []}
     for ask, kind in KINDS.items():
         needed = [name for name in about if name in kind.model_fields and kind.model_fields[name].is_required()]

@@ -1,9 +1,9 @@
-"""Variants: the lecturer's lists of values, put into a problem, and who has which.
+"""Variants of problems, with values from the lecturer's lists, and the variant of each student.
 
 A problem says ``vary: {n: [2, 3, 5], support: [{text: "at rest", x: "0"}, {text: "driven", x: "a sin(omega t)"}]}``.
 Every combination is a variant: ``[[n]]``, ``[[support.text]]`` and ``[[support.x]]`` stand for its values in the scene,
-the text and the title. All are proved when the assignment is read. A keyed hash of the student's name picks one, so
-with the same seed nobody's variant changes when the roster does.
+the text and the title. All keys are proved when the assignment is read. A keyed hash of the student's name picks a
+variant, so that with the same seed no variant changes if the roster changes.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from dofkit.homework.questions import NumberQuestion, QuestionBase
 from dofkit.homework.questions.labels import LabelQuestion
 from dofkit.homework.sentences import say
 
-#: The least share of the points whose right answers should differ between two students.
+#: The least share of points for which the right answers of two students should differ.
 LEAST_DIFFERING = 0.5
 
 
@@ -35,7 +35,7 @@ class VaryError(DofkitError):
 
 
 def assigned(prepared: Prepared) -> Variants | None:
-    """Return who has which variant, or None if nothing varies. Raises NobodysVariantError if nobody has one yet."""
+    """Return the variants of all students, or None if nothing varies. Raises NobodysVariantError if there are none."""
     variants = prepared.assignment.variants
     if variants is None and prepared.combinations:
         raise NobodysVariantError(
@@ -47,7 +47,7 @@ def assigned(prepared: Prepared) -> Variants | None:
 def sheet_of(prepared: Prepared, names: str | Iterable[str]) -> Prepared:
     """Return the assignment with the variants of the student who has one of ``names``.
 
-    If nothing varies it is the assignment itself. Raises NobodysVariantError if that is nobody, or several students.
+    It is unchanged if nothing varies. Raises NobodysVariantError if the names belong to no student or to several.
     """
     variants = assigned(prepared)
     if variants is None:
@@ -63,7 +63,7 @@ def sheet_of(prepared: Prepared, names: str | Iterable[str]) -> Prepared:
 
 
 def picked(prepared: Prepared, picks: Mapping[str, Pick]) -> Prepared:
-    """Return the assignment with one combination of each problem that varies."""
+    """Return the assignment with the values ``picks`` of each problem that varies. Raises NobodysVariantError."""
     problems, keys, marks = [], dict(prepared.keys), {}
     for problem in prepared.assignment.problems:
         combinations = prepared.combinations.get(problem.id)
@@ -83,7 +83,7 @@ def picked(prepared: Prepared, picks: Mapping[str, Pick]) -> Prepared:
 
 
 def _decides(name: str, question: QuestionBase, combinations: Sequence[Combination]) -> bool:
-    """Return whether the right answer to a question may depend on one of the names that vary."""
+    """Return whether the right answer to a question may depend on the varying ``name``."""
     if not isinstance(question, NumberQuestion | LabelQuestion):
         return True
     alike: defaultdict[Sequence[tuple[str, int]], list[Key]] = defaultdict(list)
@@ -98,21 +98,21 @@ def first_variant(prepared: Prepared) -> Prepared:
 
 
 def _solutions(question: QuestionBase, keys: Iterable[Key]) -> set[str]:
-    """Return the different solutions of a question over several scenes."""
+    """Return the different solutions of a question for several keys."""
     return {say(s).translated() if isinstance(s := question.solution(key), str) else s.translated() for key in keys}
 
 
-def drawn(prepared: Prepared, roster: Roster, seed: str) -> Variants:
-    """Return who has which variant, picked by a keyed hash of the name.
+def new_variants(prepared: Prepared, roster: Roster, seed: str) -> Variants:
+    """Return the variant of each student of a roster, picked by a keyed hash of the name.
 
-    Raises VaryError for an assignment in which nothing varies, or that has variants, and for a roster of nobody.
+    Raises VaryError if nothing varies in the assignment, if it already has variants, and for an empty roster.
     """
     if prepared.assignment.variants is not None:
-        raise VaryError("it was made by `dofkit assignment vary`: vary what it was made from")
+        raise VaryError("this assignment was already made by `dofkit assignment vary`: use the original")
     if not prepared.combinations:
-        raise VaryError("nothing varies in it: write `vary: {n: [2, 3, 5]}` in a problem")
+        raise VaryError("nothing varies in this assignment: write `vary: {n: [2, 3, 5]}` in a problem")
     if not roster.members:
-        raise VaryError("there is nobody in the roster: a row for each student is needed")
+        raise VaryError("the roster is empty: a row for each student is needed")
     students = []
     for member in roster.members:
         picks = {
@@ -131,7 +131,7 @@ def _hashed(picks: Sequence[Pick], seed: str, student: str, problem: str) -> Pic
 
 
 def differing_share(prepared: Prepared) -> float:
-    """Return the share of the points whose right answers differ between two students, on average."""
+    """Return the share of points for which the right answers of two students differ on average (0 to 1)."""
     total = sum(prepared.most_points().values())
     differing = 0.0
     for problem in prepared.assignment.problems:
@@ -144,17 +144,16 @@ def differing_share(prepared: Prepared) -> float:
 
 
 def with_roster(prepared: Prepared, roster: Roster | None) -> tuple[Prepared, Roster | None]:
-    """Return the assignment and the roster, each with the names that the other has for a student with a variant.
+    """Return (assignment, roster) in which students with variants have the names from both.
 
-    Without a roster it is made of those who have variants. Raises NobodysVariantError if nobody has one yet.
+    Without a roster, it consists of the students with variants. Raises NobodysVariantError if none are assigned.
     """
     variants = assigned(prepared)
     if variants is None:
         return prepared, roster
     if roster is None:
-        return prepared, Roster(
-            tuple(Participant(variant.student, others=variant.known_as) for variant in variants.students)
-        )
+        people = (Participant(variant.student, others=variant.known_as) for variant in variants.students)
+        return prepared, Roster(tuple(people))
     students = {variant.student: variant for variant in variants.students}
     members = []
     for member in roster.members:
@@ -162,8 +161,8 @@ def with_roster(prepared: Prepared, roster: Roster | None) -> tuple[Prepared, Ro
         owners = {variant.student for name in names if (variant := variants.find(name)) is not None}
         if len(owners) == 1:
             variant = students[owners.pop()]
-            more = tuple(name for name in names if name != variant.student and name not in variant.known_as)
-            students[variant.student] = variant.model_copy(update={"known_as": (*variant.known_as, *more)})
+            new_names = tuple(name for name in names if name != variant.student and name not in variant.known_as)
+            students[variant.student] = variant.model_copy(update={"known_as": (*variant.known_as, *new_names)})
             member = replace(member, others=(variant.student, *variant.known_as))
         members.append(member)
     update = {"variants": Variants(students=tuple(students.values()))}
@@ -172,7 +171,7 @@ def with_roster(prepared: Prepared, roster: Roster | None) -> tuple[Prepared, Ro
 
 
 def rows_of(prepared: Prepared, variants: Variants) -> Iterator[tuple[str, str, str, str]]:
-    """Yield (student, problem, variant, right answers) of every problem that varies."""
+    """Yield (student, problem, variant, right answers) for every student and every problem that varies."""
     for student in variants.students:
         sheet = picked(prepared, student.picks)
         for problem in prepared.assignment.problems:

@@ -71,6 +71,7 @@ def streams(out: str = "", err: str = "", errors: int = 0, outcome: Json = None)
 
 
 def _report(whole: Scene, request: Request) -> Iterator[Json]:
+    """Yield {} once the scene is read into equations, then the text of its report."""
     start = time.perf_counter()
     scene = without(whole, request.without) if request.without else whole
     system = lowered(scene, request.budget)

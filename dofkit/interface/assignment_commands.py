@@ -165,11 +165,11 @@ def vary(
     from dofkit.homework.answers.roster import load_roster
     from dofkit.homework.assignment import load_assignment
     from dofkit.homework.handout.class_sheets import ASSIGNMENT, write_variants
-    from dofkit.homework.variants import LEAST_DIFFERING, differing_share, drawn
+    from dofkit.homework.variants import LEAST_DIFFERING, differing_share, new_variants
 
     with failures_of(assignment):
         prepared = load_assignment(assignment)
-        variants = drawn(prepared, load_roster(roster), seed)
+        variants = new_variants(prepared, load_roster(roster), seed)
         write_variants(prepared, variants, out)
     if (share := differing_share(prepared)) < LEAST_DIFFERING:
         remark = (

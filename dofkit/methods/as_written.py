@@ -284,7 +284,7 @@ def questions_at_points(
         return Reply(freedom(*samples), verdict=sure)
 
     def at_points(answer: Callable[[SampledPoints, Decider], Any], scene: Scene | System) -> Reply:
-        """Return an answer from the points; no value if the constraints contradict each other."""
+        """Return the reply with ``answer(points, decider)``; without a value if no points were found."""
         samples = look_at(scene)
         if isinstance(samples, Reply):
             return replace(samples, value=None)

@@ -174,6 +174,7 @@ def _why(outcome: Outcome) -> str:
 
 
 def _integrability(studied: Study) -> Reply:
+    """Return the reply {constraint: whether it is holonomic in the system, or None}."""
     labels_of_study = labels_in_system(studied.reduced, studied.setting, studied.outcome)
     labels = dict(zip(studied.names, (label for label, _ in labels_of_study), strict=True))
     sure = weakest(*(verdict for _, verdict in labels_of_study))
@@ -187,6 +188,7 @@ def _integrability(studied: Study) -> Reply:
 
 
 def _redundancy(studied: Study) -> Reply:
+    """Return the reply with a maximal redundant set of constraints."""
     outcome = studied.outcome
     if not outcome.consistent or outcome.velocity_dof is None:
         return Reply(None, "undecided", _why(outcome))
@@ -195,9 +197,8 @@ def _redundancy(studied: Study) -> Reply:
         groups = all_needed(groups, studied.reduced, outcome)
     undecided_rows = sorted({i for r in groups for i in r.undecided})
     if undecided_rows:
-        return Reply(
-            None, "undecided", f"whether {studied.names[undecided_rows[0]]} is implied by the others was not decided"
-        )
+        name = studied.names[undecided_rows[0]]
+        return Reply(None, "undecided", f"whether {name} is implied by the others was not decided")
     redundant = sorted({i for r in groups for i in r.redundant})
     claims = (*(a.claim for a in outcome.answers), *(r.claim for r in groups if r.redundant or r.groups))
     return Reply([studied.names[i] for i in redundant], weakest(*(claim.verdict for claim in claims)))

@@ -124,7 +124,7 @@ def _certified(loaded: Scene | System, budget: float | None, method: MethodName,
 
 
 def _within_budget(loaded: Scene | System, budget: float | None, method: MethodName) -> Report:
-    """Return the report, made in a worker process if there is a budget and processes can be started."""
+    """Return the report; with a budget from a worker process, or if none can be started with a warning."""
     if budget is None:
         return classified(loaded, DEFAULT_SECONDS, method)
     seconds = seconds_of(budget)

@@ -116,6 +116,7 @@ class Rationals:
         return bool(value == 0)
 
     def points(self, written: Written, rows: WrittenRows, drawn: bool) -> list[RationalPoint]:
+        """Return one rational point on the relations, or none; ``drawn``: the reference configuration."""
         if drawn:
             return [self._reference_point(written)]
         movable = {*written.coordinates, *(ex.parameter(p) for p in written.system.generic)}

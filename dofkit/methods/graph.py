@@ -36,7 +36,7 @@ def dof(scene: Scene | System) -> Reply:
 
 
 def integrability(scene: Scene | System) -> Reply:
-    """Return the label True for all constraints, because links and joints are geometric equations."""
+    """Return True for all constraints, since links and joints are geometric; for others the reply that names one."""
     system = _joined(scene)
     if isinstance(system, Reply):
         return system
@@ -59,7 +59,7 @@ def _verdict(system: System) -> Verdict:
 
 
 def _redundant(system: System) -> list[int]:
-    """Return a maximal redundant set of constraints in general position, the last written first."""
+    """Return the numbers of a maximal redundant set in general position, preferring constraints written last."""
     pairs = linked_particles(system)
     if pairs is not None and len({i for i, _ in pairs}) == len(pairs):
         return [pairs[k][0] for k in linkage([pair for _, pair in pairs], system.dimension).redundant_places]

@@ -163,6 +163,7 @@ def _name(model: Any, kind: str, index: int) -> str:
 
 
 def _bodies(compiled: Compiled) -> Iterator[dict[str, Any]]:
+    """Yield all bodies as JSON; centre, origin and inertia are in world axes."""
     model, data = compiled.model, compiled.data
     for i in range(model.nbody):
         turn = np.reshape(data.ximat[i], (3, 3))
@@ -178,6 +179,7 @@ def _bodies(compiled: Compiled) -> Iterator[dict[str, Any]]:
 
 
 def _joints(compiled: Compiled) -> Iterator[dict[str, Any]]:
+    """Yield all joints as JSON; ``zero`` and ``drawn``: the coordinate at rest and in the reference configuration."""
     model, data = compiled.model, compiled.data
     for i in range(model.njnt):
         kind = ("free", "ball", "slide", "hinge")[int(model.jnt_type[i])]
@@ -209,6 +211,7 @@ def _ends(compiled: Compiled, index: int) -> list[tuple[int, list[float]]]:
 
 
 def _equalities(compiled: Compiled) -> Iterator[dict[str, Any]]:
+    """Yield all equality constraints as JSON, with the points or coefficients of their kind."""
     model = compiled.model
     for i in range(model.neq):
         kind = mujoco.mjtEq(model.eq_type[i]).name.removeprefix("mjEQ_").lower()
@@ -227,6 +230,7 @@ def _equalities(compiled: Compiled) -> Iterator[dict[str, Any]]:
 
 
 def _tendons(compiled: Compiled) -> Iterator[dict[str, Any]]:
+    """Yield all tendons as JSON; ``path``: the sites, joints and pulleys along a tendon."""
     model, data = compiled.model, compiled.data
     kinds = {int(kind): kind.name.removeprefix("mjWRAP_").lower() for kind in mujoco.mjtWrap.__members__.values()}
     for i in range(model.ntendon):

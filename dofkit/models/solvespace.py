@@ -131,6 +131,7 @@ def read_sketch(file: ModelFile) -> SketchFile:
 
 
 def _records(text: str) -> Iterator[Record]:
+    """Yield the records of a file, each of lines ``kind.name=value`` up to a line ``AddKind``."""
     values: dict[str, str] = {}
     first = 1
     for at, line in enumerate(text.splitlines(), 1):

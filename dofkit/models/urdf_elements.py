@@ -131,7 +131,7 @@ class Robot:
         return values
 
     def poses(self) -> Poses:
-        """Return the poses in the reference configuration, with the root links at the origin."""
+        """Return the poses in the reference configuration, along a tree of joints from the root links at the origin."""
         drawn = self.drawn()
         below: dict[str, list[RobotJoint]] = {}
         for joint in self.joints:
@@ -222,6 +222,7 @@ class _RobotReader:
         return RobotLink(part.line, self._origin(inertial.first("origin")), value, rows)
 
     def _joint(self, part: Element, links: Mapping[str, RobotLink]) -> RobotJoint:
+        """Return the joint of an element, whose faults are recorded."""
         name, kind = part.get("name"), part.get("type")
         if kind not in KINDS:
             near = nearest(kind, KINDS)
@@ -230,9 +231,8 @@ class _RobotReader:
         parent, child = (self._named(part, tag, "link", links) for tag in ("parent", "child"))
         direction = self._axis(part)
         if not any(direction) and kind in WITH_AXIS:
-            self._fault(
-                part.first("axis") or part, f"the axis of '{name}' is zero", "write a direction, such as xyz='0 0 1'"
-            )
+            hint = "write a direction, such as xyz='0 0 1'"
+            self._fault(part.first("axis") or part, f"the axis of '{name}' is zero", hint)
         limit, mimic = part.first("limit"), part.first("mimic")
         limits = None
         if limit is not None and (limit.get("lower") or limit.get("upper")):
@@ -241,9 +241,8 @@ class _RobotReader:
         if mimic is not None:
             factor, offset = self._number(mimic, "multiplier", 1.0), self._number(mimic, "offset", 0.0)
             follows = Mimic(mimic.get("joint"), factor, offset, mimic.line)
-        return RobotJoint(
-            name, kind, parent, child, self._origin(part.first("origin")), direction, limits, follows, part.line
-        )
+        origin = self._origin(part.first("origin"))
+        return RobotJoint(name, kind, parent, child, origin, direction, limits, follows, part.line)
 
     def _check_joints(self, joints: tuple[RobotJoint, ...]) -> None:
         """Record faults of repeated joint names, and of `mimic` elements that are impossible or cyclic."""

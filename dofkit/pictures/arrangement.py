@@ -185,7 +185,7 @@ def _initial_positions(system: System, numbers: Mapping[Expr, float]) -> dict[st
 
 
 def _lone(system: System, numbers: Mapping[Expr, float], d: int) -> Array:
-    """Return a position for a single particle: below the origin, unless the equations are satisfied nearer above it."""
+    """Return a position for a single particle: below the origin if equations are satisfied as near there as above."""
     up = np.array([0.9, 0.7, 0.8])[:d]
     down = up * np.where(np.arange(d) == d - 1, -1.0, 1.0)
     symbols = [coordinate(c.name) for c in system.coordinates if c.owner == system.particles[0]]

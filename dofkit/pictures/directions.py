@@ -215,9 +215,9 @@ def _chosen(distribution: Distribution, directions: Sequence[Direction3]) -> lis
 
     weights = 10.0 * sum((np.abs(d.vector) > 1e-6).astype(float) for d in directions if d.order > 1) + np.zeros(count)
     for k in range(count):
-        moved = distribution.start.copy()
-        moved[k] += 0.37
-        weights[k] += 20.0 * changes(moved)
+        shifted = distribution.start.copy()
+        shifted[k] += 0.37
+        weights[k] += 20.0 * changes(shifted)
     return sorted(sorted(range(count), key=lambda k: (-weights[k], k))[:3])
 
 

@@ -40,6 +40,7 @@ def evaluated(e: Expr, values: Values, memo: dict[Expr, Array] | None = None) ->
 
 
 def _value(e: Expr, values: Values, memo: dict[Expr, Array]) -> Array | float:
+    """Return the value of an expression from those of its operands; an unknown function is replaced by an example."""
     if e.op == "num":
         return float(e.args[0])
     if e.op == "const":

@@ -122,6 +122,7 @@ def dark_style(drawing: str) -> str:
 
 
 def _element(mark: Mark, height: float) -> str:
+    """Return the SVG element of a mark on a page of this height."""
     owner = f" data-owner={quoteattr(mark.owner)}" if mark.owner else ""
     if mark.text:
         x, y = mark.positions[0]
@@ -199,6 +200,7 @@ def _draw_text(axes: Any, mark: Mark, order: int) -> None:
 
 
 def _draw_path(axes: Any, mark: Mark, order: int) -> None:
+    """Add a line or a polygon to matplotlib's ``axes``."""
     from matplotlib.colors import to_rgba
     from matplotlib.lines import Line2D
     from matplotlib.patches import Polygon

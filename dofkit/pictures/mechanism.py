@@ -62,9 +62,8 @@ def _traced(stage: StagedScene, shapes: Sequence[Shape]) -> Iterator[Vertex]:
     frames = [v for s in shapes if s.role == "body" for v in s.vertices if v.carrier not in stage.system.bodies]
     origins = [Vertex(v.carrier, (0.0, 0.0, 0.0)) for v in frames if v.carrier != GROUND]
     corners = [v for s in shapes if s.kind == "hull" for v in s.vertices]
-    yield from dict.fromkeys(
-        (dots or origins or corners or [stage.origin(b) for b in stage.system.bodies])[:MOST_TRACED]
-    )
+    traced = dots or origins or corners or [stage.origin(b) for b in stage.system.bodies]
+    yield from dict.fromkeys(traced[:MOST_TRACED])
 
 
 def _body_shapes(stage: StagedScene) -> Iterator[Shape]:

@@ -229,12 +229,12 @@ class ClipMaker:
             yield Switch(entry.name, text), clips or []
 
     def _without(self, name: str) -> list[Clip] | None:
-        """Return the clip of the first motion that is possible only without a constraint; None if there is none."""
+        """Return the clip of the names motion that is possible only without a constraint; None if there is none."""
         stage = self.stage
         scene = without(stage.scene, [name])
         arrangement = replace(stage.arrangement, system=exemplified(lower(scene)))
-        first = [str(m.symbol.args[1]) for m in stage.motions]
-        motions = free_motions(arrangement, first)
+        names = [str(m.symbol.args[1]) for m in stage.motions]
+        motions = free_motions(arrangement, names)
         extra = [m for m in motions if m.symbol not in {m.symbol for m in stage.motions}]
         if not extra:
             return None

@@ -134,9 +134,8 @@ def _sampled(shape: PlacedShape) -> Iterator[Vec]:
     moves = ShapePlacement((*shape.places[0], *ends)).moves
     straight = all(diff(diff(e, s), s) == ZERO for e in shape.places[0] for s, _, _ in shape.range)
     for fractions in _grid(len(shape.range), 2 if straight else MOVING_CURVE if moves else CURVE):
-        values = {
-            s: low + num(part) * (high - low) for (s, low, high), part in zip(shape.range, fractions, strict=True)
-        }
+        ranges = zip(shape.range, fractions, strict=True)
+        values = {s: low + num(part) * (high - low) for (s, low, high), part in ranges}
         yield tuple(substitute(e, values) for e in shape.places[0])
 
 

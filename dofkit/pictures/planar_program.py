@@ -74,6 +74,7 @@ class _Steps:
         return self.written[e]
 
     def _step(self, e: Expr) -> Any:
+        """Return a step: a number, ["q", column], or [operation, numbers of steps]. Raises UnknownStepError."""
         if e in self.columns:
             return ["q", self.columns[e]]
         if "call" in e.functions:

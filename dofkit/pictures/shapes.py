@@ -216,9 +216,8 @@ def keys_of(shapes: Iterable[Shape], meanings: Mapping[State, str] | None) -> li
         ink = ink_of(shape)
         if shape.role in ("body", "point") and shape.state in ("moving", "plain"):
             if shape.state in meanings:
-                keys.setdefault(
-                    meanings[shape.state], _PLAIN["body"] if shape.state == "plain" else ink._replace(dense=0.5)
-                )
+                sample = _PLAIN["body"] if shape.state == "plain" else ink._replace(dense=0.5)
+                keys.setdefault(meanings[shape.state], sample)
         elif shape.state in meanings and shape.state in _LOUD and ink.dash == _LOUD[shape.state].dash:
             keys.setdefault(meanings[shape.state], ink._replace(fill=None, width=2.4))
         elif shape.role in _LOOKS["legend"] and (shape.state == "plain" or shape.role in ("bracket", "force")):

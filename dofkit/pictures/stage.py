@@ -324,9 +324,8 @@ def _clear(wanted: Place, taken: Sequence[Place], gap: float, dimension: int) ->
 def axis_of(arrangement: Arrangement, connection: Connection, number: int) -> Array:
     """Return a unit direction of a joint in the reference configuration; a default one if none is given."""
     direction = connection.directions[number] if number < len(connection.directions) else None
-    usual = (
-        [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0)] if arrangement.system.dimension < 3 else [(0.0, 0.0, 1.0), (1.0, 0.0, 0.0)]
-    )
+    plane, space = [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0)], [(0.0, 0.0, 1.0), (1.0, 0.0, 0.0)]
+    usual = plane if arrangement.system.dimension < 3 else space
     axis = np.array(usual[min(number, 1)] if direction is None else arrangement.point(direction))
     size = float(np.linalg.norm(axis))
     return axis / size if size > 1e-12 else np.array(usual[0])

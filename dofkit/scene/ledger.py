@@ -195,7 +195,7 @@ class Texts(Ledger):
             return []
 
     def relations(self, text: str, *where: str | int, names: Names, allow: frozenset[str]) -> list[Relation]:
-        """Return the relations in a text with other ``names`` than the scene's; none after a fault."""
+        """Return the relations in a text, with the given ``names``; empty after a fault, which is recorded."""
         try:
             relations = _equations(text, names)
         except TextError as error:

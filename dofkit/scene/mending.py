@@ -98,6 +98,7 @@ class _MendedScene:
                 yield replace(fault, where=self.words.written(fault.where))
 
     def _mend(self, fault: Fault, where: Path) -> None:
+        """Repair, replace or remove the entry at fault, so that the faults of others can be found."""
         owner = self._at(where[:-1])
         suggested = SUGGESTED.match(fault.hint or "")
         meant = suggested[1] if suggested else ""

@@ -69,9 +69,8 @@ def _write_catalog(out: Path, catalog: Sequence[ShownScene]) -> None:
 def _fill_script(out: Path) -> None:
     """Append the worker and its files, compressed and in base64, to the script that needs no web server."""
     sources = {"worker": out / WORKER} | {name: out / "runtime" / name for name in IN_ONE_SCRIPT}
-    packed = {
-        name: base64.b64encode(gzip.compress(path.read_bytes(), 9, mtime=0)).decode() for name, path in sources.items()
-    }
+    compressed = {name: gzip.compress(path.read_bytes(), 9, mtime=0) for name, path in sources.items()}
+    packed = {name: base64.b64encode(data).decode() for name, data in compressed.items()}
     with (out / ONE_SCRIPT).open("a", encoding="utf-8") as script:
         script.write(f"Object.assign(dofkitRuntime.files, {json.dumps(packed)});\n")
     (out / WORKER).unlink()

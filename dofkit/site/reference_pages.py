@@ -46,6 +46,7 @@ def constraint_pages(catalog: Sequence[ShownScene]) -> Iterator[SitePage]:
 
 
 def _pages_of(kind: str, cls: type[ConstraintBase], scenes: Sequence[ShownScene]) -> Iterator[SitePage]:
+    """Yield the picture and the page of one constraint type; ``scenes``: those of the catalog that contain it."""
     scene = shown_scene(kind, FOLDER, scene_of(cls))
     yield SitePage(f"{FOLDER}/{kind}.svg", scene.svg)
     nearest = sorted(scenes, key=lambda scene: (len(scene.types), len(scene.written)))[:1]

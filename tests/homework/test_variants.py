@@ -17,7 +17,7 @@ from dofkit.homework.answers.submission import of_value
 from dofkit.homework.assignment import AssignmentError, Prepared, load_assignment
 from dofkit.homework.grading import Grader
 from dofkit.homework.handout.class_sheets import ASSIGNMENT, TABLE, write_sheets
-from dofkit.homework.variants import NobodysVariantError, VaryError, differing_share, drawn, picked, sheet_of
+from dofkit.homework.variants import NobodysVariantError, VaryError, differing_share, new_variants, picked, sheet_of
 from dofkit.interface.assignment_commands import drawing
 from dofkit.interface.cli import app
 
@@ -47,7 +47,7 @@ def roster(*names: str) -> Roster:
 
 
 def with_students(*names: str, seed: str = "s") -> Prepared:
-    variants = drawn(load_assignment(SHEET), roster(*names), seed)
+    variants = new_variants(load_assignment(SHEET), roster(*names), seed)
     return load_assignment({**SHEET, "variants": variants.model_dump()})
 
 
@@ -171,7 +171,7 @@ def test_a_page_with_fields_has_only_names_of_its_own_sheet(tmp_path: Path) -> N
     scene = {**CHAIN["scene"], "energies": {"kinetic": "777 xdot^2"}, "expect": {"dof": 1}, "notes": "secret"}
     written = {**SHEET, "problems": [{**CHAIN, "questions": questions, "scene": scene}]}
     members = roster(*(f"student{i}" for i in range(10, 19)))
-    variants = drawn(load_assignment(written), members, "seed-of-mine")
+    variants = new_variants(load_assignment(written), members, "seed-of-mine")
     prepared = load_assignment({**written, "variants": variants.model_dump()})
     write_sheets(prepared, members, "page", drawing(), tmp_path)
     for student in variants.students:
@@ -196,5 +196,5 @@ def test_a_page_with_fields_has_only_names_of_its_own_sheet(tmp_path: Path) -> N
 
 
 def test_a_roster_of_nobody() -> None:
-    with pytest.raises(VaryError, match="nobody"):
-        drawn(load_assignment(SHEET), Roster(()), "1")
+    with pytest.raises(VaryError, match="empty"):
+        new_variants(load_assignment(SHEET), Roster(()), "1")

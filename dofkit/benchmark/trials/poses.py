@@ -99,7 +99,7 @@ def _moved(pose: FrameworkPose, step: Fraction, how: str, named: str = "", **mor
 
 
 def near_singular() -> Iterator[KnownScene]:
-    """Mechanisms at singular poses, and 10^-1 ... 10^-12 from them."""
+    """Yield mechanisms at singular poses, and 10^-1 ... 10^-12 from them."""
     for step in (ZERO, *STEPS):
         for pose in NEAR:
             name = f"{pose.name}, {float(step):g} beside"
@@ -108,7 +108,7 @@ def near_singular() -> Iterator[KnownScene]:
 
 
 def scaled() -> Iterator[KnownScene]:
-    """Mechanisms at and near singular poses, a million times larger or smaller, or far away."""
+    """Yield mechanisms at and near singular poses, a million times larger or smaller, or far away."""
     for how in MOVES:
         for step in (ZERO, STEPS[0]):
             yield from (_moved(pose, step, how) for pose in (*NEAR, *JOINTED))
@@ -127,30 +127,30 @@ def rounded(digits: int) -> Move:
 
 
 def rounded_poses() -> Iterator[KnownScene]:
-    """Mechanisms at singular poses with rounded positions that count as exact.
+    """Yield mechanisms at singular poses with rounded positions, which count as exact.
 
     If the bars are independent after rounding, the freedom is the instantaneous one by rank; else it is not known.
     """
     for digits in DIGITS:
         for pose in NEAR:
-            drawn = pose.framework_at(ZERO).moved(turned).moved(rounded(digits))
-            first = drawn.by_rank()
-            regular = drawn.coordinates - first == len(drawn.bars)
+            framework = pose.framework_at(ZERO).moved(turned).moved(rounded(digits))
+            by_rank = framework.by_rank()
+            regular = framework.coordinates - by_rank == len(framework.bars)
             name = f"{pose.name}, {digits} digits"
-            yield pose.scene(name, drawn, (first if regular else None, first))
+            yield pose.scene(name, framework, (by_rank if regular else None, by_rank))
 
 
 def measured_poses() -> Iterator[KnownScene]:
-    """Mechanisms at singular poses with rounded positions and a tolerance: the truth is that of the exact ones."""
+    """Yield mechanisms at singular poses, rounded and with a tolerance: the truth is that of the exact positions."""
     for digits in DIGITS:
         for pose in NEAR:
-            drawn = pose.framework_at(ZERO).moved(turned).moved(rounded(digits))
+            framework = pose.framework_at(ZERO).moved(turned).moved(rounded(digits))
             name = f"{pose.name}, {digits} digits with tolerance"
-            yield pose.scene(name, drawn, pose.freedom(ZERO), tolerance=f"1e-{digits}")
+            yield pose.scene(name, framework, pose.freedom(ZERO), tolerance=f"1e-{digits}")
 
 
 def measured_elsewhere() -> Iterator[KnownScene]:
-    """Exact positions with a tolerance, of any size and anywhere."""
+    """Yield scenes with exact positions and a tolerance, scaled and moved by every entry of `MOVES`."""
     for how in MOVES:
         for step in (ZERO, Fraction(1, 2)):
             yield from (_moved(p, step, how, f", within {TOLERANCE}", tolerance=TOLERANCE) for p in NEAR)

@@ -204,7 +204,7 @@ def _allowed(parser: Parser, token: Token, e: Expr | None) -> Expr:
 
 
 def derivative_call(parser: Parser, token: Token) -> Expr:
-    """Read `diff(x, t)`, `diff(h(s), s)`, `diff(h(a, b), a, 2, b)`, `partial(h(x, t), t)`, `partial(h(x, x), 1)`."""
+    """Return the derivative that is written, e.g. `diff(h(a, b), a, 2, b)`, `partial(h(x, x), 1)`. Raises TextError."""
     name = token.name
     if parser.next.kind != "(":
         parser.fail(f"`{name}` needs its arguments", token, f"write `{name}(h(s), s)`")

@@ -320,7 +320,7 @@ def pattern_of(text: str, lookup: Lookup) -> Pattern | None:
 
 
 def _moving(meaning: Meaning) -> tuple[str, str] | None:
-    """Return the kind of a symbol that is called by a coordinate, and that name; None of another meaning."""
+    """Return (kind, coordinate) of a symbol that belongs to a coordinate, such as a velocity; None for others."""
     e = meaning.expr
     if e is None or e.op != "sym" or e.args[0] not in MOVING:
         return None

@@ -53,6 +53,7 @@ def _number(e: Expr) -> Printed:
 
 
 def _symbol(e: Expr) -> Printed:
+    """Return the printed symbol; as `x_ddot` denotes an acceleration, the velocity of `x_d` is printed as `xdot_d`."""
     kind, name = e.args
     if kind == "velocity" and name.endswith("d"):  # `x_ddot` would be an acceleration
         stem, _, index = name.rpartition("_")
@@ -76,6 +77,7 @@ def _sum(e: Expr) -> Printed:
 
 
 def _product(e: Expr) -> Printed:
+    """Return a product as printed: negative powers and denominators are written below a fraction bar."""
     above: list[Expr] = []
     below: list[Expr] = []
     sign = ""
@@ -112,6 +114,7 @@ def _function(e: Expr) -> Printed:
 
 
 def _call(e: Expr) -> Printed:
+    """Return a call of a declared function, or its derivative as `f'(x)`, `diff(f(x), x)` or `partial(...)`."""
     name, orders, arguments = e.args
     plain = f"{name}({', '.join(map(to_text, arguments))})"
     if not any(orders):

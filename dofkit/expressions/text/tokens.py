@@ -113,6 +113,7 @@ def without_latex(text: str) -> str | None:
 
 
 def _scan(text: str, columns: Sequence[int], lookup: Lookup) -> list[Token]:
+    """Return the tokens of a text; ``columns``: the original column of each character. Raises TextError."""
     tokens: list[Token] = []
     position = len(text) - len(text.lstrip())
     match_at = TOKEN.match

@@ -78,6 +78,7 @@ class _Piece(NamedTuple):
 
 
 def _pieces(text: str) -> list[_Piece]:
+    """Return the tokens of a text up to its end. Raises _NoFormulaError for any other character."""
     pieces: list[_Piece] = []
     position = 0
     while True:

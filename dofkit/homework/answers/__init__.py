@@ -1,1 +1,1 @@
-"""Submissions: files and tables read, and the words in them."""
+"""Submissions: reading files and tables, and the texts of answers."""

@@ -1,4 +1,4 @@
-"""Numbers as people write them: digits and words, with what is counted, a sum before them, a reason after them."""
+"""Reads a number as people write it: digits or words, with a unit, a calculation before it, a reason after it."""
 
 from __future__ import annotations
 
@@ -28,32 +28,32 @@ from dofkit.homework.judgement import DoubtError
 _HINT = "write a number such as 3"
 _COMMA = re.compile(r"(?<=\d),(?=\d)")
 _GROUP = re.compile(r"\s*\(([^()]*)\)")
-#: A factor of a sum: `3(4 - 1) - 2 4`; at the end it may be what the number before it stands for.
+#: A factor in parentheses within a calculation, `3(4 - 1) - 2 4`; at the end it may repeat the number before it.
 _FACTOR = re.compile(r"\d\([^()]*\d[^()]*\)\s*[-+*/=−·⋅×]")
 _SEGMENT = pattern("counts: segment")
-#: What is replaced by what follows it: `not 3 but 2`.
+#: A number that is corrected by the next one, and dropped: `not 3 but 2`.
 _REPLACED = pattern("counts: replaced")
-#: A bracket that gives another number under a condition: `(4 with the winch)`.
+#: A parenthesis with another number under a condition: `(4 with the winch)`.
 _CONDITION = pattern("counts: condition")
 #: Brackets of a set, and a number in bold letters of Markdown.
 _BRACKETS, _BOLD = re.compile(r"[{}\[\]]"), re.compile(r"\A\s*\*\*([^*]+)\*\*(?=\s*\Z)")
-#: What bounds a number without telling it; another number beside it in parentheses; a number before a further name.
+#: Signs and words of a bound on the number; words for an alternative; a number with a name before a sign of equality.
 _BOUND = pattern("counts: bound")
 _OTHERWISE = pattern("counts: otherwise")
 _BEFORE_NAME = re.compile(r"\s*\d+(?:\s+[^\W\d_]+){1,2}\s*")
-#: In a part of more words `one` may be an article.
+#: In a segment of more words, `one` may be an article.
 _ARTICLE_WORDS = 2
-#: A denial of so many words without a number says something of what else there is.
+#: A denial of at least so many words without a number is a remark on something else.
 _REMARK_WORDS = 4
 _ALONE = re.compile(r"(?<![\w^*/+.-])(?:\d{1,4}|[^\W\d_]+)(?![\w^*/+.])")
-#: What other quantities are called.
+#: Names of other quantities.
 _OTHERS = words("n k f dof x y z t theta phi")
 _NAMED = re.compile(r"\s*([^\W\d_]+)\s*(?:=|[<>≤≥≠∈]|!=|\\(?:leq?|geq?|neq?|lt|gt|in)\b)")
 _SIGNS = re.compile(r"==|=|≈|≅|→|⇒")
 _WORD = pattern("counts: word")
 _OPERATORS = {"minus": "-", "less": "-", "moins": "-", "menos": "-", "meno": "-", "plus": "+", "mas": "+", "piu": "+",
               "times": "*", "mal": "*"}  # fmt: skip
-#: What has or is a number, with words before it: `das Doppelpendel hat`.
+#: Words up to a verb before the number: `das Doppelpendel hat`.
 _STATED = pattern("counts: stated")
 _FIGURE = re.compile(r"[\d½⅓⅔¼¾]")
 _BETWEEN = re.compile(r"\s*\d+\s*[-–]\s*\d+\s*")
@@ -103,28 +103,28 @@ def number(answer: object, called: frozenset[str] = frozenset(), foreign: frozen
 
 
 def _concluded(script: Script) -> Script:
-    """Return what follows the last conclusion, if there is a number in it."""
+    """Return the script after the conclusion word such as `therefore`, if a number follows; else the whole script."""
     ends = [match.end() for match in CONCLUSION.finditer(script.text)]
-    last = script.cut(ends[-1]) if ends else script
-    return last if ends and (_FIGURE.search(last.text) or plain(last.text) in NUMBERS) else script
+    conclusion = script.cut(ends[-1]) if ends else script
+    return conclusion if ends and (_FIGURE.search(conclusion.text) or plain(conclusion.text) in NUMBERS) else script
 
 
 def _is_foreign(text: str, foreign: frozenset[str]) -> bool:
-    """Return whether a number is followed by the noun of another quantity, and not by one of its own."""
+    """Return whether the number of a segment is followed by the noun of another quantity."""
     after = re.split(r"\d+", text)[-1] if re.search(r"\d", text) else text
     said = [plain(m[0]) for m in _WORD.finditer(after)]
     return not foreign.isdisjoint(said) and "=" not in text
 
 
 def _numbers_alone(text: str) -> set[int]:
-    """The numbers that stand alone in a part that is not read; `one` is an article in what is longer than two words."""
+    """Return the numbers that stand alone in an unreadable segment; in more than two words `one` is an article."""
     alone = [plain(w) for w in _ALONE.findall(text)]
     least = 1 if len(alone) > _ARTICLE_WORDS else 0
     return {int(w) if w.isdecimal() else NUMBERS[w] for w in alone if w.isdecimal() or NUMBERS.get(w, 0) > least}
 
 
 def _segments(script: Script) -> Iterator[Script]:
-    """What stands between separators, and a number in parentheses that repeats one; other parentheses are remarks."""
+    """Yield the parts between separators, and numbers in parentheses after a number; other parentheses are remarks."""
     for group in _GROUP.finditer(script.text):
         before = script.text[: group.start()].rstrip()
         if before and before[-1] not in "+-*/=(^−·⋅×" and not _FACTOR.match(script.text, len(before) - 1):
@@ -153,23 +153,23 @@ def _only_number(text: str) -> bool:
 
 
 def _segment(script: Script) -> Fraction | None:
-    """The number of a part; None where it holds none. Raises DoubtError where its sums do not agree."""
+    """Return the number of a segment, or None if it contains none. Raises DoubtError if its two sides differ."""
     place, amounts, failure = 0, list[Fraction](), None
     text = script.text
     bound = _BOUND.search(text)
     if bound is not None:
         raise DoubtError("it gives a bound, not the number.", script.columns[bound.start()], _HINT)
     for cut in [*(m.span() for m in _SIGNS.finditer(text)), (len(text), len(text))]:
-        piece = script.cut(place, cut[0])
+        side = script.cut(place, cut[0])
         place = cut[1]
         try:
-            value = _value(piece)
+            value = _value(side)
         except TextError as error:
             failure = error
             if place >= len(text):
                 raise
-            if _BEFORE_NAME.fullmatch(piece.text):
-                raise DoubtError("it gives more than one number.", piece.columns[0], _HINT) from None
+            if _BEFORE_NAME.fullmatch(side.text):
+                raise DoubtError("it gives more than one number.", side.columns[0], _HINT) from None
             continue
         if value is not None:
             amounts.append(value)
@@ -186,7 +186,7 @@ def _segment(script: Script) -> Fraction | None:
 
 
 def _value(script: Script) -> Fraction | None:
-    """The number of a piece without signs of equality; None where it has words only."""
+    """Return the number of a text without signs of equality, or None if there are only words."""
     words = [plain(m[0]) for m in _WORD.finditer(script.text)]
     if (
         any(w in _NONE for w in words)
@@ -195,9 +195,8 @@ def _value(script: Script) -> Fraction | None:
     ):
         return Fraction(0)
     counted = _FIGURE.search(script.text) is not None or any(w in NUMBERS for w in words)
-    if any(w in DOUBTS for w in words) or (
-        any(w in NEGATIONS for w in words) and (counted or len(words) < _REMARK_WORDS)
-    ):
+    negated = any(w in NEGATIONS for w in words) and (counted or len(words) < _REMARK_WORDS)
+    if negated or any(w in DOUBTS for w in words):
         raise DoubtError("it is not clear which number is claimed.", script.columns[0], _HINT)
     if script.text.rstrip().endswith("?"):
         raise DoubtError("a question mark makes the answer ambiguous.", script.columns[0], _HINT)
@@ -215,7 +214,7 @@ def _value(script: Script) -> Fraction | None:
 
 
 def _counted(match: re.Match[str], leads: bool) -> str:
-    """A word of a number: its digits, its sign, nothing for what is counted, itself for any other."""
+    """Return the text for a word: digits for a number, a sign for an operator, "" for a unit, else the word itself."""
     word = plain(match[0]).replace(". ", "").replace(".", "")
     if word in _OPERATORS:
         return _OPERATORS[word]

@@ -1,6 +1,6 @@
-"""The names that a sheet declares, and what students call quantities of theirs: all that reading an answer may use.
+"""The names that an assignment declares, and usual names of quantities: all that reading an answer may use.
 
-The key is not here: an answer reads alike whether it is right or wrong.
+The key is not used, so that an answer is read in the same way whether it is right or wrong.
 """
 
 from __future__ import annotations
@@ -17,9 +17,9 @@ from dofkit.expressions.tree import Expr, coordinate, sym, velocity
 from dofkit.scene.names import coordinate_table, vocabulary_of
 from dofkit.scene.scene import Scene
 
-#: Stems of coordinates that are angles; every other coordinate is taken for a length.
+#: Stems of names of angles; every other coordinate is regarded as a length.
 _ANGLES = frozenset({"alpha", "beta", "gamma", "theta", "phi", "psi", "chi", "varphi", "vartheta"})
-#: Usual names of velocities and accelerations: of angles or not, and which derivative.
+#: {usual name: (whether the coordinate is an angle, order of the derivative)}.
 _USUAL = {"v": (False, 1), "a": (False, 2), "omega": (True, 1), "alpha": (True, 2)}
 _WORD = re.compile(r"(?P<stem>omega|alpha|v|a)(?:_?(?P<index>\w+))?")
 _DIFFERENCE = re.compile(r"(?:Δ|Delta)_?(?P<name>\w+)")
@@ -27,10 +27,10 @@ _DIFFERENCE = re.compile(r"(?:Δ|Delta)_?(?P<name>\w+)")
 
 @dataclass(frozen=True)
 class DeclaredNames:
-    """What the texts of answers may mention.
+    """The names that answers may contain.
 
-    ``names``: for formulas; ``also``: further coordinates that the sheet offers; ``constants``: parameters without a
-    value.
+    ``names``: for formulas; ``also``: further coordinates that the question offers; ``constants``: parameters without
+    a value.
     """
 
     names: Names
@@ -41,7 +41,7 @@ class DeclaredNames:
 
     @classmethod
     def of(cls, scene: Scene, also: Iterable[str]) -> DeclaredNames:
-        """Return the names of a scene: nothing that its constraints say is kept."""
+        """Return the names of a scene, without its constraints; ``also``: further coordinates."""
         names = vocabulary_of(scene).names
         constraints = tuple(c.name or f"c{n}" for n, c in enumerate(scene.constraints, 1))
         return cls(
@@ -54,7 +54,7 @@ class DeclaredNames:
 
     @cached_property
     def with_also(self) -> Names:
-        """The names with the further coordinates, which are read in every notation of a declared one."""
+        """`names` with the further coordinates, for which the same notations are allowed."""
         return replace(self.names, coordinates=self.names.coordinates | {*self.also})
 
 
@@ -71,15 +71,15 @@ def usual_name(word: str, names: Names) -> Expr | None:
     match = _WORD.fullmatch(word)
     if match is None:
         return None
-    turning, order = _USUAL[match["stem"]]
+    angular, order = _USUAL[match["stem"]]
     index = match["index"] or ""
-    alike = [q for q in names.coordinates if _is_angle(q) == turning]
+    fitting = [q for q in names.coordinates if _is_angle(q) == angular]
     if not index:
-        chosen = alike if turning or len(names.coordinates) == 1 else []
+        chosen = fitting if angular or len(names.coordinates) == 1 else []
     elif index in names.coordinates:
-        chosen = [index] if _is_angle(index) == turning else []
+        chosen = [index] if _is_angle(index) == angular else []
     else:
-        chosen = [q for q in alike if q.partition("_")[2] == index or _digits(q) == index]
+        chosen = [q for q in fitting if q.partition("_")[2] == index or _digits(q) == index]
     if len(chosen) != 1 or (order == 2 and not names.allow_accelerations):
         return None
     return velocity(chosen[0]) if order == 1 else sym("acceleration", chosen[0])

@@ -1,4 +1,4 @@
-"""Answers that there is none: no integral, nothing redundant, in six languages."""
+"""Recognizes answers that nothing of the kind exists (no integral, no redundant constraint), in six languages."""
 
 from __future__ import annotations
 
@@ -7,17 +7,17 @@ from collections.abc import Collection
 
 from dofkit.homework.answers.prose import FILLING, REASONS, YES, pattern, plain, rewriting, word_list
 
-#: Answers that there is none which are no sentence of the words below; a dash alone is no answer.
+#: Whole answers which say that there is none, besides sentences of the words below; a dash alone is no answer.
 NONE = word_list("denials: none")
-#: What stands between the parts of an answer.
+#: Separators between the parts of an answer.
 _PARTS = r"[,;:(\n]| - | – | — "
 _ANDS = r"\s(?:and|und|et|y|e|but|aber|mais|pero|ma|mas)\s"
-#: In a sentence of these words alone one denial says that there is none; two take each other back.
+#: In a sentence of listed words only, one denial says that there is none; two cancel each other.
 _DENIALS = word_list("denials: denials")
-#: In Romance languages these go with a denial, or stand alone.
+#: In Romance languages these accompany a denial, or deny alone.
 _WITH_DENIALS = word_list("denials: with_denials")
 _NONES = word_list("denials: nones")
-#: What is denied, by its beginning; a prefix denies it too.
+#: What is denied, by the beginning of the word; a prefix is a denial as well.
 _DENIED = pattern("denials: denied")
 _AROUND = word_list("denials: around")
 _EVERY = word_list("denials: every")
@@ -26,9 +26,9 @@ _CONTRACTED = rewriting("denials: contracted")
 
 
 def says_none(text: str, vocabulary: Collection[str] = (), every: bool = False) -> bool:
-    """Return whether a text says that there is none.
+    """Return whether a text says that nothing of the kind exists.
 
-    ``vocabulary``: names, which are no words; ``every``: `all are needed` says so.
+    ``vocabulary``: declared names, which are not words; ``every``: whether `all are needed` says it as well.
     """
     lowered = plain(REASONS.split(text, maxsplit=1)[0])
     first = plain(re.split(_PARTS, lowered, maxsplit=1)[0])
@@ -37,7 +37,7 @@ def says_none(text: str, vocabulary: Collection[str] = (), every: bool = False) 
 
 
 def beside_none(text: str) -> list[str]:
-    """The parts of a text that says in one of them that there is none; nothing where none says so, reasons left out.
+    """Return the other parts of a text if one part says that there is none, without reasons; else an empty list.
 
     >>> beside_none("y = C x, not integrable"), beside_none("y = C x"), beside_none("none")
     (['y = C x'], [], [])
@@ -48,13 +48,13 @@ def beside_none(text: str) -> list[str]:
 
 
 def affirms(part: str) -> bool:
-    """Return whether a part of an answer says yes, or affirms what is asked: `it is integrable`."""
+    """Return whether a part of an answer says yes, or affirms the question: `it is integrable`."""
     tokens = _tokens(plain(part))
     return plain(part) in YES or (bool(tokens) and _closed(tokens) and _denial(tokens) == 0 and _names_it(tokens))
 
 
 def _denies(lowered: str, names: Collection[str] = ()) -> bool:
-    """Return whether a text in small letters says that there is none, by a phrase or by words of a closed list."""
+    """Return whether a lower-case text says that there is none, by a listed phrase or by listed words only."""
     if lowered in NONE:
         return True
     tokens = _tokens(lowered)
@@ -64,14 +64,14 @@ def _denies(lowered: str, names: Collection[str] = ()) -> bool:
 
 
 def _needs_all(lowered: str, names: Collection[str]) -> bool:
-    """`all are needed`, `alle sind unabhängig`."""
+    """Return whether a text says that all are needed: `all are needed`, `alle sind unabhängig`."""
     tokens = _tokens(lowered)
     whole = bool(tokens) and _closed(tokens) and not _EVERY.isdisjoint(tokens) and not any(w in names for w in tokens)
     return whole and _denial(tokens) == 0 and any(_NEEDED.match(w) for w in tokens)
 
 
 def _tokens(lowered: str) -> list[str]:
-    """The words of a text; none where it holds anything else."""
+    """Return the words of a text; an empty list if it contains anything else, such as digits."""
     for contraction, by in _CONTRACTED:
         lowered = contraction.sub(by, lowered)
     return [] if re.search(r"[^\w\s'’.,-]|\d|_", lowered) else re.findall(r"[^\W\d_]+(?:-[^\W\d_]+)*", lowered)
@@ -82,7 +82,7 @@ def _names_it(tokens: list[str]) -> bool:
 
 
 def _closed(tokens: list[str]) -> bool:
-    """Return whether all words are in the lists."""
+    """Return whether all words are in the word lists of this module."""
     vocabulary = _DENIALS | _WITH_DENIALS | _AROUND | _EVERY | FILLING
     return all(w in vocabulary or _DENIED.fullmatch(w) or _NEEDED.match(w) for w in tokens)
 

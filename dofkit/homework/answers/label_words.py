@@ -1,4 +1,4 @@
-"""Labels as people write them, in six languages, negated in theirs."""
+"""Reads labels (holonomic, scleronomic, bilateral) as people write them, with negations, in six languages."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from dofkit.homework.judgement import DoubtError, Given
 
 
 class Terms(NamedTuple):
-    """What a part is called where it holds, and where it does not."""
+    """The word for a label (``holds``) and for its opposite (``fails``), and the spellings of each."""
 
     holds: str
     fails: str
 
 
 def _forms(label: str) -> Iterator[str]:
-    """What people write for a label, `scleronom*` with the endings that it takes: scleronomic, scleronome, ..."""
+    """Return stems with all endings: `scleronom` -> scleronomic, scleronome, scleronoma, ..."""
     for word in listed(f"label_words: {label}"):
         endings = ("", *listed("label_words: endings")) if word.endswith("*") else ("",)
         yield from (word.rstrip("*") + ending for ending in endings)
@@ -37,34 +37,34 @@ TERMS = {
 _WORDS: dict[str, tuple[str, bool]] = {
     word: (part, label == terms.holds) for part, terms in TERMS.items() for label in terms for word in _forms(label)
 }
-#: Labels that may be cut short, and the fewest letters of them: `hol.`, `skl.`
+#: Labels that may be abbreviated, and the fewest letters of an abbreviation: `hol.`, `skl.`
 _STEMS = ("holonom", "scleronom", "skleronom", "rheonom", "bilateral", "unilateral")
 _FEWEST = 3
-#: What misspelt labels are compared with.
+#: The spellings with which misspelt labels are compared.
 _GUESSED = [w for w in _WORDS if w[:3] in ("hol", "scl", "skl", "rhe", "bil", "uni")]
 _LONGEST = 24
 _NEGATIONS = word_list("label_words: negations")
-#: Words over which a negation reaches.
+#: Words that may be between a negation and its label.
 _FILLING = word_list("label_words: filling")
 #: Words of other meanings that look like labels.
 _OTHERS = frozenset({"integrable", "nonintegrable", "noncommutative", "nonlinear", "nonzero", "integrabel"})
-#: How alike a misspelt word and the label that is meant are.
+#: The least similarity of a misspelt word and the label that is meant.
 ALIKE = 0.86
 _HYPHEN = re.compile("[-\u2010-\u2015_]")
 _SLASH = re.compile(r"[/|+()\[\]]|(?<=[a-z])\.(?=[a-z])")
-#: `holonomic: yes, scleronomic: no`, and `holonomic not`; `holonomic: yes and no` and such say neither.
+#: `holonomic: yes, scleronomic: no`, and `holonomic not`; `holonomic: yes and no` contradicts itself.
 _TOLD = pattern("label_words: told")
 _TOLD_TWICE = pattern("label_words: told twice")
-#: A label that is corrected; a negation in parentheses, joined to a label or before it.
+#: A correction of a label; a negation in parentheses before a label.
 _TAKEN_BACK = pattern("label_words: taken back")
-#: `rheo-/scleronomic`: the end of a label is said once for two.
+#: `rheo-/scleronomic`: the ending is written once for two labels.
 _SHORTENED = pattern("label_words: shortened")
-#: Words that leave a label open, but not a number.
+#: Words that make a label ambiguous, but not a number.
 _HALF_SAID = words("? half halb semi mezzo demi medio meio")
-#: A negated group may mean each or not all.
+#: A negated group: it may mean that none or that not all are true.
 _GROUP_DENIED = pattern("label_words: group denied")
 _JOINED = pattern("label_words: joined")
-#: What a negation that stands apart from the labels may speak of, in the same clause or in brackets.
+#: What a negation without a label may be about: a reason near the label, such as integrability or time.
 _REASONED = pattern("label_words: reasoned")
 _BEFORE, _NEAR = 3, 6
 #: A `no` before a whole sentence.
@@ -72,18 +72,18 @@ _REPLY = re.compile(r"\A\s*(?:no|nein|non|nao|não)\s*[,.;:!]", re.IGNORECASE)
 #: A question without its mark: `is it holonomic`.
 _ASKED = pattern("label_words: asked")
 _ITALIAN_NOR = re.compile(r"\bné\b", re.IGNORECASE)
-#: What is said in several words.
+#: Phrases that mean a label.
 _PHRASES = rewriting("label_words: phrases")
-#: Of every part that is mentioned whether it is said to hold; both where an answer contradicts itself.
+#: {label: {whether it is claimed to hold}} of the labels that are mentioned; both values for a contradiction.
 Labels = Mapping[str, frozenset[bool]]
 _HINT = "the labels are holonomic or non-holonomic, scleronomic or rheonomic, bilateral or unilateral"
 
 
 def read_labels(answer: Given) -> Labels:
-    """Return, of each label in an answer, whether it is said to hold; both values if it contradicts itself.
+    """Return for each label in an answer whether it is claimed to hold; both values if the answer contradicts itself.
 
-    A negation before a label, joined to it or not, turns it round; what else a sentence says is read over. Raises
-    TextError where there is no label, or a word that may be one and cannot be read; DoubtError for questions.
+    A negation before a label, joined to it or not, inverts it; other words are ignored. Raises TextError if there is
+    no label, or a word that may be one but cannot be read; DoubtError for questions and unclear negations.
     """
     labels: dict[str, frozenset[bool]] = {}
     negated, unread = False, None
@@ -115,7 +115,7 @@ def read_labels(answer: Given) -> Labels:
 
 
 def _reasoned(following: list[Word]) -> None:
-    """Raises DoubtError where a negation among these words speaks of nothing that is a reason for a label."""
+    """Raise DoubtError if these words around a negation contain no reason for a label (`_REASONED`)."""
     if _REASONED.search(" ".join(plain(w.text) for w in following)) is None:
         raise DoubtError("it is not clear what is negated.", following[0].column, _HINT)
 
@@ -124,6 +124,7 @@ _ORDINARY = frozenset({"nombre", "name", "phenomenon", "denominator"})
 
 
 def _split(answer: Given) -> list[Word]:
+    """Return the words of an answer, phrases replaced by labels. Raises DoubtError for questions and corrections."""
     if not isinstance(answer, str):
         return split_words(answer)
     script: Script = script_of(one_text(answer))
@@ -149,7 +150,7 @@ def _split(answer: Given) -> list[Word]:
 
 
 def _answered(match: re.Match[str]) -> str:
-    """A label that a word after it affirms or denies."""
+    """Return the replacement of a label with a reply (`holonomic: no` -> `not holonomic`)."""
     label, reply = match[1], plain(match[3])
     if _label(plain(label)) is None:
         return match[0]
@@ -160,7 +161,7 @@ def _answered(match: re.Match[str]) -> str:
 
 
 def _parted(text: str) -> list[str]:
-    """`holonomic-scleronomic` is two labels."""
+    """Return the halves of two labels with a hyphen (`holonomic-scleronomic`), else the text alone."""
     halves = _HYPHEN.split(text)
     if len(halves) == 2 and all(_label(plain(part)) for part in halves):
         return halves
@@ -169,7 +170,7 @@ def _parted(text: str) -> list[str]:
 
 @lru_cache(maxsize=4096)
 def _label(text: str) -> tuple[str, bool] | None:
-    """The part that a word names and whether it says that it holds; misspelt labels are read too."""
+    """Return (label, whether it is claimed to hold) for a word, even a misspelt one, or None."""
     bare = _HYPHEN.sub("", text)
     if bare in _WORDS:
         return _WORDS[bare]
@@ -184,15 +185,15 @@ def _label(text: str) -> tuple[str, bool] | None:
 
 
 def mentions(part: str, answer: Given) -> bool:
-    """Return whether a part is described in other words, such as `integrable` or `time`."""
+    """Return whether an answer describes the label ``part`` in other words, such as `integrable` or `time`."""
     return isinstance(answer, str) and pattern(f"label_words: about {part}").search(plain(answer)) is not None
 
 
 def word_of(part: str, holds: bool) -> str:
-    """Return the name of a part."""
+    """Return the word for a label that holds, or for its opposite."""
     return TERMS[part].holds if holds else TERMS[part].fails
 
 
 def label_text(claims: Mapping[str, bool]) -> str:
-    """Claims as they were understood: of every part that is mentioned whether it is said to hold."""
+    """Return the claimed labels as text, separated by commas."""
     return ", ".join(word_of(part, claims[part]) for part in TERMS if part in claims)

@@ -1,4 +1,4 @@
-r"""What people paste, in plain signs: LaTeX with its frames, full-width digits, arrows, derivatives of whole sums.
+r"""Converts pasted notation to plain text: LaTeX, full-width digits, arrows, derivatives of whole sums.
 
 ``$\tfrac12 m \ell^2$`` becomes ``\frac{1}{2} m l^2``, which the grammar reads.
 """
@@ -16,33 +16,33 @@ from dofkit.homework.answers.prose import Rewriting, rewriting
 
 @dataclass(frozen=True)
 class Script:
-    """``columns``: of every character of ``text``, from 1, and of the end."""
+    """A text with the original column of each character and of the end, counted from 1."""
 
     text: str
     columns: tuple[int, ...]
 
     @classmethod
     def of(cls, text: str) -> Script:
-        """A text as it was written."""
+        """Return a text as it was written."""
         return cls(text, tuple(range(1, len(text) + 2)))
 
     def cut(self, start: int, end: int | None = None) -> Script:
-        """The part between two places."""
+        """Return the part from index ``start`` to ``end`` (None: the end of the text)."""
         end = len(self.text) if end is None else end
         return Script(self.text[start:end], self.columns[start : end + 1])
 
     def stripped(self) -> Script:
-        """Without the blanks around it."""
+        """Return the script without leading and trailing blanks."""
         start = len(self.text) - len(self.text.lstrip())
         return self.cut(start, max(start, len(self.text.rstrip())))
 
     def spliced(self, start: int, end: int, new: str) -> Script:
-        """With other characters between two places; they keep the column where those began."""
+        """Return the script with ``new`` in place of a part; all new characters have the column of its first one."""
         columns = (*self.columns[:start], *[self.columns[start]] * len(new), *self.columns[end:])
         return Script(self.text[:start] + new + self.text[end:], columns)
 
     def replaced(self, pattern: re.Pattern[str], by: Rewriting) -> Script:
-        """With every match replaced; what stands for it keeps the column where the match began."""
+        """Return the script with every match replaced; new characters have the column where the match began."""
         if pattern.search(self.text) is None:
             return self
         out: list[str] = []
@@ -57,14 +57,14 @@ class Script:
         return Script("".join(out), (*columns, *self.columns[place:]))
 
     def moved(self, error: TextError) -> TextError:
-        """An error in this text with its column in what was written."""
+        """Return an error about this text with its column in the original text."""
         column = error.column
         if column is not None:
             column = self.columns[min(max(column - 1, 0), len(self.columns) - 1)]
         return TextError(error.message, column, error.hint)
 
 
-#: Stands between equations of which one implies the other.
+#: The sign between equations of which the first implies the second.
 ARROW = "⇒"
 _WIDE = re.compile("[\uff01-\uff5e]")
 
@@ -78,12 +78,12 @@ def _mended(match: re.Match[str]) -> str:
 
 
 def _braced(argument: str) -> str:
-    """An argument of a command, which may be one sign, in braces; nothing stays nothing."""
+    """Return an argument of a command with braces around it if it is a single character."""
     return f"{{{argument}}}" if len(argument) == 1 else argument
 
 
 def _dotted(name: str, mark: str) -> str:
-    """`x_dot`, and `xdot_1` of a name with an index."""
+    """Return the name of a derivative: `x_dot`, or `xdot_1` for a name with an index."""
     stem, _, index = re.sub(r"\\var|[{}\\]", "", name).partition("_")
     return f"{stem}{mark}_{index}" if index else f"{stem}_{mark}"
 
@@ -108,9 +108,9 @@ _OTHER_FORM = re.compile(r"(?<![A-Za-z])d[A-Za-zα-ωΑ-Ω]")
 
 
 def with_differentials(script: Script) -> Script:
-    """``d theta`` joined to ``dtheta``, and ``d/dt (...)`` and ``d(...)`` as derivatives by time.
+    """Return the script with ``d theta`` as ``dtheta``, and ``d/dt (...)`` and ``d(...)`` as ``diff(..., t)``.
 
-    Beside other differentials ``d(x y)`` is one itself and stays: ``d(x y) = z dz``.
+    With other differentials in the text, ``d(x y)`` is a differential itself and unchanged: ``d(x y) = z dz``.
     """
     for pattern, by in _JOINED:
         script = script.replaced(pattern, by)
@@ -130,7 +130,7 @@ def with_differentials(script: Script) -> Script:
 
 
 def _closed(text: str, start: int) -> int | None:
-    """Return the place where the bracket that opens at ``start`` is closed, or None."""
+    """Return the index at which the bracket that opens at ``start`` is closed, or None."""
     depth = 0
     for i in range(start, len(text)):
         depth += (text[i] in "([{") - (text[i] in ")]}")
@@ -145,7 +145,7 @@ _COMMAND = re.compile(
 
 
 def backslashes_kept(text: str) -> str:
-    """The text of a document with backslashes doubled that begin commands of LaTeX, or mean nothing in quotes."""
+    """Return the text of a document with backslashes doubled if they begin LaTeX commands or no escape sequence."""
     return _COMMAND.sub(r"\\\\", text)
 
 
@@ -154,7 +154,7 @@ _EQUALITY = re.compile(r"\A\s*(?:sp\.|sympy\.)?(?:Eq|Equality)(?=\()")
 
 
 def _as_equation(script: Script) -> Script:
-    """`Eq(a, b)` is a = b."""
+    """Return `a = b` for SymPy's `Eq(a, b)`; other scripts unchanged."""
     match = _EQUALITY.match(script.text)
     end = None if match is None else _closed(script.text, match.end())
     if match is None or end is None or script.text[end + 1 :].strip():
@@ -175,7 +175,7 @@ _BOX = re.compile(r"\\(?:boxed|fbox|framebox|underline|ensuremath)\s*(?=\{)")
 
 
 def _unboxed(script: Script) -> Script:
-    """Without the frames of a result, `\\boxed{...}`."""
+    """Return the script without boxes around results, `\\boxed{...}`."""
     while (match := _BOX.search(script.text)) is not None:
         end = _closed(script.text, match.end())
         if end is None:
@@ -185,7 +185,7 @@ def _unboxed(script: Script) -> Script:
 
 
 def script_of(text: str) -> Script:
-    """A text in plain signs; what the grammar does not know stays as it is, and is refused there."""
+    """Return a text in plain notation; what no rule covers is unchanged, and may be rejected by the parser."""
     script = Script.of(text).replaced(BROKEN_COMMAND, _mended).replaced(_WIDE, _narrow)
     if script.text.isascii() and not _ODD.search(script.text):
         return script
@@ -197,7 +197,7 @@ def script_of(text: str) -> Script:
     return script
 
 
-#: A plain text without any of these needs no rule.
+#: An ASCII text without any of these needs no rule.
 _ODD = re.compile(
     r"Derivative|\bin\s*\[|Eq\(|Equality|[\\$&`\"{>]|:=|\bdd?ot\(|\bd\s*/|\bd\s*(?:\^|\*\*)\s*2\s*/|np\.|math\.|sympy\.|sp\.|numpy\.|<br"
     r"|\.[*/^]|\b(?:sen|tg|Sin|Cos|Tan|Sqrt|Exp|SIN|COS|TAN|SQRT|EXP)\b"

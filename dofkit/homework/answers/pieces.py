@@ -1,4 +1,4 @@
-"""Several equations in one field: where one ends and the next begins, and what beside them is no equation."""
+"""Splits an answer into equations, and drops remarks, titles and numbers of equations."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from dofkit.homework.answers.prose import CONCLUSION, pattern, plain, takes_back
 from dofkit.homework.answers.words import one_text
 from dofkit.homework.judgement import DoubtError, Given
 
-#: Equations in one answer.
+#: The most equations in one answer.
 MOST_PIECES = 40
-#: The number of an equation behind it.
+#: The number after an equation: ``(3)``.
 _NUMBER_AFTER = re.compile(r"(?<=[^\s=+\-−*·×/^<>≤≥])\s+\((?:\d{1,2}|[IVX]{1,4}|\*)\)\s*\Z")
 _RELATION = re.compile(r"[=<>≤≥]")
 _ENUMERATED = pattern("pieces: enumerated")
@@ -27,19 +27,19 @@ _DECIMAL = re.compile(r"(?<=\d),(?=\d)")
 _WORDS = re.compile(r"[^\W\d_]+(?:['’][^\W\d_]+)*")
 _GROUP = re.compile(r"[(\[]([^()\[\]=<>+*/^\d]+)[)\]]\s*\Z|[(\[]([^()\[\]=<>+*/^\d]+)[)\]](?=\s*[;,\n])")
 _INTRODUCED = pattern("pieces: introduced")
-#: That an equation is true at all times, behind it.
+#: Words after an equation such as `for all t`.
 _ALWAYS = pattern("pieces: always")
-#: What a family of curves is called, before its equation.
+#: The name of a family of curves before its equation.
 _CURVES = pattern("pieces: curves")
 _TITLED = re.compile(r"\A\s*[^=<>:+*/^]{1,60}:(?!=)\s*(?=\S)")
 _REMARKED = word_list("pieces: remarked")
 _ABOUT_CONSTANT = pattern("pieces: about a constant")
-#: A letter that is the Spanish or the Italian word for "and", between what may be two equations.
+#: The letter y or e, which is the Spanish or Italian word for "and", between what may be two equations.
 _BESIDE = re.compile(r"[^\s=+\-*/^(,]\s+[ye]\s+[^\s=+\-*/^),]")
-#: A sign of equality for numbers that are rounded.
+#: A sign of approximate equality for rounded numbers.
 _ROUNDED = re.compile(r"(?:[≈≃≅]|\\(?:approx|simeq|cong)(?![A-Za-z]))(?=.*\d[.,]\d)")
 _CHAINED = re.compile(r"(?<![<>=!])=(?!=)")
-#: That a side is constant, said after an equation: `x + y = l = const.`
+#: A statement after an equation that a side is constant: `x + y = l = const.`
 _CONSTANT_SIDE = re.compile(r"(?<==)([^=<>]+)=\s*(?:const|konst|cte|cst)[^\W\d_]*\.?\s*\Z", re.IGNORECASE)
 #: Energies that lead to a Lagrangian: `T = ..., V = ..., L = T - V` is one expression.
 _ENERGY = r"(?:E_?\{?(?:kin|pot|k|p)\w{0,6}\}?|[TVUK](?:_\{?\w{1,4}\}?)?)"
@@ -54,14 +54,14 @@ _CONSTANTS = re.compile(r"\b(const|konst|cst|cte)(?:[^\W\d_]*)\.?(?!\w)", re.IGN
 
 @dataclass(frozen=True)
 class Pieces:
-    """``scripts``: the equations; ``derived``: of these the first ones only lead to the last, by arrows."""
+    """The equations of an answer; ``derived``: whether arrows lead from each equation to the next."""
 
     scripts: tuple[Script, ...]
     derived: bool = False
 
 
 def pieces_of(answer: object, names: Names) -> Pieces:
-    """The equations of an answer, a text or a list. Raises TextError where there is none."""
+    """Return the equations of an answer, a text or a list. Raises TextError if there are none or too many."""
     texts = [one_text(part) for part in answer] if isinstance(answer, (list, tuple)) else [one_text(answer)]
     equations: list[Script] = []
     derived = False
@@ -79,7 +79,7 @@ def pieces_of(answer: object, names: Names) -> Pieces:
 
 
 def _split(script: Script, names: Names) -> Iterator[Script]:
-    """The parts between separators outside of brackets."""
+    """Yield the parts between line ends, signs and words that separate equations."""
     lines = _joined(script)
     for line in lines:
         cuts = sorted({*_at_signs(line.text), *_at_words(line.text, names)})
@@ -91,7 +91,7 @@ def _split(script: Script, names: Names) -> Iterator[Script]:
 
 
 def _joined(script: Script) -> list[Script]:
-    """Lines, a line that begins with an operator or follows one joined to the one before."""
+    """Return the lines of a script; a line is joined to the previous one if an operator begins it or ends that one."""
     text, cuts = script.text, []
     for match in re.finditer(r"[\r\n]+", text):
         before, after = text[: match.start()].rstrip(), text[match.end() :].lstrip()
@@ -115,7 +115,7 @@ def _last_line(text: str) -> str:
 
 
 def _at_signs(text: str) -> Iterator[tuple[int, int]]:
-    """Semicolons, arrows, numbers of a list, and commas outside of brackets that are no decimal signs."""
+    """Yield the spans of semicolons, arrows, list numbers, and commas outside of brackets that are no decimal signs."""
     depth = 0
     for i, char in enumerate(text):
         depth += (char in "([{") - (char in ")]}")
@@ -125,7 +125,7 @@ def _at_signs(text: str) -> Iterator[tuple[int, int]]:
 
 
 def _within_brackets(before: str) -> bool:
-    """Return whether a parenthesis is open after a text; one that closes none is ignored."""
+    """Return whether a parenthesis is open at the end of a text; an unmatched closing one is ignored."""
     depth = 0
     for char in before:
         depth = max(0, depth + (char == "(") - (char == ")"))
@@ -133,7 +133,7 @@ def _within_brackets(before: str) -> bool:
 
 
 def _at_words(text: str, names: Names) -> Iterator[tuple[int, int]]:
-    """Words between two equations."""
+    """Yield the spans of words between two equations, such as `and`."""
     for match in _AND.finditer(text):
         yield match.span()
     for match in _CONJUNCTION.finditer(text):
@@ -143,7 +143,7 @@ def _at_words(text: str, names: Names) -> Iterator[tuple[int, int]]:
 
 
 def _cleaned(script: Script, names: Names) -> Script | None:
-    """An equation without what stands around it; None where there is only a remark."""
+    """Return an equation without remarks, titles and numbers, or None if the script is only a remark."""
     script = script.stripped()
     while (group := _GROUP.search(script.text)) is not None and _is_remark(group[1] or group[2] or "", names, 3):
         _check(group[0], script.columns[group.start()])
@@ -170,7 +170,7 @@ def _cleaned(script: Script, names: Names) -> Script | None:
 
 
 def _check(remark: str, column: int) -> None:
-    """Raises DoubtError for a remark that takes back what it stands beside."""
+    """Raise DoubtError for a remark that questions the answer."""
     if takes_back(remark):
         raise DoubtError("a remark makes the answer ambiguous.", column, None)
 
@@ -188,16 +188,15 @@ def _readable(word: str, names: Names) -> bool:
 
 
 def _is_lead(text: str, names: Names) -> bool:
-    """Return whether these are words, none of which is a name; `g1:` titles an equation too."""
+    """Return whether a text before an equation is a title: words without declared names, or a name with a colon."""
     lead_words = re.findall(r"\w+", text)
     least = 0 if ":" in text else 1
-    return not any(len(w) > least and _is_declared(w, names) for w in lead_words) and (
-        len(lead_words) > 1 or ":" in text
-    )
+    is_title = len(lead_words) > 1 or ":" in text
+    return is_title and not any(len(w) > least and _is_declared(w, names) for w in lead_words)
 
 
 def _of_coordinates(text: str, names: Names) -> bool:
-    """Return whether the left side holds coordinates, as `x y = const`; of what cannot be read, the whole text."""
+    """Return whether the left side contains coordinates, as in `x y = const`; if it is unreadable, the whole text."""
     try:
         relations = parse_relations(re.split(r"[=∈:]", text)[0], names)
     except TextError:
@@ -206,7 +205,7 @@ def _of_coordinates(text: str, names: Names) -> bool:
 
 
 def _is_remark(text: str, names: Names, least: int = 5) -> bool:
-    """Words of which none is a name, more than one or one that is known to say nothing."""
+    """Return whether a text is a remark: several unknown words, a long one or a listed one, and no declared name."""
     if re.search(r"[=<>≤≥+*/^\\\d±|·⋅×−√½⅓¼¾²³¹⁰-₉]", text):
         return False
     if all(_readable(w, names) for w in _WORDS.findall(text)):
@@ -222,7 +221,7 @@ def _is_remark(text: str, names: Names, least: int = 5) -> bool:
 
 
 def with_energies(answer: Given, names: Names) -> Given:
-    """An answer whose last step tells a value by energies that it names before; any other answer as it is."""
+    """Return the last step ``L = T - V`` with the energies of earlier steps inserted; other answers unchanged."""
     try:
         *steps, last = [script.text for script in pieces_of(answer, names).scripts]
     except TextError:
@@ -238,7 +237,7 @@ def with_energies(answer: Given, names: Names) -> Given:
 
 
 def plainer(script: Script, names: Names) -> Script:
-    """Without a leading name; `r(phi) =` is r, `Ce^x` is C e^x."""
+    """Return the script without a leading function name; `r(phi) =` becomes `r =`, and `Ce^x` becomes `C e^x`."""
     script = _without_function(script, names)
     match = _CALLED.match(script.text)
     if match is not None and {spelled(match[1]), spelled(match[2])} <= names.coordinates:
@@ -249,7 +248,7 @@ def plainer(script: Script, names: Names) -> Script:
 
 
 def _without_function(script: Script, names: Names) -> Script:
-    """Without `f(x, y) =` before an expression or an equation; `const.` is the name of a constant."""
+    """Return the script without a leading `f(x, y) =`; words such as `const.` become the name `const`."""
     script = script.replaced(_CONSTANTS, "const")
     lead = _FUNCTION.match(script.text)
     if lead is None or not re.search(r"[^\W\d]", script.text[lead.end() :]):

@@ -1,4 +1,4 @@
-"""The words around an answer, in English, German, French, Spanish, Italian and Portuguese."""
+"""Word lists for texts of answers, in English, German, French, Spanish, Italian and Portuguese."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _FRAGMENT = re.compile(r"<([A-Z_\d]+)>")
 
 
 def words(text: str) -> frozenset[str]:
-    """The words of a text, as a set."""
+    """Return the set of the words of a text."""
     return frozenset(text.split())
 
 
@@ -51,7 +51,7 @@ def _compiled(text: str) -> re.Pattern[str]:
 
 @lru_cache(maxsize=4096)
 def plain(text: str) -> str:
-    """A text in small letters, without accents, blanks around it and the stop at its end.
+    """Return a text in lower case, without accents, blanks around it and the full stop at its end.
 
     >>> plain(" Non intégrable. ")
     'non integrable'
@@ -60,33 +60,33 @@ def plain(text: str) -> str:
     return " ".join(bare.rstrip(".!").split())
 
 
-#: Whole numbers in words.
+#: Whole numbers in words; masculine, feminine and counted forms.
 NUMBERS: dict[str, int] = {plain(word): n for n, forms in enumerate(listed("numbers")) for word in forms.split()}
-#: Nouns that say what is counted: a number of constraints is no number of degrees of freedom, and the other way round.
+#: Nouns of counted quantities: a number of constraints is not a number of degrees of freedom.
 CONSTRAINT_NOUNS = word_list("constraint_nouns")
 FREEDOM_NOUNS = word_list("freedom_nouns")
-#: What is counted.
+#: All nouns of counted quantities.
 UNITS = word_list("units") | CONSTRAINT_NOUNS | FREEDOM_NOUNS
-#: What leads to a number.
+#: Words that lead to a number.
 LEADING = word_list("leading")
-#: After these comes a reason, which is read over.
+#: Words before a reason, which is ignored.
 REASONS = pattern("prose: reasons")
-#: Words that turn a statement round or leave it open.
+#: Words that negate a statement.
 NEGATIONS = words("not no nicht kein keine pas nao não non never isn't")
-#: Words that take back what is said, or leave it open.
+#: Words that question an answer.
 DOUBTS = word_list("doubts")
-#: Words of a remark that take back what it follows, where there are few; and what does in any.
+#: Words that question the answer in a remark of at most `_DOUBTFUL_WORDS` words; phrases that do so in any remark.
 _TAKING_BACK = word_list("taking_back")
 _DOUBTFUL_WORDS = 3
 _UNSURE = pattern("prose: unsure")
-#: What draws a conclusion.
+#: Words before a conclusion.
 CONCLUSION = pattern("prose: conclusion")
-#: What is answered to a word such as `holonomic:`.
+#: Replies after a word such as `holonomic:`.
 YES = words("yes true ja wahr oui vrai si sim vero verdadero verdadera verdadeiro")
 NO = words("no false not nein falsch nicht non faux falso falsa nao")
-#: Alone they are no answer at all.
+#: Texts that are no answer.
 NOTHING_SAID = word_list("nothing_said")
-#: Words between words of an answer that say nothing.
+#: Words without meaning for the answer.
 FILLING = word_list("filling")
 
 
@@ -102,5 +102,5 @@ def takes_back(remark: str) -> bool:
 
 
 def says_nothing(answer: object) -> bool:
-    """Return whether there is no answer: nothing, a dash, a question mark."""
+    """Return whether a text is no answer: empty, a dash, or a question mark."""
     return isinstance(answer, str) and answer.strip().lower() in NOTHING_SAID

@@ -1,4 +1,4 @@
-"""The relations of an answer, in every way in which it can be read."""
+"""Reads the relations of an answer in every possible way, with the names that the answer introduces itself."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ from dofkit.scene.added_equations import Read, as_text
 #: Ways to read an answer.
 MOST_READINGS = 8
 _RELATION = re.compile(r"[=<>≤≥]")
-#: Of a quotient of two numbers before a factor everybody reads the first way: `1/2(m v^2)` is half of it.
+#: `1/2(m v^2)` as (1/2)*(m v^2): the usual reading of a quotient of two numbers before a factor.
 _HALF = re.compile(r"\(\d+/\d+\)\*\(")
-#: Names of constants of integration.
+#: Usual names of constants of integration.
 _OF_INTEGRATION = re.compile(r"[CcKk](?:_?\d)?|[A-Za-z]+_?0|const\w*|konst\w*|c[st]t?e?")
 _DEFINITION = re.compile(r"\s*(?P<name>\\?[A-Za-zα-ω]+(?:_\w+)?)\s*(?:\^\s*\{?2\}?|²)?\s*:?=(?!=)(?P<value>[^=]+)\Z")
 _WORDS = re.compile(r"\\?[A-Za-zα-ωΑ-Ω]+(?:_\w+)?")
@@ -32,16 +32,16 @@ _SIGNS, _PLUS, _MINUS = re.compile("[±∓]"), re.compile("±"), re.compile("∓
 
 
 def is_constant_name(name: str) -> bool:
-    """Return whether a name is one that constants of integration usually have."""
+    """Return whether a name is usual for a constant of integration: C, k_1, x_0, const."""
     return _OF_INTEGRATION.fullmatch(name) is not None
 
 
 class AnswerReading(NamedTuple):
     """One way to read an answer.
 
-    ``bare``: which relations were written without a sign, as `x y`; ``undeclared``: names that nobody declared;
-    ``moving``: those of them whose derivatives occur; ``derived``: arrows stand between the equations; ``places``: the
-    columns of the names of its own; ``rank``: how much the reading supposes, 0 for nothing.
+    ``bare``: for each relation whether it has no sign such as `=`; ``undeclared``: names that the answer introduces;
+    ``moving``: undeclared names whose derivatives occur; ``derived``: whether arrows lead from each equation to the
+    next; ``places``: the columns of undeclared names; ``rank``: the number of less usual interpretations.
     """
 
     relations: tuple[Comparison, ...]
@@ -54,26 +54,26 @@ class AnswerReading(NamedTuple):
 
     @property
     def text(self) -> str:
-        """In the grammar of scenes."""
+        """The relations as text in the grammar of scenes."""
         return "; ".join(as_text(c) for c in self.relations)
 
     @property
     def claim(self) -> AnswerReading:
-        """The last relation alone, to which arrows lead."""
+        """The reading with only the last relation, to which arrows lead."""
         return self._replace(relations=self.relations[-1:], bare=self.bare[-1:], derived=False)
 
     @property
     def symbols(self) -> set[Expr]:
-        """Return every symbol of its relations."""
+        """All symbols of the relations."""
         return {s for c in self.relations for e in (c.left, c.right) for s in e.symbols}
 
     @property
     def on_coordinates(self) -> bool:
-        """Return whether it contains coordinates of the scene."""
+        """Whether the relations contain coordinates of the scene."""
         return any(s.args[0] != "parameter" and s.args[-1] not in self.undeclared for s in self.symbols)
 
     def with_own(self, names: Iterable[str]) -> AnswerReading:
-        """Return the reading with these coordinates as names of the answer's own."""
+        """Return the reading with the given coordinates as undeclared names."""
         used = {n: {s.args[0] for s in self.symbols if s.args[-1] == n} for n in names}
         moving = frozenset(n for n, kinds in used.items() if kinds - {"coordinate"})
         still = {coordinate(n): parameter(n) for n, kinds in used.items() if kinds and n not in moving}
@@ -82,13 +82,13 @@ class AnswerReading(NamedTuple):
         return self._replace(relations=relations, undeclared=undeclared, moving=self.moving | moving)
 
     def read(self, constants: frozenset[str] = frozenset()) -> Read:
-        """As equations for a scene."""
+        """Return the reading as equations for a scene; ``constants``: names of constants of integration."""
         moving = any(s.args[0] not in ("coordinate", "parameter", "time") for s in self.symbols)
         return Read(tuple(as_text(c) for c in self.relations), constants, self.text, moving)
 
 
 def with_explained_names(readings: Iterable[AnswerReading], names: DeclaredNames) -> list[AnswerReading]:
-    """Return the readings whose undeclared names may stand for something.
+    """Return the readings whose undeclared names can be explained.
 
     They may be constants of integration, other names of declared constants that the answer does not mention, or names
     that several of its relations define. Raises UnknownNameError if there is no such reading.
@@ -115,9 +115,9 @@ def with_explained_names(readings: Iterable[AnswerReading], names: DeclaredNames
 def readings_of(
     answer: object, vocabulary: AnswerNames, lead: Callable[[Script], Script] | None = None
 ) -> list[AnswerReading]:
-    """Every way to read an answer; ``lead`` takes away what stands before each of its parts.
+    """Return all readings of an answer; ``lead`` removes a text before each of its equations.
 
-    Raises TextError, its column counted within the text that was written.
+    Raises TextError with its column in the original text.
     """
     pieces = pieces_of(answer, vocabulary.names)
     defined = {word for script in pieces.scripts for word in _defined_constants(script, vocabulary)}
@@ -128,6 +128,7 @@ def readings_of(
 
 
 def _readings(pieces: Pieces, vocabulary: AnswerNames) -> Iterator[AnswerReading]:
+    """Yield all combinations of readings of the equations. Raises DoubtError if there are too many."""
     readings: list[tuple[tuple[Comparison, ...], tuple[bool, ...], AnswerNames]] = [((), (), vocabulary)]
     for n, script in enumerate(pieces.scripts):
         more = []
@@ -165,7 +166,7 @@ def _readable(script: Script, vocabulary: AnswerNames) -> bool:
 
 
 def _spliced_readings(script: Script, vocabulary: AnswerNames) -> Iterator[tuple[tuple[Comparison, ...], AnswerNames]]:
-    """The relations of one piece, in every way, and the names known then."""
+    """Yield (relations, extended vocabulary) for every reading of one equation."""
     if vocabulary.signs_apart and _SIGNS.search(script.text):
         for up, down in ("+-", "-+"):
             yield from _spliced_readings(script.replaced(_PLUS, up).replaced(_MINUS, down), vocabulary)
@@ -207,7 +208,7 @@ def _spliced_readings(script: Script, vocabulary: AnswerNames) -> Iterator[tuple
 
 
 def _is_of_constants(reading: str, names: Names) -> bool:
-    """Return whether a function of constants alone stands before what moves: `sin(omega) t` for `sin omega t`."""
+    """Return whether a reading begins with a function of constants, as `sin(omega) t` for `sin omega t`."""
     function = _FUNCTION_FIRST.match(reading)
     moving = {"t", *names.coordinates}
     return function is not None and moving.isdisjoint(in_words(word) for word in _WORDS.findall(function["inside"]))
@@ -224,7 +225,7 @@ def _as_frequency(
 
 
 def _defined_constants(script: Script, vocabulary: AnswerNames) -> Iterator[str]:
-    """Yield the name that a piece defines by constants alone, as `omega^2 = g/l` does."""
+    """Yield a usual name that an equation defines by constants alone, as in `omega^2 = g/l`."""
     match = _DEFINITION.match(script.text)
     words = set() if match is None else {in_words(w.strip("\\")) for w in _WORDS.findall(match["value"])}
     moving = {"t", *vocabulary.names.coordinates}
@@ -235,7 +236,7 @@ def _defined_constants(script: Script, vocabulary: AnswerNames) -> Iterator[str]
 
 
 def _of_other_meaning(script: Script, vocabulary: AnswerNames) -> tuple[str, ...]:
-    """Return the words that cannot be the usual names of quantities which the same text writes in full."""
+    """Return the words that are not usual names here, because the quantity also occurs under its declared name."""
     if not vocabulary.usual:
         return ()
     plain_names = replace(vocabulary, usual={}, undeclared=(*vocabulary.undeclared, *vocabulary.usual))
@@ -248,7 +249,7 @@ def _of_other_meaning(script: Script, vocabulary: AnswerNames) -> tuple[str, ...
 
 
 def _with_both_signs(script: Script) -> Script:
-    """`y = ± sqrt(a)` is (y - sqrt(a)) (y + sqrt(a)) = 0."""
+    """Return an equation with `±` as a product: `y = ± sqrt(a)` is (y - sqrt(a)) (y + sqrt(a)) = 0."""
     if not _SIGNS.search(script.text):
         return script
     sides = script.text.split("=")

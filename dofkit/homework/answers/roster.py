@@ -1,10 +1,10 @@
-"""Rosters: who is in a course, and under which names, addresses and numbers; and who submitted a file.
+"""Rosters: the students of a course with their names, addresses and numbers; and who submitted a file.
 
 The headers of Canvas's gradebook (``Student, ID, SIS User ID, SIS Login ID, Section``), of Moodle's lists of
 participants and grades (``First name, Last name, ID number, Email address``), of Gradescope's (``Name, SID, Email``)
 and their like are known, in the usual languages.
 
-What a platform, a file's own name or a folder's name confirms goes before what a file only claims in its ``student``.
+Platforms, file names and folder names are trusted more than the ``student`` that a file gives.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from dofkit.homework.answers.prose import word_list
 from dofkit.homework.answers.spreadsheet import decoded, spreadsheet
 from dofkit.homework.answers.submission import MOST_BYTES, clean, reason
 
-#: What headers call each field, in small letters.
+#: {field: headers for it in lower case}.
 _HEADERS: Mapping[str, frozenset[str]] = {
     **{
         name: word_list(f"roster: {name}")
@@ -33,31 +33,31 @@ _HEADERS: Mapping[str, frozenset[str]] = {
     },
     "canvas": frozenset({"canvas id"}),
 }
-#: Of what one person has, and nobody else.
+#: Fields that identify one person.
 _UNIQUE = ("email", "number", "username", "canvas", "moodle", "other")
-#: Folders and files as Moodle calls them when all submissions are downloaded, and as Canvas does.
+#: Names of folders and files when all submissions are downloaded from Moodle and from Canvas.
 _MOODLE = re.compile(r"(?P<who>.+?)(?P<number>_\d+)_assignsubmission_\w+")
 _CANVAS = re.compile(r"[^\W_]+_(?:LATE_)?(?P<who>\d+)_\d+_", re.IGNORECASE)
-#: Cyrillic and Greek letters that look like Latin ones, and these.
+#: Cyrillic and Greek letters, and the Latin letters that look like them.
 _LOOKALIKES = str.maketrans(
     "\u0430\u0435\u043e\u0440\u0441\u0443\u0445\u0456\u0458\u0455\u0501\u04bb\u03b1\u03bf\u03b9\u03bd",
     "aeopcyxijsdhaoiv",
 )
-#: Files as PrairieLearn calls them: ``UID_..._QUESTION_..._SUBMISSION_NAME``.
+#: Names of files from PrairieLearn: ``UID_..._QUESTION_..._SUBMISSION_NAME``.
 _PRAIRIELEARN = re.compile(r"(?P<who>[^@\s/]+@[^@\s/_]+)_(?:.*_)?\d+_[^_]*")
 
 
 class RosterError(DofkitError):
-    """A roster that cannot be used: what is wrong, and in which line."""
+    """A roster that cannot be used, with the reason and the line."""
 
 
 @dataclass(frozen=True)
 class Participant:
-    """A person in a course; what is not known is empty.
+    """A person in a course; unknown fields are empty.
 
-    ``student``: what results call them, no two alike. ``canvas``, ``moodle``: the number that the
-    platform itself gave them, Canvas's ``ID`` and Moodle's ``userid``; ``number``: that of the university. ``others``:
-    whatever else they go by.
+    ``student``: the name in results, which is unique. ``canvas``, ``moodle``: the number that the platform itself gave
+    them, Canvas's ``ID`` and Moodle's ``userid``; ``number``: that of the university. ``others``: whatever else they go
+    by.
     """
 
     student: str
@@ -73,14 +73,14 @@ class Participant:
     others: tuple[str, ...] = ()
 
     def called(self) -> Iterator[str]:
-        """Everything they go by."""
+        """Yield all names, addresses and numbers of the person, also `First Last` for `Last, First`."""
         yield from filter(None, (self.name, *(getattr(self, name) for name in _UNIQUE), *self.others))
         last, comma, first = self.name.partition(",")
         if comma:
             yield f"{first} {last}"
 
     def goes_by(self, text: str) -> bool:
-        """Return whether a text is one of their names, or whole words of one."""
+        """Return whether a text is a name, address or number of the person, or whole words of a name."""
         whole_words = set(plain_name(text.replace(",", " ")).split())
         names = [set(plain_name(name.replace(",", " ")).split()) for name in (self.name, self.student, *self.others)]
         return plain_name(text) in map(plain_name, self.called()) or (
@@ -90,7 +90,7 @@ class Participant:
 
 @dataclass(frozen=True)
 class Roster:
-    """Everyone in a course. ``columns``: the header of the table, as written."""
+    """The persons of a course. ``columns``: the header of the table; ``digest``: a hash of its file."""
 
     members: tuple[Participant, ...]
     columns: tuple[str, ...] = ()
@@ -98,7 +98,7 @@ class Roster:
 
     @cached_property
     def _by_name(self) -> dict[str, Participant | None]:
-        """By what they go by; None for what several go by."""
+        """{name, address or number: person}; None if several persons have it."""
         by_name: dict[str, Participant | None] = {}
         for member in self.members:
             for text in {*map(plain_name, member.called()), plain_name(member.student)}:
@@ -106,15 +106,15 @@ class Roster:
         return by_name
 
     def find(self, text: str) -> Participant | None:
-        """Return who has a name, an address or a number; None for nobody, and if two have it."""
+        """Return the person with a name, an address or a number; None if there is none or more than one."""
         return self._by_name.get(plain_name(text))
 
     def owners(self, claims: Sequence[str]) -> list[Participant]:
-        """Return whom the names of a file and of its folders identify, the innermost first; usually one, or nobody."""
+        """Return the persons whom names of a file and its folders identify, in their order; usually one or none."""
         return list(dict.fromkeys(owner for owner in map(self._owner, claims) if owner is not None))
 
     def _owner(self, claim: str) -> Participant | None:
-        """Return whom the name of a file or a folder identifies, as platforms write it."""
+        """Return the person whom the name of a file or folder identifies, also as written by a platform, or None."""
         if platform := _MOODLE.match(claim):
             return self.find(platform["who"])
         if platform := _CANVAS.match(claim):
@@ -126,7 +126,7 @@ class Roster:
 
 
 def own_name(claim: str) -> str:
-    """Return the student named by a file or folder of Moodle or PrairieLearn; any other name is kept whole.
+    """Return the student named by a file or folder of Moodle or PrairieLearn; any other name unchanged.
 
     >>> own_name("Ada Lovelace_123_assignsubmission_file_"), own_name("sheet_1_2_ada")
     ('Ada Lovelace_123', 'sheet_1_2_ada')
@@ -140,12 +140,12 @@ def own_name(claim: str) -> str:
 
 
 def plain_name(text: str) -> str:
-    """A name as names are compared: capitals and spaces make no difference."""
+    """Return a name for comparisons: in lower case, with single spaces."""
     return " ".join(unicodedata.normalize("NFC", text).casefold().split())
 
 
 def lookalike(name: str) -> str:
-    """Return what a name looks like: the same for two names that a reader cannot tell apart.
+    """Return a key that is equal for two names that look the same.
 
     >>> lookalike("Ad\u0430 ") == lookalike("\uff21da\u200b")  # a Cyrillic letter; a wide letter and a zero-width space
     True
@@ -155,9 +155,9 @@ def lookalike(name: str) -> str:
 
 
 def load_roster(path: str | os.PathLike[str]) -> Roster:
-    """The roster of a table in CSV, separated by commas, semicolons, tabs or bars. Raises RosterError.
+    """Return the roster of a table separated by commas, semicolons, tabs or bars. Raises RosterError.
 
-    It needs a column of names, addresses or numbers; rows such as Canvas's ``Points Possible`` are nobody.
+    The table needs a column of names, addresses or numbers; rows such as Canvas's ``Points Possible`` are ignored.
     """
     file = clean(os.fspath(path))
     try:
@@ -180,7 +180,7 @@ def load_roster(path: str | os.PathLike[str]) -> Roster:
 
 
 def _fields(header: list[str], file: str) -> dict[str, int]:
-    """Return the column of each field."""
+    """Return {field: number of its column}. Raises RosterError if no column identifies a person."""
     words = [" ".join(name.lower().split()) for name in header]
     columns: dict[str, int] = {}
     for i, word in enumerate(words):
@@ -199,7 +199,7 @@ def _fields(header: list[str], file: str) -> dict[str, int]:
 
 
 def _members(fields: Mapping[str, int], rows: Iterable[tuple[int, list[str]]], file: str) -> Iterator[Participant]:
-    """Everyone, each called by the first of what nobody else goes by."""
+    """Yield all persons; ``student`` is the first identifier or name that nobody else has. Raises RosterError."""
     members: list[Participant] = []
     for line, cells in rows:
         values = {name: clean(cells[i]) if i < len(cells) else "" for name, i in fields.items()}
@@ -214,20 +214,19 @@ def _members(fields: Mapping[str, int], rows: Iterable[tuple[int, list[str]]], f
         identifiers = (getattr(member, name) for name in (*_UNIQUE, "name"))
         student = next((text for text in identifiers if shared[plain_name(text)] == 1), None)
         if student is None:
-            raise RosterError(
-                f"{file}, line {member.line}: '{member.name}' shares every name, address and number with others"
-            )
+            place = f"{file}, line {member.line}"
+            raise RosterError(f"{place}: '{member.name}' shares every name, address and number with others")
         yield replace(member, student=student)
 
 
 def _is_nobody(values: Mapping[str, str]) -> bool:
-    """Canvas's rows below the header: of points, and of what is posted by hand."""
+    """Return whether a row is no person, such as Canvas's rows of points below the header."""
     alone = not any(values.get(name) for name in _UNIQUE)
     return alone and ("Points Possible" in values["name"] or not values["name"])
 
 
 def _told_apart(members: Iterable[Participant], file: str) -> None:
-    """Raise RosterError where two have the same address or number, or where all that is known of two is alike."""
+    """Raise RosterError if two persons have the same address or number, or the same name and nothing else."""
     seen: dict[tuple[str, str], Participant] = {}
     for member in members:
         marks = [(name, plain_name(getattr(member, name))) for name in _UNIQUE if getattr(member, name)]
@@ -254,9 +253,9 @@ def identity_column(header: Sequence[str]) -> int:
 
 
 class Attribution(NamedTuple):
-    """``student``: the name in the result. ``confirmed``: a platform or a name of its file says so, not its text alone.
+    """``student``: the name in the result. ``confirmed``: whether a platform or a file name confirms it.
 
-    ``doubt``: why a person has to decide whose it is, or None.
+    ``doubt``: why a person must decide who submitted it, or None.
     """
 
     student: str
@@ -265,10 +264,10 @@ class Attribution(NamedTuple):
 
 
 def attributed(roster: Roster | None, claims: Sequence[str], student: str, by_default: bool) -> Attribution:
-    """Return whose a submission is that names ``student``.
+    """Return to whom a submission that names ``student`` belongs.
 
-    ``claims``: the names of its file and folders, the innermost first; ``by_default``: it names nobody, and ``student``
-    stands for that. Of several owners the outermost is taken, because platforms name folders.
+    ``claims``: the names of its file and folders, the innermost first; ``by_default``: whether the submission itself
+    names nobody. Of several owners the outermost is taken, because platforms name the folders.
     """
     if roster is None:
         return Attribution(student, by_default or plain_name(student) in map(plain_name, claims))
@@ -285,12 +284,12 @@ def attributed(roster: Roster | None, claims: Sequence[str], student: str, by_de
 
 
 def doubt_of_platform(users: Sequence[Participant], student: str) -> str | None:
-    """Return why a person has to look at what users submitted, which names ``student``, or None if they agree."""
+    """Return why a person must review a submission of ``users`` that names ``student``; None if it need not be."""
     if not users or not student or any(user.goes_by(student) for user in users):
         return None
     return doubt_of(", ".join(user.student for user in users), student)
 
 
 def doubt_of(owner: str, student: str) -> str:
-    """Return what is said of a submission that names somebody else."""
+    """Return the message about a submission of ``owner`` that names another student."""
     return f"it was submitted as {owner}'s, but names '{student}' as its student: a person has to decide whose it is"

@@ -1,6 +1,6 @@
-"""Where submissions come from: files, folders of files, tables, lines of JSON; one by one, as they were handed in.
+"""Finds submissions in files, folders, tables and lines of JSON, one by one.
 
-What is in them is read later, by a worker: here they are only distinguished.
+Their contents are read later, by a worker.
 """
 
 from __future__ import annotations
@@ -29,19 +29,19 @@ from dofkit.homework.answers.submission import (
 from dofkit.homework.answers.tables import Columns, TableError, rows
 
 DOCUMENTS, LINES, TABLES = (".json", ".yaml", ".yml"), (".jsonl", ".ndjson"), (".csv", ".tsv")
-#: What a file with answers is called that tells nothing of who hands it in.
+#: Names of files with answers that do not identify a student.
 GENERIC = frozenset({"answers", "answer", "submission", "solution", "antworten", "abgabe", "homework", "sheet"})
-#: Files that systems leave in folders.
+#: Files that operating systems leave in folders.
 _LEFT = frozenset({"thumbs.db", "desktop.ini", "__macosx"})
 
 
 @dataclass(frozen=True)
 class Handed:
-    """What was handed in at a place: the text of a document, the mapping of a table's row, or why there is neither.
+    """A submission before it is read: the text of a document, the mapping of a table's row, or an error.
 
-    ``name``: the student's name where it gives none. ``claims``: the names of the file and of the folders it was found
-    in, the innermost first: a roster knows whether they are somebody's. ``listed``: it stands in a table that the
-    lecturer names, which confirms whose it is.
+    ``name``: the student's name if the submission gives none. ``claims``: the names of its file and folders, the
+    innermost first, which a roster may identify. ``listed``: whether it is a row of a table that the lecturer named,
+    which confirms the student.
     """
 
     name: str
@@ -52,7 +52,7 @@ class Handed:
     listed: bool = False
 
     def submission(self, columns: Columns) -> Submission:
-        """Read it; ``columns``: the assignment's columns."""
+        """Return the submission as read; ``columns``: the assignment's columns."""
         if self.data is None:
             return refused(self.name, self.place, self.error)
         if isinstance(self.data, bytes):
@@ -61,19 +61,19 @@ class Handed:
 
     @property
     def key(self) -> str:
-        """Return 16 characters that distinguish it from others."""
+        """A hash of name, place and content, 16 characters."""
         said = self.data if isinstance(self.data, bytes) else repr((self.data, self.error)).encode("utf-8", "replace")
         named = f"{self.name}\0{self.place}\0".encode("utf-8", "replace")
         return hashlib.blake2b(named + said, digest_size=8).hexdigest()
 
     @property
     def size(self) -> int:
-        """About how many bytes it holds."""
+        """The approximate size of the submission in bytes."""
         return len(self.data) if isinstance(self.data, bytes) else 200
 
 
 def read_submission(source: str | os.PathLike[str] | Mapping[str, Any], columns: Columns) -> Submission:
-    """The one submission of a file or folder, or of a mapping ``{student, answers}``."""
+    """Return the only submission of a file or folder, or of a mapping ``{student, answers}``."""
     if isinstance(source, Mapping):
         return of_value(shaped(source, columns), "")
     path = os.fspath(source)
@@ -86,9 +86,9 @@ def read_submission(source: str | os.PathLike[str] | Mapping[str, Any], columns:
 def hand_ins(
     sources: Sequence[str], columns: Columns, others: Iterable[str | os.PathLike[str]] = ()
 ) -> Iterator[Handed]:
-    """All submissions of files and folders, in the order given; those of a folder sorted.
+    """Yield all submissions of files and folders, in the given order; those of a folder sorted.
 
-    ``others``: paths within the folders that hold no submissions, such as that of the results.
+    ``others``: paths within the folders that contain no submissions, such as that of the results.
     """
     left_out = frozenset(os.path.realpath(path) for path in others)
     for source in sources:
@@ -102,10 +102,9 @@ def hand_ins(
 
 
 def _claimed(handed: Handed, source: str) -> Handed:
-    """The same with who may have handed it in, by the names of its file and of its folders below ``source``.
+    """Return the submission with its claims: the names of its file and of its folders below ``source``.
 
-    A document called "answers" or the like, or as Moodle calls it, is its folder's, or that of the name that Moodle
-    gives.
+    The student of a document called "answers" or similar is named by its folder; names in Moodle's notation are read.
     """
     path = handed.place.file
     if not path:
@@ -128,7 +127,7 @@ def _last_two(path: str) -> tuple[str, str]:
 
 
 def _folder(folder: str, columns: Columns, left_out: frozenset[str]) -> Iterator[Handed]:
-    """All files below a folder, sorted by their names; links are not followed."""
+    """Yield the submissions of all files below a folder, sorted by names; links are not followed."""
     try:
         with os.scandir(folder) as scanned:
             entries = sorted((entry.name, entry.is_dir(follow_symlinks=False), entry.is_symlink()) for entry in scanned)
@@ -148,6 +147,7 @@ def _folder(folder: str, columns: Columns, left_out: frozenset[str]) -> Iterator
 
 
 def _file(path: str, columns: Columns, within: bool = False) -> Iterator[Handed]:
+    """Yield the submissions of a file; ``within`` a folder, files of other formats give an error."""
     suffix = os.path.splitext(path)[1].lower()
     try:
         if within and (not stat.S_ISREG(os.stat(path).st_mode) or suffix not in (*DOCUMENTS, *LINES, *TABLES)):
@@ -165,7 +165,7 @@ def _file(path: str, columns: Columns, within: bool = False) -> Iterator[Handed]
 
 
 def _lines(stream: BinaryIO, file: str) -> Iterator[Handed]:
-    """A submission a line; blank lines are none."""
+    """Yield a submission for each line that is not blank."""
     number, line = 1, stream.readline(MOST_BYTES + 1).removeprefix(b"\xef\xbb\xbf")
     while line:
         place = FilePlace(file, number)

@@ -1,4 +1,4 @@
-"""Tables as spreadsheets and forms save them: their encoding, their delimiter, and their rows with line numbers."""
+"""Reads tables saved by spreadsheets and forms: encoding, delimiter, and rows with line numbers."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from typing import NamedTuple
 
 #: Separators of columns, the most usual first.
 DELIMITERS = ",;\t|"
-#: Lines that one row may run over, and characters that it may hold.
+#: The most lines and characters of one row.
 MOST_LINES, MOST_CHARACTERS = 200, 1_000_000
 csv.field_size_limit(MOST_CHARACTERS)
 _OPEN = "a quotation mark is never closed"
 
 
 class SpreadsheetRow(NamedTuple):
-    """The first line of a row, its cells, and why they cannot be taken apart."""
+    """The number of the first line of a row, its cells, and why they cannot be separated, or None."""
 
     line: int
     cells: list[str]
@@ -25,29 +25,29 @@ class SpreadsheetRow(NamedTuple):
 
 
 class Spreadsheet(NamedTuple):
-    """A table: its delimiter, and the rows that say anything, the header first."""
+    """A table: its delimiter, and the rows that are not blank, the header first."""
 
     delimiter: str
     rows: Iterator[SpreadsheetRow]
 
 
 def decoded(data: bytes) -> str:
-    """Return a text in UTF-16 if its first bytes say so, else in UTF-8; what is neither stays as lone surrogates."""
+    """Return data as text, in UTF-16 by its first bytes, else in UTF-8; other bytes become lone surrogates."""
     if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
         return data.decode("utf-16", "replace")
     return data.decode("utf-8-sig", "surrogateescape")
 
 
 def cells_of(line: str, delimiter: str) -> list[str]:
-    """Return the cells of a header in small letters."""
+    """Return the cells of a header in lower case."""
     return [cell.strip(' "\r\n').lower() for cell in line.split(delimiter)]
 
 
 def spreadsheet(text: str, is_header: Callable[[list[str]], bool]) -> Spreadsheet:
     """Return the table in a text; a first line such as ``sep=;`` gives its delimiter.
 
-    ``is_header``: whether cells in small letters are those of the header that is meant. A row that cannot be taken
-    apart is one line with its error; the rows after it are read.
+    ``is_header``: whether cells in lower case are a header, for choosing the delimiter. A row that cannot be separated
+    into cells is one line with its error; the rows after it are read.
     """
     lines = list(StringIO(text, newline=""))
     start = _first(lines, 0)
@@ -61,7 +61,7 @@ def spreadsheet(text: str, is_header: Callable[[list[str]], bool]) -> Spreadshee
 
 
 def _first(lines: list[str], start: int) -> int:
-    """Return the place of the first line that says anything."""
+    """Return the index of the first line that is not blank."""
     return next((n for n in range(start, len(lines)) if lines[n].strip(" \t\r\n,;|")), len(lines))
 
 

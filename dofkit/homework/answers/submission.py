@@ -1,6 +1,6 @@
-"""Submissions: what students hand in, as mappings or as JSON or YAML texts.
+"""Submissions: what students submit, as mappings or as JSON or YAML texts.
 
-Nothing here raises for what a student wrote: what cannot be read is a submission that carries its error.
+Nothing here raises for what a student wrote: an unreadable text becomes a submission with an error.
 """
 
 from __future__ import annotations
@@ -23,13 +23,13 @@ from dofkit.base.yaml_events import LARGEST_EXPONENT
 from dofkit.homework.answers.notation import backslashes_kept
 from dofkit.homework.judgement import Given
 
-#: A longer text of submissions is refused.
+#: The most bytes of a submission.
 MOST_BYTES = 8_000_000
-#: Lists within lists that are an answer.
+#: The most levels of lists within lists in an answer.
 DEEPEST = 10
-#: Stands for what can be no answer, such as a mapping; no question reads it.
+#: Replaces values that cannot be an answer, such as a mapping; no question can read it.
 NO_ANSWER = "{…}"
-#: Faults that an error tells.
+#: The most faults in the message of an error.
 MOST_FAULTS = 5
 _SHAPE = "write 'student: NAME' and 'answers: {PROBLEM: {QUESTION: answer}}'"
 _SCALAR = re.compile(r"[^,\]}\n\r]*")
@@ -38,7 +38,7 @@ _SURROGATES = re.compile("[\ud800-\udfff]")
 
 @dataclass(frozen=True)
 class FilePlace:
-    """A file, and the line in it where something stands, from 1; 0 for all of it."""
+    """A file and a line in it, counted from 1; 0 for the whole file."""
 
     file: str = ""
     line: int = 0
@@ -47,7 +47,7 @@ class FilePlace:
         return f"{self.file}, line {self.line}" if self.line else self.file
 
     def message(self, fault: Fault) -> str:
-        """A fault within what stands here, with its line in the file."""
+        """Return a fault in the text at this place as a message with its line in the file."""
         line = (fault.line or 1) + max(self.line, 1) - 1
         where = f", line {line}" if self.line or fault.line else ""
         column = f", column {fault.column}" if fault.column else ""
@@ -58,7 +58,7 @@ class FilePlace:
 
 @dataclass(frozen=True)
 class Submission:
-    """``answers``: by problem, then by question. ``error``: why it could not be read, with its place."""
+    """``answers``: {problem: {question: answer}}. ``error``: why it could not be read, with its place, or None."""
 
     student: str
     answers: Mapping[str, Mapping[str, Given]] = field(default_factory=dict)
@@ -69,10 +69,9 @@ _NOWHERE = FilePlace()
 
 
 def of_text(data: bytes | str, name: str, place: FilePlace, columns: Mapping[str, tuple[str, str]]) -> Submission:
-    """The submission in a JSON or YAML text; ``name`` is the student's where it gives none.
+    """Return the submission in a JSON or YAML text; ``name``: the student if the text gives none.
 
-    ``columns``: the problem and the question of every ``PROBLEM.QUESTION``, for answers that stand there without
-    ``answers:``, or in one line.
+    ``columns``: {PROBLEM.QUESTION: (problem, question)}, for answers without ``answers:`` or with such keys.
     """
     if len(data) > MOST_BYTES:
         return refused(name, place, f"it is longer than {MOST_BYTES // 10**6} MB")
@@ -84,7 +83,7 @@ def of_text(data: bytes | str, name: str, place: FilePlace, columns: Mapping[str
 
 
 def shaped(value: Any, columns: Mapping[str, tuple[str, str]]) -> Any:
-    """A submission as ``{student, answers: {PROBLEM: {QUESTION: answer}}}``; what is no other form of it, as it is.
+    """Return other forms of a submission as ``{student, answers: {PROBLEM: {QUESTION: answer}}}``, else ``value``.
 
     >>> shaped({"p": {"f": 1}, "q.g": 2}, {"p.f": ("p", "f"), "q.g": ("q", "g")})
     {'answers': {'p': {'f': 1}, 'q': {'g': 2}}}
@@ -111,13 +110,13 @@ def shaped(value: Any, columns: Mapping[str, tuple[str, str]]) -> Any:
 
 
 def _typed(typed: Mapping[str, Any], problem: str, question: str) -> Any:
-    """Return what was typed into an input ``PROBLEM.QUESTION``, or with ``_`` or ``-``; None if there is none."""
+    """Return the answer typed into an input ``PROBLEM.QUESTION``, or with ``_`` or ``-``; None if there is none."""
     answer = next((typed[name] for sign in "._-" if (name := f"{problem}{sign}{question}") in typed), None)
     return answer.get("_value") if isinstance(answer, Mapping) else answer
 
 
 def _with_backslashes(data: bytes | str, name: str) -> Document:
-    """A document; where a backslash in quotes means nothing, commands of LaTeX are read as they were meant."""
+    """Return the parsed document; backslashes of LaTeX in quotes, which would be faults, are read literally."""
     document = read_document(data, name)
     if not any("means nothing in a double-quoted text" in fault.message for fault in document.faults):
         return document
@@ -126,7 +125,7 @@ def _with_backslashes(data: bytes | str, name: str) -> Document:
 
 
 def of_value(value: object, name: str, place: FilePlace = _NOWHERE, document: Document | None = None) -> Submission:
-    """The submission of a mapping, which may be that of a document."""
+    """Return the submission of a mapping; ``document``: where the mapping was read, for lines of faults."""
     if not isinstance(value, Mapping):
         return refused(name, place, "a submission is a mapping with 'student' and 'answers'", _SHAPE)
 
@@ -160,7 +159,7 @@ def of_value(value: object, name: str, place: FilePlace = _NOWHERE, document: Do
 
 
 def refused(name: str, place: FilePlace, message: str, hint: str | None = None) -> Submission:
-    """A submission that could not be read."""
+    """Return a submission that could not be read, with its error."""
     return Submission(name, error=place.message(Fault(message, hint=hint)))
 
 
@@ -171,7 +170,7 @@ def reason(error: OSError | ValueError) -> str:
 
 
 def clean(text: str) -> str:
-    """A text that can be written as UTF-8: halves of surrogate pairs become U+FFFD."""
+    """Return a text that can be encoded in UTF-8: lone surrogates become U+FFFD."""
     return text if text.isascii() else _SURROGATES.sub("\ufffd", text)
 
 
@@ -194,7 +193,7 @@ def _plain_answer(answer: Any, depth: int = 0) -> Given:
 
 
 def _exact(number: Any) -> Given:
-    """A number, or as a text what is none or far too long to be written."""
+    """Return an exact number; as text if it is infinite, not a number or far too long."""
     if isinstance(number, Decimal) and (not number.is_finite() or abs(number.adjusted()) > LARGEST_EXPONENT):
         return str(number)
     fraction = Fraction(number)
@@ -205,7 +204,7 @@ def _exact(number: Any) -> Given:
 
 
 def _student(value: object, name: str, document: Document | None) -> str:
-    """The student's name or number; of a number every digit as written, those of 007 too."""
+    """Return the student's name or number, with every digit as written (007); ``name`` if there is none."""
     if value is None:
         return name
     if isinstance(value, str) or document is None:
@@ -216,7 +215,7 @@ def _student(value: object, name: str, document: Document | None) -> str:
 
 
 def _ours(fault: Fault) -> Fault:
-    """A fault of a document, its hint meant for submissions."""
+    """Return a fault of a document, with a hint for submissions in place of one for scenes."""
     scenes = fault.hint is not None and ("scene" in fault.hint or "coordinates:" in fault.hint)
     return replace(fault, hint=_SHAPE) if scenes else fault
 
@@ -255,7 +254,7 @@ def hand_in(
 
 
 def _json_value(answer: Any) -> Any:
-    """Return an answer as JSON holds it; an exact number that is no integer is its text."""
+    """Return an answer as a JSON value; an exact number that is no integer becomes text."""
     plain = _plain_answer(answer)
     if isinstance(plain, tuple):
         return [_json_value(part) for part in plain]

@@ -1,11 +1,11 @@
-"""Tables of answers, as spreadsheets and forms write them: a header ``student,PROBLEM.QUESTION,...``, then rows.
+"""Tables of answers from spreadsheets and forms: a header ``student,PROBLEM.QUESTION,...``, then rows.
 
-The column that identifies the student may have any name that rosters know, such as ``Email Address``; the header of an
-answer's column may go on after the question's name, as ``disc.f How many degrees of freedom?``.
+The column that identifies the student may have any name known to rosters, such as ``Email Address``; the header of a
+column of answers may continue after the question's name, as in ``disc.f How many degrees of freedom?``.
 
-A broken row is reported with its line, and the rows after it are read. A table without a column for students, whose
-every column is a question, is one person's: that of its only row. A table whose header names no question is an error,
-because every row would be worth nothing.
+A broken row is reported with its line, and the rows after it are read. A table without a column for students must have
+only columns of questions and one row. A table whose header names no question is an error, because every row would be
+worth nothing.
 """
 
 from __future__ import annotations
@@ -20,20 +20,20 @@ from dofkit.homework.answers.spreadsheet import SpreadsheetRow, spreadsheet
 from dofkit.homework.answers.submission import clean
 
 STUDENT = "student"
-#: Headers of the column with the time of a submission, and how an answer's column begins.
+#: Headers of the column with the time of a submission, and the beginning of the header of a question.
 _TIMES = frozenset({"timestamp", "time", "submitted", "submitted at", "completion time", "zeitstempel", "horodateur"})
 _QUESTION = re.compile(r"\s*\[?(?P<name>[^\s:()\[\]]+)(?=$|[\s:()\]])")
-#: Names that a message lists.
+#: The most names in a message.
 MOST_LISTED = 12
 
-#: The problem and the question of a column ``PROBLEM.QUESTION``.
+#: {PROBLEM.QUESTION: (problem, question)}.
 Columns = Mapping[str, tuple[str, str]]
-#: What a column of a table answers; None if that is no question.
+#: The (problem, question) of a column of a table; None for other columns.
 Asked = tuple[str, str] | None
 
 
 class TableRow(NamedTuple):
-    """A row of a table: its answers, or why there are none."""
+    """A row of a table: {problem: {question: answer}}, or the error for which there are none."""
 
     student: str
     line: int
@@ -46,10 +46,10 @@ class TableError(ValueError):
 
 
 def rows(text: str, columns: Columns) -> Iterator[TableRow]:
-    """Yield the rows of a table; ``student`` is empty where it has no such column. Raises TableError.
+    """Yield the rows of a table; ``student`` is empty if there is no such column. Raises TableError.
 
-    Bytes that are not UTF-8 are lone surrogates in ``text``. ``columns``: those of the assignment, which say where a
-    name with several dots is to be cut.
+    Bytes that are not UTF-8 are lone surrogates in ``text``. ``columns``: the assignment's, by which names with several
+    dots are split.
     """
     table = spreadsheet(text, lambda cells: identity_column(cells) >= 0).rows
     header = next(table, SpreadsheetRow(1, [], "it is empty"))
@@ -68,7 +68,7 @@ def rows(text: str, columns: Columns) -> Iterator[TableRow]:
 
 
 def _header_fault(names: list[str], student: int, asked: Sequence[Asked], columns: Columns) -> str | None:
-    """Return why no row under a header can be graded, or None."""
+    """Return the fault of a header for which no row can be graded, or None."""
     repeats = [n for i, n in enumerate(names) if n and (n in names[:i] or (i > student and n.casefold() == STUDENT))]
     repeated = next((question for question in asked if question and asked.count(question) > 1), None)
     if repeats:
@@ -81,13 +81,13 @@ def _header_fault(names: list[str], student: int, asked: Sequence[Asked], column
 
 
 def _asked(name: str, columns: Columns) -> Asked:
-    """Return the question that a column answers: its header begins with the question's name."""
+    """Return the (problem, question) with whose name a header begins, or None."""
     match = _QUESTION.match(name)
     return columns.get(name) or (None if match is None else columns.get(match["name"]))
 
 
 def _meant(names: list[str], student: int, columns: Columns) -> str:
-    """Return what the columns could have been called."""
+    """Return the hint on names of columns: the nearest one, or a list."""
     others = [name for i, name in enumerate(names) if i != student]
     near = next((f"'{near}' for '{name[:60]}'" for name in others if (near := nearest(name, columns))), None)
     listing = ", ".join(list(columns)[:MOST_LISTED]) + (", ..." if len(columns) > MOST_LISTED else "")

@@ -27,11 +27,11 @@ _WHOLE = re.compile(r"const|konst|cst|cte|lam|mu|mult", re.IGNORECASE)
 
 @dataclass(frozen=True)
 class AnswerNames:
-    """The declared names, the answer's own, and spellings of declared ones.
+    """The declared names, those that the answer introduces (``undeclared``), and other spellings (``meant``).
 
-    ``choice``: which reading was taken of each kind of doubt, the same
-    in the whole answer; ``signs_apart``: `±` makes two readings, not one product. ``usual``: words that are read as the
-    usual names of quantities, such as `v_x`; ``frequencies``: omega may also be a frequency.
+    ``choice``: {kind of ambiguity: number of the reading}, the same in the whole answer; ``signs_apart``: whether `±`
+    makes two readings, not one product. ``usual``: words read as usual names of quantities, such as `v_x`;
+    ``frequencies``: whether omega may also be a frequency.
     """
 
     names: Names
@@ -48,7 +48,7 @@ class AnswerNames:
     frequencies: bool = False
 
     def as_names(self) -> Names:
-        """The words of this vocabulary as the names of a text; `e` is Euler's number unless it is declared."""
+        """Return the names for the parser; with ``euler``, `e` is Euler's number."""
         base = self.names
         more: dict[str, Expr] = {**({"e": E} if self.euler else {}), **self.usual}
         for word, name in self.meant.items():
@@ -74,7 +74,7 @@ class AnswerNames:
         )
 
     def with_word(self, word: str) -> AnswerNames | None:
-        """The same with what an unknown word stands for; None where it can stand for nothing."""
+        """Return the vocabulary extended by a meaning of an unknown word, or None if it cannot have one."""
         word = in_words(word)
         if word == "e" and not self.euler:
             return replace(self, euler=True)
@@ -104,14 +104,14 @@ class AnswerNames:
         return replace(self.names, allow_accelerations=self.accelerations)
 
     def _twin(self, word: str) -> str | None:
-        """The one declared name that differs by capitals and `_` only, or the one coordinate that begins so: `x_P`."""
+        """Return the only declared name that differs in case and `_`, or the only coordinate `word_...`, or None."""
         declared = (*self.names.coordinates, *self.names.parameters)
         twins = {name for name in declared if unmarked(name) == unmarked(word)}
         twins = twins or {name for name in self.names.coordinates if name.partition("_")[0] == word}
         return twins.pop() if len(twins) == 1 else None
 
     def _may_be_own(self, word: str) -> bool:
-        """Return whether it is a short name; z, and ``x_A`` if x is declared, are meant for coordinates."""
+        """Return whether an answer may introduce this short name; not x, y, z, nor ``x_A`` if x is declared."""
         if word in _CARTESIAN:
             return False
         stem, _, index = word.partition("_")
@@ -122,7 +122,7 @@ class AnswerNames:
         return fits and not (declared and index and not index.isdigit())
 
     def _letter(self, word: str) -> AnswerNames | None:
-        """With the one letter of a word that is no name, where all the others are: `Cx` is C x, `Ce^x` C e^x."""
+        """Return the vocabulary with the only undeclared letter of a product: `Cx` is C x; None if there is not one."""
         if len(word) < 2 or spelled(word) in _LONG or "_" in word or _WHOLE.match(word):
             return None
         candidates = []

@@ -1,4 +1,4 @@
-"""Answers in words: names, as people write them."""
+"""Reads answers that list names, as people write them."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ from dofkit.homework.answers.prose import DOUBTS, FILLING, NEGATIONS, NUMBERS, R
 from dofkit.homework.judgement import DoubtError, Given
 from dofkit.scene.fields import as_written, exact
 
-#: Fewer words than so many beside names say nothing of them.
+#: Fewer additional words than this between names do not make a list doubtful.
 _FEW_WORDS = 3
-#: No answer is read beyond this.
+#: The most characters of an answer that is read.
 MOST_CHARACTERS = 2000
 _SEPARATORS = re.compile(r"[,;\s]+(?:and|und|et|&)[,;\s]+|[,;\s]+|\s*&\s*")
 _REMARK = re.compile(r"(?<=\w)\s*\((?:\s*=[^()]*|[^()]*[^\W\d_]{3}[^()]*)\)")
@@ -36,13 +36,13 @@ _EITHER = re.compile(r"\A\s*(?:either|entweder|soit)\s+", re.IGNORECASE)
 _LOWERED = {0x2080 + n: str(n) for n in range(10)}
 _BRACES = re.compile(r"_\{(\w+)\}")
 
-#: Characters of an answer that are shown; and what stands between the parts of a list.
+#: The most characters of an answer that are shown; the separator of a list.
 MOST_SHOWN = 2000
 _BETWEEN = "; "
 
 
 def one_text(answer: object) -> str:
-    """The text of an answer that should be one; raises TextError for lists and the like."""
+    """Return an answer as one text. Raises TextError for lists, booleans and long texts."""
     if isinstance(answer, bool) or not isinstance(answer, (str, int, float, Fraction)):
         raise TextError("one number or text is needed here", 1, "write a single answer")
     text = answer if isinstance(answer, str) else _number_text(answer)
@@ -60,14 +60,14 @@ def _number_text(answer: float | Fraction) -> str:
 
 @dataclass(frozen=True)
 class Word:
-    """One of several words, and its column from 1."""
+    """A word of an answer, and its column counted from 1."""
 
     text: str
     column: int
 
 
 def split_words(answer: object) -> list[Word]:
-    """The words of an answer: a list, or a text with commas, semicolons, spaces or "and" between them."""
+    """Return the words of an answer: the entries of a list, or a text split at commas, semicolons, spaces and "and"."""
     if isinstance(answer, Sequence) and not isinstance(answer, str):
         return [Word(one_text(part).strip(), 1) for part in answer]
     script = script_of(one_text(answer)).replaced(_TRANSPOSED, "")
@@ -91,10 +91,10 @@ def _words(script: Script) -> Iterator[Word]:
 
 
 def is_none(answer: object, says: Callable[[str], bool], names: Collection[str] = (), every: bool = False) -> bool:
-    """Return whether the answer is that there is none. ``says``: whether a part of it names one all the same.
+    """Return whether an answer says that nothing of the kind exists, or is an empty list.
 
-    ``names``: names that are no words; ``every``: that all are needed says so too. Raises DoubtError where it
-    says both.
+    ``says``: whether a part of an answer names something; ``names``: declared names, which are not words; ``every``:
+    whether "all are needed" says none as well. Raises DoubtError if the answer says both.
     """
     if isinstance(answer, Sequence) and not isinstance(answer, str):
         return not answer or (len(answer) == 1 and is_none(answer[0], says, names, every))
@@ -106,7 +106,7 @@ def is_none(answer: object, says: Callable[[str], bool], names: Collection[str] 
 
 
 def lists_only(part: str, names: Sequence[str]) -> bool:
-    """Return whether a part of an answer consists of ``known`` names and words that say nothing."""
+    """Return whether a part of an answer consists of the given names and a few filling words."""
     table = ChoiceOfNames(names)
     listed = [word.text for word in split_words(part)]
     others = [w for w in listed if not table.meant(w)]
@@ -114,7 +114,7 @@ def lists_only(part: str, names: Sequence[str]) -> bool:
 
 
 def alternatives(answer: Given, names: Sequence[str], what: str) -> list[Given]:
-    """Return the answers of `x or y`, `one of x and y`, or `any one` of the known names; else the answer itself."""
+    """Return the choices of `x or y`, `one of x and y`, or `any one` (all names); else a list of the answer alone."""
     if not isinstance(answer, str):
         return [answer]
     if (some := _ANY.match(plain(answer))) is not None:
@@ -124,7 +124,7 @@ def alternatives(answer: Given, names: Sequence[str], what: str) -> list[Given]:
 
 
 def names_of(answer: object, names: Sequence[str], what: str) -> list[str]:
-    """The known names that an answer lists; remarks in parentheses and words around them are read over."""
+    """Return the known names that an answer lists, without remarks and filling words. Raises TextError."""
     if isinstance(answer, str):
         reason = REASONS.search(answer)
         answer = answer if reason is None else answer[: reason.start()]
@@ -144,13 +144,13 @@ def names_of(answer: object, names: Sequence[str], what: str) -> list[str]:
 
 
 def _without_count(words: Sequence[Word], table: ChoiceOfNames) -> list[Word]:
-    """Words without the number of the names among them: `the two angles`."""
+    """Return the words without the number of names that are listed: `the two angles`."""
     count = len({table.meant(w.text) for w in words} - {None})
     return [w for w in words if table.meant(w.text) or NUMBERS.get(plain(w.text)) != count]
 
 
 class ChoiceOfNames:
-    """Known names; Greek letters and their spelled names are the same, and case and `_` where they tell nothing."""
+    """Known names, found regardless of the spelling of Greek letters, and of case and `_` if that is unambiguous."""
 
     def __init__(self, names: Sequence[str]) -> None:
         self._exact = {spelled(spelling): spelling for spelling in names}
@@ -160,16 +160,16 @@ class ChoiceOfNames:
                 self._loose[form] = None if self._loose.get(form, name) != name else name
 
     def meant(self, text: str) -> str | None:
-        """The one name that a text means."""
+        """Return the only known name that a text means, or None."""
         text = spelled(text.strip("`'\".:").translate(_LOWERED))
         loose = self._loose.get(text.lower(), self._loose.get(text.lower().replace("_", "").replace("-", "")))
         return self._exact.get(text, loose)
 
 
 def chosen(words: Iterable[Word], names: Sequence[str], what: str) -> list[str]:
-    """The known names that the words are, each once.
+    """Return the known names that the words mean, each once; ``what``: the kind of name, for messages.
 
-    Raises TextError for a word that is none, with its column and the nearest name.
+    Raises TextError for any other word, with its column and the nearest name, and if there are no words.
     """
     table = ChoiceOfNames(names)
     chosen_names: dict[str, None] = {}
@@ -186,7 +186,7 @@ def chosen(words: Iterable[Word], names: Sequence[str], what: str) -> list[str]:
 
 
 def shown_text(answer: Given) -> str:
-    """An answer as one text, of which a person sees at most so many characters; a list has semicolons in it.
+    """Return an answer as one text of at most `MOST_SHOWN` characters; parts of a list are separated by semicolons.
 
     >>> shown_text("f = 2 "), shown_text(Fraction(1, 2)), shown_text(("x", ("y", 3)))
     ('f = 2 ', '0.5', 'x; y; 3')

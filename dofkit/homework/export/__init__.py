@@ -22,7 +22,7 @@ from dofkit.scene.catalog import catalog_folder
 
 SCRIPTS = Path(__file__).parent / "scripts"
 _EXECUTABLE = frozenset({"setup.sh", "run_autograder"})
-#: Folders that no autograder needs: the site, which only a clone has, may hold what its bench is built from.
+#: Folders of dofkit that an autograder does not need.
 _LEFT_OUT = (".", "__pycache__", "site")
 _TIME = (1980, 1, 1, 0, 0, 0)
 
@@ -30,9 +30,9 @@ _TIME = (1980, 1, 1, 0, 0, 0)
 def export_gradescope(assignment: str | os.PathLike[str], out: Path, reviewed: Path | None = None) -> None:
     """Write the zip to upload.
 
-    It holds ``setup.sh`` and ``run_autograder``, the assignment with its scenes in place, the result that stands until
-    there is another, ``reviewed``, the points that a person gave, dofkit, and the list of what dofkit requires. Raises
-    AssignmentError, NobodysVariantError where it varies and nobody has a variant, ReviewError, and OSError.
+    The zip contains ``setup.sh`` and ``run_autograder``, the assignment with its scenes, the result for interrupted
+    grading, the points that a person gave (``reviewed``), dofkit, and the list of packages that dofkit requires. Raises
+    AssignmentError, NobodysVariantError if the assignment varies but has no students, ReviewError, and OSError.
     """
     prepared = load_assignment(assignment)
     assigned(prepared)
@@ -51,7 +51,7 @@ def export_gradescope(assignment: str | os.PathLike[str], out: Path, reviewed: P
 
 
 def _below(folder: Traversable, path: str) -> Iterator[tuple[str, bytes]]:
-    """Yield the files of an installed folder with their paths in the zip."""
+    """Yield (path in the zip, content) for the files below an installed folder."""
     for entry in sorted(folder.iterdir(), key=lambda entry: entry.name):
         if entry.is_dir() and not entry.name.startswith(_LEFT_OUT):
             yield from _below(entry, f"{path}/{entry.name}")
@@ -60,7 +60,7 @@ def _below(folder: Traversable, path: str) -> Iterator[tuple[str, bytes]]:
 
 
 def _zip(files: dict[str, bytes], out: Path) -> None:
-    """Write the zip whole: the same files give the same zip."""
+    """Write a zip atomically, with fixed times: the same files give the same zip."""
     out.parent.mkdir(parents=True, exist_ok=True)
     temporary = out.with_name(f".{out.name}.new")
     with zipfile.ZipFile(temporary, "w", zipfile.ZIP_DEFLATED) as archive:

@@ -1,4 +1,4 @@
-"""The forms in which results are written. A new one is a `Format` in a module of its own and a place in `FORMATS`."""
+"""The formats of results. A new one is a `Format` in a module of its own and an entry in `FORMATS`."""
 
 from __future__ import annotations
 

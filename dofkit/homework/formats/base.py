@@ -1,4 +1,4 @@
-"""What a format is: a function of the results that writes them to a path or a stream."""
+"""Formats of results: functions that write results to a path or a stream."""
 
 from __future__ import annotations
 
@@ -18,28 +18,28 @@ from dofkit.homework.assignment import Prepared
 from dofkit.homework.formats.wording import FileNames, plain
 from dofkit.homework.result import Result, json_line
 
-#: Where results go: the path that ``--out`` names, or a stream such as standard output.
+#: Where results are written: the path of ``--out``, or a stream such as standard output.
 Target = Path | TextIO
 Document: TypeAlias = Callable[[Result, Prepared], dict[str, Any]]
-#: Writes results in the order of the submissions; a gradebook has rows for a roster only.
+#: Writes results in the order of the submissions; a gradebook has rows only for members of the roster.
 Write: TypeAlias = Callable[[Sequence[Result], Prepared, Target, "Roster | None"], None]
-#: What spreadsheets read as the beginning of a formula, also after spaces, and in its full-width forms.
+#: The beginning of a formula for spreadsheets, also after spaces, and with full-width signs.
 _FORMULA = re.compile("\\s*[=+\\-@|\uff1d\uff0b\uff0d\uff20\u2212]|[\t\r\n]")
 _NUMBER = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?")
-#: More than a spreadsheet holds in a cell.
+#: The most characters of a cell: spreadsheets allow slightly more.
 MOST_CHARACTERS = 32_000
 
 
 class FormatError(DofkitError):
-    """Results that cannot be written in a format, such as two students where it holds one."""
+    """Results that cannot be written in a format, such as two students in a format for one."""
 
 
 @dataclass(frozen=True)
 class Format:
-    """A form in which results are written.
+    """A format in which results are written.
 
-    ``write`` raises FormatError for what the format cannot hold. ``endings``: those of the files that it writes,
-    without the dot; without any it writes a folder, and standard output will not do. ``folders``: whether it can.
+    ``write`` raises FormatError for results that the format cannot represent. ``endings``: file extensions without the
+    dot; if there are none, it writes only folders, not to standard output. ``folders``: whether it can write a folder.
     """
 
     name: str
@@ -48,7 +48,7 @@ class Format:
     folders: bool = True
 
     def folder(self, path: Path) -> bool:
-        """Return whether a folder is written there. Raises ArgumentError for the ending of another format."""
+        """Return whether a folder is written to ``path``. Raises ArgumentError for the extension of another format."""
         if self.folders and is_folder_path(path):
             return True
         format_of_path(path, self.endings)
@@ -57,7 +57,7 @@ class Format:
 
 @contextmanager
 def opened(target: Target) -> Iterator[TextIO]:
-    """Open a text stream to write to: a new UTF-8 file, its folder made, or the stream that was passed."""
+    """Yield a text stream for writing: a new UTF-8 file, whose folder is created, or ``target`` itself."""
     if not isinstance(target, Path):
         yield target
         return
@@ -67,7 +67,7 @@ def opened(target: Target) -> Iterator[TextIO]:
 
 
 def write_native(results: Sequence[Result], prepared: Prepared, target: Target, roster: Roster | None = None) -> None:
-    """Write one JSON object per line for every submission, in ASCII if that is all that the stream takes."""
+    """Write one JSON object per line for every submission, in ASCII unless the stream is UTF-8."""
     del prepared, roster
     with opened(target) as stream:
         ascii_only = (stream.encoding or "utf-8").lower().replace("-", "") != "utf8"
@@ -78,8 +78,8 @@ def write_native(results: Sequence[Result], prepared: Prepared, target: Target, 
 def per_student(document: Document) -> Write:
     """Return a writer of one JSON document per student.
 
-    A stream, or a path that ends in ``.json``, holds one student; any other path is a folder, with a file for each.
-    The writer raises FormatError where a second student does not fit, or where there is none at all for a file.
+    A stream, or a path that ends in ``.json``, is for one student; any other path is a folder, with a file for each.
+    The writer raises FormatError for a second student in one file, and for a file without a student.
     """
 
     def write(results: Sequence[Result], prepared: Prepared, target: Target, roster: Roster | None = None) -> None:
@@ -101,7 +101,7 @@ def per_student(document: Document) -> Write:
 
 
 def text(document: dict[str, Any]) -> str:
-    """Return a document as ASCII JSON, which every reader takes."""
+    """Return a document as JSON text in ASCII."""
     return json.dumps(document, indent=2, allow_nan=False) + "\n"
 
 
@@ -111,7 +111,7 @@ def _write(document: dict[str, Any], target: Target) -> None:
 
 
 def cell(content: str) -> str:
-    """Return a text as a cell of a table: an apostrophe stands before what a spreadsheet would read as a formula.
+    """Return a text as a cell of a table, with an apostrophe before what a spreadsheet would read as a formula.
 
     >>> cell("=cmd|'/C calc'!A0"), cell("-2"), cell("-2+3"), cell("Ada")
     ("'=cmd|'/C calc'!A0", '-2', "'-2+3", 'Ada')
@@ -123,7 +123,7 @@ def cell(content: str) -> str:
 
 
 def table(stream: TextIO) -> Any:
-    """Return a writer of comma-separated rows, as RFC 4180 has them."""
+    """Return a writer of comma-separated rows according to RFC 4180."""
     return csv.writer(stream, lineterminator="\r\n")
 
 

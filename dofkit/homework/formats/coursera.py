@@ -1,8 +1,8 @@
 """Coursera's ``feedback.json``: a share of the points, and a text.
 
-Coursera takes a number and nothing else, and has no review by a person. So that an answer that could not be decided is
-neither zero nor full marks there, half of its points stand in for it, and the text begins by saying so. One that could
-not be read, or that claims nothing in one way (``7?``), has none, and the text says that it can be submitted again.
+Coursera accepts only a number and has no review by a person. An undecided answer is therefore worth half of its points,
+and the text begins by saying so. An answer that could not be read or is ambiguous (``7?``) is worth nothing, and the
+text says that it can be submitted again.
 """
 
 from __future__ import annotations
@@ -15,12 +15,12 @@ from dofkit.homework.formats.wording import feedback, number
 from dofkit.homework.result import Result
 from dofkit.homework.sentences import in_language
 
-#: The share of its points that stands in for an answer that could not be decided.
+#: The share of its points that an undecided answer gets.
 OPEN_SHARE = 0.5
 
 
 def document(result: Result, prepared: Prepared) -> dict[str, Any]:
-    """Return what ``feedback.json`` says of a submission."""
+    """Return the fields of ``feedback.json`` for a submission."""
     language = prepared.assignment.language
     unclear = [item for item in result.items if not item.score and (item.status == "unreadable" or not item.certain)]
     undecided = sum(item.max_score for item in result.items if item.score is None and item not in unclear)

@@ -1,15 +1,15 @@
-"""Tables that gradebooks import: Canvas's and Moodle's, each a row of columns and who a student is in them.
+"""Tables of grades that Canvas and Moodle import.
 
-What a table does is written by the importers' sources: Canvas's ``lib/gradebook_importer.rb`` and
+The rules of the imports are in their source code: Canvas's ``lib/gradebook_importer.rb`` and
 ``process_gradebook_upload.js``, Moodle's ``grade/import/csv/classes/load_data.php`` and ``grade/import/lib.php``.
 
 * A blank grade erases the one in the gradebook (both), so a student without a final grade has no row.
-* A row of nobody in the course makes Canvas ask about all rows and stops Moodle's import, so with a roster only its
-  members have rows.
+* A row for somebody outside the course makes Canvas ask about all rows and stops Moodle's import, so with a roster
+  only its members have rows.
 * Canvas finds a student by ``ID``, else by the SIS columns, else by the name; a first cell with "Points Possible" is
-  the row of points, whoever has that name; headers with words such as "Final Grade" are no assignments.
+  the row of points even if it is a student's name; headers with words such as "Final Grade" are no assignments.
 * Moodle maps rows by one column: ``userid``, ``useridnumber``, ``username`` or ``useremail``; a first cell that is
-  blank or 0 means the student of the row before. It shows feedback as HTML, so markup is escaped.
+  blank or 0 means the student of the previous row. It shows feedback as HTML, so markup is escaped.
 
 Results without a row are listed with the reason in ``TABLE.apart.csv``.
 """
@@ -31,11 +31,11 @@ from dofkit.homework.result import Result
 #: Results without a row, each with the reason.
 Apart = list[tuple[Result, str]]
 POINTS = "Points Possible"
-#: Headers that Canvas does not take for those of assignments: anywhere in a title, and as the whole of it.
+#: Headers that Canvas does not read as assignments: words anywhere in a title, and whole titles.
 _TAKEN = re.compile(r"(Current|Final) (Score|Points|Grade)|Override (Score|Grade|Status)")
 _CANVAS = ("Student", "ID", "SIS User ID", "SIS Login ID", "Section")
 _RESERVED = frozenset({*_CANVAS, "LastName", "FirstName", "Integration ID", "Root Account"})
-#: Moodle's name for a column, and what a member has in it; the platform's own number first.
+#: {Moodle's name of a column: function that returns a member's value}, in order of preference.
 _MOODLE: dict[str, Callable[[Participant], str]] = {
     "userid": lambda member: member.moodle,
     "useridnumber": lambda member: member.number,
@@ -45,12 +45,12 @@ _MOODLE: dict[str, Callable[[Participant], str]] = {
 
 
 def apart_path(out: Path) -> Path:
-    """Return where the results without a row are listed: ``grades.apart.csv`` beside ``grades.csv``."""
+    """Return the path of the list of results without a row: ``grades.apart.csv`` beside ``grades.csv``."""
     return out.with_name(f"{out.stem}.apart.csv")
 
 
 def _write(rows: Sequence[Sequence[str]], apart: Apart, target: Target) -> None:
-    """Write a table, and list the results without a row; of a table on a stream they are lines on standard error."""
+    """Write a table, and list the results without a row: in a file beside it, or for a stream on standard error."""
     with opened(target) as stream:
         table(stream).writerows(rows)
     if not isinstance(target, Path):
@@ -70,7 +70,7 @@ def _write(rows: Sequence[Sequence[str]], apart: Apart, target: Target) -> None:
 
 
 def _unfit(result: Result) -> str | None:
-    """Return why a result has no grade that may stand in a gradebook, or None if it has one."""
+    """Return why a result has no grade for a gradebook, or None if it has one."""
     if result.error is not None:
         return f"it could not be graded: {line(result.error)}"
     if result.doubt is not None:
@@ -81,7 +81,7 @@ def _unfit(result: Result) -> str | None:
 
 
 def is_cell(student: str) -> bool:
-    """Return whether a name can stand in a cell unchanged, so that it is recognized again.
+    """Return whether a name can be written to a cell unchanged, so that it is recognized again.
 
     >>> is_cell("Ada B"), is_cell("=1"), is_cell("ada\u200e"), is_cell(" ")
     (True, False, False, False)
@@ -90,7 +90,7 @@ def is_cell(student: str) -> bool:
 
 
 def _rows(results: Iterable[Result], roster: Roster | None, apart: Apart) -> list[tuple[Result, Participant | None]]:
-    """Return the results that have a row, one for each student, with their member of the roster; list the others."""
+    """Return (result, member of the roster or None) for the results that have a row; append the others to ``apart``."""
     rows: dict[str, tuple[Result, Participant | None]] = {}
     for result in results:
         member = None if roster is None else roster.find(result.student)
@@ -110,7 +110,7 @@ def _rows(results: Iterable[Result], roster: Roster | None, apart: Apart) -> lis
 
 
 def write_canvas(results: Sequence[Result], prepared: Prepared, target: Target, roster: Roster | None = None) -> None:
-    """Write Canvas's table. Raises FormatError for a title that Canvas does not take for an assignment's."""
+    """Write Canvas's table. Raises FormatError for a title that Canvas does not read as an assignment."""
     title, apart = line(prepared.assignment.title), Apart()
     if title in _RESERVED or _TAKEN.search(title):
         raise FormatError(f"Canvas takes no column '{title}' for an assignment: give the assignment another title")
@@ -155,7 +155,7 @@ def write_moodle(results: Sequence[Result], prepared: Prepared, target: Target, 
 
 
 def _moodle_column(roster: Roster | None, first: str) -> str:
-    """Return the column that most of the roster have; without a roster the first student's kind of name decides."""
+    """Return the column for which most members have a value; without a roster, by the first student's name."""
     if roster is None:
         return "useremail" if "@" in first else "useridnumber"
     return max(_MOODLE, key=lambda name: sum(bool(_MOODLE[name](member)) for member in roster.members))

@@ -1,16 +1,15 @@
 """Gradescope's ``results.json``: a test for every question.
 
-All texts are in the format ``text``, which Gradescope shows as it is, so that nothing a student wrote is markup there.
+All texts have the format ``text``, which Gradescope shows literally, so that nothing a student wrote is markup.
 
-What an answer is worth is shown as the assignment's ``visibility`` says, by default after the due date: else students
-would try until it is right. One test that is not visible hides the total, so that there
-either all are or none is. Gradescope shows ``after_due_date`` when the late due date has passed where there is one,
-and says nothing of assignments that have none at all: the autograder asks for ``after_published`` there, since nobody
-would ever see a point. How an answer was read, or where it could not be, is shown at once in any case.
+Points are shown as the assignment's ``visibility`` says, by default after the due date: otherwise students would try
+until an answer is right. One hidden test hides the total, so either all tests are visible or none is. Gradescope shows
+``after_due_date`` after the late due date if there is one, and never if an assignment has no due date: the autograder
+then uses ``after_published``. How an answer was read, or why it could not be read, is always shown at once.
 
 An answer that needs a review is a test without ``score`` and ``status``: Gradescope shows its output and neither
-points nor a colour. The ``score`` of the submission, which Gradescope asks for, is the sum of what is decided;
-``output`` says first that it is not final and how many points are open, and ``extra_data`` has the same as numbers.
+points nor a colour. The ``score`` of the submission, which Gradescope requires, is the sum of the decided answers;
+``output`` says first that it is not final and how many points are undecided; ``extra_data`` contains these numbers.
 """
 
 from __future__ import annotations
@@ -27,7 +26,7 @@ from dofkit.homework.sentences import Language, in_language
 def document(result: Result, prepared: Prepared, visible: Visibility | None = None) -> dict[str, Any]:
     """Return the ``results.json`` of a submission.
 
-    ``visible``: when points are shown, where that is not as the assignment says.
+    ``visible``: when points are shown (None: as the assignment says).
     """
     language = prepared.assignment.language
     visibility = visible or prepared.assignment.visibility
@@ -55,16 +54,15 @@ def document(result: Result, prepared: Prepared, visible: Visibility | None = No
 
 
 def _first_output(result: Result, language: Language) -> str:
-    """Return what is said of the submission before points are shown."""
+    """Return the text about the submission before points are shown."""
     doubt = result.doubt
     lines = [] if doubt is None else [in_language(language, "This result is not final: {fault}.", fault=plain(doubt))]
-    return "\n".join(
-        [*lines, in_language(language, "The list shows how each answer was read; points are shown later.")]
-    )
+    lines.append(in_language(language, "The list shows how each answer was read; points are shown later."))
+    return "\n".join(lines)
 
 
 def _reading(item: Item, language: Language) -> dict[str, Any]:
-    """Return how an answer was read, without its points."""
+    """Return a test that shows how an answer was read, without its points."""
     if item.status == "unreadable":
         output = remark(item, language)
     elif item.status == "missing":

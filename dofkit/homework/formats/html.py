@@ -1,7 +1,7 @@
-"""Pages to read: one for each student, and an overview for the lecturer.
+"""HTML pages of results: one for each student, and an overview for the lecturer.
 
-``index.html`` is the overview, ``students/`` holds the others; the run adds ``review.html``, with the answers that wait
-for a person. Every page stands alone: it loads nothing, and all that a student wrote is escaped.
+``index.html`` is the overview, ``students/`` contains the others; the run adds ``review.html``, with the answers that
+wait for a person. No page loads other files, and all that a student wrote is escaped.
 Answers that need a review have no points, and the score says that it is not final.
 """
 
@@ -22,12 +22,12 @@ from dofkit.homework.formats.wording import FileNames, number
 from dofkit.homework.result import Item, Result, Status
 from dofkit.homework.sentences import meanings
 
-#: Bars of the distribution; errors and unreadable texts that are listed for a question.
+#: The number of bars of the distribution; the most errors and unreadable texts that are listed for a question.
 BARS, MOST_LISTED = 10, 3
 
 
 class Submitted(NamedTuple):
-    """A submission in a list."""
+    """A submission in a list: the student's name, the link to the page, the result."""
 
     name: str
     link: str
@@ -39,10 +39,10 @@ class Submitted(NamedTuple):
 
 
 class Question(NamedTuple):
-    """How one question went: ``counts`` of its statuses, and ``mean`` of what was decided, in points.
+    """Statistics of one question. ``counts``: (status, number, percent); ``mean``: of the decided answers, in points.
 
-    ``right``: the share of the graded answers with full points; ``errors``: the commonest errors; ``unread_texts``:
-    the commonest answers that could not be read.
+    ``most``: its points; ``right``: the share of the graded answers with full points; ``errors``: (number, text) of the
+    commonest errors; ``unread_texts``: (number, text) of the commonest unreadable answers.
     """
 
     name: str
@@ -56,7 +56,7 @@ class Question(NamedTuple):
 
 
 def overview(submitted: Sequence[Submitted], prepared: Prepared, roster: Roster | None = None) -> dict[str, Any]:
-    """Return what the lecturer's page shows; a ``roster`` tells who did not submit."""
+    """Return the values for the template of the lecturer's page; a ``roster`` tells who did not submit."""
     graded = [submission.result for submission in submitted if submission.result.error is None]
     final = [result for result in graded if not result.needs_review and result.doubt is None]
     scores = [result.score or 0.0 for result in final]
@@ -107,7 +107,7 @@ def _questions(prepared: Prepared, answers: dict[tuple[str, str], list[Item]]) -
 
 
 def _bars(scores: Sequence[float], most: float) -> list[tuple[str, int, float]]:
-    """Return points, how many have them, and that in percent of the highest; steps are without their upper ends."""
+    """Return (range of points, number of scores, percent of the highest bar) for each bar, without its upper end."""
     counts = Counter(min(int(percent(score, most) * BARS / 100 + 1e-9), BARS - 1) for score in scores)
     highest, step = max(counts.values(), default=1), most / BARS
     labels = [f"{number(i * step)}–{number((i + 1) * step)}" for i in range(BARS)]
@@ -115,7 +115,7 @@ def _bars(scores: Sequence[float], most: float) -> list[tuple[str, int, float]]:
 
 
 def write(results: Sequence[Result], prepared: Prepared, target: Target, roster: Roster | None = None) -> None:
-    """Write a folder of pages. Raises FormatError for what is no folder."""
+    """Write a folder of pages. Raises FormatError if ``target`` cannot be a folder."""
     if not isinstance(target, Path) or (target.exists() and not target.is_dir()):
         raise FormatError("the format html writes a folder: give its name with --out")
     folder = target / "students"

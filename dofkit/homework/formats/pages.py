@@ -1,4 +1,4 @@
-"""A student's page, and how pages are made of templates: whatever a student wrote is escaped."""
+"""The page of a student, and rendering of templates: all that a student wrote is escaped."""
 
 from __future__ import annotations
 
@@ -21,19 +21,19 @@ TEMPLATES = Path(__file__).parent / "templates"
 _NAME = re.compile("`([^`\n]+)`")
 
 
-#: The mark of each status, so that colour is never all there is.
+#: {status: sign}, so that a status is not shown by colour alone.
 MARKS: dict[Status, str] = {
     "right": "✓", "partly": "◐", "wrong": "✗", "unreadable": "?", "missing": "–", "needs_review": "…",
 }  # fmt: skip
 
 
 def percent(score: float | None, most: float) -> float:
-    """A share in percent, from 0 to 100."""
+    """Return a score in percent of ``most``, from 0 to 100."""
     return min(max(100 * (score or 0.0) / most, 0.0), 100.0) if most else 0.0
 
 
 def student_page(result: Result, prepared: Prepared) -> dict[str, Any]:
-    """Return what the page of one submission shows: its answers by problem, those to nothing that was asked last."""
+    """Return the values for the template of a student's page: answers by problem, and answers to other questions."""
     by_question = {(item.problem, item.question): item for item in result.items}
     language, sections = prepared.assignment.language, list[dict[str, Any]]()
     for problem in prepared.assignment.problems:
@@ -65,12 +65,12 @@ def _answer_row(item: Item, asked: str) -> dict[str, Any]:
 
 
 def asked_text(question: QuestionBase, language: Language = "en") -> str:
-    """Return a question in words."""
+    """Return the text of a question."""
     return plain(question.asked(", ".join(question.about)).translated(language))
 
 
 def rendered(template: str, **values: Any) -> str:
-    """A page."""
+    """Return the page of a template with these values."""
     return _environment().get_template(template).render(**values)
 
 
@@ -91,12 +91,12 @@ def _environment() -> Environment:
 
 
 def _pieces(text: str) -> list[str]:
-    """A text cut at the names between backquotes: what is around them and, at every second place, a name."""
+    """Return a text split at names in backquotes: texts alternate with names."""
     return _NAME.split(plain(text))
 
 
 def _formulas(text: str) -> list[tuple[str, str]]:
-    """Return the parts of how an answer was read, each with its MathML if it is a relation in the grammar of scenes."""
+    """Return (MathML or "", text) for the parts of a read answer; relations in the grammar of scenes have MathML."""
     segments = re.split("(; | or )", plain(text))
     formulas = [typeset(part) if re.search("[=<>]", part) else None for part in segments]
     return [("" if latex is None else mathml(latex), part) for latex, part in zip(formulas, segments, strict=True)]

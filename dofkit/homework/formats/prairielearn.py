@@ -1,10 +1,10 @@
 """PrairieLearn's ``results.json`` of an external grader: points as a share, and a test for every answer.
 
-``gradable: false`` costs a student no attempt and gives no points: so it is where an answer cannot be read, or reads in
-several ways or in names that are not declared. That depends on its text and the declared names alone, never on the key,
-because what costs no attempt could be asked again and again. ``format_errors`` says which answers these are, and
-nothing is said of the others. An answer that reads in one way and could not be decided has no points yet: a person
-gives them on PrairieLearn's own page.
+``gradable: false`` uses no attempt and gives no points. It is returned if an answer cannot be read, can be read in
+several ways, or contains undeclared names. This depends on its text and the declared names alone, never on the key,
+because students can repeat what uses no attempt. ``format_errors`` lists these answers, and nothing is said about the
+others. An answer with one reading that could not be decided has no points yet: a person gives them on PrairieLearn's
+own page.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from dofkit.homework.formats.wording import line, plain, remark, shortened, stan
 from dofkit.homework.result import Item, Result
 from dofkit.homework.sentences import Language, in_language
 
-#: PrairieLearn takes no more than a megabyte; and the characters of one text where that is too much.
+#: The most bytes that PrairieLearn accepts; the most characters of one text if a result is longer.
 MOST_BYTES, MOST_CHARACTERS = 1_000_000, 1000
 UNGRADED = (
     "This submission was not graded and did not use an attempt. Write the answers that could not be read differently; "
@@ -32,9 +32,8 @@ def document(result: Result, prepared: Prepared) -> dict[str, Any]:
     if len(text(fields)) > MOST_BYTES:
         too_many = in_language(language, "There are too many answers to be listed one by one.")
         errors = [shortened(error, MOST_CHARACTERS) for error in fields.get("format_errors", [])[:50]]
-        fields |= {"tests": [], "message": f"{fields['message']}\n{too_many}"} | (
-            {"format_errors": errors} if errors else {}
-        )
+        fields |= {"tests": [], "message": f"{fields['message']}\n{too_many}"}
+        fields |= {"format_errors": errors} if errors else {}
     return fields
 
 

@@ -1,8 +1,8 @@
 """The review beside the results: a table in which a person fills in points, and a page that shows the same answers.
 
-The table is in UTF-8 with the mark by which Excel recognizes it, and has semicolons where Excel of the assignment's
-language expects them, or what the table had before. No cell in it begins as a formula does, and answers begin with a
-letter or an apostrophe, so that no spreadsheet takes ``1/2`` for a date.
+The table is in UTF-8 with a byte order mark for Excel. Its delimiter is that of the earlier table, else the one which
+Excel expects in the assignment's language. No cell begins like a formula, and answers begin with a letter or an
+apostrophe, so that no spreadsheet reads ``1/2`` as a date.
 """
 
 from __future__ import annotations
@@ -24,16 +24,16 @@ from dofkit.homework.result import Result
 from dofkit.homework.review import COLUMNS, FilledTable, Queue, QueuedAnswer, ReviewRow, read_table
 
 TABLE, PAGE = "review.csv", "review.html"
-#: Answers of each list that are shown; how many more there are is said.
+#: The most answers of each list that are shown, with the number of further ones.
 MOST_SHOWN = 1000
-#: Of languages whose Excel takes commas for decimal signs.
+#: Languages in which Excel uses decimal commas, and semicolons in tables.
 _SEMICOLONS = frozenset({"de", "fr", "es"})
 _ANSWERS = frozenset({"text", "readings"})
 _FILLED = frozenset({"remark", "decided_by"})
 
 
 def write_table(rows: Iterable[ReviewRow], prepared: Prepared, path: Path, delimiter: str | None) -> None:
-    """Write the table whole: it never stands there in part. ``delimiter``: the one it had before. Raises OSError."""
+    """Write the table atomically. ``delimiter``: that of the earlier table, or None. Raises OSError."""
     chosen = delimiter or (";" if prepared.assignment.language in _SEMICOLONS else ",")
     temporary = path.with_name(f".{path.name}.new")
     with temporary.open("w", encoding="utf-8-sig", newline="") as stream:
@@ -45,7 +45,7 @@ def write_table(rows: Iterable[ReviewRow], prepared: Prepared, path: Path, delim
 
 
 def _cells(cells: Mapping[str, str], delimiter: str) -> list[str]:
-    """The cells of a row; what a person wrote stays as it is."""
+    """Return the cells of a row; the points that a person wrote are unchanged."""
     texts = []
     for name in COLUMNS:
         text = cells.get(name, "")
@@ -60,7 +60,7 @@ def _cells(cells: Mapping[str, str], delimiter: str) -> list[str]:
 
 
 def write_page(queue: Queue, rows: Iterable[ReviewRow], prepared: Prepared, path: Path, table: str) -> None:
-    """Write the page whole. ``table``: what the file is called in which points are filled in. Raises OSError."""
+    """Write the page atomically. ``table``: the name of the file in which points are filled in. Raises OSError."""
     waiting = queue.open_answers()
     page = {
         "title": prepared.assignment.title,
@@ -77,11 +77,10 @@ def write_page(queue: Queue, rows: Iterable[ReviewRow], prepared: Prepared, path
 
 
 def _questions(waiting: Sequence[QueuedAnswer], prepared: Prepared) -> Iterator[dict[str, Any]]:
-    """Yield the open answers to each question."""
+    """Yield the values for the template of each question: its name, text, points and undecided answers."""
     for problem, question in prepared.questions():
-        answers = [
-            queued for queued in waiting if (queued.item.problem, queued.item.question) == (problem.id, question.id)
-        ]
+        asked = (problem.id, question.id)
+        answers = [queued for queued in waiting if (queued.item.problem, queued.item.question) == asked]
         if answers:
             name = f"{problem.id}.{question.id}"
             yield {"name": name, "asked": asked_text(question), "most": float(question.points), "answers": answers}
@@ -89,7 +88,7 @@ def _questions(waiting: Sequence[QueuedAnswer], prepared: Prepared) -> Iterator[
 
 @dataclass(frozen=True)
 class ReviewPaths:
-    """The paths of the table and the page; ``shared``: the folder may contain other files, too."""
+    """The paths of the table and the page; ``shared``: whether the folder may contain other files."""
 
     table: Path
     page: Path
@@ -105,7 +104,7 @@ class ReviewPaths:
 
 @dataclass(frozen=True)
 class RunReview:
-    """The rows of the tables that exist: those of ``--reviewed`` go before those beside the results."""
+    """{identity: row} of the existing tables; rows of ``--reviewed`` replace those beside the results."""
 
     paths: ReviewPaths | None
     rows: Mapping[str, ReviewRow]
@@ -128,11 +127,11 @@ class RunReview:
         return cls(paths, rows, earlier.delimiter or named.delimiter)
 
     def applied(self, prepared: Prepared) -> Prepared:
-        """Return the assignment with the decisions."""
+        """Return the assignment with the decisions of these rows."""
         return replace(prepared, decisions=FilledTable(self.rows).decisions)
 
     def write(self, results: Sequence[Result], prepared: Prepared) -> None:
-        """Write the queue of these results and say on standard error where it is. Raises OSError."""
+        """Write the table and page of these results, and print where they are on standard error. Raises OSError."""
         if self.paths is None:
             return
         queue = queue_of(results, prepared)
@@ -150,7 +149,7 @@ class RunReview:
 
 
 def queue_of(results: Sequence[Result], prepared: Prepared, links: Sequence[str] = ()) -> Queue:
-    """Return the queue of the answers that wait for a person or were decided by one; ``links``: to the results."""
+    """Return the queue of answers that a person must decide or has decided; ``links``: to the page of each result."""
     queue = Queue([(problem.id, question.id) for problem, question in prepared.questions()])
     for result, link in zip(results, links or [""] * len(results), strict=True):
         queue.add(result, link)

@@ -1,4 +1,4 @@
-"""What all formats say alike: points, statuses, and texts that hold whatever a student wrote."""
+"""Texts that all formats share: points, statuses, feedback, and safe forms of what students wrote."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import NamedTuple
 from dofkit.homework.result import Item, Result, Status
 from dofkit.homework.sentences import Language, in_language
 
-#: What each status is called, in English.
+#: {status: its name in English}.
 STATUSES: dict[Status, str] = {
     "right": "correct",
     "partly": "partly correct",
@@ -19,12 +19,12 @@ STATUSES: dict[Status, str] = {
     "missing": "no answer",
     "needs_review": "awaiting review",
 }
-#: Characters of an answer that are shown on either side of the place where reading stopped.
+#: The most characters of an answer that are shown on each side of the place where reading stopped.
 MOST_AROUND = 60
 _MARKED_NAME = re.compile("`([^`\n]*)`")
-#: Characters that files, terminals or parsers stumble over: controls, halves of surrogate pairs, noncharacters.
+#: Characters that files, terminals or parsers do not accept: controls, lone surrogates, noncharacters.
 _UNPRINTABLE = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\ud800-\udfff\ufffe\uffff]")
-#: Characters that turn the direction of what follows them.
+#: Characters that change the direction of the text after them.
 _TURNING = re.compile("[\u061c\u200e\u200f\u202a-\u202e\u2066-\u2069]")
 _OTHER_SPACE = re.compile(r"[^\S ]|(?<= ) |[\u00ad\u200b-\u200d\u2060\ufeff]")
 _AROUND = re.compile("^ +| +$")
@@ -35,7 +35,7 @@ _RESERVED = re.compile(r"(con|prn|aux|nul|com\d|lpt\d|index)(\..*)?$")
 
 
 def plain(text: str) -> str:
-    """A text without what cannot be shown: each such character is U+FFFD; marks that turn the direction are left out.
+    """Return a text with U+FFFD for unprintable characters, without marks that change the direction of text.
 
     >>> plain("a\\x00b\\r\\n\\u202ec")
     'a\ufffdb\\nc'
@@ -44,7 +44,7 @@ def plain(text: str) -> str:
 
 
 def line(text: str) -> str:
-    """The same on one line.
+    """Return a text as `plain` does, on one line with single spaces.
 
     >>> line("one\\n  two\\tthree ")
     'one two three'
@@ -53,9 +53,9 @@ def line(text: str) -> str:
 
 
 def identity(student: str) -> str:
-    """A student's name where it distinguishes others: what cannot be shown is never left out.
+    """Return a student's name with U+FFFD for every invisible character.
 
-    Dropped, it would turn the name into another student's.
+    Without these characters the name might be that of another student.
 
     >>> identity("Ada B"), identity("ada\u200e"), identity(" ada\\n")
     ('Ada B', 'ada�', '�ada�')
@@ -65,7 +65,7 @@ def identity(student: str) -> str:
 
 
 def number(value: float) -> str:
-    """A number of points: four decimals at most, none that say nothing.
+    """Return a number of points as text, with at most four decimals and no trailing zeros.
 
     >>> number(2.0), number(1 / 3), number(0.5), number(0.0)
     ('2', '0.3333', '0.5', '0')
@@ -74,24 +74,24 @@ def number(value: float) -> str:
 
 
 def points(item: Item, language: Language = "en") -> str:
-    """Return the points of one answer, as in ``1 of 2``; a dash for those that are undecided."""
+    """Return the points of one answer, as in ``1 of 2``, with a dash for undecided points."""
     score = "–" if item.score is None else number(item.score)
     return in_language(language, "{score} of {most}", score=score, most=number(item.max_score))
 
 
 def open_points(result: Result) -> float:
-    """The points of the answers that wait for a person."""
+    """Return the sum of the points of undecided answers."""
     return sum(item.max_score for item in result.items if item.score is None)
 
 
 def decided(result: Result) -> bool:
-    """Whether every answer has its points, so that the score is final."""
+    """Return whether every answer has its points, so that the score is final."""
     gradable = result.error is None and result.doubt is None and result.score is not None
     return gradable and not result.needs_review
 
 
 def standing(result: Result, language: Language = "en") -> str:
-    """Return how the submission stands, in a sentence or two."""
+    """Return the state of a result in a sentence or two: an error, a doubt, or the points."""
     if result.error is not None:
         return in_language(language, "This submission could not be graded: {fault}", fault=plain(result.error))
     if result.doubt is not None:
@@ -110,7 +110,7 @@ def standing(result: Result, language: Language = "en") -> str:
 
 
 def remark(item: Item, language: Language = "en") -> str:
-    """Return what is said of one answer: how it was read, or where reading stopped, and the feedback."""
+    """Return the text about one answer: its status, how it was read or where reading stopped, and the feedback."""
     status = in_language(language, STATUSES[item.status])
     where = "" if item.column is None else in_language(language, " (column {column})", column=item.column)
     lines = [f"{status[0].upper()}{status[1:]}{where}."]
@@ -127,13 +127,13 @@ def remark(item: Item, language: Language = "en") -> str:
 
 
 class ReadingStop(NamedTuple):
-    """The line of an answer in which reading stopped: what stands before that place, and from it on."""
+    """The line of an answer in which reading stopped, split at that place."""
 
     before: str
     after: str
 
     def lines(self) -> list[str]:
-        """The line, and below it a caret under that place.
+        """Return the line, and below it a caret at the place.
 
         >>> ReadingStop("x + ", "zz = 1").lines()
         ['x + zz = 1', '    ^']
@@ -142,7 +142,7 @@ class ReadingStop(NamedTuple):
 
 
 def stop_of(item: Item) -> ReadingStop | None:
-    """Return where reading of an answer stopped, with the characters around, or None if it did not."""
+    """Return where reading of an answer stopped, with the characters around it, or None if it was read."""
     if item.answer is None or item.column is None:
         return None
     place = min(item.column - 1, len(item.answer))
@@ -154,7 +154,7 @@ def stop_of(item: Item) -> ReadingStop | None:
 
 
 def unmarked(text: str) -> str:
-    """Feedback as plain text: names stand in quotes, not between backquotes.
+    """Return feedback as plain text: names are in quotes instead of backquotes.
 
     >>> unmarked("`zz` is not declared")
     "'zz' is not declared"
@@ -163,18 +163,18 @@ def unmarked(text: str) -> str:
 
 
 def feedback(result: Result, language: Language = "en") -> str:
-    """Return everything that is said of a submission, as plain text."""
+    """Return all texts about a submission as plain text."""
     answers = (f"{title(item)}: {points(item, language)}. {remark(item, language)}" for item in result.items)
     return "\n\n".join([standing(result, language), *answers])
 
 
 def title(item: Item) -> str:
-    """The name of an answer, on one line."""
+    """Return the name of an answer, ``PROBLEM.QUESTION``, on one line."""
     return f"{line(item.problem)}.{line(item.question)}"
 
 
 def shortened(text: str, most: int) -> str:
-    """A text of at most ``most`` characters, which says where it is cut.
+    """Return at most ``most`` characters of a text, with dots at the end if it is cut.
 
     >>> shortened("abcdefgh", 5), shortened("abc", 5)
     ('ab...', 'abc')
@@ -183,13 +183,13 @@ def shortened(text: str, most: int) -> str:
 
 
 class FileNames:
-    """Names for files, one a submission: never two alike, on any file system, whatever the students are called."""
+    """Distinct file names for submissions, valid on any file system for any names of students."""
 
     def __init__(self) -> None:
         self._taken = Counter[str]()
 
     def of(self, student: str) -> str:
-        """A name without its ending.
+        """Return a new name without a file extension.
 
         >>> names = FileNames()
         >>> names.of("ada"), names.of("ada"), names.of("../../etc").startswith("etc-")
@@ -201,7 +201,7 @@ class FileNames:
 
 
 def stem(student: str) -> str:
-    """A file's name for a student: the student's own where that is harmless, else with a mark made from it."""
+    """Return a file name for a student: the student's name if it is a safe file name, else a part of it with a hash."""
     if _PLAIN.fullmatch(student) and not _MARKED.search(student) and not _RESERVED.match(student):
         return student
     mark = hashlib.sha256(student.encode("utf-8", "surrogatepass")).hexdigest()[:10]

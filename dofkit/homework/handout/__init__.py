@@ -1,1 +1,1 @@
-"""The sheet that students get: composed as Markdown, and set as a page, as a PDF or as LaTeX. It tells no answer."""
+"""The sheet that students get, without answers: composed as Markdown, and written as Markdown or as HTML."""

@@ -1,4 +1,4 @@
-"""The sheets of a class: the assignment that grades them, who has which variant, and everyone's handout."""
+"""The sheets of a class: the assignment with variants, the table of variants, and a handout for each student."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from dofkit.homework.variants import rows_of, sheet_of
 
 #: The files of a class with variants.
 ASSIGNMENT, TABLE = "assignment.yaml", "variants.csv"
-#: How a sheet is written, by the name of the format, and the endings of files that differ from it.
+#: {format: function that writes a sheet}, and {format: file extension} if the two differ.
 HANDOUTS: Mapping[str, Callable[[Prepared, Draw, Path, str | None], None]] = {
     "html": write_html,
     "md": write_markdown,
@@ -33,7 +33,7 @@ ENDINGS = {"page": "html"}
 
 
 def write_variants(prepared: Prepared, variants: Variants, out: Path) -> None:
-    """Write the assignment that grades the class, and the table of variants with their right answers."""
+    """Write the assignment with the variants, by which the class is graded, and the table of variants and answers."""
     out.mkdir(parents=True, exist_ok=True)
     value = standing_alone(prepared, out) | {"variants": variants.model_dump(mode="json", exclude_defaults=True)}
     written = yaml.safe_dump(value, sort_keys=False, allow_unicode=True, width=110)
@@ -45,9 +45,9 @@ def write_variants(prepared: Prepared, variants: Variants, out: Path) -> None:
 
 
 def write_sheets(prepared: Prepared, roster: Roster, form: str, draw: Draw, folder: Path) -> None:
-    """Write the sheet of everyone in a roster into a folder, called after the student.
+    """Write the sheet of each student of a roster to a folder, under the student's name.
 
-    Raises NobodysVariantError for one without a variant, and as `write_handout`.
+    Raises NobodysVariantError for a student without a variant, and the errors of `write_handout`.
     """
     names = FileNames()
     for member in roster.members:
@@ -57,7 +57,7 @@ def write_sheets(prepared: Prepared, roster: Roster, form: str, draw: Draw, fold
 
 
 def write_handout(prepared: Prepared, form: str, draw: Draw, out: Path, student: str | None = None) -> None:
-    """Write a sheet; the folder of ``out`` is made.
+    """Write a sheet to ``out``, whose folder is created.
 
     Raises ArgumentError for an unknown format, FigureError, and OSError.
     """

@@ -1,6 +1,6 @@
-"""What a sheet says, as Markdown: every problem with its picture, its names and questions, and how answers are written.
+"""The text of a sheet as Markdown: problems with pictures, names and questions, and how to write answers.
 
-It tells no answer: an equation that is asked for is not shown, and the examples are about names that no scene declares.
+It shows no answers: equations that are asked for are left out, and the examples are about another system.
 """
 
 from __future__ import annotations
@@ -35,9 +35,9 @@ _FREEDOM = {
 
 @dataclass(frozen=True)
 class SheetComposer:
-    """Writes one sheet; ``figures``: the pictures by problem; ``whose``: the student, where it is one student's.
+    """Writes one sheet. ``figures``: {problem: picture}; ``whose``: the student, or None for a sheet for all.
 
-    ``has_fields``: answers are written into the page itself, not into a file.
+    ``has_fields``: whether answers are typed into the page, not into a file.
     """
 
     prepared: Prepared
@@ -47,15 +47,15 @@ class SheetComposer:
 
     @property
     def language(self) -> Language:
-        """Return the language of the sheet."""
+        """The language of the sheet."""
         return self.prepared.assignment.language
 
     def _text(self, sentence: str, **values: object) -> str:
-        """A sentence in the sheet's language."""
+        """Return a sentence in the sheet's language."""
         return say(sentence, **values).translated(self.language)
 
     def markdown(self) -> str:
-        """The whole sheet."""
+        """Return the whole sheet."""
         assignment = self.prepared.assignment
         blocks = [f"# {marked(assignment.title)}"]
         if self.whose is not None:
@@ -95,7 +95,7 @@ class SheetComposer:
         return question.asked(about).translated(self.language)
 
     def _names(self, problem: Problem, key: Key) -> Iterator[str]:
-        """Yield the names of the problem, and its constraints."""
+        """Yield the entries on coordinates, parameters, functions, constraints and forces of a problem."""
         table = coordinate_table(key.scene)
         for owner, group in groupby(table.coordinates, key=lambda c: c.owner):
             symbols = ", ".join(f"${c.name}$" for c in group)
@@ -124,9 +124,8 @@ class SheetComposer:
 
     def _force(self, force: Force) -> str:
         if force.type == "gravity" and isinstance(force.acceleration, str):
-            return self._text(
-                "Gravity acts on all masses, with the acceleration {value}.", value=f"${force.acceleration}$"
-            )
+            sentence = "Gravity acts on all masses, with the acceleration {value}."
+            return self._text(sentence, value=f"${force.acceleration}$")
         if force.type == "gravity":
             return self._text("Gravity acts on all masses.")
         ends = [*(force.between or ()), *([] if force.point is None else [force.point])]
@@ -136,7 +135,7 @@ class SheetComposer:
         return marked(described(f"{force.type} {where}{measures}".strip(), self.language))
 
     def _notations(self) -> Iterator[str]:
-        """Yield how answers are written, for every kind of question on the sheet."""
+        """Yield the notes on how answers are written, for every kind of question on the sheet."""
         asked = [question for _, question in self.prepared.questions()]
         kinds = {question.kind(): type(question) for question in asked}
         if {"dof", "k"} & set(kinds):
@@ -153,11 +152,10 @@ class SheetComposer:
             _, how, example = cls.words()
             yield self._text(how) + (f" {lead} `{example}`" if example else "")
         yield self._text("Greek letters may be typed directly or as words such as theta and omega. LaTeX is accepted.")
-        yield self._text(
-            "Decimals are written with a point or a comma; exact numbers such as 1/3 or sqrt(2) are preferred."
-        )
+        decimals = "Decimals are written with a point or a comma; exact numbers such as 1/3 or sqrt(2) are preferred."
+        yield self._text(decimals)
 
 
 def asked_equations(problem: Problem) -> set[str]:
-    """The constraints whose equations are asked for."""
+    """Return the names of the constraints whose equations are asked for."""
     return {name for q in problem.questions if isinstance(q, EquationQuestion) for name in q.constraint}

@@ -1,4 +1,4 @@
-"""Markdown with formulas, and a page of it: formulas are MathML, pictures lie within it, and it runs nothing."""
+"""Markdown with formulas, and its HTML page: formulas are MathML, and pictures are embedded."""
 
 from __future__ import annotations
 
@@ -27,9 +27,9 @@ from dofkit.report import Report
 from dofkit.scene.scene import Scene
 
 _TEMPLATES = Path(__file__).parent / "templates"
-#: Typed text, which stays as it is, or a formula.
+#: Literal text in backquotes, which is unchanged, or a formula.
 _FORMULA = re.compile(r"```.*?```|`[^`\n]*`|\\\$|(\$\$?)([^$]+)\1", re.DOTALL)
-#: What the converter raises for what is no LaTeX, and the parser for what is no MathML.
+#: The errors of the converter for invalid LaTeX, and of the parser for invalid MathML.
 _REFUSALS: tuple[type[Exception], ...] = (
     *(kind for kind in vars(exceptions).values() if isinstance(kind, type) and issubclass(kind, Exception)),
     ValueError, LookupError, TypeError, AttributeError, RuntimeError, ElementTree.ParseError,
@@ -37,7 +37,7 @@ _REFUSALS: tuple[type[Exception], ...] = (
 
 
 class SetFormula(NamedTuple):
-    """A formula in LaTeX, and in MathML within ``<math>``; None if it cannot be set."""
+    """A formula in LaTeX, and the MathML within ``<math>``, or None if it cannot be typeset."""
 
     latex: str
     mathml: str | None
@@ -45,7 +45,7 @@ class SetFormula(NamedTuple):
 
 @lru_cache(maxsize=4096)
 def formula(text: str) -> SetFormula:
-    """Typeset a formula in the grammar of scenes, or in LaTeX if it has a backslash or is none of the grammar.
+    """Typeset a formula in the grammar of scenes, or in LaTeX if it contains a backslash or cannot be parsed.
 
     >>> formula("l^2 thetadot").latex
     'l^{2} \\\\dot{\\\\theta}'
@@ -58,7 +58,7 @@ def formula(text: str) -> SetFormula:
 
 
 def _whole(inside: str) -> str:
-    """Return MathML as it is. Raises ValueError if a part of a fraction, a root or an index is missing."""
+    """Return MathML unchanged. Raises ValueError if a part of a fraction, a root or an index is missing."""
     for part in ElementTree.fromstring(f"<math>{inside}</math>").iter():
         if part.tag in ("mfrac", "mroot", "msub", "msup") and len(part) != 2:
             raise ValueError(inside)
@@ -67,7 +67,7 @@ def _whole(inside: str) -> str:
 
 @cache
 def reader() -> MarkdownIt:
-    """Return the reader of CommonMark with tables and formulas between dollars; HTML in a text is text."""
+    """Return the parser of CommonMark, tables and $formulas$; HTML is shown literally, links as address and text."""
     markdown = MarkdownIt("commonmark", {"html": False}).enable("table")
     markdown.use(dollarmath_plugin, allow_space=True, renderer=_math)
     markdown.add_render_rule("image", _image)
@@ -100,25 +100,25 @@ def _link(_: object, tokens: Sequence[Token], place: int, *__: object) -> str:
 
 
 def _within(tokens: Sequence[Token]) -> Iterator[Token]:
-    """Yield all tokens, those inside of lines too."""
+    """Yield all tokens, also the children of tokens."""
     for token in tokens:
         yield token
         yield from _within(token.children or [])
 
 
 def unset_formulas(markdown: str) -> list[str]:
-    """Return the formulas of a text that cannot be set."""
+    """Return the formulas of a text that cannot be typeset."""
     formulas = [t.content.strip() for t in _within(reader().parse(markdown)) if t.type.startswith("math_")]
     return [text for text in formulas if formula(text).mathml is None]
 
 
 def pictures_of(markdown: str) -> list[str]:
-    """Return the pictures that a text names."""
+    """Return the paths of the pictures in a text."""
     return [str(t.attrs["src"]) for t in _within(reader().parse(markdown)) if t.type == "image"]
 
 
 def with_latex(markdown: str) -> str:
-    """Return the same text with its formulas as LaTeX, for other readers of Markdown.
+    """Return a text with its formulas as LaTeX, for other Markdown programs.
 
     >>> print(with_latex("the angle $theta$, typed `$theta$`"))
     the angle $\\theta$, typed `$theta$`
@@ -129,7 +129,7 @@ def with_latex(markdown: str) -> str:
 def page_of(
     markdown: str, title: str, language: str, figures: Mapping[str, SheetFigure], data: Mapping[str, Any] | None = None
 ) -> str:
-    """Return the page of a text; ``figures`` by their paths in it, ``data`` for the script of a page with fields."""
+    """Return the HTML page of a text. ``figures``: {path: picture}; ``data``: for the script of a page with fields."""
     page, style, script = (
         (_TEMPLATES / name).read_text(encoding="utf-8")
         for name in ("sheet.html" if data is None else "page.html", "sheet.css", "page.js")
@@ -146,45 +146,45 @@ def page_of(
     return re.sub(rf"\{{\{{({'|'.join(fields)})\}}\}}", lambda place: fields[place[1]], page)
 
 
-#: Draws a scene, under a title, as SVG; None for a scene that has no places. Its report is known.
+#: Draws a scene with its report and a title as SVG; None for a scene without positions.
 Draw = Callable[[Scene, Report, str], str | None]
-#: Endings of files -> what they are called on a page.
+#: {file extension: media type}.
 KINDS = {".svg": "image/svg+xml", ".png": "image/png", ".jpg": "image/jpeg", ".jpeg": "image/jpeg"}
-#: No picture of a problem is larger.
+#: The most bytes of a picture.
 MOST_BYTES = 10_000_000
 
 
 class FigureError(DofkitError):
-    """A figure's file that cannot be shown."""
+    """A file of a figure that cannot be shown."""
 
 
 class SheetFigure(NamedTuple):
-    """A picture: its path within the sheet's folder, and what is in it."""
+    """A picture: its path within the sheet's folder, and its content."""
 
     path: str
     data: bytes
 
     @property
     def kind(self) -> str:
-        """Return its media type."""
+        """The media type of the picture."""
         return KINDS[Path(self.path).suffix.lower()]
 
 
-def figure_of(problem: Problem, drawn: Callable[[], str | None], base: Path, name: str) -> SheetFigure | None:
-    """The picture of a problem; ``drawn`` draws its scene, ``name`` is its path in the sheet without the ending.
+def figure_of(problem: Problem, draw_scene: Callable[[], str | None], base: Path, name: str) -> SheetFigure | None:
+    """Return the picture of a problem, or None if it has none.
 
-    Raises FigureError, and OSError for what cannot be read.
+    ``draw_scene``: draws the scene; ``name``: the path in the sheet without extension. Raises FigureError and OSError.
     """
     if problem.figure == UNDRAWN:
         return None
     if problem.figure in (None, DRAWN):
-        svg = drawn()
+        svg = draw_scene()
         return None if svg is None else SheetFigure(f"{name}.svg", svg.encode())
     return file_of(str(problem.figure), base, name)
 
 
 def file_of(source: str, base: Path, name: str) -> SheetFigure:
-    """A picture's file; its path in the sheet begins with ``name``. Raises FigureError and OSError."""
+    """Return the picture of a file, whose path in the sheet begins with ``name``. Raises FigureError and OSError."""
     path = base / source
     if path.suffix.lower() not in KINDS:
         raise FigureError(f"the figure '{source}': {no_such(path.suffix or source, list(KINDS), 'ending')}")

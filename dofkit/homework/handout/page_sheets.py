@@ -1,7 +1,7 @@
-"""Pages with a field for each answer, under which stands how it is read: to hand in, or for practice, which also judge.
+"""Pages with a field for each answer and how it is read: for submitting answers, or for practice with judgements.
 
-A page that only reads has what the sheet declares: no constraint's content, and nothing of another student's sheet.
-What reads is Python in the browser, in one script beside the pages: they open from a folder, without a network.
+A page for submitting contains only the declared names and questions: no constraints, and no other student's sheet.
+Answers are read by Python in the browser, in one script beside the pages, which work from a folder without a network.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from dofkit.homework.handout.sheets import written_sheet
 from dofkit.homework.result import Status
 from dofkit.homework.sentences import in_language
 
-#: The script that runs dofkit in a page, and where `python -m dofkit.site` puts it in a clone.
+#: The script that runs dofkit in a page, and the path at which `python -m dofkit.site` builds it in a clone.
 RUNTIME = "runtime.js"
 BUILT = Path(__file__).parents[3] / "build" / "site" / "bench" / RUNTIME
 _TONES: dict[Status, str] = {
@@ -34,7 +34,7 @@ _TONES: dict[Status, str] = {
     "wrong": "bad",
     "unreadable": "bad",
 }
-#: What a page says.
+#: {key in the script: text of the page}.
 _WORDS = {
     "loading": "The page is getting ready to read your answers.",
     "unread": "How your answers are read cannot be shown: the file runtime.js is not beside this page.",
@@ -62,7 +62,7 @@ def _grader(assignment: str) -> Grader:
 
 
 def judge_answers(assignment: str, answers: Mapping[str, Mapping[str, str]]) -> list[Json]:
-    """Return the judgement of each answer, in the language of the assignment, which is given as JSON."""
+    """Return the judgement of each answer as fields for the page; ``assignment``: as JSON, with its language."""
     grader = _grader(assignment)
     language = grader.prepared.assignment.language
     return [
@@ -79,7 +79,7 @@ def judge_answers(assignment: str, answers: Mapping[str, Mapping[str, str]]) -> 
 
 
 def put_runtime(folder: Path, runtime: Path = BUILT) -> None:
-    """Put the script that reads answers beside the pages in a folder. Raises RuntimeMissingError and OSError."""
+    """Copy the script that reads answers to a folder of pages. Raises RuntimeMissingError and OSError."""
     if not runtime.is_file():
         raise RuntimeMissingError(
             f"there is no {runtime}, which shows how answers are read: run `python -m dofkit.site` in a clone with "
@@ -91,7 +91,7 @@ def put_runtime(folder: Path, runtime: Path = BUILT) -> None:
 
 
 def write_page(prepared: Prepared, draw: Draw, out: Path, whose: str | None = None, judges: bool = False) -> None:
-    """Write the page of a sheet; ``whose``: the student, where it is one student's. Raises FigureError and OSError."""
+    """Write the page of a sheet; ``whose``: the student, or None for all. Raises FigureError and OSError."""
     language = prepared.assignment.language
     sheet = written_sheet(prepared, draw, whose, has_fields=True)
     note = f"{in_language(language, _PRACTICE if judges else _TO_SUBMIT)} {in_language(language, _DRAFTS)}"

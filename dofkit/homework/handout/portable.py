@@ -1,4 +1,4 @@
-"""An assignment as one mapping that stands alone: scenes in place, and paths of pictures from another folder."""
+"""An assignment as one mapping that needs no other scene files."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from dofkit.homework.problem import DRAWN, UNDRAWN, Problem
 
 
 def standing_alone(prepared: Prepared, out: Path) -> dict[str, Any]:
-    """Return the assignment as it may be written in another folder: scenes in place, paths of pictures from there."""
+    """Return the assignment with its scenes included, and with paths of pictures relative to the folder ``out``."""
     value = prepared.assignment.model_dump(mode="json", exclude_none=True, exclude_defaults=True)
     value["problems"] = [
         problem.model_dump(mode="json", exclude_none=True)
@@ -25,7 +25,7 @@ def standing_alone(prepared: Prepared, out: Path) -> dict[str, Any]:
 
 
 def _scene(problem: Problem, prepared: Prepared) -> Any:
-    """Return the scene in place: one that varies with its places, any other as it was read."""
+    """Return the scene of a problem as a mapping; if it varies, as written, with its placeholders."""
     if isinstance(problem.scene, dict):
         return problem.scene
     if problem.vary:
@@ -36,7 +36,7 @@ def _scene(problem: Problem, prepared: Prepared) -> Any:
 
 
 def _moved(problem: Problem, base: Path, out: Path) -> dict[str, str]:
-    """Return the problem's paths, from another folder."""
+    """Return {"figure", "text"} with paths relative to ``out``, as far as the problem contains paths."""
     moved: dict[str, str] = {}
     if problem.figure not in (None, DRAWN, UNDRAWN):
         moved["figure"] = os.path.relpath(base / str(problem.figure), out)

@@ -1,4 +1,4 @@
-"""How an answer is read where only a sheet is known: by its declared names and questions, and nothing of its key."""
+"""Reads answers in a page from the declared names and questions alone, without the key."""
 
 from __future__ import annotations
 
@@ -19,16 +19,16 @@ from dofkit.homework.questions.names import Coordinates, Redundant
 from dofkit.homework.sentences import Language, say, stopped
 from dofkit.scene.scene import Scene
 
-#: What declares names; nothing else of a scene is on a page that only reads.
+#: The fields of a scene that declare names; a page for submitting contains no others.
 _DECLARING = ("dimension", "parameters", "functions", "coordinates")
-#: Questions whose answers are words, names and numbers; others are answered by formulas.
+#: Kinds of questions whose answers are words, names and numbers; others are answered by formulas.
 _IN_WORDS = (NumberQuestion, LabelQuestion, Coordinates, Redundant)
 
 Json = dict[str, Any]
 
 
 def declared_of(problem: Problem, scene: Scene) -> Json:
-    """Return what reading the answers to a problem needs: its names and questions, and nothing of its key."""
+    """Return the names and questions of a problem, which reading its answers needs, without the key."""
     value = scene.model_dump(mode="json", include=set(_DECLARING))
     for kind in ("particles", "bodies"):
         value[kind] = [part.model_dump(mode="json", include={"name", "coordinates"}) for part in getattr(scene, kind)]
@@ -56,7 +56,10 @@ def _declared(text: str) -> _Declared:
 
 
 def read_answer(declared: str, question: str, text: str, language: Language) -> Json:
-    """Return how an answer is read, or why and where it cannot be; ``declared``: `declared_of` as JSON."""
+    """Return {"read_as", "formula"}, or {"fault", "column", "hint"} for an unreadable answer.
+
+    ``declared``: the value of `declared_of` as JSON.
+    """
     names, questions = _declared(declared)
     asked = questions[question]
     try:

@@ -1,4 +1,4 @@
-"""Sheets written to files: one Markdown text, written in the format that is asked for."""
+"""Sheets written to files as HTML or as Markdown."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from dofkit.homework.questions.equations import EquationQuestion
 
 
 class WrittenSheet(NamedTuple):
-    """A sheet in its own Markdown, with its pictures by their paths."""
+    """A sheet in Markdown, with {path: picture}."""
 
     markdown: str
     title: str
@@ -34,9 +34,9 @@ class WrittenSheet(NamedTuple):
 
 
 def written_sheet(prepared: Prepared, draw: Draw, whose: str | None = None, has_fields: bool = False) -> WrittenSheet:
-    """The sheet of an assignment. Raises FigureError, and OSError for a figure that cannot be read.
+    """Return the sheet of an assignment. Raises FigureError, and OSError for a figure that cannot be read.
 
-    ``has_fields``: answers are written into a page of it.
+    ``has_fields``: whether answers are typed into the page.
     """
     of_problem: dict[str, SheetFigure] = {}
     others: dict[str, SheetFigure] = {}
@@ -61,18 +61,18 @@ def _figure(problem: Problem, prepared: Prepared, draw: Draw, whose: str | None)
 
 
 def _path(problem: Problem, whose: str | None) -> str:
-    """Return the path of a problem's picture in the sheet's folder, without its ending; each student has another."""
+    """Return the path of a problem's picture in the sheet's folder, without extension; it depends on the student."""
     return "/".join(["figures", *([] if whose is None else [stem(whose)]), stem(problem.id)])
 
 
 def write_html(prepared: Prepared, draw: Draw, out: Path, whose: str | None = None) -> None:
-    """Write a sheet as one page that runs nothing. Raises FigureError and OSError."""
+    """Write a sheet as one HTML page without scripts. Raises FigureError and OSError."""
     sheet = written_sheet(prepared, draw, whose)
     out.write_text(page_of(sheet.markdown, sheet.title, sheet.language, sheet.figures), encoding="utf-8")
 
 
 def write_markdown(prepared: Prepared, draw: Draw, out: Path, whose: str | None = None) -> None:
-    """Write a sheet as Markdown, its pictures beside it. Raises FigureError and OSError."""
+    """Write a sheet as Markdown, with its pictures beside it. Raises FigureError and OSError."""
     sheet = written_sheet(prepared, draw, whose)
     out.write_text(with_latex(sheet.markdown), encoding="utf-8")
     for path, figure in sheet.figures.items():
@@ -82,7 +82,7 @@ def write_markdown(prepared: Prepared, draw: Draw, out: Path, whose: str | None 
 
 
 def remarks(prepared: Prepared, is_preview: bool = False) -> Iterator[str]:
-    """Yield what a lecturer should know about a sheet before it is handed out; ``is_preview``: it is nobody's."""
+    """Yield remarks on a sheet for the lecturer; ``is_preview``: whether it is for no particular student."""
     if prepared.combinations and is_preview:
         yield "it varies: this is a preview with the first value of each name"
     for problem in prepared.assignment.problems:

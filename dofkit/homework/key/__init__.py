@@ -1,1 +1,1 @@
-"""What is known of a problem: the facts of its scene, and the numbers that known misconceptions give."""
+"""The key of a problem: facts about its scene, and the numbers that known misconceptions give."""

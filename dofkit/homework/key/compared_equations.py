@@ -1,4 +1,4 @@
-"""An answer's equations beside the constraints of the scene: the same, one branch, too weak, another, ..."""
+"""Compares the equations of an answer with constraints of the scene: the same, one branch, weaker, different, ..."""
 
 from __future__ import annotations
 
@@ -27,22 +27,22 @@ from dofkit.scene.scene import Scene
 from dofkit.system import Relation, System
 
 _UNDECIDED = "it could not be decided in the time available whether this is the same constraint."
-#: What an answer that is not quite the constraint is worth.
+#: Results of the comparison that are worth half of the points; and those worth all.
 _HALVES = frozenset({Sameness.IRREGULAR, Sameness.BRANCH, Sameness.DIFFERENTIATED, Sameness.WITHOUT_CONSTANT})
 _RIGHT = frozenset({Sameness.SAME, Sameness.INTEGRATED})
-#: What the equations of an answer are called in the scene that holds them.
+#: The name of an answer's equations in a scene to which they are added.
 ANSWER = "the answer"
 _ALLOWS = "Your equation allows {point}, which the constraint forbids."
 _FORBIDS = "Your equation forbids {point}, which the constraint allows."
 _TURNING = frozenset({"sin", "cos", "tan"})
-#: A length that nobody named, as a scene's own equations call its square.
+#: The generated name of the square of a length without a name, in equations of a scene.
 _UNNAMED = re.compile(r"\b_[A-Z]\d+\b")
 
 
 def with_answer(key: Key, read: Read) -> tuple[System, range]:
-    """Return the mathematics of the scene with an answer, and the numbers of the answer's constraints in it.
+    """Return (system of the scene with an answer, numbers of the answer's constraints in it).
 
-    Raises TextError if the scene cannot contain it.
+    Raises TextError if the equations are invalid in the scene.
     """
     try:
         system = lower(with_equations(key.scene, read, ANSWER)).in_coordinates
@@ -54,13 +54,13 @@ def with_answer(key: Key, read: Read) -> tuple[System, range]:
 
 @dataclass(frozen=True)
 class EquationComparison:
-    """The constraints of these ``names`` in a scene, and what an answer is worth beside them."""
+    """Compares answers with the constraints ``names`` of a scene."""
 
     key: Key
     names: tuple[str, ...]
 
     def judgement(self, reading: AnswerReading) -> Judgement:
-        """Return what one reading of an answer is worth; names that nothing explains leave it open."""
+        """Return the judgement of one reading of an answer; with unexplained names it needs a review."""
         verdict = self._compared_reading(reading)
         if verdict.status == "wrong" and any(map(_is_rounded, reading.relations)):
             return needs_review(reading.text, "it contains rounded numbers.")
@@ -74,7 +74,7 @@ class EquationComparison:
         return verdict
 
     def _contradictory(self, reading: AnswerReading) -> Judgement | None:
-        """Of equations that exclude each other some are right: a person has to look. None where none is."""
+        """Return that contradictory equations need a review, if one of them is worth points, else None."""
         readings = []
         for relation, bare in zip(reading.relations, reading.bare, strict=True):
             single = reading._replace(relations=(relation,), bare=(bare,))
@@ -86,6 +86,7 @@ class EquationComparison:
         return replace(needs_review(reading.text, "the answer contradicts itself."), readings=tuple(readings))
 
     def _compared_reading(self, reading: AnswerReading) -> Judgement:
+        """Return the judgement after undeclared names are read as constants, eliminated or matched to declared ones."""
         if not reading.undeclared:
             return self._declared(reading)
         if not reading.on_coordinates:
@@ -106,7 +107,7 @@ class EquationComparison:
         return self._undecided(reading)
 
     def _undecided(self, reading: AnswerReading) -> Judgement:
-        """Return that an equation needs a review: in coordinates that the assignment offers, or in unknown names."""
+        """Return that an equation needs a review, because of an undeclared name or an undecided comparison."""
         strange = [name for name in reading.undeclared if name not in self.key.also]
         return needs_review(reading.text, undeclared(strange[0]) if strange else _UNDECIDED)
 
@@ -124,7 +125,7 @@ class EquationComparison:
         return self._with_counterexample(verdict, reading)
 
     def _with_counterexample(self, verdict: Judgement, reading: AnswerReading) -> Judgement:
-        """Return a judgement with a state, if one is found, that tells the answer from the constraints."""
+        """Return a judgement with a state, if one is found, that only the answer or only the constraints allow."""
         relations = [c.relation for c in reading.relations] + [r.sense for r in self._asked]
         if verdict.codes == (Sameness.EMPTY.value,) or any(relation != "=" for relation in relations):
             return verdict
@@ -137,12 +138,12 @@ class EquationComparison:
 
     @property
     def _asked(self) -> list[Relation]:
-        """The relations of the constraints that are asked for."""
+        """The relations of the constraints ``names``."""
         system = self.key.system
         return [r for i in system.numbers_of(*self.names) for r in system.constraints[i].relations]
 
     def _region(self, reading: AnswerReading) -> Judgement | None:
-        """Return what inequalities are worth, compared as regions, or None if there are equations."""
+        """Return the judgement of inequalities, compared as regions, or None if there are equations."""
         answer = conditions(reading.relations)
         if answer is None or any(r.sense == "=" for r in self._asked):
             return None
@@ -176,19 +177,19 @@ class EquationComparison:
 
     @cached_property
     def _others(self) -> Scene:
-        """Return the scene without the constraints that are asked for."""
+        """The scene without the constraints ``names``."""
         pairs = zip(self.key.scene.constraints, self.key.constraints, strict=True)
         kept = tuple(c for c, name in pairs if name not in self.names)
         return self.key.scene.model_copy(update={"constraints": kept, "expect": {}, "energies": None})
 
     def _is_product(self, text: str) -> bool:
-        """Return whether an equation sets a product of several factors to 0: it holds on more than one surface."""
+        """Return whether an equation sets a product to 0, so that it is satisfied on more than one surface."""
         (c,) = parse_relations(text, self.key.declared.names)
         e = c.left - c.right if not c.right.is_zero else c.left
         return e.op == "mul" and sum(any(s.args[0] != "parameter" for s in f.symbols) for f in e.args) > 1
 
     def _by_rank(self, read: Read, text: str, code: str) -> Judgement:
-        """Return what implied equations are worth, by the number of velocities that they leave free."""
+        """Return the judgement of implied equations, by the number of independent velocities that they leave."""
         scene = self._others
         free = classify(scene).velocity_dof
         yours, system = classify(with_equations(scene, read, ANSWER)).velocity_dof, self.key.report.velocity_dof
@@ -205,22 +206,19 @@ class EquationComparison:
         return compare(system, system.numbers_of(*self.names), answer, read.constants)
 
     def _in_part(self, comparison: Compared, read: Read, text: str, code: str) -> Judgement:
-        """Return points in proportion to the constraints that are implied, or to the rank of what is."""
-        share = (
-            Fraction(sum(comparison.met), len(comparison.met)) if len(self.names) > 1 and comparison.met else NOTHING
-        )
+        """Return the judgement in proportion to the constraints that the answer implies, or to its rank."""
+        met = comparison.met
+        share = Fraction(sum(met), len(met)) if len(self.names) > 1 and met else NOTHING
         if comparison.sameness is Sameness.WEAKER and share == NOTHING and len(self.names) > 1:
             return self._by_rank(read, text, code)
         if not 0 < share < 1:
             return wrong(text, code)
-        missing = [n for n, met in zip(self.names, comparison.met, strict=True) if not met]
-        met = len(self.names) - len(missing)
-        count = say("It implies {number} of the {all} constraints.", number=met, all=len(self.names))
+        count = say("It implies {number} of the {all} constraints.", number=sum(met), all=len(self.names))
         return partly(share, text, code).saying(count)
 
 
 def _is_rounded(c: Comparison) -> bool:
-    """Return whether a relation has decimals, or the sine, cosine or tangent of an angle in degrees with decimals."""
+    """Return whether a relation contains decimals, or the sine, cosine or tangent of decimal degrees."""
     terms = [n for e in (c.left, c.right) for n in ex.nodes(e)]
     angles = [ex.num(180) * n.args[1] / ex.PI for n in terms if n.op == "fn" and n.args[0] in _TURNING]
     decimals = [n for n in terms if n.op == "num" and n.args[0].denominator > 10 and 10**6 % n.args[0].denominator == 0]
@@ -228,14 +226,15 @@ def _is_rounded(c: Comparison) -> bool:
 
 
 def undeclared(name: str) -> Said:
-    """Return that an answer brings a name that stands for nothing."""
+    """Return the sentence that a name is not declared."""
     return say("the name {name} is not declared.", name=name)
 
 
 def equations_of(key: Key, names: tuple[str, ...]) -> str:
-    """The equations of these constraints, with semicolons between them; of one as it is written where it is a text.
+    """Return the equations of these constraints, separated by semicolons; a written equation is unchanged.
 
-    Where they hold names that an answer cannot have, such as the turns of a body in space, their words stand instead.
+    If equations contain names that an answer cannot use, such as rotations of a spatial body, the constraint is
+    described in words.
     """
     return "; ".join(_equations(key, name) for name in names)
 
@@ -250,8 +249,7 @@ def _equations(key: Key, name: str) -> str:
 
 
 def _sayable(key: Key, expr: Expr) -> bool:
-    """Return whether all names in it are declared, except lengths without a name."""
+    """Return whether all names in an expression are declared, except squares of unnamed lengths."""
     declared = {*key.declared.names.coordinates, *key.declared.names.parameters}
-    return all(
-        s.args[0] == "time" or str(s.args[-1]) in declared or _UNNAMED.fullmatch(str(s.args[-1])) for s in expr.symbols
-    )
+    names = {str(s.args[-1]) for s in expr.symbols if s.args[0] != "time"}
+    return all(name in declared or _UNNAMED.fullmatch(name) for name in names)

@@ -1,7 +1,7 @@
-"""An answer beside the integral of a differential constraint, its constant anywhere or left out.
+"""Compares an answer with the integral of a differential constraint; the constant may be anywhere or left out.
 
-`y = C x` is an integral of y dx - x dy = 0 because on every curve of this family the form vanishes, and because the
-family has a curve through every point. So the constant is a coordinate of its own that does not change.
+`y = C x` is an integral of y dx - x dy = 0 because the form vanishes on every curve of this family, and because the
+family has a curve through every point. The constant is therefore treated as a further coordinate with dC = 0.
 """
 
 from __future__ import annotations
@@ -21,13 +21,13 @@ from dofkit.scene.constraints.base import Equation
 from dofkit.scene.lowering import lower
 from dofkit.scene.scene import Scene
 
-#: What the constant of a bare expression is called, as in `x y` for x y = C.
+#: Names of the constant of an expression without `=`: `x y` is read as x y = C.
 _FRESH = ("C", "c", "K", "C_1", "const")
 _LEFT_OUT = "The constant of integration is missing: `... = C`."
 
 
 def integral_judgement(reading: AnswerReading, key: Key, name: str) -> Judgement:
-    """Return what one reading of an answer is worth as the integral of the constraint of this name."""
+    """Return the judgement of one reading of an answer as the integral of the constraint ``name``."""
     reading = reading.claim if reading.derived else reading
     if len(reading.relations) > 1 and reading.undeclared:
         return _in_parameters(reading, key, name)
@@ -35,7 +35,7 @@ def integral_judgement(reading: AnswerReading, key: Key, name: str) -> Judgement
 
 
 def _in_parameters(reading: AnswerReading, key: Key, name: str) -> Judgement:
-    """`x = r cos(a), y = r sin(a)`: one of its names is the parameter of a curve, the others are constants."""
+    """Return the judgement of equations of which an undeclared name is the parameter: `x = r cos(a), y = r sin(a)`."""
     for parameter_name in reading.undeclared:
         gone = without_own(reading._replace(undeclared=(parameter_name,)), key.scene)
         if gone is None:
@@ -48,7 +48,7 @@ def _in_parameters(reading: AnswerReading, key: Key, name: str) -> Judgement:
 
 
 def _judgement(reading: AnswerReading, key: Key, name: str) -> Judgement:
-    """The same of one reading, all names of its own constants."""
+    """Return the judgement of a reading whose undeclared names are all constants."""
     read = _with_constants(reading, key)
     if read.moving:
         return wrong(read.text, "NOT_INTEGRATED")
@@ -65,7 +65,7 @@ def _judgement(reading: AnswerReading, key: Key, name: str) -> Judgement:
 
 
 def _with_constants(reading: AnswerReading, key: Key) -> Read:
-    """Return the answer with each bare expression set equal to a new constant: `x y` is x y = C."""
+    """Return the answer with each expression without `=` set equal to a new constant: `x y` is x y = C."""
     constants = set[str]()
     relations = []
     for c, bare in zip(reading.relations, reading.bare, strict=True):
@@ -78,13 +78,13 @@ def _with_constants(reading: AnswerReading, key: Key) -> Read:
 
 
 def _leaves(key: Key, read: Read, name: str) -> Leaves:
-    """Return whether the answer is a family of curves or surfaces on which the constraint is satisfied."""
+    """Return on which curves or surfaces of the answer's family the constraint is satisfied."""
     system, before = lower(_with_still(key.scene, read)), len(key.scene.constraints)
     return leaves(system, system.numbers_of(name), range(before, before + len(read.texts)), read.constants)
 
 
 def _with_still(scene: Scene, read: Read) -> Scene:
-    """The scene with the answer, its constants as coordinates that do not change."""
+    """Return the scene with the answer added, its constants as coordinates C with dC = 0."""
     plain = Read(read.texts, frozenset(), read.text, read.moving)
     posed = with_equations(scene, plain, ANSWER)
     still = tuple(Equation(name=f"{ANSWER} keeps {c}", text=f"d{c} = 0") for c in sorted(read.constants))

@@ -1,8 +1,8 @@
-"""An answer's Lagrangian or equations of motion, compared with those that are right.
+"""Compares the Lagrangian or the equations of motion of an answer with the right ones.
 
-Lagrangians are the same where the difference satisfies Euler's equation identically (then it is a total derivative by
-time). Equations of motion are the same where they allow the same accelerations: an answer's equation follows where the
-accelerations of the scene's own equations satisfy it, and the system is complete where it fixes all of them.
+Lagrangians are equivalent if their difference satisfies Euler's equation identically (it is then a total time
+derivative). Equations of motion are equivalent if they allow the same accelerations: an answer's equation follows if
+the accelerations of the scene's equations satisfy it, and the system is complete if it determines all of them.
 """
 
 from __future__ import annotations
@@ -27,14 +27,15 @@ from dofkit.motion.lagrange.elimination import by_time
 
 
 def euler(e: Expr, name: str) -> Expr:
-    """d/dt de/dqdot - de/dq."""
+    """Return d/dt de/dqdot - de/dq for the coordinate q = ``name``."""
     return by_time(diff(e, ex.velocity(name))) - diff(e, ex.coordinate(name))
 
 
 def same_lagrangian(answer: Expr, right: Expr, motion: RightMotion) -> bool | None:
-    """Is the difference a total derivative by time? Euler's equation of it is then 0 identically, and only then.
+    """Return whether two Lagrangians are equivalent, or None if undecided.
 
-    With geometric equations it is enough that it gives no other force than the relations do, where they hold.
+    Their difference is a total time derivative if and only if it satisfies Euler's equation identically. With geometric
+    equations, it is enough that its forces are combinations of the constraint forces where the equations are satisfied.
     """
     gap = answer - right
     if any(s.args[0] == "acceleration" for s in gap.symbols):
@@ -47,7 +48,7 @@ def same_lagrangian(answer: Expr, right: Expr, motion: RightMotion) -> bool | No
 
 
 def _spanned(forces: Sequence[Expr], motion: RightMotion) -> bool | None:
-    """Return whether forces are sums of those of the constraints, at every state and acceleration that these allow."""
+    """Return whether forces are combinations of constraint forces at all admissible states, or None if undecided."""
     columns = [ex.sym("acceleration", n) for n in motion.names]
     lines = [linear(motion.on_constraints(e), columns) for e in forces]
     held = [linear(motion.on_constraints(e), columns) for e in motion.rows]
@@ -70,17 +71,17 @@ def _spanned(forces: Sequence[Expr], motion: RightMotion) -> bool | None:
 
 
 def _accelerations(rows: Sequence[Sequence[int]], p: int) -> list[int] | None:
-    """Some accelerations that satisfy rows whose last entry is the constant term, random where they are free."""
+    """Return accelerations that satisfy rows (coefficients, constant term) modulo p, or None if there are none."""
     n = len(rows[0]) - 1
-    chosen = [pow(3, 7 + i, p) for i in range(n)]
+    solution = [pow(3, 7 + i, p) for i in range(n)]
     reduced, rank = residue_matrix([list(row) for row in rows], p).rref()
     for i in range(int(rank)):
         row = [int(reduced[i, j]) for j in range(n + 1)]
         pivot = next(j for j, v in enumerate(row) if v)
         if pivot == n:
             return None
-        chosen[pivot] = (-row[n] - sum(v * chosen[j] for j, v in enumerate(row[:n]) if j != pivot)) % p
-    return chosen
+        solution[pivot] = (-row[n] - sum(v * solution[j] for j, v in enumerate(row[:n]) if j != pivot)) % p
+    return solution
 
 
 class MotionSameness(Enum):
@@ -92,9 +93,7 @@ class MotionSameness(Enum):
 
 
 class Followed(NamedTuple):
-    """How each equation of an answer compares, how many accelerations those that follow fix, and whether some follow
-    while no accelerations satisfy all of them.
-    """
+    """How each equation compares, the rank of those that follow, and whether equations contradict each other."""
 
     sameness: list[MotionSameness]
     rank: int
@@ -103,7 +102,7 @@ class Followed(NamedTuple):
 
 @dataclass(frozen=True)
 class AnsweredMotion:
-    """Equations of an answer (each is 0) and those that are right; ``multipliers``: the answer's names for them."""
+    """Expressions of an answer (each is 0) and the right motion; ``multipliers``: the answer's names of multipliers."""
 
     motion: RightMotion
     equations: tuple[Expr, ...]
@@ -111,12 +110,12 @@ class AnsweredMotion:
 
     @cached_property
     def columns(self) -> list[Expr]:
-        """The accelerations of the coordinates kept."""
+        """The accelerations of the remaining coordinates."""
         return [ex.sym("acceleration", n) for n in self.motion.names]
 
     @cached_property
     def rows(self) -> list[list[Expr]] | None:
-        """Coefficients of accelerations and own multipliers, and the rest; None where the equations are not linear."""
+        """The answer's equations: coefficients of accelerations and multipliers, constant term; None if nonlinear."""
         linear_rows = []
         unknown = [*self.columns, *self.multipliers]
         for e in self.equations:
@@ -129,16 +128,16 @@ class AnsweredMotion:
 
     @cached_property
     def right(self) -> list[list[Expr]]:
-        """The same of the scene's equations with their multipliers, and the constraints' accelerations."""
+        """The scene's equations and differentiated constraints as such rows, with the scene's multipliers."""
         unknown = [*self.columns, *self.motion.multipliers]
         expressions = [*self.motion.equations.values(), *self.motion.rows]
         return [row for e in expressions if (row := linear(self.motion.on_constraints(e), unknown)) is not None]
 
     def follow(self) -> Followed | None:
-        """Return how each equation compares with those that are right, or None if undecided.
+        """Return how each equation compares with the right ones, or None if undecided.
 
-        Multipliers of the answer's own may have any value: an equation follows where there is one at which the
-        scene's accelerations satisfy all that hold it.
+        The answer's multipliers may have any values: equations follow if there are values with which the scene's
+        accelerations satisfy all equations that contain them.
         """
         rows = self.rows
         if rows is None or len(self.right) != len(self.motion.names) + len(self.motion.multipliers):
@@ -166,7 +165,7 @@ def _verdict(sound: bool, still: bool) -> MotionSameness:
 
 
 class PointFindings(NamedTuple):
-    """At one point over GF(p): which rows follow, the rank of all, and the rows."""
+    """Results at one point over GF(p): for each row whether it follows, the rank of all rows, and the rows."""
 
     sound: list[bool]
     rank: int
@@ -174,7 +173,7 @@ class PointFindings(NamedTuple):
     p: int
 
     def sound_rank(self, sound: Sequence[bool], n: int) -> int:
-        """The rank of the accelerations in the rows that follow everywhere, if they hold no multipliers."""
+        """Return the rank for the n accelerations of the rows in ``sound`` that contain no multipliers."""
         return rank_of([row[:n] for row, s in zip(self.rows, sound, strict=True) if s and not any(row[n:-1])], self.p)
 
     def contradictory(self, n: int) -> bool:
@@ -186,7 +185,7 @@ class PointFindings(NamedTuple):
 def _at_points(
     ring: Ring, right: Sequence[Sequence[int]], nodes: Sequence[Sequence[int]], n: int, motion: RightMotion
 ) -> Iterator[PointFindings]:
-    """At random points: which rows hold with the right accelerations, and the rank of all."""
+    """Yield at random points which rows the right accelerations satisfy, and the rank of all rows."""
     constraints = len(motion.rows)
     for p, at in points(ring, motion.relations):
         rows = [[int(at[i]) for i in row] for row in right]
@@ -210,7 +209,7 @@ def _dot(a: Sequence[int], b: Sequence[int]) -> int:
 
 @raising_no_value
 def _solve(rows: list[list[int]], p: int) -> list[int]:
-    """The solution of rows whose last entry is the constant term."""
+    """Return the solution of rows (coefficients, constant term) modulo p."""
     if not rows:
         return []
     matrix = residue_matrix([row[:-1] for row in rows], p)
@@ -220,7 +219,7 @@ def _solve(rows: list[list[int]], p: int) -> list[int]:
 
 
 def _consistent(rows: list[list[int]], p: int) -> list[bool]:
-    """For each row (own multipliers, constant): can it hold together with the rows before it that can?"""
+    """Return for each row (multipliers, constant) whether it is consistent with the consistent rows before it."""
     kept: list[list[int]] = []
     verdicts = []
     for row in rows:
@@ -233,13 +232,13 @@ def _consistent(rows: list[list[int]], p: int) -> list[bool]:
 
 
 def in_time(e: Expr) -> Expr:
-    """Differentials read as velocities."""
+    """Return an expression with differentials replaced by velocities, and dt by 1."""
     rates = {s: ex.velocity(str(s.args[1])) for s in e.symbols if s.args[0] == "differential"}
     return substitute(e, {**rates, **{s: ONE for s in e.symbols if s.args[0] == "dt"}})
 
 
 def linear(e: Expr, unknown: Sequence[Expr]) -> list[Expr] | None:
-    """The coefficients of unknowns and what is left without them; None where ``e`` is not linear as written."""
+    """Return [coefficients of the unknowns, remainder], or None if ``e`` is not linear in them as written."""
     row = [diff(e, s) for s in unknown]
     moving = {*unknown}
     if any(c.symbols & moving or any(s.args[0] == "acceleration" for s in c.symbols) for c in row):

@@ -1,4 +1,4 @@
-"""A state of motion that tells an answer from what was asked for, in words, found by a search at numbers."""
+"""Finds a state that only an answer or only the right constraints allow, by a numerical search."""
 
 from __future__ import annotations
 
@@ -17,19 +17,19 @@ from dofkit.relations.velocity_reductions import rate
 from dofkit.scene.lowering import lower
 from dofkit.scene.scene import Scene
 
-#: Searches for a state.
+#: The number of searches for a state.
 SEARCHES = 16
-#: Kinds of symbols that have a value in a state.
+#: The kinds of symbols that may occur in the expressions.
 _SHOWN = ("coordinate", "velocity", "time")
 
 
 def counterexample(
     scene: Scene, satisfied: Sequence[Expr], violated: Sequence[Expr], positive: Sequence[Expr] = ()
 ) -> str:
-    """Return a state, in words, at which some expressions are 0 and one of others certainly is not; or nothing.
+    """Return a state as text at which ``satisfied`` are 0, ``positive`` > 0 and one of ``violated`` is certainly not 0.
 
-    Those that are ``positive`` are so there. ``scene`` has the other constraints, which are satisfied there too.
-    Parameters have whole numbers.
+    The text is empty if none is found. ``scene``: the other constraints, which the state satisfies too. Parameters are
+    whole numbers.
     """
     free = [name for name, value in scene.parameters.items() if value in ("real", "positive", "nonzero")]
     numbers = {name: n for n, name in enumerate(free, 2)}
@@ -56,8 +56,8 @@ def counterexample(
             at = values(ring, state.point)
         except NoValueError:
             continue
-        apart = not failing or any(not at[n].contains(0) for n in failing)
-        if apart and all(at[n] > 0 for n in inside):
+        differs = not failing or any(not at[n].contains(0) for n in failing)
+        if differs and all(at[n] > 0 for n in inside):
             values_of_names = {to_text(s): float(state.point.symbols[s]) for s in sorted(symbols & named, key=repr)}
             return ", ".join(
                 [*(f"{n} = {v:.3g}" for n, v in values_of_names.items()), *(f"{n} = {v}" for n, v in numbers.items())]

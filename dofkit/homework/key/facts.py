@@ -1,4 +1,4 @@
-"""What the known errors are made of: how many links, curves, walls, drives and the like a scene has."""
+"""Counts of a scene (links, curves, walls, drives, ...) from which the numbers of known errors are computed."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from dofkit.system import Constraint, System
 
 _STRINGS = ("string", "rope", "cable", "cord")
 _BODY_FREEDOM = {1: 1, 2: 3, 3: 6}
-#: Coordinates of a point in space.
+#: The number of coordinates of a point in space.
 SPACE = 3
 
 
@@ -75,7 +75,7 @@ class SceneCounts:
 def _surfaces(
     pairs: Sequence[tuple[ConstraintEntry, Constraint]], system: System, particles: Sequence[str], d: int
 ) -> tuple[int, int, int]:
-    """Return the surplus surfaces, the particles on curves, and the guides."""
+    """Return the numbers of surplus surfaces, of particles on curves, and of guides."""
     alone, shared = Counter[str | None](), Counter[str | None]()
     surplus, guides = 0, sum(constraint.facts.slides for _, constraint in pairs)
     for entry, constraint in pairs:

@@ -1,4 +1,4 @@
-"""The answers of a scene, each worked out when it is first asked for."""
+"""The key of a problem: facts about its scene, each computed when it is first needed."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ from dofkit.scene.names import coordinate_table
 from dofkit.scene.scene import Scene
 from dofkit.system import System
 
-#: A question about a set of names of a scene, whose report is known.
+#: A question about a set of names of a scene with its report; None: undecided.
 Chosen = Callable[[Scene, Sequence[str], Report], bool | None]
-#: Answers about a scene that are kept.
+#: The most results about a scene that are kept.
 MOST_KEPT = 4096
 Answer = TypeVar("Answer")
 Convention = Literal["configuration", "velocity"]
@@ -28,10 +28,10 @@ Convention = Literal["configuration", "velocity"]
 
 @dataclass(frozen=True)
 class Key:
-    """What is right for one problem. ``convention``: what "degrees of freedom" means.
+    """The right answers to one problem. ``convention``: what "degrees of freedom" means.
 
-    ``also``: further coordinates that an answer may use, and what they are.
-    ``base``: the key without the coordinates of an answer's own.
+    ``also``: {further coordinate that an answer may use: its definition}.
+    ``base``: the key without the coordinates that an answer introduces.
     """
 
     scene: Scene
@@ -41,12 +41,12 @@ class Key:
 
     @cached_property
     def report(self) -> Report:
-        """Return the strict report of the scene, which coordinates of an answer with their equations do not change."""
+        """The strict report of the scene, without coordinates that an answer introduces."""
         return strict_report(self.scene) if self.base is None else self.base.report
 
     @cached_property
     def system(self) -> System:
-        """Return the mathematics of the scene."""
+        """The system of the scene."""
         return lower(self.scene)
 
     @cached_property
@@ -54,7 +54,7 @@ class Key:
         return {}
 
     def once(self, question: Hashable, answer: Callable[[], Answer]) -> Answer:
-        """Return an answer about the scene, worked out once for all who write the same in other ways."""
+        """Return ``answer()``, computed only once for each ``question``."""
         if question not in self._answers:
             value = answer()
             if len(self._answers) == MOST_KEPT:
@@ -63,13 +63,13 @@ class Key:
         return cast(Answer, self._answers[question])
 
     def decided(self, what: Chosen, names: Iterable[str]) -> bool | None:
-        """Return ``what(scene, names, report)``, in whatever order the names come."""
+        """Return ``what(scene, names, report)``, computed once for each set of names."""
         chosen = frozenset(names)
         return self.once((what, chosen), lambda: what(self.scene, sorted(chosen), self.report))
 
     @cached_property
     def declared(self) -> DeclaredNames:
-        """Return what an answer's texts may mention."""
+        """The names that answers may contain."""
         return DeclaredNames.of(self.scene, self.also)
 
     @cached_property
@@ -78,11 +78,11 @@ class Key:
         return [c.name for c in coordinate_table(self.scene).coordinates]
 
     def with_own(self, names: tuple[str, ...], texts: tuple[str, ...]) -> Key:
-        """Return the key of the scene with further coordinates, and equations that say what they are."""
+        """Return the key of the scene with further coordinates ``names``, and equations ``texts`` that define them."""
         return self.once((names, texts), lambda: self._with_own(names, texts))
 
     def _with_own(self, names: tuple[str, ...], texts: tuple[str, ...]) -> Key:
-        """Return the key of the same scene with coordinates and equations that a student introduced."""
+        """Return a new key for `with_own`."""
         more = tuple(Equation(name=f"own {i + 1}", text=text) for i, text in enumerate(texts))
         update = {
             "coordinates": (*self.scene.coordinates, *names),
@@ -93,12 +93,12 @@ class Key:
 
     @cached_property
     def motion(self) -> RightMotion | DofkitError:
-        """Return the equations of motion, or why they are unknown."""
+        """The equations of motion, or the error for which they are unknown."""
         return right_motion_or_why(self.scene)
 
     @cached_property
     def whole_motion(self) -> RightMotion | DofkitError:
-        """The same with nothing eliminated: every constraint keeps its multiplier."""
+        """The equations of motion without elimination: every constraint keeps its multiplier; or the error."""
         return right_motion_or_why(self.scene, whole=True)
 
     @cached_property

@@ -1,7 +1,7 @@
-"""What number would a known error give for this scene? An answer that is one of them is explained by it.
+"""The numbers that known errors give for a scene: a wrong answer that equals one of them is explained by it.
 
-A new error is a row of `ERRORS`: its code, the degrees of freedom that it predicts, and where; the catalogue of
-sentences has what is said of it.
+A new error is a row of `ERRORS`: its code, the degrees of freedom that it predicts, and its condition on the scene; the
+catalogue of sentences contains its explanation.
 """
 
 from __future__ import annotations
@@ -19,9 +19,9 @@ Count: TypeAlias = Callable[[SceneCounts], int | Fraction]
 
 
 class Misconception(NamedTuple):
-    """An error: its stable ``code``, and the number f that it predicts ``where`` something is so of the scene.
+    """An error: its stable ``code``, the number f that it predicts, and the condition on the scene (``where``).
 
-    ``anyway``: it gives this number whichever freedom is asked for; ``alone``: reported where no other error gives it.
+    ``anyway``: the number is the same for all kinds of freedom; ``alone``: reported only if no other error gives it.
     """
 
     code: str
@@ -32,17 +32,17 @@ class Misconception(NamedTuple):
 
 
 def _more(code: str, count: Count, alone: bool = False) -> Misconception:
-    """As many degrees of freedom too many, where that is not 0."""
+    """Return the error that gives ``count`` degrees of freedom too many, if the count is not 0."""
     return Misconception(code, lambda f: f.dof + count(f), count, alone=alone)
 
 
 def _less(code: str, count: Count, anyway: bool = False, alone: bool = False) -> Misconception:
-    """As many too few."""
+    """Return the error that gives ``count`` degrees of freedom too few, if the count is not 0."""
     return Misconception(code, lambda f: f.dof - count(f), count, anyway, alone)
 
 
 def _naive(code: str, where: Callable[[SceneCounts], object], alone: bool = False) -> Misconception:
-    """The number of coordinates less all equations between coordinates that are written."""
+    """Return the error of subtracting all written equations between coordinates from the number of coordinates."""
     return Misconception(code, lambda f: f.naive, where, alone=alone)
 
 
@@ -54,7 +54,7 @@ def _may_conserve(f: SceneCounts) -> bool:
     return f.dof > 1 and bool(f.energies or f.forces or not f.entries)
 
 
-#: In the order in which they are likely where several give the same number.
+#: All errors; if several give the same number, the first is the most likely.
 ERRORS: tuple[Misconception, ...] = (
     _naive("ALL_LINKS", lambda f: f.links > f.n - f.dof and f.naive < f.dof),
     _naive("ROD_3", lambda f: f.links and f.naive > f.dof),
@@ -92,7 +92,7 @@ ERRORS: tuple[Misconception, ...] = (
 
 
 def explain(number: Fraction, ask: str, key: Key) -> tuple[str, ...]:
-    """Return the codes of the errors that give this number, the most likely first."""
+    """Return the codes of the errors that give ``number`` for the question ``ask``, the most likely first."""
     report = key.report
     if report.dof is None:
         return ()
@@ -111,7 +111,7 @@ def explain(number: Fraction, ask: str, key: Key) -> tuple[str, ...]:
 
 
 def explain_label(part: str, entry: ConstraintEntry) -> tuple[str, str | Said]:
-    """Return the code where the label of a part is wrong, and what to say if it is not what the code means."""
+    """Return (code of a wrong label, feedback in place of the code's meaning or "")."""
     if part == "scleronomic":
         if not entry.scleronomic and entry.integral is not None:
             sentence = "It integrates to {integral}, which contains time explicitly: it is rheonomic."

@@ -1,4 +1,4 @@
-"""Coordinates that a problem's scene does not have: those that an assignment offers, or an answer defines."""
+"""Coordinates that the scene does not contain: those that an assignment offers, or an answer defines."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _BEGINS = (re.compile(rf"[,;:(]?\s*\b{_WITH}"), re.compile(r"[,;:(]"))
 
 
 class ChosenCoordinates(NamedTuple):
-    """The coordinates that an answer names, and those of its own that it defines by relations."""
+    """The coordinates that an answer names, and the undeclared ones that it defines by relations."""
 
     names: tuple[str, ...]
     undeclared: tuple[str, ...] = ()
@@ -34,7 +34,7 @@ class ChosenCoordinates(NamedTuple):
 
 
 def chosen_coordinates(answer: Given, names: DeclaredNames) -> ChosenCoordinates:
-    """Return the coordinates that an answer names, defined by it or not. Raises TextError for others."""
+    """Return the coordinates that an answer names, or names and defines. Raises TextError for undefined names."""
     every = [*names.coordinates, *names.also]
     if is_none(answer, lambda part: lists_only(part, every), every):
         return ChosenCoordinates(())
@@ -61,7 +61,7 @@ def _defined(answer: str, names: DeclaredNames) -> ChosenCoordinates | None:
 
 
 def with_chosen(key: Key, chosen: ChosenCoordinates) -> Key:
-    """Return the key with the coordinates that an answer defines, or that the assignment offers and it names."""
+    """Return the key with the coordinates that an answer defines, or names and the assignment offers."""
     if chosen.undeclared:
         return extended(key, chosen.undeclared, chosen.relations)
     offers = [name for name in chosen.names if name in key.also]
@@ -69,7 +69,7 @@ def with_chosen(key: Key, chosen: ChosenCoordinates) -> Key:
 
 
 def extended(key: Key, names: Sequence[str], relations: Sequence[Comparison]) -> Key:
-    """The key with coordinates that an answer defines. Raises DoubtError where they may leave configurations out."""
+    """Return the key with coordinates that an answer defines. Raises DoubtError if they may miss configurations."""
     consequences = restrictions(relations, names, key.scene)
     if consequences is None or not all(implied(key, f"{to_text(e)} = 0") for e in consequences):
         raise DoubtError("the coordinates defined in the answer may not cover all configurations.", 1, None)
@@ -77,9 +77,9 @@ def extended(key: Key, names: Sequence[str], relations: Sequence[Comparison]) ->
 
 
 def offered(key: Key, names: Sequence[str]) -> Key:
-    """The key with coordinates that the assignment offers.
+    """Return the key with coordinates that the assignment offers.
 
-    An angle atan2(a, b) is said by a = r sin(angle), b = r cos(angle) where the scene keeps a^2 + b^2 = r^2.
+    An angle atan2(a, b) is defined by a = r sin(angle), b = r cos(angle) if the scene implies a^2 + b^2 = r^2.
     """
     texts = [text for name in names for text in _equations(key, name)]
     return key.with_own(tuple(names), tuple(texts))
@@ -96,7 +96,7 @@ def _equations(key: Key, name: str) -> list[str]:
 
 
 def implied(key: Key, text: str) -> bool:
-    """Return whether the scene's constraints imply a relation."""
+    """Return whether the scene's constraints imply a relation (False if undecided)."""
     return key.once(("implied", text), lambda: _follows(key, text))
 
 

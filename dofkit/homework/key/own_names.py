@@ -1,7 +1,7 @@
-"""Names that a student brings: angles and parameters of a curve eliminated, constants that only have another name.
+"""Eliminates undeclared names of an answer: angles, parameters of curves, and other names for constants.
 
-`x = l sin(theta), y = -l cos(theta)` says x^2 + y^2 = l^2 of x and y, and no more: every point of the circle has a
-theta. A relation that is linear in a name of the student's own is solved for it.
+`x = l sin(theta), y = -l cos(theta)` implies x^2 + y^2 = l^2 for x and y, and nothing else: every point of the circle
+has a theta. A relation that is linear in an undeclared name is solved for it.
 """
 
 from __future__ import annotations
@@ -16,20 +16,20 @@ from dofkit.expressions.tree import ONE, ZERO, Expr
 from dofkit.homework.answers.relations import AnswerReading, is_constant_name
 from dofkit.scene.scene import Scene
 
-#: So many names of a student's own may stand for declared constants.
+#: The most undeclared names that are tried as declared constants.
 MOST_RENAMED = 2
 _TWO = 2
 _SINE, _COSINE = ex.parameter("own sine"), ex.parameter("own cosine")
 
 
 def restrictions(relations: Sequence[Comparison], names: Sequence[str], scene: Scene) -> list[Expr] | None:
-    """Return what relations that define names of an answer's own imply for the coordinates, or None if undecided."""
+    """Return what relations that define ``names`` imply for the coordinates (each is 0), or None if undecided."""
     still = {ex.coordinate(name): ex.parameter(name) for name in names}
     return _without([substitute(c.left - c.right, still) for c in relations], [*still.values()], scene)
 
 
 def _without(sums: list[Expr], symbols: Sequence[Expr], scene: Scene) -> list[Expr] | None:
-    """Return relations with all symbols eliminated, or None if one cannot be."""
+    """Return expressions (each is 0) with all ``symbols`` eliminated, or None if that is not possible."""
     for symbol in symbols:
         remaining = _eliminated(sums, symbol, scene)
         if remaining is None:
@@ -39,7 +39,7 @@ def _without(sums: list[Expr], symbols: Sequence[Expr], scene: Scene) -> list[Ex
 
 
 def without_own(reading: AnswerReading, scene: Scene) -> AnswerReading | None:
-    """The reading with the names of its own eliminated, exactly; None where that is not possible."""
+    """Return an equivalent reading without undeclared names, or None if they cannot be eliminated."""
     if any(c.relation != "=" for c in reading.relations):
         return None
     sums = [c.left - c.right for c in reading.relations]
@@ -54,7 +54,7 @@ def without_own(reading: AnswerReading, scene: Scene) -> AnswerReading | None:
 
 
 def with_constants(relations: Sequence[Comparison], names: Sequence[str], scene: Scene) -> list[Comparison]:
-    """Relations without constants of an answer's own that it defines by declared ones: `omega^2 = g/l`."""
+    """Return relations without undeclared constants that one of them defines by declared ones: `omega^2 = g/l`."""
     kept = list(relations)
     for name in names:
         symbol = ex.parameter(name)
@@ -67,7 +67,7 @@ def with_constants(relations: Sequence[Comparison], names: Sequence[str], scene:
 
 
 def _defined(c: Comparison, symbol: Expr, names: Sequence[str], scene: Scene) -> Expr | None:
-    """Return a constant's value by a relation of constants that states it, or its square, else None."""
+    """Return the value of a constant if a relation states it or its square by declared constants, else None."""
     e = c.left - c.right
     others = e.symbols - {symbol}
     if c.relation != "=" or symbol not in e.symbols or any(s.args[0] != "parameter" for s in others):
@@ -90,6 +90,7 @@ def _mentions(e: Expr, name: str) -> bool:
 
 
 def _eliminated(sums: Sequence[Expr], symbol: Expr, scene: Scene) -> list[Expr] | None:
+    """Return expressions (each is 0) without ``symbol``, equivalent for the other symbols, or None."""
     holding = [e for e in sums if symbol in e.symbols]
     untouched = [e for e in sums if symbol not in e.symbols]
     for e in holding:
@@ -104,13 +105,13 @@ def _eliminated(sums: Sequence[Expr], symbol: Expr, scene: Scene) -> list[Expr] 
 
 
 def _without_length(holding: Sequence[Expr], symbol: Expr, scene: Scene) -> Expr | None:
-    """Two relations a = r cos(A), b = r sin(A): there is such an r where a sin(A) = b cos(A), and only there."""
+    """Return a sin(A) - b cos(A) for two relations a = r cos(A), b = r sin(A) with the symbol r; None for others."""
     if len(holding) != 2:
         return None
     slopes = [diff(e, symbol) for e in holding]
     offsets = [substitute(e, {symbol: ZERO}) for e in holding]
-    turns = [_turn(slope, scene) for slope in slopes]
-    if None in turns or {t[0] for t in turns if t} != {"sin", "cos"} or len({t[1] for t in turns if t}) != 1:
+    factors = [_turn(slope, scene) for slope in slopes]
+    if None in factors or {t[0] for t in factors if t} != {"sin", "cos"} or len({t[1] for t in factors if t}) != 1:
         return None
     if any(symbol in e.symbols for e in slopes):
         return None
@@ -118,7 +119,7 @@ def _without_length(holding: Sequence[Expr], symbol: Expr, scene: Scene) -> Expr
 
 
 def _turn(e: Expr, scene: Scene) -> tuple[str, Expr] | None:
-    """A sine or cosine times what is never 0: which, and of what."""
+    """Return ("sin" or "cos", its argument) for a sine or cosine with factors that are never 0, else None."""
     factors = e.args if e.op == "mul" else (e,)
     turning = [f for f in factors if f.op == "fn" and f.args[0] in ("sin", "cos")]
     others = [f for f in factors if f not in turning]
@@ -128,9 +129,9 @@ def _turn(e: Expr, scene: Scene) -> tuple[str, Expr] | None:
 
 
 def _without_angle(holding: Sequence[Expr], untouched: list[Expr], symbol: Expr, scene: Scene) -> list[Expr] | None:
-    """Relations linear in the sine and cosine of an angle, solved for them: their squares add up to 1.
+    """Return relations without an angle, if they are linear in its sine and cosine; their squares add up to 1.
 
-    a sin(A) = b cos(A) holds for some A whatever a and b are; a = r cos(A), b = r sin(A) where a^2 + b^2 = r^2.
+    a sin(A) = b cos(A) is satisfied by some A for any a, b; a = r cos(A), b = r sin(A) if a^2 + b^2 = r^2.
     """
     angles = {n.args[1] for e in holding for n in ex.nodes(e) if n.op == "fn" and symbol in n.symbols}
     if len(angles) != 1:
@@ -156,13 +157,13 @@ def _without_angle(holding: Sequence[Expr], untouched: list[Expr], symbol: Expr,
 
 
 def _linear(e: Expr) -> tuple[Expr, Expr, Expr] | None:
-    """The coefficients of the sine and the cosine, and the rest; None where it is not linear in them."""
+    """Return the coefficients of sine and cosine, and the remainder; None if ``e`` is not linear in them."""
     row = diff(e, _SINE), diff(e, _COSINE), substitute(e, {_SINE: ZERO, _COSINE: ZERO})
     return None if any({_SINE, _COSINE} & c.symbols for c in row) else row
 
 
 def _circle(first: Expr, second: Expr) -> Expr | None:
-    """Of e = r sin(A) and f = r cos(A), with whatever signs, e^2 + f^2 - r^2; None where they are no such pair."""
+    """Return e^2 + f^2 - r^2 for e = r sin(A), f = r cos(A), with any signs; None for other relations."""
     first_row, other = _linear(first), _linear(second)
     if first_row is None or other is None:
         return None
@@ -173,7 +174,7 @@ def _circle(first: Expr, second: Expr) -> Expr | None:
 
 
 def _solved(first: Expr, second: Expr, scene: Scene) -> dict[Expr, Expr] | None:
-    """The sine and cosine from two relations that are linear in them, by Cramer's rule."""
+    """Return the sine and cosine by Cramer's rule, or None if the determinant may be 0."""
     first_row, other = _linear(first), _linear(second)
     if first_row is None or other is None:
         return None
@@ -185,22 +186,21 @@ def _solved(first: Expr, second: Expr, scene: Scene) -> dict[Expr, Expr] | None:
 
 
 def never_zero(e: Expr, scene: Scene) -> bool:
-    """Return whether it is a number other than 0, or a product of such with parameters that are positive or nonzero."""
+    """Return whether an expression is a product of numbers that are not 0 and positive or nonzero parameters."""
     if e.op == "num":
         return not e.is_zero
     if e.op == "mul":
         return all(never_zero(factor, scene) for factor in e.args)
     if e.op == "pow":
         return never_zero(e.args[0], scene)
-    return (
-        e.op == "sym" and e.args[0] == "parameter" and scene.parameters.get(str(e.args[1])) in ("positive", "nonzero")
-    )
+    is_parameter = e.op == "sym" and e.args[0] == "parameter"
+    return is_parameter and scene.parameters.get(str(e.args[1])) in ("positive", "nonzero")
 
 
 def renamed(
     reading: AnswerReading, scene: Scene, constants: Sequence[str]
 ) -> Iterator[tuple[AnswerReading, dict[str, str]]]:
-    """The reading with names of its own taken for declared ``constants`` that it does not mention, in every way."""
+    """Yield (reading, {undeclared name: constant}) for every choice of unmentioned declared ``constants``."""
     if any(map(is_constant_name, reading.undeclared)):
         return
     if not reading.undeclared or reading.moving or len(reading.undeclared) > MOST_RENAMED:

@@ -1,7 +1,7 @@
-"""An answer about equations of motion, read: a value or equations, in the scene's coordinates or the student's own.
+"""Reads answers about equations of motion: a value or equations, in declared or newly defined coordinates.
 
-`x = l sin(theta), y = -l cos(theta)` in an answer defines theta: then the right motion is that of the scene with theta
-as one more coordinate and these relations as constraints, from which x and y are eliminated.
+If an answer contains `x = l sin(theta), y = -l cos(theta)`, which defines theta, the right motion is that of the scene
+with theta as a further coordinate and these relations as constraints, from which x and y are eliminated.
 """
 
 from __future__ import annotations
@@ -26,22 +26,23 @@ from dofkit.homework.key.key import Key
 from dofkit.homework.key.own_coordinates import extended, offered
 from dofkit.homework.key.own_names import renamed, with_constants
 
-#: Names of an answer's own for multipliers.
+#: Names that an answer may use for multipliers.
 _MULTIPLIER = re.compile(r"(lambda|lam|mu|Lambda)_?\w{0,3}|(multiplier|mult)_?\d{0,2}")
-#: What a value is called: `L =`, `p_theta =`, `L = T - V =`.
+#: The name before a value: `L =`, `p_theta =`, `L = T - V =`.
 _LEADING = pattern("motion: leading")
 
 
-#: That a value is constant, said after it; nothing in words.
+#: `= const.` after a value; the words for 0.
 _CONSTANT = re.compile(r"(?<!=)=(?!=)\s*(?:const|konst|cte|cst)\w*\.?\s*\Z", re.IGNORECASE)
 _ZERO = re.compile(r"\A\s*(?:zero|null|zéro|cero)\s*\.?\s*\Z", re.IGNORECASE)
 
 
 @dataclass(frozen=True)
 class PosedMotion:
-    """A reading beside the scene: ``key`` has the coordinates that the answer defines.
+    """A reading with the ``key`` of the scene, to which the coordinates that the answer defines are added.
 
-    ``multipliers``: the answer's names for them; ``guesses``: what undeclared names may mean; ``strange``: one of them.
+    ``multipliers``: symbols of the answer's names for them; ``guesses``: readings with declared constants in place of
+    undeclared names; ``strange``: an undeclared name, or an empty text.
     """
 
     key: Key
@@ -52,12 +53,12 @@ class PosedMotion:
 
     @property
     def value(self) -> Expr:
-        """The expression, where one is asked for."""
+        """The expression of an answer that is a value."""
         return self.relations[0].left
 
 
 def motion_readings(answer: Given, names: DeclaredNames, value: bool) -> list[Reading]:
-    """Return every way to read an answer, as a value or as equations. Raises TextError."""
+    """Return every reading of an answer, as a value if ``value``, else as equations. Raises TextError."""
     vocabulary = AnswerNames(names.with_also, accelerations=True, frequencies=not value)
     answer = with_energies(answer, names.with_also) if value else answer
     readings = readings_of(answer, vocabulary, _without_lead if value else None)
@@ -71,7 +72,7 @@ def motion_readings(answer: Given, names: DeclaredNames, value: bool) -> list[Re
 
 
 def _strange(reading: AnswerReading, value: bool) -> list[str]:
-    """Return the names of a reading that are not declared and no multipliers."""
+    """Return the undeclared names of a reading that are not multipliers."""
     return [n for n in reading.undeclared if value or n in reading.moving or not _MULTIPLIER.fullmatch(spelled(n))]
 
 
@@ -82,7 +83,7 @@ def _shown_reading(reading: AnswerReading, value: bool) -> str:
 
 
 def _sides(reading: AnswerReading) -> list[AnswerReading]:
-    """Return each side of a value `A = B` as a reading of its own, for each should be right; else the reading."""
+    """Return each side of a value `A = B` as a separate reading, for each must be right; else the reading alone."""
     reading = _named_value(reading)
     are_joined = all(c.right == d.left for c, d in pairwise(reading.relations))
     if any(reading.bare) or not are_joined or any(c.relation != "=" for c in reading.relations):
@@ -92,14 +93,14 @@ def _sides(reading: AnswerReading) -> list[AnswerReading]:
 
 
 def _without_lead(script: Script) -> Script:
-    """A value without its name; each of several names, as in `L = T - V = ...`."""
+    """Return a value without the names before it, as in `L = T - V = ...`."""
     while (match := _LEADING.match(script.text)) is not None and match.end() < len(script.text):
         script = script.cut(match.end())
     return script.replaced(_CONSTANT, "").replaced(_ZERO, "0")
 
 
 def posed_motion(reading: AnswerReading, key: Key, value: bool) -> PosedMotion:
-    """Return a reading beside the scene. Raises TextError if it defines coordinates that leave configurations out."""
+    """Return a reading with its key. Raises DoubtError if it defines coordinates that miss configurations."""
     reading = _defining_constants(reading, key)
     strange = _strange(reading, value)
     multipliers = tuple(ex.parameter(n) for n in reading.undeclared if n not in strange)
@@ -126,7 +127,7 @@ def posed_motion(reading: AnswerReading, key: Key, value: bool) -> PosedMotion:
 
 
 def _defining_constants(reading: AnswerReading, key: Key) -> AnswerReading:
-    """Without constants of its own that it defines, `omega^2 = g/l`."""
+    """Return a reading without undeclared constants that it defines, as in `omega^2 = g/l`."""
     still = [n for n in reading.undeclared if n not in reading.moving]
     whole = len(reading.relations) > 1 and not any(map(_of_constants, reading.relations, reading.bare))
     kept = with_constants(reading.relations, still, key.scene) if whole else list(reading.relations)
@@ -142,12 +143,12 @@ def _defining_constants(reading: AnswerReading, key: Key) -> AnswerReading:
 
 
 def _of_constants(c: Comparison, bare: bool) -> bool:
-    """Return whether it is a value of constants alone, which defines none."""
+    """Return whether a relation is a bare value of constants alone, which defines no name."""
     return bare and all(s.args[0] == "parameter" for s in c.left.symbols)
 
 
 def _named_value(reading: AnswerReading) -> AnswerReading:
-    """`l = m r^2 phidot`: a value under a name that nobody declared."""
+    """Return a reading with the value alone if an undeclared name is before it: `l = m r^2 phidot`."""
     first = reading.relations[0]
     name = str(first.left.args[1]) if first.left.op == "sym" and first.relation == "=" else ""
     is_single = len(reading.relations) == 1 and first.left not in first.right.symbols
@@ -163,7 +164,7 @@ def _names(c: Comparison) -> set[str]:
 
 
 def _defines(c: Comparison, undeclared: Sequence[str]) -> bool:
-    """Return whether it relates names of the answer's own and coordinates, without velocities."""
+    """Return whether a relation defines undeclared names by coordinates, without velocities."""
     symbols = c.left.symbols | c.right.symbols
     return (
         bool(_names(c) & set(undeclared))

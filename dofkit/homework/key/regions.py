@@ -1,7 +1,7 @@
-"""Inequalities of an answer beside those asked for: the regions that they describe, compared as sets.
+"""Compares the regions that the inequalities of an answer and those asked for describe.
 
-Two regions are the same if neither has a point that the other lacks. Each difference is a system of inequalities, which
-the engine shows to be empty or finds a certified point of; what is undecided is not judged.
+Two regions are equal if neither contains a point outside the other. Each difference is a system of inequalities, which
+classification proves to be empty or for which it finds a certified point; undecided differences are not judged.
 """
 
 from __future__ import annotations
@@ -19,22 +19,22 @@ from dofkit.methods.classify import classify
 from dofkit.scene.constraints.base import Equation
 from dofkit.scene.scene import Scene
 
-#: Systems that are looked at for one difference.
+#: The most systems of inequalities for one difference.
 MOST_CASES = 24
 _ROOT = ex.parameter("a root")
 
 
 class Condition(NamedTuple):
-    """``e > 0`` where it is strict, else ``e >= 0``."""
+    """The inequality ``e > 0`` if ``strict``, else ``e >= 0``."""
 
     e: Expr
     strict: bool
 
 
 class RegionComparison(NamedTuple):
-    """Whether the answer's region has points outside the one asked for, and lacks some; None if undecided.
+    """Whether the answer's region has points outside the region asked for (``beyond``), and lacks some (``lacking``).
 
-    ``point``: a point of one of the differences, in words; empty where none is known for plain values of parameters.
+    None: undecided. ``point``: a point of one of the differences as text; empty if none is known.
     """
 
     beyond: bool | None
@@ -43,7 +43,7 @@ class RegionComparison(NamedTuple):
 
 
 def conditions(relations: Sequence[Comparison]) -> list[Condition] | None:
-    """Return inequalities as conditions, or None if there are equations among them."""
+    """Return inequalities as conditions, or None if a relation is an equation."""
     inequalities = []
     for c in relations:
         if c.relation not in ("<", "<=", ">", ">="):
@@ -54,7 +54,7 @@ def conditions(relations: Sequence[Comparison]) -> list[Condition] | None:
 
 
 def compared_regions(scene: Scene, asked: Sequence[Condition], answer: Sequence[Condition]) -> RegionComparison:
-    """Compare two regions; ``scene`` has the other constraints, which hold in both."""
+    """Return the comparison of two regions; ``scene`` contains the other constraints, which apply to both."""
     beyond, point = _difference(scene, answer, asked)
     lacking, other = _difference(scene, asked, answer)
     sure = lacking is not False or all(_has_values(c.e) for c in answer)
@@ -69,11 +69,10 @@ def _has_values(e: Expr) -> bool:
 
 
 def _difference(scene: Scene, region: Sequence[Condition], other: Sequence[Condition]) -> tuple[bool | None, str]:
-    """Return whether a region has a point outside another, and such a point."""
-    systems = [
-        [*case, *failing] for case in _cases_of_all(region) for condition in other for failing in _failing(condition)
-    ]
-    open_cases = len(systems) > MOST_CASES
+    """Return (whether ``region`` has a point outside ``other``, or None if undecided; this point as text)."""
+    failing = [system for condition in other for system in _failing(condition)]
+    systems = [[*case, *outside] for case in _cases_of_all(region) for outside in failing]
+    undecided = len(systems) > MOST_CASES
     for system in systems[:MOST_CASES]:
         texts = [f"{to_text(c.e)} {'>' if c.strict else '>='} 0" for c in system]
         more = tuple(Equation(name=f"region {n}", text=text) for n, text in enumerate(texts))
@@ -83,8 +82,8 @@ def _difference(scene: Scene, region: Sequence[Condition], other: Sequence[Condi
             continue
         if report.feasible:
             return True, counterexample(scene, (), (), [c.e for c in system])
-        open_cases = open_cases or report.feasible is None
-    return None if open_cases else False, ""
+        undecided = undecided or report.feasible is None
+    return None if undecided else False, ""
 
 
 def _cases_of_all(region: Sequence[Condition]) -> Iterator[list[Condition]]:
@@ -93,13 +92,13 @@ def _cases_of_all(region: Sequence[Condition]) -> Iterator[list[Condition]]:
 
 
 def _failing(condition: Condition) -> list[list[Condition]]:
-    """Return systems one of which is satisfied exactly where a condition is not, or has no value."""
+    """Return systems of which one is satisfied where the condition is false or undefined, and none elsewhere."""
     outside = [[Condition(-root.args[0], True)] for root in _roots(condition.e)]
     return [*outside, *_cases(Condition(-condition.e, not condition.strict))]
 
 
 def _cases(condition: Condition) -> list[list[Condition]]:
-    """Return systems without absolute values and square roots, one of which holds exactly where a condition does."""
+    """Return systems without absolute values and square roots that are together equivalent to a condition."""
     e, strict = condition
     for node in ex.nodes(e):
         if node.op == "fn" and node.args[0] == "abs":

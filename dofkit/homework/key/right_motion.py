@@ -1,4 +1,4 @@
-"""The equations of motion that are right for a scene, as expressions to compare an answer with."""
+"""The right equations of motion of a scene, as expressions with which answers are compared."""
 
 from __future__ import annotations
 
@@ -21,18 +21,19 @@ from dofkit.motion.lagrange.equations import derived_of, read
 from dofkit.relations.normal.pieces import Finite, Pfaffian
 from dofkit.scene.scene import Scene
 
-#: Points over GF(p), and how many are tried for them.
+#: The number of points over GF(p), and of attempts to find them.
 POINTS, ATTEMPTS = 3, 40
-#: Larger expressions are not compared.
+#: The most nodes of an expression that is compared.
 MOST_NODES = 4000
 
 
 @dataclass(frozen=True)
 class RightMotion:
-    """What is right: in the coordinates that are kept.
+    """The right motion in the remaining coordinates ``names``; ``total``: T + V.
 
-    ``motions`` replaces what is eliminated, ``rates`` the velocities that constraints give by others. ``rows`` are
-    d/dt of the constraints that keep a multiplier, ``relations`` those of them that hold between coordinates.
+    ``motions`` replaces eliminated coordinates, ``rates`` velocities that constraints express by others. ``rows``: the
+    constraints with a multiplier, differentiated until they contain accelerations; ``relations``: their geometric
+    equations; ``unreduced``: {coordinate of the scene: (momentum, force)} before elimination.
     """
 
     names: tuple[str, ...]
@@ -50,11 +51,11 @@ class RightMotion:
     positive: frozenset[Expr]
 
     def in_kept(self, e: Expr) -> Expr:
-        """An answer in the coordinates that are kept."""
+        """Return an expression in the remaining coordinates."""
         return substitute(e, self.motions)
 
     def on_constraints(self, e: Expr) -> Expr:
-        """The same where the constraints hold."""
+        """Return an expression with dependent velocities replaced by independent ones."""
         return substitute(e, self.rates)
 
     def zero(self, e: Expr) -> bool | None:
@@ -64,7 +65,7 @@ class RightMotion:
         return zero_everywhere if zero_everywhere is not False or not self.relations else self._zero_there(moved)
 
     def _zero_there(self, e: Expr) -> bool | None:
-        """At points where the geometric equations hold."""
+        """Return whether an expression is 0 at random points on the geometric equations, or None if undecided."""
         ring = Ring([e, *self.relations], self.positive)
         node = ring.node(e)
         zeros = [node_values[node] == 0 for _, node_values in points(ring, self.relations)]
@@ -74,7 +75,7 @@ class RightMotion:
 
 
 def points(ring: Ring, relations: Sequence[Expr]) -> Iterator[tuple[int, Any]]:
-    """Up to `POINTS` random points over GF(p) where the relations hold: the prime, and the values of the nodes."""
+    """Yield (p, values of the nodes) at up to `POINTS` random points over GF(p) that satisfy the relations."""
     solver = TriangularSolver(ring, [ring.node(g) for g in relations], seed=3) if relations else None
     count = 0
     for seed in range(ATTEMPTS):
@@ -92,13 +93,13 @@ def points(ring: Ring, relations: Sequence[Expr]) -> Iterator[tuple[int, Any]]:
 
 
 def right_motion(scene: Scene, whole: bool = False) -> RightMotion:
-    """Return the motion of a scene; ``whole``: with nothing eliminated. Raises DofkitError if there is none."""
+    """Return the motion of a scene; ``whole``: without elimination. Raises DofkitError if there is none."""
     derived = derive(read(scene).model(eliminates=False)) if whole else derived_of(scene)
     model = derived.model
     rates: dict[Expr, Expr] = {}
-    for piece in model.constraints:
-        if isinstance(piece, (Pfaffian, Finite)):
-            form = by_time(piece.expr) if isinstance(piece, Finite) else in_velocities(piece)
+    for constraint in model.constraints:
+        if isinstance(constraint, (Pfaffian, Finite)):
+            form = by_time(constraint.expr) if isinstance(constraint, Finite) else in_velocities(constraint)
             _add_rate(form, rates, model.positive)
     whole_model = model.whole
     unreduced = {}
@@ -126,7 +127,7 @@ def right_motion(scene: Scene, whole: bool = False) -> RightMotion:
 
 
 def _add_rate(form: Expr, rates: dict[Expr, Expr], positive: frozenset[Expr]) -> None:
-    """One more velocity by the others, from a form that is 0."""
+    """Add to ``rates`` a velocity expressed by others, from a form that is 0, if its coefficient is not 0."""
     form = substitute(form, rates)
     for v in sorted((s for s in form.symbols if s.args[0] == "velocity"), key=lambda s: s.args):
         slope = diff(form, v)
@@ -138,7 +139,7 @@ def _add_rate(form: Expr, rates: dict[Expr, Expr], positive: frozenset[Expr]) ->
 
 
 def is_zero(e: Expr, positive: frozenset[Expr]) -> bool | None:
-    """Zero identically? None where it is too large, has no value or was decided by figures only."""
+    """Return whether an expression is 0 identically; None if it is too large or undefined, or if uncertain."""
     if sum(1 for _ in ex.nodes(e)) > MOST_NODES:
         return None
     try:
@@ -149,7 +150,7 @@ def is_zero(e: Expr, positive: frozenset[Expr]) -> bool | None:
 
 
 def right_motion_or_why(scene: Scene, whole: bool = False) -> RightMotion | DofkitError:
-    """Return the motion of a scene, or why it is unknown."""
+    """Return the motion of a scene, or the error for which it is unknown."""
     try:
         return right_motion(scene, whole)
     except DofkitError as error:

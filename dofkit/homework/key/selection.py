@@ -1,4 +1,4 @@
-"""Choices of names: do coordinates fix the configuration, and is a set of constraints redundant?"""
+"""Sets of names: do coordinates determine the configuration, and is a set of constraints redundant?"""
 
 from __future__ import annotations
 
@@ -24,13 +24,12 @@ from dofkit.system import System
 
 
 def determine(scene: Scene, names: Sequence[str], report: Report) -> bool | None:
-    """Return whether nothing moves if these coordinates are fixed: with dq = 0 for them the system is rigid.
+    """Return whether nothing moves if these coordinates are fixed (dq = 0), or None if undecided.
 
-    ``report``: of the scene, or without its last constraints, which define coordinates. Time stands still, so what it
-    prescribes does not move. None where that was not decided. Non-holonomic constraints are left out: they do not fix
-    the configuration.
+    ``report``: of the scene, possibly without its last constraints, which define coordinates. Time is constant, so
+    prescribed motions do not move. Non-holonomic constraints are left out: they do not determine the configuration.
 
-    Where differentials do not decide it, the coordinates are held at their values in the reference configuration: if
+    If differentials do not decide it, the coordinates are fixed at their values in the reference configuration: if
     there is no infinitesimal motion, their differentials are independent there, and so nearby.
     """
     basis = report.integrable_part.basis if report.integrable_part is not None else []
@@ -56,7 +55,7 @@ def _held(equations: Mapping[str, str]) -> list[Equation]:
 def _outcome(
     scene: Scene, constraints: Sequence[object], basis: Sequence[str], constraint_names: Collection[str | None]
 ) -> Outcome:
-    """The answer for these constraints and of the relations of ``basis``; of those named only what is finite."""
+    """Return the solution for constraints and integrals ``basis``, of named ones without velocity relations."""
     whole = _with(scene, constraints)
     if basis:
         whole = with_equations(whole, read_equations(basis, vocabulary_of(scene).names, constants=True), "integral")
@@ -67,7 +66,7 @@ def _outcome(
 
 
 def _at_one_time(system: System) -> System:
-    """The system with its time as a constant."""
+    """Return the system with time as a constant."""
     still = {ex.TIME: ex.parameter("this time"), ex.DT: ZERO}
     constraints = tuple(
         c._replace(relations=tuple(r._replace(expr=substitute(r.expr, still)) for r in c.relations))
@@ -77,14 +76,15 @@ def _at_one_time(system: System) -> System:
 
 
 def _finite(normals: Sequence[Normal]) -> tuple[Normal, ...]:
-    """The relations that hold no velocities."""
+    """Return the relations that contain no velocities."""
     return tuple(n for n in normals if all(isinstance(p, Finite) for p in n.pieces))
 
 
 def is_redundant_set(scene: Scene, names: Sequence[str], report: Report) -> bool | None:
-    """Return whether the set of motions is the same without the constraints of these names.
+    """Return whether the motions are the same without the constraints of these names, or None if undecided.
 
-    They follow from the others, or, near a drawn or generic pose, all is finite and as free there without them.
+    They follow from the others; or, near a reference or generic pose, all constraints are geometric, and the degrees of
+    freedom are the same without these.
     """
     system = lower(scene)
     reduced, setting = prepared(system)
@@ -108,5 +108,5 @@ def is_redundant_set(scene: Scene, names: Sequence[str], report: Report) -> bool
 
 
 def _with(scene: Scene, constraints: Sequence[object]) -> Scene:
-    """The scene with these constraints instead of its own."""
+    """Return the scene with the given constraints in place of its own."""
     return scene.model_copy(update={"constraints": tuple(constraints), "expect": {}, "energies": None})

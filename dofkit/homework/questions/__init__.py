@@ -1,4 +1,4 @@
-"""All kinds of questions. A new kind is a class here, a place in `AnyQuestion` and a row of ``words.yaml``."""
+"""All kinds of questions. A new kind is a class and an entry in `AnyQuestion`."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ AnyQuestion = Annotated[
     Field(discriminator="ask"),
 ]
 
-#: What is asked of the equations of motion.
+#: The kinds of questions about equations of motion.
 MOTION = (Lagrangian, Momentum, GeneralizedForce, MotionQuestion)
-#: What can be asked for -> its class.
+#: {value of `ask`: class of the question}.
 KINDS: dict[str, type[QuestionBase]] = {q.kind(): q for q in get_args(get_args(AnyQuestion)[0])}

@@ -1,4 +1,4 @@
-"""What all kinds of questions have in common."""
+"""The base class of all kinds of questions."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ from dofkit.homework.key.key import Key
 from dofkit.homework.sentences import Said, say
 from dofkit.scene.fields import Number, WrittenModel, exact, fault_error, suggestion
 
-#: The numbers that a student gave to earlier questions of the same problem, by what was asked.
+#: {kind of question: number that the student gave} for earlier questions of the same problem.
 Earlier = Mapping[str, Fraction]
-#: The points that a question may have, where it has any.
+#: The fewest (other than 0) and most points of a question.
 FEWEST_POINTS, MOST_POINTS = Fraction(1, 1000), 1_000_000
 
 
@@ -28,14 +28,13 @@ def _points(value: object) -> object:
     if points < 0:
         raise fault_error(f"points are not negative, as {value} is", "write 0 or more")
     if points > MOST_POINTS or 0 < points < FEWEST_POINTS:
-        raise fault_error(
-            f"a question cannot be worth {value} points", f"write 0, or {float(FEWEST_POINTS)} to {MOST_POINTS}"
-        )
+        hint = f"write 0, or {float(FEWEST_POINTS)} to {MOST_POINTS}"
+        raise fault_error(f"a question cannot be worth {value} points", hint)
     return points
 
 
 def identifier(value: object) -> object:
-    """An id is a text; a whole number is taken as its text."""
+    """Return an id as text if it is a whole number, otherwise unchanged."""
     if isinstance(value, int) and not isinstance(value, bool):
         return str(value)
     if isinstance(value, Fraction) and value.denominator == 1:
@@ -56,7 +55,7 @@ class QuestionWords(NamedTuple):
 
 
 class QuestionBase(WrittenModel):
-    """One question: how an answer is read and judged, and what is right."""
+    """One question: how an answer is read and judged, and the right answer."""
 
     id: Identifier = Field(description="its name, unique within the problem")
     text: str | None = Field(None, description="the question in your own words; by default as its kind is asked")
@@ -64,7 +63,7 @@ class QuestionBase(WrittenModel):
 
     @classmethod
     def kind(cls) -> str:
-        """Return what it asks for, as written."""
+        """Return the value of `ask`."""
         return _kind(cls)
 
     @classmethod
@@ -74,12 +73,12 @@ class QuestionBase(WrittenModel):
 
     @property
     def about(self) -> tuple[str, ...]:
-        """The names of the scene that it is about."""
+        """The names of the constraints or coordinates that the question is about."""
         names = getattr(self, "constraint", None) or getattr(self, "coordinate", None) or ()
         return (names,) if isinstance(names, str) else tuple(names)
 
     def asked(self, about: str) -> Said:
-        """Return the question in words; ``about``: how the names that it is about are shown."""
+        """Return the question in words; ``about``: the names of `about` as they are shown."""
         return self._asked(about) if self.text is None else say("{text}", text=self.text)
 
     def _asked(self, about: str) -> Said:
@@ -100,19 +99,19 @@ class QuestionBase(WrittenModel):
                 yield Fault(f"the scene has no {what} '{name}'", (what,), hint=hint)
 
     def readings(self, answer: Given, names: DeclaredNames) -> list[Reading]:
-        """Return every way to understand an answer. Raises TextError, and DoubtError for what commits to nothing."""
+        """Return all readings of an answer. Raises TextError, and DoubtError for an ambiguous answer."""
         raise NotImplementedError
 
     def judged(self, reading: Reading, key: Key, earlier: Earlier) -> Judgement:
-        """Return what one reading is worth."""
+        """Return the judgement of one reading. Raises TextError if the scene cannot contain it."""
         raise NotImplementedError
 
     def read(self, answer: Given, names: DeclaredNames) -> str:
-        """Return the answer as it is understood, the plainest readings only. Raises TextError if it cannot be read."""
+        """Return the plainest readings of an answer as text. Raises TextError if it cannot be read."""
         return shown_text_of(self.readings(answer, names))
 
     def solution(self, key: Key) -> Sentence:
-        """Return the correct answer in words, or nothing if it is unknown."""
+        """Return the correct answer in words, or an empty text if it is unknown."""
         raise NotImplementedError
 
 

@@ -1,4 +1,4 @@
-"""The equation of a constraint, and the geometric equation that a differential one integrates to."""
+"""Questions for the equations of constraints, and for the integral of a differential constraint."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def _names(value: object) -> object:
 
 
 class EquationQuestion(QuestionBase):
-    """The same constraint(s), in the presence of the scene's others."""
+    """Equations that express the constraint(s), given the other constraints of the scene."""
 
     ask: Literal["equation"] = Field(description="the equation of one constraint, or the equations of several")
     constraint: Annotated[
@@ -48,7 +48,7 @@ class EquationQuestion(QuestionBase):
 
 
 class IntegralQuestion(QuestionBase):
-    """The geometric equation; its constant is named by the student, or left out; ``none`` where there is none."""
+    """The integral of a differential constraint, with a constant of any name or without; ``none`` if there is none."""
 
     ask: Literal["integral"] = Field(description="the integral of a differential constraint")
     constraint: str = Field(description="the name of the constraint")
@@ -93,7 +93,7 @@ def _undifferentiated(script: Script) -> Script:
     return script if still is None else script.cut(*still.span("whole"))
 
 
-#: What a differential is written with: an equation that holds one is a reason, no integral.
+#: Signs of a differential or velocity: an equation that contains one is a reason, not an integral.
 _DIFFERENTIAL = re.compile(r"(?<![^\W\d_])[d∂](?=[^\W\d_]|\s?\\)|dot|∧|\\(?:wedge|partial|dot)")
 
 

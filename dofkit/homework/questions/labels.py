@@ -1,4 +1,4 @@
-"""The label of a constraint: holonomic or not, scleronomic or rheonomic, bilateral or unilateral."""
+"""Questions for the labels of a constraint: (non-)holonomic, scleronomic or rheonomic, bilateral or unilateral."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ Part = Literal["holonomic", "scleronomic", "bilateral"]
 
 
 class LabelQuestion(QuestionBase):
-    """Words in any order; each part that is asked for counts the same."""
+    """Labels in any order; each of the ``parts`` has the same share of the points."""
 
     ask: Literal["label"] = Field(description="the classification of a constraint")
     constraint: str = Field(description="the name of the constraint")
@@ -76,5 +76,5 @@ class LabelQuestion(QuestionBase):
 
 
 def truths(entry: ConstraintEntry) -> dict[str, bool | None]:
-    """Return the labels of a constraint, by part."""
+    """Return {part: whether the label holds, or None if undecided} of a constraint."""
     return {"holonomic": entry.holonomic, "scleronomic": entry.scleronomic, "bilateral": entry.bilateral}

@@ -25,7 +25,7 @@ from dofkit.homework.sentences import Said, say
 
 
 class _MotionQuestion(QuestionBase):
-    """What all of them share: an answer may define coordinates of its own, and is judged in those."""
+    """The base class of these questions: an answer may define coordinates, in which it is judged."""
 
     def readings(self, answer: Given, names: DeclaredNames) -> list[Reading]:
         return motion_readings(answer, names, value=isinstance(self, _Value))
@@ -50,7 +50,7 @@ class _MotionQuestion(QuestionBase):
         raise NotImplementedError
 
     def solution(self, key: Key) -> Sentence:
-        """Return a correct answer, in the coordinates that the assignment offers where that is possible."""
+        """Return a correct answer, if possible in the coordinates that the assignment offers."""
         if key.also and getattr(self, "coordinate", None) is None:
             motion = offered(key, sorted(key.also)).motion
             if not isinstance(motion, DofkitError) and set(motion.names) <= set(key.also):
@@ -62,7 +62,7 @@ class _MotionQuestion(QuestionBase):
 
 
 class _Value(_MotionQuestion):
-    """One expression; a leading name is read over."""
+    """A question for one expression; a leading name such as `L =` is ignored."""
 
     def _judgement(self, posed: PosedMotion, motion: RightMotion, text: str) -> Judgement:
         return self._comparison(motion.in_kept(posed.value), motion, text)
@@ -72,7 +72,7 @@ class _Value(_MotionQuestion):
 
 
 class Lagrangian(_Value):
-    """L = T - V, up to a total derivative by time: Euler's equation of the difference is 0 identically."""
+    """L = T - V, up to a total time derivative (the difference satisfies Euler's equation identically)."""
 
     ask: Literal["lagrangian"] = Field(description="the Lagrangian")
 
@@ -93,35 +93,34 @@ class Lagrangian(_Value):
 
 
 class _OfCoordinate(_Value):
-    """Momenta and forces; what is right before an elimination is looked at by a person."""
+    """Momenta and forces; an answer that is right only before the elimination of coordinates needs a review."""
 
     #: The code of a wrong answer.
     code: ClassVar[str]
     coordinate: str = Field(description="the coordinate it belongs to")
 
     def _right(self, motion: RightMotion) -> tuple[Expr | None, Expr]:
-        """Return what is right in the coordinates that are kept, if any, and before the constraints are substituted."""
+        """Return the right expressions (in the remaining coordinates or None, before elimination)."""
         raise NotImplementedError
 
     def _comparison(self, expression: Expr, motion: RightMotion, text: str) -> Judgement:
-        kept, unreduced = self._right(motion)
-        wanted = unreduced if kept is None else kept
+        reduced, unreduced = self._right(motion)
+        wanted = unreduced if reduced is None else reduced
         same = motion.zero(expression - wanted)
         if same:
             return right(text)
         if same is None:
             return needs_review(text, "it could not be decided whether this is equal to the correct expression.")
-        if motion.motions and kept is not None and motion.zero(expression - unreduced) is not False:
-            return needs_review(
-                text, "it may be written in the original coordinates, before the constraints are substituted."
-            )
+        if motion.motions and reduced is not None and motion.zero(expression - unreduced) is not False:
+            why = "it may be written in the original coordinates, before the constraints are substituted."
+            return needs_review(text, why)
         if motion.zero(expression + wanted):
             return wrong(text, "SIGN")
         return wrong(text, self.code)
 
     def _solution(self, motion: RightMotion) -> Sentence:
-        kept, unreduced = self._right(motion)
-        return say("A correct answer is {text}.", text=to_text(unreduced if kept is None else kept))
+        reduced, unreduced = self._right(motion)
+        return say("A correct answer is {text}.", text=to_text(unreduced if reduced is None else reduced))
 
 
 class Momentum(_OfCoordinate):
@@ -172,7 +171,7 @@ class MotionQuestion(_MotionQuestion):
         return self._single(answered, followed.sameness, motion, text) if single else _all(followed, motion, text)
 
     def _single(self, answered: AnsweredMotion, sameness: Sequence[Found], motion: RightMotion, text: str) -> Judgement:
-        """One coordinate's equation: it holds that coordinate's acceleration, and is not the equation of another."""
+        """Return the judgement of one coordinate's equation, which contains its acceleration and is not another's."""
         if answered.multipliers or motion.multipliers:
             return needs_review(text, "a single equation with multipliers can be written in many ways.")
         if Found.NOT in sameness:
@@ -186,7 +185,7 @@ class MotionQuestion(_MotionQuestion):
         return right(text)
 
     def _of_another(self, row: Sequence[Expr], answered: AnsweredMotion, motion: RightMotion, place: int) -> bool:
-        """Return whether the row is a multiple of another coordinate's equation, and not of the one asked for."""
+        """Return whether a row is a multiple of another coordinate's equation, and not of the one at ``place``."""
         proportional = [_proportional(row[:-1], other[:-1], motion.positive) for other in answered.right]
         return not proportional[place] and any(proportional)
 
@@ -198,7 +197,7 @@ class MotionQuestion(_MotionQuestion):
 
 
 def _all(followed: Followed, motion: RightMotion, text: str) -> Judgement:
-    """All equations: as many points as accelerations are fixed by those that follow."""
+    """Return the judgement of all equations: points in proportion to the accelerations that they determine."""
     sameness, rank = followed.sameness, followed.rank
     wanted = len(motion.names) - len(motion.rows)
     good = Found.NOT not in sameness
@@ -219,9 +218,8 @@ def _all(followed: Followed, motion: RightMotion, text: str) -> Judgement:
     number = sum(t is Found.NOT for t in sameness)
     if len(sameness) == 1:
         return partly(share, text, Found.NOT.value)
-    failing = say(
-        "Equations that are not satisfied by the motion: {number} of {all}.", number=number, all=len(sameness)
-    )
+    sentence = "Equations that are not satisfied by the motion: {number} of {all}."
+    failing = say(sentence, number=number, all=len(sameness))
     return partly(share, text, Found.NOT.value, why=failing)
 
 

@@ -1,4 +1,4 @@
-"""Questions whose answer is a choice of names: generalized coordinates, and redundant constraints."""
+"""Questions whose answer is a set of names: generalized coordinates, and redundant constraints."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from dofkit.homework.sentences import say
 
 
 class Coordinates(QuestionBase):
-    """Names of an independent and complete set of generalized coordinates."""
+    """The names of a complete set of independent generalized coordinates."""
 
     ask: Literal["coordinates"] = Field(description="an independent and complete set of generalized coordinates")
 
@@ -47,7 +47,7 @@ class Coordinates(QuestionBase):
 
 
 class Redundant(QuestionBase):
-    """A maximal redundant set of constraints: without all of them nothing changes."""
+    """A maximal redundant set of constraints: without the whole set the motion is the same."""
 
     ask: Literal["redundant"] = Field(description="a largest set of redundant constraints")
 

@@ -18,7 +18,7 @@ from dofkit.homework.questions.base import Earlier, QuestionBase
 from dofkit.homework.sentences import say
 from dofkit.scene.fields import as_written
 
-#: A number that an earlier wrong one leads to; the number of the other convention.
+#: Codes: a number computed correctly from an earlier wrong one; the number in the other convention.
 CARRIED, OTHER_CONVENTION = "CARRIED", "OTHER_CONVENTION"
 _CONFIGURATION = "Count the coordinates and subtract the number of independent holonomic equations."
 _VELOCITIES = (
@@ -37,7 +37,7 @@ _CONVENTIONS = {
 
 
 class NumberQuestion(QuestionBase):
-    """A number that the report tells; ``letters``: what it is called."""
+    """A number in the report; ``letters``: names of the number in answers."""
 
     letters: ClassVar[frozenset[str]] = frozenset(
         {"f", "dof", "ndof", "df", "fg", "fhg", "ddl", "gdl", "s", "freiheitsgrade", "degrees of freedom"}
@@ -51,20 +51,20 @@ class NumberQuestion(QuestionBase):
         raise NotImplementedError
 
     def other(self, key: Key) -> int | None:
-        """The number under the other convention, where there is one."""
+        """Return the number in the other convention, or None if there is none."""
         del key
         return None
 
     def clash(self, key: Key) -> str:
-        """Return what to say about the other convention's number."""
+        """Return the feedback on the number in the other convention."""
         return _CONVENTIONS[key.convention]
 
     def advice(self, key: Key) -> str:
-        """Return how the number is counted: what to say about one that no known error explains."""
+        """Return how the number is counted: the feedback on a number that no known error explains."""
         raise NotImplementedError
 
     def consequences(self, key: Key, earlier: Earlier) -> Iterator[Fraction]:
-        """Numbers that would be right if what was answered before were."""
+        """Yield the numbers that would be right if earlier answers were right."""
         del key, earlier
         yield from ()
 
@@ -92,7 +92,7 @@ class NumberQuestion(QuestionBase):
 
 
 class Dof(NumberQuestion):
-    """f: the dimension of the configuration space, or of the velocities where the assignment's convention says so."""
+    """f: the dimension of the configuration space, or of the velocity space in the velocity convention."""
 
     ask: Literal["dof"] = Field(description="the number of degrees of freedom")
 
@@ -137,7 +137,7 @@ class VelocityDof(NumberQuestion):
 
 
 class CountQuestion(NumberQuestion):
-    """k: the number of independent holonomic equations, coordinates less the configuration's dimension."""
+    """k: the number of independent holonomic equations, which is the number of coordinates less f."""
 
     letters: ClassVar[frozenset[str]] = frozenset({"k", "r", "m", "nc", "constraints", "bindungen"})
     foreign: ClassVar[frozenset[str]] = FREEDOM_NOUNS

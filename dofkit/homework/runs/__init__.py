@@ -1,1 +1,1 @@
-"""Many submissions: in order or in workers, kept in a journal so that a run goes on after a kill."""
+"""Grading of many submissions by workers, with a journal from which an interrupted run continues."""

@@ -1,4 +1,4 @@
-"""What was submitted at one place, graded by a worker that can be killed: an answer that breaks it needs a review."""
+"""Grades submissions by workers that can be killed: an answer that breaks a worker needs a review."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from dofkit.homework.result import Result, json_line
 #: What a worker imports before its first job.
 MODULES = ("dofkit.homework.runs.batch",)
 _TOO_MUCH = "grading it took too long or too much memory."
-#: What a student reads of an answer that broke its worker, by how that ended.
+#: {how a worker ended: feedback on the answer that broke it}.
 _ENDED = {"overrun": _TOO_MUCH, "memory": _TOO_MUCH, "died": _TOO_MUCH, "failed": "an internal error occurred."}
 
 
@@ -28,8 +28,8 @@ _ENDED = {"overrun": _TOO_MUCH, "memory": _TOO_MUCH, "died": _TOO_MUCH, "failed"
 class Orders:
     """How to grade: the pickled assignment, and limits in seconds of processor time.
 
-    ``seconds``: for one answer, which then needs a review; ``hard``: after which its process is ended. ``wall``: the
-    same by the clock. ``check_only``: read the answers and do not grade them.
+    ``seconds``: for one answer, which then needs a review; ``hard``: for one answer, after which its process is killed.
+    ``wall``: the limit by the clock for a submission. ``check_only``: whether answers are only read.
     """
 
     assignment: bytes
@@ -46,7 +46,7 @@ class Orders:
 
 
 class GradingTask(NamedTuple):
-    """Something submitted, to be graded. ``condemned``: why some answers are not to be judged."""
+    """A submission to be graded. ``condemned``: {identity: reason} of answers that are not judged."""
 
     orders: Orders
     handed: Handed
@@ -54,7 +54,7 @@ class GradingTask(NamedTuple):
 
 
 def graded_line(task: GradingTask) -> Iterator[Json]:
-    """Yield ``{"next": ...}`` before each answer that takes work, and at the end ``{"line": ...}``."""
+    """Yield {"next": identity} before each new answer, and at the end {"line": result as JSON}."""
     grader = _grader(task.orders)
     grader.condemned = task.condemned
     allow_processor(task.orders.hard)
@@ -69,7 +69,7 @@ def _grader(orders: Orders) -> Grader:
     return Grader(prepared, orders.seconds, check_only=orders.check_only)
 
 
-#: Yields everything submitted with the line of its result, in order; a journal keeps them.
+#: Yields (submission, line of its result) in order; a journal keeps the lines.
 Grading: TypeAlias = Callable[[Iterable[Handed], Journal | None], Iterator[tuple[Handed, str]]]
 
 
@@ -84,7 +84,7 @@ class Keeper:
     def grade(self, handed: Handed) -> str:
         """Return the result of a submission as a line of JSON. Raises StoppedError.
 
-        An answer that breaks two workers, of which the second is a fresh one, is not judged again.
+        An answer that breaks two workers, the second of them new, is not judged again.
         """
         suspects: list[Identity | None] = []
         while True:
@@ -105,7 +105,7 @@ class Keeper:
 
 
 def grade_there(orders: Orders, handed: Handed) -> str:
-    """Return the same line on a machine of a cluster, by killable workers of its own."""
+    """Return the result of a submission as a line of JSON, by a machine of a cluster with its own workers."""
     return _keeper(orders).grade(handed)
 
 
@@ -116,7 +116,7 @@ def _keeper(orders: Orders) -> Keeper:
 
 @contextmanager
 def grading(orders: Orders, workers: int | None, scheduler: str | None) -> Iterator[Grading]:
-    """Start the workers of this machine, or of the Dask cluster at an address. Raises StoppedError."""
+    """Yield the function that grades by workers of this machine, or of a Dask cluster. Raises StoppedError."""
     if scheduler is not None:
         with Cluster(scheduler) as cluster:
             yield partial(in_order, cluster, partial(grade_there, orders))

@@ -1,6 +1,6 @@
-"""Whose each result is, and which of several submissions of one student counts: nobody is displaced.
+"""Assigns results to students, and decides which of several submissions of one student counts.
 
-What a platform or a file's own name confirms goes before what a file only claims.
+Platforms and file names are trusted more than the ``student`` in a file, so that nobody can replace another's result.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from dofkit.homework.result import Result
 
 
 class OwnedResult(NamedTuple):
-    """A result under the name of its owner, where it was submitted, and whether its owner is confirmed."""
+    """A result with the student's name, the place of its file, and whether a platform or name confirms the student."""
 
     outcome: Result
     place: str
@@ -24,13 +24,13 @@ class OwnedResult(NamedTuple):
 
 
 def named_by(roster: Roster, handed: Handed) -> Handed:
-    """Return a submission under its owner's name, if the roster knows one by the names of its file and folders."""
+    """Return a submission with the student's name if the names of its file and folders identify one in the roster."""
     owners = roster.owners(handed.claims)
     return replace(handed, name=owners[-1].student) if len(owners) == 1 else handed
 
 
 def owned(roster: Roster | None, handed: Handed, outcome: Result) -> OwnedResult:
-    """Return a result under the name of its owner, with the doubt there is."""
+    """Return a result with the student to whom it belongs, and the doubt about it."""
     inside = isinstance(handed.data, Mapping) and "student" in handed.data
     by_default = not inside and outcome.student == handed.name
     student, confirmed, doubt = attributed(roster, handed.claims, outcome.student, by_default)
@@ -40,11 +40,11 @@ def owned(roster: Roster | None, handed: Handed, outcome: Result) -> OwnedResult
 
 
 def settled(owned_outcomes: Iterable[OwnedResult], roster: Roster | None) -> list[Result]:
-    """Return the results in their order; each of a student's but the first is an error that names both places.
+    """Return the results in their order; of several of one student only one counts, the others are errors.
 
-    A confirmed submission counts before those that only claim to be the student's. The first keeps its points with a
-    doubt if another of the same standing has other answers. A name that looks like another's is a doubt, too, unless
-    the roster has it.
+    A confirmed submission counts before unconfirmed ones, otherwise the first. It gets a doubt if another one, equally
+    confirmed, has a different result. A name that looks like another name also gives a doubt, unless it is in the
+    roster.
     """
     submitted = list(owned_outcomes)
     of_student: defaultdict[str, list[int]] = defaultdict(list)

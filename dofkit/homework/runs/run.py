@@ -1,4 +1,4 @@
-"""``dofkit grade``: from the files that are named to the results, wherever they go."""
+"""``dofkit grade``: from the files of submissions to the written results."""
 
 from __future__ import annotations
 
@@ -22,16 +22,16 @@ from dofkit.homework.runs.owners import named_by, owned, settled
 from dofkit.homework.variants import with_roster
 
 NATIVE = "native"
-#: The name of the results in dofkit's own format in a folder.
+#: The file of results in dofkit's own format in a folder.
 RESULTS = "results.jsonl"
 
 
 @dataclass(frozen=True)
 class GradingOptions:
-    """The options of the command line. ``out``: where results go, or None for standard output.
+    """The options of the command line. ``out``: the path for results, or None for standard output.
 
     ``scheduler``: the address of a Dask cluster that grades. ``reviewed``: a table that a person filled in. ``roster``:
-    the table of who is in the course.
+    the table of the students of the course.
     """
 
     form: str = NATIVE
@@ -44,7 +44,7 @@ class GradingOptions:
 
     @property
     def format(self) -> Format:
-        """The format called so. Raises FormatError."""
+        """The format named ``form``. Raises FormatError."""
         if self.form not in FORMATS:
             raise FormatError(f"'{self.form}' is not a format: the formats are {', '.join(FORMATS)}")
         if self.check_only and self.form != NATIVE:
@@ -57,22 +57,22 @@ class GradingOptions:
 
     @property
     def in_folder(self) -> bool:
-        """Return whether the format writes a folder there."""
+        """Whether the format writes a folder at ``out``."""
         return self.out is not None and self.format.folder(self.out)
 
     @property
     def target(self) -> Path | None:
-        """Return where the format writes: dofkit's own results in a folder have a name there."""
+        """The path to which the format writes, for dofkit's own format in a folder a file."""
         return self.out / RESULTS if self.out is not None and self.form == NATIVE and self.in_folder else self.out
 
     @property
     def review(self) -> ReviewPaths | None:
-        """Return the paths of the review. Raises FormatError."""
+        """The paths of the review, or None if there is none. Raises FormatError."""
         return None if self.out is None or self.check_only else ReviewPaths.of_output(self.out, self.in_folder)
 
     @property
     def written(self) -> list[Path]:
-        """The paths that are written to. Raises FormatError."""
+        """All paths that are written. Raises FormatError."""
         if self.out is None:
             return []
         review = [] if self.review is None else [self.review.table, self.review.page]
@@ -80,12 +80,12 @@ class GradingOptions:
 
 
 def unfinished(out: Path) -> Path:
-    """Return the journal of an unfinished run, from which the next one goes on."""
+    """Return the path of the journal of an unfinished run, from which the next run continues."""
     return out.with_name(out.name + ".unfinished")
 
 
 def fingerprint(prepared: Prepared, check_only: bool, roster: Roster | None = None) -> str:
-    """Return what distinguishes a run from others: the assignment with its scenes, the roster, and how it grades."""
+    """Return a hash of the version, the assignment with its scenes and decisions, the roster and the options."""
     course = "" if roster is None else roster.digest
     texts = [__version__, str(check_only), course, prepared.assignment.model_dump_json()]
     texts += [f"{identity} {decision}" for identity, decision in sorted(prepared.decisions.items())]
@@ -94,7 +94,7 @@ def fingerprint(prepared: Prepared, check_only: bool, roster: Roster | None = No
 
 
 def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
-    """Grade all submissions, in the order given, and return whether every one was read.
+    """Grade all submissions in the given order, write the results, and return whether all could be read.
 
     Raises AssignmentError, FormatError, OSError for what cannot be written, and StoppedError.
     """

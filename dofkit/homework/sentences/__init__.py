@@ -1,4 +1,4 @@
-"""Feedback for students, in English, German, French and Spanish: sentences with places for what differs."""
+"""Feedback for students, in English, German, French and Spanish: sentences with placeholders for values."""
 
 from __future__ import annotations
 
@@ -14,27 +14,26 @@ Language = Literal["en", "de", "fr", "es"]
 
 @cache
 def _rows(name: str) -> list[dict[str, str]]:
-    rows: list[dict[str, str]] = read_document(
-        files("dofkit.homework.sentences").joinpath(name).read_bytes(), name
-    ).value
+    data = files("dofkit.homework.sentences").joinpath(name).read_bytes()
+    rows: list[dict[str, str]] = read_document(data, name).value
     return rows
 
 
 @cache
 def catalogue() -> dict[str, dict[str, str]]:
-    """Language -> English sentence -> the same in this language."""
+    """Return {language: {English sentence: its translation}}."""
     return {language: {row["en"]: row[language] for row in _rows("catalogue.yaml")} for language in ("de", "fr", "es")}
 
 
 @cache
 def meanings() -> dict[str, str]:
-    """Return the English sentence that explains each feedback code."""
+    """Return {feedback code: English sentence that explains it}."""
     return {code: row["en"] for row in _rows("catalogue.yaml") if "code" in row for code in row["code"].split()}
 
 
 @cache
 def _reading(language: Language) -> list[tuple[re.Pattern[str], str]]:
-    """Return patterns of English texts of why reading stopped, each with the text in a language."""
+    """Return (pattern of an English message about unreadable answers, its translation)."""
     return [(_pattern(row["en"]), row[language]) for row in _rows("reading.yaml")]
 
 
@@ -49,7 +48,7 @@ _PLACE = re.compile(r"\{(\w+)\}")
 
 
 def stopped(text: str, language: Language) -> str:
-    """Return why reading stopped, or what to do, in a language; in English if it has no such text.
+    """Return the translation of a message about an unreadable answer, or the English text if there is none.
 
     >>> stopped("`q` is not declared", "fr")
     "`q` n'est pas déclaré"
@@ -78,18 +77,18 @@ def described(text: str, language: Language) -> str:
     return re.sub(rf"\A(?:{types})\b|{joining}", lambda match: words[match[0]], text)
 
 
-#: The places of a sentence in which it stands why reading stopped.
+#: The placeholders of sentences for messages about unreadable answers.
 FAULTS = frozenset({"fault", "hint"})
 
 
 class Said(NamedTuple):
-    """``sentence``: in English, with names in braces for ``values``; those that are words are translated too."""
+    """A sentence in English with placeholders for ``values``, of which known words are translated too."""
 
     sentence: str
     values: tuple[tuple[str, object], ...] = ()
 
     def translated(self, language: Language = "en") -> str:
-        """The sentence in a language; in English where it has none.
+        """Return the sentence in a language, or in English if there is no translation.
 
         >>> say("The correct answer is {number}.", number=3).translated("de")
         'Die richtige Antwort ist 3.'
@@ -104,12 +103,12 @@ class Said(NamedTuple):
 
 
 def _word(text: str, translations: dict[str, str]) -> str:
-    """Return a value with its words translated, if all of them are known."""
+    """Return a value with all known words translated."""
     return "".join(translations.get(word, word) for word in re.split("(, | / )", text))
 
 
 def in_language(language: Language, sentence: str, **values: object) -> str:
-    """Return a sentence of the catalogue in a language, its places filled.
+    """Return a sentence of the catalogue in a language, with values in its placeholders.
 
     >>> in_language("de", "{score} of {most}", score=1, most=2)
     '1 von 2'
@@ -118,5 +117,5 @@ def in_language(language: Language, sentence: str, **values: object) -> str:
 
 
 def say(sentence: str, **values: object) -> Said:
-    """A sentence and what stands in its places."""
+    """Return a sentence with the values of its placeholders."""
     return Said(sentence, tuple(values.items()))

@@ -56,9 +56,8 @@ def reservation(report: Report) -> str:
     """Return why the report is not proved: the chance of an error, the gap, or what is undecided; empty if proved."""
     weakest = [(name, entry) for name, entry in report.verdicts.items() if entry.verdict == report.verdict]
     bounds = [entry.bound for _, entry in weakest if entry.bound]
-    bounds += [
-        f.bound for e in report.constraints for f in e.verdicts.values() if f.verdict == report.verdict and f.bound
-    ]
+    labels = [v for e in report.constraints for v in e.verdicts.values() if v.verdict == report.verdict]
+    bounds += [label.bound for label in labels if label.bound]
     if report.verdict == "probable" and not bounds:
         return "no evidence for the checker (details: --how)"
     if report.verdict == "probable":

@@ -89,6 +89,7 @@ def _alarm(report: Report) -> tuple[str, Tone] | None:
 
 
 def _facts(report: Report) -> Iterator[Fact]:
+    """Yield the lines at the top of a report: counts, freedom, labels, coordinates and verdict."""
     if report.consistent is not False:
         yield _count(report)
         if report.count.errs:
@@ -296,6 +297,7 @@ def _undecided(before: Report, after: Report) -> Iterator[Remark]:
 
 
 def _changes(before: Report, after: Report) -> Iterator[Remark]:
+    """Yield a remark for each number and label that differs between two reports."""
     for label, name in _NUMBERS:
         was, now = getattr(before, name), getattr(after, name)
         if was != now:

@@ -143,6 +143,7 @@ class EnergyReader:
         ))  # fmt: skip
 
     def _spring(self, world: World, force: Force) -> Expr:
+        """Return the energy k/2 (l - l0)^2 of a linear or torsional spring; 0 after a fault, which is recorded."""
         stiffness = needed(world, force.stiffness, "stiffness", "of a spring")
         turned = _turned(world, force)
         if turned is not None:
@@ -226,6 +227,7 @@ def _pull(world: World, force: Force) -> Vec:
 
 
 def _damper(world: World, force: Force) -> Expr:
+    """Return the dissipation d/2 (dl/dt)^2 of a linear or torsional damper."""
     damping = needed(world, force.damping, "damping", "of a damper")
     turned = _turned(world, force)
     if turned is not None:

@@ -235,7 +235,7 @@ def _has_kinetics(scene: Scene) -> bool:
 
 
 def _small(scene: Scene, derived: Derived) -> tuple[Linearized | None, tuple[str, ...]]:
-    """Return (linearization, ()), or (None, (reason,)); a second attempt is made without elimination."""
+    """Return (linearization, ()), or (None, (reason,)); if it fails after elimination, it is tried without."""
     try:
         return linearized(derived), ()
     except NoEquationsError as error:

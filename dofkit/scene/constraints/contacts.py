@@ -57,10 +57,10 @@ class Cam(ConstraintBase):
         profile = self._profile(world)
         if profile is None:
             return
-        drawn = None if point.reference is None else _drawn(profile.expr, frame, point.reference)
-        world.mentioned.directions.append(None if drawn is None else drawn.tangent(bool(world.tolerance)))
-        if drawn is not None:
-            self._check(world, frame, point, drawn)
+        at_reference = None if point.reference is None else _contact_at(profile.expr, frame, point.reference)
+        world.mentioned.directions.append(None if at_reference is None else at_reference.tangent(bool(world.tolerance)))
+        if at_reference is not None:
+            self._check(world, frame, point, at_reference)
         yield with_values(profile, _body_coordinates(frame, point), part="contact")
 
     def _profile(self, world: World) -> Relation | None:
@@ -81,16 +81,16 @@ class Cam(ConstraintBase):
             return None
         return relations[0]
 
-    def _check(self, world: World, frame: Frame, point: Placed, drawn: DrawnContact) -> None:
+    def _check(self, world: World, frame: Frame, point: Placed, contact: ReferenceContact) -> None:
         """Record a fault, with the distance, if the point is off the profile in the reference configuration."""
         body = None if frame.fixed else frame.name
         place = point.label if point.frame else f"{point.label} at {figures(point.reference)}"
         hint = "move the point or the body, or set `tolerance` if they are measured"
-        if drawn.gap is None:
+        if contact.gap is None:
             message = f"the reference configuration has {place}, where `{self.curve}` has no value"
             world.misfit(None, message, "point", hint=hint, body=body)
-        elif world.differs(drawn.gap, body):
-            gap, steepness = approximate(drawn.gap), root(square(drawn.slope))
+        elif world.differs(contact.gap, body):
+            gap, steepness = approximate(contact.gap), root(square(contact.slope))
             message = (
                 f"the reference configuration has {place}, off the profile of {frame.name}: there `{self.curve}` fails"
             )
@@ -112,8 +112,8 @@ def _body_coordinates(frame: Frame, point: Placed) -> dict[Expr, Expr]:
     return dict(zip((X, Y), arm, strict=True))
 
 
-class DrawnContact(NamedTuple):
-    """The value g (``gap``, None if undefined) and gradient (``slope``, 0 at a corner) of a drawn profile."""
+class ReferenceContact(NamedTuple):
+    """The value g (``gap``, None if undefined) and gradient (``slope``, 0 at a corner) of a profile at the point."""
 
     gap: Expr | None
     slope: Vec
@@ -127,7 +127,7 @@ class DrawnContact(NamedTuple):
         return mul(MINUS_ONE, self.slope[1]), self.slope[0]
 
 
-def _drawn(profile: Expr, frame: Frame, place: Vec) -> DrawnContact:
+def _contact_at(profile: Expr, frame: Frame, place: Vec) -> ReferenceContact:
     """Return value and gradient of the profile g at the point ``place`` of the reference configuration."""
     turned = turn(frame.initial[0]) if frame.initial else None
     arm = minus(place, frame.start)
@@ -136,12 +136,12 @@ def _drawn(profile: Expr, frame: Frame, place: Vec) -> DrawnContact:
     try:
         gap = substitute(profile, at)
     except NoValueError:
-        return DrawnContact(None, (ZERO, ZERO))
+        return ReferenceContact(None, (ZERO, ZERO))
     try:
         slope = tuple(substitute(diff(profile, letter), at) for letter in (X, Y))
     except NoValueError:
         slope = (ZERO, ZERO)
-    return DrawnContact(gap, slope if turned is None else apply(turned, slope))
+    return ReferenceContact(gap, slope if turned is None else apply(turned, slope))
 
 
 class Roll(ConstraintBase):

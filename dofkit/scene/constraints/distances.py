@@ -51,12 +51,12 @@ class Link(ConstraintBase):
             return
         given_length = None if self.length is None else world.expression(self.length, "length")
         if given_length is not None:
-            drawn = (
+            reference_length = (
                 sqrt(square_between(first.reference, second.reference))
                 if first.reference and second.reference
                 else None
             )
-            _check_length(world, given_length, drawn, f"{first.label} and {second.label} are", "apart")
+            _check_length(world, given_length, reference_length, f"{first.label} and {second.label} are", "apart")
         if first.frame is None and second.frame is None and (given_length is None or not _moves(given_length)):
             world.links.append((world.index, first.label, second.label))
         at_least_zero: tuple[Requirement, ...] = ()
@@ -81,7 +81,7 @@ def _moves(length: Expr) -> bool:
 
 def distance(world: World, first: Placed, second: Placed, length: Expr | None) -> Expr:
     """Return |A - B|^2 - length^2 times its denominator; ``length`` None stands for the reference or a generic one."""
-    drawn = square_between(first.reference, second.reference) if first.reference and second.reference else None
+    known_square = square_between(first.reference, second.reference) if first.reference and second.reference else None
     if length is not None:
         squared = power(length, TWO)
         if squared.is_zero:
@@ -89,30 +89,30 @@ def distance(world: World, first: Placed, second: Placed, length: Expr | None) -
                 f"the link {first.label}-{second.label} has length 0: one equation that is satisfied only "
                 "where all coordinates agree; `coincident` states the same with regular equations"
             )
-    elif drawn is not None:
-        squared = drawn
-        if drawn.is_zero:
+    elif known_square is not None:
+        squared = known_square
+        if known_square.is_zero:
             world.warnings.append(
                 f"the points {first.label} and {second.label} of a link coincide in the reference configuration"
             )
     else:
         squared = world.fresh("L")
     world.apart(first, second, squared)
-    if drawn is not None and first.frame is not None and first.frame == second.frame:
-        return difference(drawn, squared)
+    if known_square is not None and first.frame is not None and first.frame == second.frame:
+        return difference(known_square, squared)
     arm, under = between(first, second)
     return difference(square(arm), squared if under is ONE else mul(squared, power(under, TWO)))
 
 
-def _check_length(world: World, length: Expr, drawn: Expr | None, before: str, after: str) -> None:
-    """Record a fault for a ``length`` that is negative or not the reference length ``drawn`` at time 0."""
+def _check_length(world: World, length: Expr, reference_length: Expr | None, before: str, after: str) -> None:
+    """Record a fault for a ``length`` that is negative or at time 0 not ``reference_length``."""
     start = substitute(length, {TIME: ZERO})
     figure = approximate(start)
     if figure is not None and figure < 0:
         world.fault(f"a length cannot be negative ({figure:.6g})", "length", hint=f"write `length: {-figure:.6g}`")
-    if drawn is None or not world.differs(difference(power(start, TWO), power(drawn, TWO))):
+    if reference_length is None or not world.differs(difference(power(start, TWO), power(reference_length, TWO))):
         return
-    measured = approximate(drawn)
+    measured = approximate(reference_length)
     measurement = f"{before} {_figure(measured)} {after}"
     message = f"the length {_figure(figure)} contradicts the reference configuration, where {measurement}"
     hint = f"write `length: {_figure(measured)}` or leave it out; set `tolerance` if it is measured"
@@ -177,7 +177,7 @@ class String(ConstraintBase):
 
     def relations(self, world: World) -> Iterator[Relation]:
         points = [world.point(point, "along", i) for i, point in enumerate(self.along)]
-        lengths, drawn = [], []
+        lengths, reference_lengths = [], []
         for i, (first, second) in enumerate(pairwise(points)):
             if first.label == second.label or _same_place(first, second):
                 world.fault(f"the string passes {first.label} twice in a row", "along", i + 1)
@@ -185,8 +185,8 @@ class String(ConstraintBase):
             arm, under = between(first, second)
             lengths.append(_length(arm) / under)
             if first.reference is not None and second.reference is not None:
-                drawn.append(sqrt(square_between(first.reference, second.reference)))
-        total = add(*drawn) if len(drawn) == len(lengths) else None
+                reference_lengths.append(sqrt(square_between(first.reference, second.reference)))
+        total = add(*reference_lengths) if len(reference_lengths) == len(lengths) else None
         if self.length is not None:
             given_length = world.expression(self.length, "length")
             _check_length(world, given_length, total, "the string is", "long")

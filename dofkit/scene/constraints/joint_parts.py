@@ -54,14 +54,16 @@ class JointGeometry(NamedTuple):
 # The parts of a relative motion that joints fix
 
 
-def _point(first: Frame, second: Frame, drawn: JointGeometry) -> Iterator[Relation]:
+def _point(first: Frame, second: Frame, geometry: JointGeometry) -> Iterator[Relation]:
     """Yield X2 - X1 = 0 for the material points at the joint's place: d relations."""
-    yield from component_relations(between(first.point(drawn.at), second.point(drawn.at))[0], "point {}", drawn.at)
+    yield from component_relations(
+        between(first.point(geometry.at), second.point(geometry.at))[0], "point {}", geometry.at
+    )
 
 
-def _origin(first: Frame, second: Frame, drawn: JointGeometry) -> Iterator[Relation]:
+def _origin(first: Frame, second: Frame, geometry: JointGeometry) -> Iterator[Relation]:
     """Yield p2 - p1 - R1 (p02 - p01) = 0, times a denominator: d relations."""
-    del drawn
+    del geometry
     frame = carrier(first, second)
     start = minus(second.start, first.start)
     moved = minus(second.position, first.position)
@@ -70,13 +72,13 @@ def _origin(first: Frame, second: Frame, drawn: JointGeometry) -> Iterator[Relat
     yield from component_relations(moved, "origin {}")
 
 
-def _orientation(first: Frame, second: Frame, drawn: JointGeometry) -> Iterator[Relation]:
+def _orientation(first: Frame, second: Frame, geometry: JointGeometry) -> Iterator[Relation]:
     """Yield the relations that there is no relative rotation: 1 in the plane, 3 in space.
 
     In the plane theta2 - theta1 = 0; in space g2 - g1 = 0, or else that the Gibbs vector of B = R1^T R2 is 0: its
     components are (B32 - B23, B13 - B31, B21 - B12) / (1 + tr B), up to a factor, and undefined for half turns.
     """
-    del drawn
+    del geometry
     if first.dimension == 2:
         yield Relation(difference(second.angle, first.angle), part="angle")
     elif first.gibbs is not None and second.gibbs is not None:
@@ -88,13 +90,13 @@ def _orientation(first: Frame, second: Frame, drawn: JointGeometry) -> Iterator[
             yield Relation(difference(dot(a[i], b[j]), dot(a[j], b[i])) / trace, part=f"orientation {about}")
 
 
-def _axis(first: Frame, second: Frame, drawn: JointGeometry) -> Iterator[Relation]:
+def _axis(first: Frame, second: Frame, geometry: JointGeometry) -> Iterator[Relation]:
     """Yield 2 relations that the axis n has the same direction in both bodies, one for each u perpendicular to n.
 
     With Gibbs vectors for both rotations v.u = 0 (no rotation about u), with the vector part v of the quaternion of
     R1^T R2; otherwise (R1 n).(R2 u) = 0 (no rotation about n x u).
     """
-    for axis in drawn.axes:
+    for axis in geometry.axes:
         turned = relative(first, second)
         carried = first.carry(axis.vector) if turned is None else ()
         for across in axis.across:
@@ -104,9 +106,9 @@ def _axis(first: Frame, second: Frame, drawn: JointGeometry) -> Iterator[Relatio
                 yield Relation(dot(turned[1], across), part="axis", vector=across)
 
 
-def _axes(first: Frame, second: Frame, drawn: JointGeometry) -> Iterator[Relation]:
+def _axes(first: Frame, second: Frame, geometry: JointGeometry) -> Iterator[Relation]:
     """Yield the relation that the first axis, fixed in the first body, is perpendicular to the second body's axis."""
-    a, b = (axis.vector for axis in drawn.axes)
+    a, b = (axis.vector for axis in geometry.axes)
     turned = relative(first, second)
     if turned is None:
         e = dot(first.carry(a), second.carry(b))
@@ -116,23 +118,23 @@ def _axes(first: Frame, second: Frame, drawn: JointGeometry) -> Iterator[Relatio
     yield Relation(e, part="axes")
 
 
-def _across(first: Frame, second: Frame, drawn: JointGeometry) -> Iterator[Relation]:
+def _across(first: Frame, second: Frame, geometry: JointGeometry) -> Iterator[Relation]:
     """Yield the relations that the second body has no displacement perpendicular to the axis of the first."""
-    for u in drawn.axis.across:
-        yield Relation(slide(first, second, drawn, u)[0], part="across", vector=u)
+    for u in geometry.axis.across:
+        yield Relation(slide(first, second, geometry, u)[0], part="across", vector=u)
 
 
-def _distance(first: Frame, second: Frame, drawn: JointGeometry) -> Iterator[Relation]:
+def _distance(first: Frame, second: Frame, geometry: JointGeometry) -> Iterator[Relation]:
     """Yield the relation that the second body has no displacement along the axis of the first."""
-    n = drawn.axis.vector
-    yield Relation(slide(first, second, drawn, n)[0], part="distance", vector=n)
+    n = geometry.axis.vector
+    yield Relation(slide(first, second, geometry, n)[0], part="distance", vector=n)
 
 
-def _thread(first: Frame, second: Frame, drawn: JointGeometry) -> Iterator[Relation]:
+def _thread(first: Frame, second: Frame, geometry: JointGeometry) -> Iterator[Relation]:
     """Yield displacement - pitch angle / (2 pi) = 0, times a denominator."""
-    n = drawn.axis.vector
-    moved, under = slide(first, second, drawn, n)
-    advance = mul(drawn.number or ZERO, angle_of(first, second, drawn)) / (2 * PI)
+    n = geometry.axis.vector
+    moved, under = slide(first, second, geometry, n)
+    advance = mul(geometry.number or ZERO, angle_of(first, second, geometry)) / (2 * PI)
     yield Relation(difference(moved, mul(length(n), under, advance)), part="thread")
 
 
@@ -179,17 +181,17 @@ class Holds:
         for part in self.motion_parts:
             yield from PARTS[part].velocities(at)
 
-    def relations(self, first: Frame, second: Frame, drawn: JointGeometry) -> Iterator[Relation]:
+    def relations(self, first: Frame, second: Frame, geometry: JointGeometry) -> Iterator[Relation]:
         """Yield the relations between the two frames."""
         for part in self.motion_parts:
-            yield from PARTS[part].relations(first, second, drawn)
+            yield from PARTS[part].relations(first, second, geometry)
 
     @property
     def placed(self) -> bool:
         """Whether the equations depend on the joint's place, that of its point or of the axis of rotation."""
         return "point" in self.motion_parts or ("axis" in self.motion_parts and "across" in self.motion_parts)
 
-    def mentioned(self, first: Frame, second: Frame, drawn: JointGeometry) -> frozenset[str] | None:
+    def mentioned(self, first: Frame, second: Frame, geometry: JointGeometry) -> frozenset[str] | None:
         """Return the coordinates in the equations if common coordinates connect all of these, else None.
 
         A body's angles occur in all equations of a place that is not its origin, and in those of an axis. Equations in
@@ -200,20 +202,20 @@ class Holds:
             one_origin = "origin" in self.motion_parts and first.start == second.start
             whole = not (first.fixed or second.fixed or one_origin)
             return frozenset(positions).union(first.angles, second.angles) if whole else None
-        armed = [frame for frame in (first, second) if not frame.fixed and frame.start != drawn.at]
-        turning = (first, second) if drawn.axes else armed
+        armed = [frame for frame in (first, second) if not frame.fixed and frame.start != geometry.at]
+        turning = (first, second) if geometry.axes else armed
         return frozenset(positions).union(*(frame.angles for frame in turning)) if armed else None
 
 
-def longest_of(first: Frame, second: Frame, drawn: JointGeometry) -> int | None:
+def longest_of(first: Frame, second: Frame, geometry: JointGeometry) -> int | None:
     """Return the bits of the longest number in the equations of two frames with rational geometry; None for others."""
     moving = [frame for frame in (first, second) if not frame.fixed]
-    if not moving or any(frame.chart not in ("plane", "gibbs") for frame in moving) or drawn.number is not None:
+    if not moving or any(frame.chart not in ("plane", "gibbs") for frame in moving) or geometry.number is not None:
         return None
     numbers = [
         *chain.from_iterable((*frame.start, *(frame.initial if frame.chart == "plane" else ())) for frame in moving),
-        *(drawn.place or ()),
-        *chain.from_iterable(axis.vector for axis in drawn.axes),
+        *(geometry.place or ()),
+        *chain.from_iterable(axis.vector for axis in geometry.axes),
     ]
     if any(part.op != "num" for part in numbers):
         return None
@@ -238,7 +240,7 @@ def carrier(first: Frame, second: Frame) -> Frame:
     return second if second.fixed else first
 
 
-def slide(first: Frame, second: Frame, drawn: JointGeometry, direction: Vec) -> tuple[Expr, Expr]:
+def slide(first: Frame, second: Frame, geometry: JointGeometry, direction: Vec) -> tuple[Expr, Expr]:
     """Return (numerator, denominator) of the second body's displacement from the first along ``direction``.
 
     The displacement of the body's point at the joint's place; without a place of its origin, where the choice does not
@@ -246,49 +248,49 @@ def slide(first: Frame, second: Frame, drawn: JointGeometry, direction: Vec) -> 
     """
     frame = carrier(first, second)
     other = first if frame is second else second
-    place = other.start if drawn.place is None else drawn.place
+    place = other.start if geometry.place is None else geometry.place
     point = other.point(place)
     moved, under = along(frame, point, place, direction), mul(frame.under, point.under)
     return (mul(MINUS_ONE, moved) if frame is second else moved), under
 
 
-def _displacement(first: Frame, second: Frame, drawn: JointGeometry) -> Expr:
-    n = drawn.axis.vector
-    moved, under = slide(first, second, drawn, n)
+def _displacement(first: Frame, second: Frame, geometry: JointGeometry) -> Expr:
+    n = geometry.axis.vector
+    moved, under = slide(first, second, geometry, n)
     return moved / mul(under, length(n))
 
 
-def _displacement_law(first: Frame, second: Frame, drawn: JointGeometry, law: Expr) -> Expr:
+def _displacement_law(first: Frame, second: Frame, geometry: JointGeometry, law: Expr) -> Expr:
     """Return n.X - |n| f times a denominator, with the displacement X, the axis n and the law f."""
-    n = drawn.axis.vector
-    moved, under = slide(first, second, drawn, n)
+    n = geometry.axis.vector
+    moved, under = slide(first, second, geometry, n)
     return difference(moved, mul(length(n), under, law))
 
 
-def angle_of(first: Frame, second: Frame, drawn: JointGeometry) -> Expr:
+def angle_of(first: Frame, second: Frame, geometry: JointGeometry) -> Expr:
     """Return the angle of the second body relative to the first, in space about the shared axis, right-handed."""
-    if not drawn.axes:
+    if not geometry.axes:
         return difference(second.angle, first.angle)
-    n = drawn.axis.vector
+    n = geometry.axis.vector
     turned = relative(first, second)
     if turned is not None:
         return 2 * fn("atan", dot(turned[1], n) / (turned[0] * length(n)))
-    return fn("atan2", *_sine_and_cosine(first, second, drawn.axis))
+    return fn("atan2", *_sine_and_cosine(first, second, geometry.axis))
 
 
-def _angle_law(first: Frame, second: Frame, drawn: JointGeometry, law: Expr) -> Expr:
+def _angle_law(first: Frame, second: Frame, geometry: JointGeometry, law: Expr) -> Expr:
     """Return an expression that is 0 if the angle of the second body relative to the first is the law f.
 
     In the plane theta2 - theta1 - f. In space, with the axis n, v.n cos(f/2) - s |n| sin(f/2), or with w = n x u, u
     perpendicular to n: (R1 w).(R2 u) cos f - |n| (R1 u).(R2 u) sin f.
     """
-    if not drawn.axes:
-        return difference(angle_of(first, second, drawn), law)
+    if not geometry.axes:
+        return difference(angle_of(first, second, geometry), law)
     turned = relative(first, second)
     if turned is None:
-        sine, cosine = _sine_and_cosine(first, second, drawn.axis)
+        sine, cosine = _sine_and_cosine(first, second, geometry.axis)
     else:
-        n, law = drawn.axis.vector, mul(HALF, law)
+        n, law = geometry.axis.vector, mul(HALF, law)
         sine, cosine = dot(turned[1], n), mul(turned[0], length(n))
     return difference(mul(sine, fn("cos", law)), mul(cosine, fn("sin", law)))
 

@@ -50,18 +50,18 @@ class Joint(ConstraintBase):
         del world
         return JointGeometry()
 
-    def laws(self, world: World, first: Frame, second: Frame, drawn: JointGeometry) -> Iterator[Relation]:
+    def laws(self, world: World, first: Frame, second: Frame, geometry: JointGeometry) -> Iterator[Relation]:
         """Yield the relation of the drive, if the joint is driven."""
-        del world, first, second, drawn
+        del world, first, second, geometry
         yield from ()
 
     def joined(self, world: World, first: Frame, second: Frame) -> Sequence[Relation]:
         """Return the relations between the two frames: lazily if their coordinates are known without writing them."""
-        drawn = self.geometry(world)
-        laws = tuple(self.laws(world, first, second, drawn))
-        equations = partial(self.holds.relations, first, second, drawn)
-        longest = None if laws else longest_of(first, second, drawn)
-        mentioned = None if longest is None else self.holds.mentioned(first, second, drawn)
+        geometry = self.geometry(world)
+        laws = tuple(self.laws(world, first, second, geometry))
+        equations = partial(self.holds.relations, first, second, geometry)
+        longest = None if laws else longest_of(first, second, geometry)
+        mentioned = None if longest is None else self.holds.mentioned(first, second, geometry)
         if longest is None or mentioned is None:
             return (*equations(), *laws)
         return Unwritten(MOTIONS[world.dimension] - len(self.facts.freedoms), mentioned, longest, equations)
@@ -123,10 +123,10 @@ class Driven(Axial):
         measures = (("axis", "angle", ANGLE), ("across", "displacement", DISPLACEMENT))
         return {name: measure for part, name, measure in measures if part in cls.holds.motion_parts}
 
-    def laws(self, world: World, first: Frame, second: Frame, drawn: JointGeometry) -> Iterator[Relation]:
+    def laws(self, world: World, first: Frame, second: Frame, geometry: JointGeometry) -> Iterator[Relation]:
         if self.drive is not None:
             law = world.expression(self.drive, "drive", allow=LAW)
-            yield Relation(self.drives.law(first, second, drawn, law), part=DRIVE)
+            yield Relation(self.drives.law(first, second, geometry, law), part=DRIVE)
 
 
 class Revolute(Driven):
@@ -235,9 +235,9 @@ class Screw(Driven):
     symbol: ClassVar[Symbol] = Symbol(space=(helix(0.4, 2.4, 6, 1), axle(2.4, 1), *prism(0.65, 0.6)))
 
     def geometry(self, world: World) -> JointGeometry:
-        drawn = super().geometry(world)
+        geometry = super().geometry(world)
         world.mentioned.number = world.fixed(self.pitch, "pitch")
-        return drawn._replace(number=world.mentioned.number)
+        return geometry._replace(number=world.mentioned.number)
 
     @property
     def in_words(self) -> str:
@@ -269,6 +269,7 @@ class Universal(LocatedJoint):
         return JointGeometry(self.located(world), self._pair(world))
 
     def _pair(self, world: World) -> tuple[Direction, Direction]:
+        """Return the two axes in the reference configuration; a fault is recorded if they are not perpendicular."""
         if self.axes is None:
             if self.at is not None:
                 hint = "add `axes: [[1, 0, 0], [0, 1, 0]]`, or leave both out for a joint in general position"
