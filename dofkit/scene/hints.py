@@ -211,12 +211,11 @@ def _owner(fault: Fault, value: Mapping[str, Any]) -> str | None:
     name = fault.where[1] if fault.where[:1] == ("configuration",) and len(fault.where) == 2 else None
     for section, what in (("bodies", "body"), ("particles", "particle")):
         for entry in listed if isinstance(listed := value.get(section), (list, tuple)) else ():
-            own = entry if isinstance(entry, Mapping) else {"name": entry}
-            if name is not None and own.get("name") == name:
-                names = own.get("coordinates") or [f"x_{name}"]
-                return (
-                    f"'{name}' is a {what}: give its coordinates by their names, as `configuration: {{{names[0]}: 0}}`"
-                )
+            declared = entry if isinstance(entry, Mapping) else {"name": entry}
+            if name is not None and declared.get("name") == name:
+                renamed = declared.get("coordinates")
+                first = renamed[0] if isinstance(renamed, (list, tuple)) and renamed else f"x_{name}"
+                return f"'{name}' is a {what}: give its coordinates by their names, as `configuration: {{{first}: 0}}`"
     return None
 
 

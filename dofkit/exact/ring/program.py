@@ -83,16 +83,16 @@ def false_without_value(function: Callable[P, Decision]) -> Callable[P, Decision
 
 
 def none_without_value(function: Callable[P, T]) -> Callable[P, T | None]:
-    """Return a function that is None, for not known, where something that it works out has no value."""
+    """Return ``function`` with the result None where it would raise NoValueError."""
 
     @wraps(function)
-    def known(*args: P.args, **kwargs: P.kwargs) -> T | None:
+    def value_or_none(*args: P.args, **kwargs: P.kwargs) -> T | None:
         try:
             return function(*args, **kwargs)
         except NoValueError:
             return None
 
-    return known
+    return value_or_none
 
 
 @dataclass(frozen=True)
