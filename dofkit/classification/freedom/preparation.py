@@ -236,7 +236,7 @@ def conditional(normal: Normal) -> bool:
 def copies(reduced: Sequence[Reduced]) -> dict[int, int]:
     """Constraints all of whose relations an earlier one wrote already, up to a number: copy -> original.
 
-    Only those are compared that mention the same symbols.
+    Only those are compared that mention the same coordinates.
     """
     alike: dict[Hashable, list[int]] = {}
     for i, r in enumerate(reduced):
@@ -254,12 +254,8 @@ def copies(reduced: Sequence[Reduced]) -> dict[int, int]:
 
 
 def _mentioned(normals: Sequence[Normal]) -> Hashable:
-    """The same for relations that are each other's up to a number: the symbols that each mentions."""
-    return frozenset([frozenset[object]().union(*map(_symbols_of, normal.pieces)) for normal in normals])
-
-
-def _symbols_of(piece: Piece) -> frozenset[str] | frozenset[Expr]:
-    return frozenset(piece.coefficients) if isinstance(piece, Pfaffian) else piece.expr.symbols
+    """The same for relations that are each other's up to a number: the coordinates that each mentions."""
+    return frozenset([frozenset[str]().union(*map(coordinates_of, normal.pieces)) for normal in normals])
 
 
 def _says_nothing(normal: Normal) -> bool:
