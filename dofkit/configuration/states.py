@@ -34,7 +34,7 @@ TRIES = 3
 #: Random configurations at which real velocities are looked for.
 STARTS = 6
 #: Starts of a short search, and the steps of each.
-NEAR_STARTS, NEAR_STEPS = 3, 25
+NEAR_STARTS, NEAR_STEPS = 2, 25
 #: Functions that repeat are looked at far out as well, from this state on.
 FAR_FROM, FAR = 4, 16.0
 #: Functions that are one branch of several; what a relation may be solved for.

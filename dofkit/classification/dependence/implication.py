@@ -2,7 +2,7 @@
 
 Asked on every choice of the others' branches, at generic states over GF(p); where one of those does not satisfy the
 relation and complex solutions may be meant, at real states with balls. What is finite is implied by geometric equations
-only, the hidden ones included: a rate does not fix the constant.
+only, the hidden ones included: a rate does not fix the constant. With a reference: on the manifold through it.
 """
 
 from __future__ import annotations

@@ -86,13 +86,13 @@ def none_without_value(function: Callable[P, T]) -> Callable[P, T | None]:
     """Return a function that is None, for not known, where something that it works out has no value."""
 
     @wraps(function)
-    def known(*args: P.args, **kwargs: P.kwargs) -> T | None:
+    def optional(*args: P.args, **kwargs: P.kwargs) -> T | None:
         try:
             return function(*args, **kwargs)
         except NoValueError:
             return None
 
-    return known
+    return optional
 
 
 @dataclass(frozen=True)

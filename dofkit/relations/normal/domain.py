@@ -164,7 +164,7 @@ def by_signs(
 def up_to_a_number(e: Expr) -> frozenset[tuple[Expr, Fraction]]:
     """Equal for expressions that are multiples of each other."""
     terms = linear_terms(e)
-    first = terms[min(terms, key=repr)] if terms else 1
+    first = terms[min(terms, key=hash)] if terms else 1
     return frozenset((s, c / first) for s, c in terms.items())
 
 
