@@ -37,7 +37,6 @@ MOST = 120
 ALIKE: frozenset[ArgumentKey | None] = frozenset(
     {
         "nothing constrains",
-        "one relation",
         "graph",
         "links in general position",
         "Lie algebra, certified",
@@ -99,7 +98,8 @@ def claim_of_choice(study: Study, chosen: Sequence[str]) -> Claim:
     of_blocks = []
     for block, a in zip(study.outcome.blocks, study.outcome.answers, strict=True):
         scope: About = "component" if a.one_branch else "everywhere"
-        if a.argument in ALIKE or not a.dof or (a.about == "reference" and a.instantaneous == a.velocity_dof):
+        alike = a.argument in ALIKE or (a.argument == "one relation" and not _may_be_parted(block))
+        if alike or not a.dof or (a.about == "reference" and a.instantaneous == a.velocity_dof):
             of_blocks.append(counted(replace(a.claim, about=least(a.about, scope))))
         elif a.argument == "joints that close no loop":
             of_blocks.append(replace(counted(a.claim), about="component"))
@@ -129,6 +129,9 @@ def _of_block(block: Block, a: Answer, setting: Setting, rotations: Sequence[Rot
     of_joints = partial(_dependent_at_reference, TurnedGroup(block, ()), setting, places_first=not a.answered_parts)
     dependent = set(a.dependent if a.answered_parts is None else of_joints())
     direct = [c for c in block.coordinates if c not in dependent]
+    if a.real is not None and regular_at_witness(block.coordinates, a, direct) is False:
+        dependent = {a.real.names[k] for k in ball_part(a.real.matrix).columns}
+        direct = [c for c in block.coordinates if c not in dependent]
     if not turning and len(direct) == a.dof:
         chosen = _explicit(block, a.dof, setting)
         return direct if chosen is None or not _is_regular(block, a, chosen, setting) else chosen
@@ -160,6 +163,12 @@ def _dependent_at_reference(group: TurnedGroup, setting: Setting, places_first: 
     place = {name: k for k, name in enumerate(names)}
     rows = [{place[name]: v for name, v in row.items()} for row in result.rows]
     return tuple(names[c] for c in last_columns(rows, len(place), result.p))
+
+
+def _may_be_parted(block: Block) -> bool:
+    """Return whether one relation holds functions, as 2 x y + sin(x) does, which has no factor x and is 0 at x = 0."""
+    relations = [r.piece.expr for r in block.finite if isinstance(r.piece, Finite)]
+    return any(e.functions for e in relations) and bool(explicit_relations(relations).implicit)
 
 
 def orbit_at_reference(block: Block, a: Answer, setting: Setting) -> RigidOrbit | None:

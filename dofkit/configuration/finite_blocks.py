@@ -67,7 +67,7 @@ def _finite_answer(chart: Chart) -> Answer:
     result.bits = error_bits(chart.ring, chart.nodes, len(chart.columns))
     result.witness = variety.witness or of_real_point(chart.symbols, variety.real)
     result.separating = variety.separating
-    if variety.argument in ("cases", "regular point"):
+    if variety.argument in ("cases", "regular point", "one relation"):
         result.real = _real_rows(chart, variety.real)
     result.method = "rank over GF(p)" + (" and balls" if variety.real else "")
     if variety.samples:

@@ -34,7 +34,7 @@ TRIES = 3
 #: Random configurations at which real velocities are searched.
 STARTS = 6
 #: Starts of a short search, and the steps of each.
-NEAR_STARTS, NEAR_STEPS = 3, 25
+NEAR_STARTS, NEAR_STEPS = 2, 25
 #: If angles occur, searches from this number on begin farther from 0, by this factor.
 FAR_FROM, FAR = 4, 16.0
 #: Generators that are one branch of several; generators that a relation may be solved for.

@@ -2,7 +2,8 @@
 
 It is tested on every choice of the others' branches, at generic states over GF(p); if one of these does not satisfy the
 relation but may be complex only, at real states with balls. A geometric equation can be implied only by geometric
-equations, hidden ones included, because a differential does not fix the constant.
+equations, hidden ones included, because a differential does not fix the constant. With a
+reference configuration implication is asked on the manifold through it.
 """
 
 from __future__ import annotations
@@ -109,8 +110,7 @@ def _on_near(rows: Sequence[Row], relation: Normal, setting: Setting) -> bool | 
 
     None where the rows are not geometric equations that are independent there, or a branch has conditions.
     """
-    branches = [[Row(0, p) for p in branch] for branch in relation.branches]
-    all_rows = (*rows, *(row for branch in branches for row in branch))
+    all_rows = (*rows, *(Row(0, p) for branch in relation.branches for p in branch))
     if not rows or not all(isinstance(row.piece, Finite) for row in all_rows):
         return None
     block = Block(tuple(sorted({n for row in all_rows for n in coordinates_of(row.piece)})), all_rows)
@@ -120,7 +120,7 @@ def _on_near(rows: Sequence[Row], relation: Normal, setting: Setting) -> bool | 
     if not independent or odd_constants(chart.ring, named=True):
         return None
     near, numbers = ImpliedRelations(chart, setting.reference or {}), iter(range(len(rows), len(all_rows)))
-    return _any([all_of([near.follows(next(numbers), premises) for _ in branch]) for branch in branches])
+    return _any([all_of([near.follows(next(numbers), premises) for _ in branch]) for branch in relation.branches])
 
 
 def _on_hidden(

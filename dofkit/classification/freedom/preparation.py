@@ -248,12 +248,8 @@ def copies(reduced: Sequence[Reduced]) -> dict[int, int]:
 
 
 def _mentioned(normals: Sequence[Normal]) -> Hashable:
-    """Return a key that is equal for multiples of the same relations: the set of symbols that each mentions."""
-    return frozenset([frozenset[object]().union(*map(_symbols_of, normal.pieces)) for normal in normals])
-
-
-def _symbols_of(piece: Piece) -> frozenset[str] | frozenset[Expr]:
-    return frozenset(piece.coefficients) if isinstance(piece, Pfaffian) else piece.expr.symbols
+    """Return a key that is equal for multiples of the same relations: the sets of coordinates that they mention."""
+    return frozenset([frozenset[str]().union(*map(coordinates_of, normal.pieces)) for normal in normals])
 
 
 def _is_not_compared(normal: Normal) -> bool:

@@ -229,10 +229,7 @@ class RealSearch:
 def _vanish_nearby(
     search: RealSearch, exact: Mapping[Expr, arb], rows: Sequence[int], columns: Sequence[int], seed: int
 ) -> bool:
-    """Return whether all relations vanish where other unknowns move a little and these rows are solved again.
-
-    Where they do not, the rows depend on each other at a singular point only.
-    """
+    """Return whether all relations vanish where other unknowns move a little too: at no singular point alone."""
     drawn = random_values(search.ring, search.positive, seed)
     free = {u: NEARBY * drawn[u] for k, u in enumerate(search.unknowns) if k not in columns}
     moved = {s: v.mid() + free.get(s, 0) for s, v in exact.items()}

@@ -161,7 +161,7 @@ def by_signs(
 def up_to_a_number(e: Expr) -> frozenset[tuple[Expr, Fraction]]:
     """Return a key that is equal for expressions that are multiples of each other by a number."""
     terms = linear_terms(e)
-    first = terms[min(terms, key=repr)] if terms else 1
+    first = terms[min(terms, key=hash)] if terms else 1
     return frozenset((s, c / first) for s, c in terms.items())
 
 
