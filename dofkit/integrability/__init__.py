@@ -15,10 +15,10 @@ Mechanisms, in the order in which they are tried
        power series. Its dimension is the freedom; the dimensions of D, D + [D, D], ... are the `growth_vector`.
     3. `pfaffian_system` finds hidden equations: if dt is in the span of the rows, motion is confined to a locus.
     4. `row_labels` labels every row of a block with either engine, and decides whether the reference configuration is
-       exceptional. Dependence of rows, and closure of D under brackets, are proved by identities [Frobenius1877].
+       exceptional. `bordered_minors` prove dependence of rows, and closure of D under brackets [Frobenius1877].
     5. `nonlinear_velocities` treats relations nonlinear in the velocities. Such a relation is non-holonomic if the set
-       of admissible velocities is curved at a certified state. Together with other constraints it may be equivalent to
-       linear relations, or determine all velocities.
+       of admissible velocities is curved at a certified state. `rewritten_rows`: together with other constraints it
+       may be equivalent to linear relations, or determine all velocities.
     6. `integrals` computes the potential and the integrating factor of one form, `first_integrals` integrals of several
        forms together; every result is proved by differentiation.
 """

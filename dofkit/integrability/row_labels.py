@@ -28,7 +28,8 @@ from dofkit.exact.ring.program import Scalar, values
 from dofkit.exact.zero import error_bits, independent_on_set, odd_constants
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.integrability.first_integrals import BorderedMinors, first_integrals, is_short
+from dofkit.integrability.bordered_minors import BorderedMinors, is_short
+from dofkit.integrability.first_integrals import first_integrals
 from dofkit.integrability.growth_vector import derived_flag, spanning_curves
 from dofkit.integrability.lie_algebra import SampledSpan, Span, ball_span, span_at
 from dofkit.integrability.pfaffian_system import Codistribution, linear_rows

@@ -22,7 +22,7 @@ from dofkit.classification.freedom.preparation import (
 from dofkit.classification.freedom.velocity_domain import with_values_in_motion
 from dofkit.configuration.linear_blocks import confirmed
 from dofkit.expressions.tree import Expr
-from dofkit.integrability.nonlinear_velocities import NOT_EQUIVALENT, with_reductions_checked
+from dofkit.integrability.rewritten_rows import NOT_EQUIVALENT, with_reductions_checked
 from dofkit.integrability.traits import is_curved
 from dofkit.relations.answer import Answer, AnsweredPart
 from dofkit.relations.blocks import Block, Row, blocks_of

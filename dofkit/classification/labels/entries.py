@@ -16,7 +16,7 @@ from dofkit.classification.labels.reasons import EntryDependence, Others
 from dofkit.classification.undecided import open_entry
 from dofkit.exact.matrices.sparse import rank_of_rows
 from dofkit.expressions.text import to_text
-from dofkit.integrability.nonlinear_velocities import label_modulo_others
+from dofkit.integrability.rewritten_rows import label_modulo_others
 from dofkit.relations.answer import IDENTITY, Answer, HolonomyLabel, Redundancies
 from dofkit.relations.blocks import Block, Row, coordinates_of, depends_on_time
 from dofkit.relations.normal.pieces import Nonlinear, Normal, Pfaffian, Reduced, piece_shape
