@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+import yaml
 from shared.known_scenes import CATALOG, EXPECTED, ROOT, SCENES, report_of, scene_of, stem, strict_report_of
 
 import dofkit
@@ -22,6 +23,8 @@ from dofkit.scene.constraints import TYPES
 from dofkit.scene.expectation import unmet
 
 BAD = ROOT / "tests/scenes/bad"
+#: The fields of each scene's report that are not proved, by their verdicts.
+CERTAINTY = yaml.safe_load((Path(__file__).parent / "certainty.yaml").read_text(encoding="utf-8"))
 
 
 @cache
@@ -38,6 +41,15 @@ def test_the_report_holds_what_the_scene_expects(path: Path) -> None:
     scene, report = scene_of(path), strict_report_of(path) if path in CATALOG else report_of(path)
     assert scene.expect
     assert unmet(scene, report.model_dump(mode="json")) == []
+
+
+@pytest.mark.parametrize("path", EXPECTED, ids=stem)
+def test_a_report_is_as_certain_as_its_arguments(path: Path) -> None:
+    """What is surer than the table says needs an argument first, and what is less sure has lost its own."""
+    report = report_of(path)
+    claims = report.verdicts | {f"{e.name}.{key}": claim for e in report.constraints for key, claim in e.verdicts.items()}
+    weaker = {key: claim.verdict for key, claim in claims.items() if claim.verdict != "proved"}
+    assert {v: sorted(k for k in weaker if weaker[k] == v) for v in weaker.values()} == CERTAINTY.get(path.stem, {})
 
 
 def test_names_are_files_and_unique() -> None:
