@@ -69,11 +69,6 @@ SAME: Mapping[tuple[str, str, str], str] = {
         "extremes = [(f, -1 if (weight > 0) == (constant >= 0) else 1) for f, weight in weights.items()]",
     ): "the constant is not 0: its absolute value is a sum of weights that are not",
     (
-        "dofkit/exact/ring/program.py",
-        "return self.number(1) if exponent == 0 else self.emit(POW, (base, exponent))",
-        "return self.number(1) if exponent == 1 else self.emit(POW, (base, exponent))",
-    ): "a power with the exponent 0 has the value 1",
-    (
         "dofkit/configuration/local/manifold.py",
         "for k in range(1, order if self.rows else 1):",
         "for k in range(1, order if self.rows else 0):",

@@ -322,7 +322,7 @@ class Everywhere(BlockImplication):
         answer = self.linearly(row, others)
         if answer is not None:
             return answer
-        if self.adjacent_rows([row, *others]) <= {row, *others}:
+        if self.adjacent_rows([row, *others]) == {row, *others}:
             return True
         alone = {i: Normal(((self.block.rows[i].piece,),)) for i in (row, *others)}
         return follows(alone[row], [alone[i] for i in others], self.setting)

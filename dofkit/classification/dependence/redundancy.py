@@ -53,8 +53,6 @@ def redundancies(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome)
 def _within_domain(r: Redundancies, reduced: Sequence[Reduced], setting: Setting) -> Redundancies:
     """Return the same about a component where what is redundant has no value, as it was written, at some points."""
     asked = {c for i in r.redundant for c in reduced[i].domain() if not is_always_satisfied(c, setting.positive)}
-    if not asked:
-        return r
     needed = {c for i, other in enumerate(reduced) if i not in r.redundant for c in other.domain()}
     return r if asked <= needed else _within(r, "component")
 

@@ -44,12 +44,12 @@ def _length(quotient: Quotient) -> int:
 
 
 def rationalised(canon: Canon, quotient: Quotient) -> Quotient:
-    """Return a quotient in lowest terms, also across cos^2 + sin^2 = 1 and root^d = radicand."""
+    """Return a quotient in lowest terms, also across root^d = radicand."""
     best = in_lowest_terms(*quotient)
     for var in canon.ring.vars:
-        if var.kind not in ("cos", "sin", "root") or not any(p.degrees()[-1 - var.index] for p in best):
+        if var.kind != "root" or not any(p.degrees()[-1 - var.index] for p in best):
             continue
-        gen = canon.gens[var.index] ** (var.degree - 1 if var.kind == "root" else 1)
+        gen = canon.gens[var.index] ** (var.degree - 1)
         other = in_lowest_terms(canon.reduce(best[0] * gen), canon.reduce(best[1] * gen))
         best = min(best, other, key=_length)
     return best
