@@ -424,6 +424,11 @@ def test_singular_is_where_first_order_freedom_differs(path: Path) -> None:
         assert report.singular is None
     else:
         assert report.singular is (report.instantaneous_dof != report.velocity_dof)
+    here = report.velocity_dof if report.instantaneous_dof is None else report.instantaneous_dof
+    if here is not None and report.generic is not None and report.generic.dof is not None:
+        why = report.generic.differs or ""
+        assert (why == "") is (here == report.generic.dof)
+        assert here < report.generic.dof or not why or f" {here - report.generic.dof} more equation" in why
 
 
 @every_scene
