@@ -101,7 +101,7 @@ class SufficientSets:
     def _ask(self, rows: Sequence[int]) -> bool:
         """Return whether one more question about so many rows may be asked."""
         check()
-        self._asked += len(rows) + 1
+        self._asked += len(rows)
         return self._asked <= WORK
 
     def _fewest(self, row: int, rows: Sequence[int], needed: Sequence[int]) -> list[int]:

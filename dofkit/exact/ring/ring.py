@@ -147,7 +147,7 @@ class Ring(Instructions):
         """An empty ring for other expressions, whose points are points of this one: it splits arguments as finely."""
         ring = Ring(expressions, self.positive, self.alias)
         for key, denominator in self._denominators.items():
-            ring._denominators[key] = lcm(ring._denominators.get(key, 1), denominator)
+            ring._denominators[key] = lcm(ring._denominators.get(key, denominator), denominator)
         return ring
 
     def _denominator(self, family: str, argument: Expr, factor: Fraction) -> int:
