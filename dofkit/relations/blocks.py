@@ -17,6 +17,9 @@ from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.pieces import Clause, Finite, JointEquation, Nonlinear, Pfaffian
 from dofkit.relations.setting import Reductions, Setting
 
+#: The constraint of a row that none wrote.
+NOBODY = 0
+
 
 class Row(NamedTuple):
     """One scalar equation after reduction, or a condition: which constraint wrote it, and what it says."""

@@ -447,6 +447,8 @@ def the_whole_is_what_its_constraints_are(report: Report) -> None:
     assert report.verdict == weakest(*fields, *(entry.verdict for entry in entries))
     assert {entry.name for entry in entries if entry.circuit is not None} <= set(report.redundant or ())
     assert {name for group in report.redundancies for name in group.members} >= set(report.redundant or ())
+    unsettled = bool(report.conflicting) and report.verdicts["conflicting"].verdict == "undecided"
+    assert unsettled is any("named as conflicting is needed" in line for line in report.warnings)
     places = {entry.name: k for k, entry in enumerate(entries)}
     assert all(places[other] < places[entry.name] for entry in entries for other in entry.circuit or ())
 

@@ -27,7 +27,7 @@ from dofkit.exact.points.frames import vanishes
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import BITS, Answer
-from dofkit.relations.blocks import Block, Row, coordinates_of, make_chart, split
+from dofkit.relations.blocks import NOBODY, Block, Row, coordinates_of, make_chart, split
 from dofkit.relations.linear_relations import explicit_relations, linear, solve_linear
 from dofkit.relations.normal.domain import DomainCondition, conditions_of
 from dofkit.relations.normal.no_solution import hold_nowhere, no_solution
@@ -145,7 +145,7 @@ def _on_all_components(rows: Sequence[Row], branches: Sequence[AskedBranch], set
         if not have_complex_points([*relations, beyond], setting.positive):
             continue
         names = {str(s.args[1]) for g in (*relations, beyond) for s in g.symbols if s.args[0] == "coordinate"}
-        states = States(sorted(names), [*rows, Row(0, Finite(beyond))], (), setting, (), True)
+        states = States(sorted(names), [*rows, Row(NOBODY, Finite(beyond))], (), setting, (), True)
         answer.append(None if next(states.certain(STATES), None) is None else False)
     return all_of(answer)
 
@@ -172,7 +172,7 @@ def _undefined(relation: Normal, names: Sequence[str], rows: Sequence[Row], sett
         beyond = ex.add(u, ex.power(ex.coordinate(SLACK), ex.num(2)))
         if no_solution([*(r.piece.expr for r in standing if isinstance(r.piece, Finite)), beyond], setting.positive):
             continue
-        states = States([*sorted(moved), SLACK], [*standing, Row(0, Finite(beyond))], (), setting, (), True)
+        states = States([*sorted(moved), SLACK], [*standing, Row(NOBODY, Finite(beyond))], (), setting, (), True)
         if next(states.certain(2), None) is not None:
             return True
     return False

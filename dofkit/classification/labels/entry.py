@@ -24,7 +24,6 @@ from dofkit.classification.labels.reasons import (
     traits_together,
 )
 from dofkit.exact.zero import BOTH
-from dofkit.expressions.tree import TIME
 from dofkit.integrability.traits import Integrability, Traits, integrability, traits_of
 from dofkit.relations.answer import GAP, Answer, HolonomyLabel
 from dofkit.relations.blocks import Block, Row
