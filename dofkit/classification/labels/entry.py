@@ -24,6 +24,7 @@ from dofkit.classification.labels.reasons import (
     traits_together,
 )
 from dofkit.exact.zero import BOTH
+from dofkit.expressions.tree import TIME
 from dofkit.integrability.traits import Integrability, Traits, integrability, traits_of
 from dofkit.relations.answer import GAP, Answer, HolonomyLabel
 from dofkit.relations.blocks import Block, Row
@@ -113,14 +114,18 @@ def entry(reduced: Reduced, evidence: Evidence, setting: Setting, consistent: bo
 def _traits_of(pieces: Sequence[Clause], normals: Sequence[Normal], setting: Setting) -> list[Traits]:
     """Return the traits of the equations of a constraint, without those that only declare an unknown function.
 
-    The geometric equation of a joint that is not driven holds no time.
+    A geometric equation without time carries no others; that of a joint that is not driven is one.
     """
     generic = declared_functions(normals)
     return [
-        Traits((True, "proved")) if isinstance(p, JointEquation) else traits_of(p, setting.positive, setting.engines)
+        Traits((True, "proved")) if _is_still(p) else traits_of(p, setting.positive, setting.engines)
         for p in pieces
         if p not in generic
     ]
+
+
+def _is_still(piece: Clause) -> bool:
+    return isinstance(piece, JointEquation) or (isinstance(piece, Finite) and TIME not in piece.expr.symbols)
 
 
 def _integrable_forms(normals: Sequence[Normal], rows: Sequence[LabelledRow]) -> list[Pfaffian]:
