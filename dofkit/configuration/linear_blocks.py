@@ -135,7 +135,7 @@ def eliminated(block: Block, setting: Setting) -> Answer | None:
         conflict = [owners[k] for k in (reduced.contradictory, *reduced.supports[reduced.contradictory])]
         minimal = tuple(sorted(conflict)) if max(Counter(owners).values()) == 1 else ()
         return Answer(False, argument="linear contradiction", reasons=[CONTRADICTION], conflict=minimal, method=METHOD)
-    p, n = prime_for(1, (), 0), len(block.coordinates)
+    p, n = prime_for(), len(block.coordinates)
     matrix = _modulo(reduced.rows, p)
     if matrix is None:
         return None

@@ -89,11 +89,10 @@ def _at(chart: Chart, point: FieldPoint | BallPoint | FloatPoint, field: Displac
     zero = point.number(ex.ZERO.args[0])
     vector = [zero] * len(chart.columns)
     at = values(chart.ring, point)
+    factors = {k: at[chart.ring.var_node[c]] if c >= 0 else zero for k, c in enumerate(chart.columns)}
     for column, terms in field.items():
         for factor, other in terms:
-            index = -1 if other is None else chart.columns[other]
-            value = zero + 1 if other is None else at[chart.ring.var_node[index]] if index >= 0 else zero
-            vector[column] = vector[column] + value * factor
+            vector[column] = vector[column] + (zero + 1 if other is None else factors[other]) * factor
     return vector
 
 

@@ -23,7 +23,7 @@ from dofkit.exact.zero import independent_on_set
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
-from dofkit.relations.blocks import Block, Row, aliases
+from dofkit.relations.blocks import NOBODY, Block, Row, aliases
 from dofkit.relations.normal.normal_form import linear_form, velocities_of
 from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian
 from dofkit.relations.setting import Setting
@@ -221,7 +221,7 @@ def rows_at(relations: Sequence[Expr], pose: Mapping[Expr, Expr]) -> tuple[Row, 
     for e in (substitute(e, pose) for e in relations if velocities_of(e)):
         form = linear_form(e)
         if not e.is_zero:
-            rows.append(Row(0, Nonlinear(e) if form is None else form))
+            rows.append(Row(NOBODY, Nonlinear(e) if form is None else form))
     return tuple(rows)
 
 

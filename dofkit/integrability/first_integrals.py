@@ -121,7 +121,7 @@ class IntegralSearch:
     def monomials(self, degree: int) -> list[Monomial]:
         """Return products of up to ``degree`` functions, simple ones first; a sine at most once (sin^2 = 1 - cos^2)."""
         monomials: list[Monomial] = []
-        for size in range(1, degree + 1):
+        for size in range(degree + 1):
             for m in combinations_with_replacement(self.functions, size):
                 once = all(m.count(i) == 1 for i in set(m) if self.ring.vars[i].kind in ("sin", "root"))
                 if once and any(i not in self.constant for i in m):

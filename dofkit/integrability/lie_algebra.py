@@ -301,8 +301,7 @@ def lie_span(rows: FormRows, frame: Pivots, base: Any, special: bool = False) ->
     """
     n, free = len(rows.columns), len(frame.free)
     if not frame.rows or not free:
-        at = values(rows.ring, base)
-        zero = (at[0] if at else base.number(0)) * 0
+        at, zero = values(rows.ring, base), base.number(0)
         basis = kernel(rows.matrix(at, zero), frame, zero) if free else []
         return Span(tuple(tuple(v) for v in basis), (free,))
     flow = AdmissibleCurve(rows, frame, base)

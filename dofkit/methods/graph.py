@@ -63,7 +63,7 @@ def _redundant(system: System) -> list[int]:
     pairs = linked_particles(system)
     if pairs is not None and len({i for i, _ in pairs}) == len(pairs):
         return [pairs[k][0] for k in linkage([pair for _, pair in pairs], system.dimension).redundant_places]
-    p = prime_for(1, (), 0)
+    p = prime_for()
     placement = general_placement(system, p, 0)
     rows: list[SparseRow] = []
     owners: list[int] = []

@@ -172,9 +172,7 @@ def allowed(joint: Located, dimension: int, p: int) -> list[SparseRow]:
     ends = {id(bodies[-1]): free}
     members = tuple(ends.get(id(m), ground) for m in joint.members)
     points = tuple((ends.get(id(m), ground), at) for m, at in joint.points)
-    rows = rows_of(replace(joint, members=members, points=points, driven=False))
-    if rows is None:
-        return [{c: 1} for c in range(size)]
+    rows = rows_of(replace(joint, members=members, points=points, driven=False)) or ()
     return _kernel([{c: v % p for c, v in row.items() if v % p} for row in rows], size, p)
 
 

@@ -103,7 +103,7 @@ def _at_random_places(
 ) -> tuple[Placement, list[SparseRow]] | None:
     """Return (random placement, rows of the formulas ``written`` there); None if these have no value there."""
     if not written:
-        return general_placement(system, prime_for(1, (), seed), seed), []
+        return general_placement(system, prime_for(seed=seed), seed), []
     ring = Ring([row.piece.expr for row in written if isinstance(row.piece, Finite)], setting.positive)
     nodes = [ring.node(row.piece.expr) for row in written if isinstance(row.piece, Finite)]
     point = field_point([ring], seed)
@@ -160,7 +160,7 @@ def framework_answer(block: Block, setting: Setting) -> Answer | None:
         return None
     framework = linkage(pairs, setting.dimension)
     proof = framework.proof
-    p = prime_for(1, (), 0)
+    p = prime_for()
     matrix = _rows(pairs, block.coordinates, setting, p)
     dependent = set(framework.redundant_places)
     columns = last_columns([r for i, r in enumerate(matrix) if i not in dependent], len(block.coordinates), p)

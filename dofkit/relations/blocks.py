@@ -17,6 +17,9 @@ from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.pieces import Clause, Finite, JointEquation, Nonlinear, Pfaffian
 from dofkit.relations.setting import Reductions, Setting
 
+#: The constraint of a row that none wrote.
+NOBODY = 0
+
 
 class Row(NamedTuple):
     """A piece (a scalar equation or a condition) with the number of the constraint from which it comes."""

@@ -32,7 +32,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, in_velocities, replace_nodes, substitute
 from dofkit.expressions.real_values import Requirement
 from dofkit.expressions.tree import HALF, MINUS_ONE, ZERO, Expr
-from dofkit.relations.blocks import Block, Row, make_chart, split
+from dofkit.relations.blocks import NOBODY, Block, Row, make_chart, split
 from dofkit.relations.normal.normal_form import velocities_of
 from dofkit.relations.normal.pieces import Finite, Inequality, Nonlinear, Normal, Pfaffian, Piece, Reduced
 from dofkit.relations.normal.polynomial_zeros import EXPONENT_NOTE, POWER_NOTE, SQUARES_NOTE
@@ -154,7 +154,7 @@ class Regularity:
     @none_without_value
     def _ranks(self, on: Sequence[Finite], *sets: Sequence[Expr]) -> list[int] | None:
         """Return the ranks of the gradients of sets of expressions at a generic point of ``on`` = 0; None if none."""
-        blocks, _ = split(self.coordinates, [Row(0, p) for p in on])
+        blocks, _ = split(self.coordinates, [Row(NOBODY, p) for p in on])
         rows = tuple(row for b in blocks for row in b.rows)
         joined = Block(tuple(n for n in self.coordinates if any(n in b.coordinates for b in blocks)), rows)
         chart = make_chart(joined, self.setting, more=list(chain(*sets)))

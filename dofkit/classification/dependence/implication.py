@@ -30,7 +30,7 @@ from dofkit.exact.zero import odd_constants
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import BITS, Answer
-from dofkit.relations.blocks import Block, Row, coordinates_of, make_chart, split
+from dofkit.relations.blocks import NOBODY, Block, Row, coordinates_of, make_chart, split
 from dofkit.relations.linear_relations import explicit_relations, linear, solve_linear
 from dofkit.relations.normal.domain import DomainCondition, conditions_of
 from dofkit.relations.normal.no_solution import hold_nowhere, no_solution
@@ -110,7 +110,7 @@ def _on_near(rows: Sequence[Row], relation: Normal, setting: Setting) -> bool | 
 
     None where the rows are not geometric equations that are independent there, or a branch has conditions.
     """
-    all_rows = (*rows, *(Row(0, p) for branch in relation.branches for p in branch))
+    all_rows = (*rows, *(Row(NOBODY, p) for branch in relation.branches for p in branch))
     if not rows or not all(isinstance(row.piece, Finite) for row in all_rows):
         return None
     block = Block(tuple(sorted({n for row in all_rows for n in coordinates_of(row.piece)})), all_rows)
@@ -170,7 +170,7 @@ def _on_all_components(rows: Sequence[Row], branches: Sequence[ImpliedBranch], s
         if complex_points is False:
             continue
         names = {str(s.args[1]) for g in (*relations, beyond) for s in g.symbols if s.args[0] == "coordinate"}
-        states = States(sorted(names), [*rows, Row(0, Finite(beyond))], (), setting, (), True)
+        states = States(sorted(names), [*rows, Row(NOBODY, Finite(beyond))], (), setting, (), True)
         if complex_points is None:
             on_choices.append(not states.has_near_real_state())
         else:
@@ -197,7 +197,7 @@ def _undefined(relation: Normal, names: Sequence[str], rows: Sequence[Row], sett
         beyond = ex.add(u, ex.power(ex.coordinate(SLACK), ex.num(2)))
         if no_solution([*(r.piece.expr for r in finite if isinstance(r.piece, Finite)), beyond], setting.positive):
             continue
-        states = States([*sorted(coordinates), SLACK], [*finite, Row(0, Finite(beyond))], (), setting, (), True)
+        states = States([*sorted(coordinates), SLACK], [*finite, Row(NOBODY, Finite(beyond))], (), setting, (), True)
         if next(states.certain(2), None) is not None:
             return True
     return False
@@ -348,7 +348,7 @@ class Everywhere(BlockImplication):
         answer = self.linearly(row, others)
         if answer is not None:
             return answer
-        if self.adjacent_rows([row, *others]) <= {row, *others}:
+        if self.adjacent_rows([row, *others]) == {row, *others}:
             return True
         alone = {i: Normal(((self.block.rows[i].piece,),)) for i in (row, *others)}
         return follows(alone[row], [alone[i] for i in others], self.setting)

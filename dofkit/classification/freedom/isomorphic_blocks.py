@@ -34,7 +34,6 @@ class Likenesses:
     def __init__(self, setting: Setting) -> None:
         self._setting, self._roles = setting, {c.name: (c.owner, c.role) for c in setting.roles}
         self._generic = {str(p.args[1]): k for k, p in enumerate(setting.generic)}
-        self._positive = frozenset(str(p.args[1]) for p in setting.positive)
         self._pose = _by_name(setting.pose)
         self._reference = None if setting.reference is None else _by_name(setting.reference)
 
@@ -54,7 +53,7 @@ class Likenesses:
             tuple([self._pose.get(n) for n in names]) if self._pose else (),
             None if self._reference is None else tuple([self._reference.get(n) for n in names]),
             self._roles_of(block),
-            tuple([(p[:2], p in self._positive) for p in generic]),
+            tuple([p[:2] for p in generic]),
             tuple([row.constraint in measured for row in block.rows]) if measured else (),
         )
         return Likeness(key, names)

@@ -163,7 +163,7 @@ def number_roots(rings: Iterable[Ring]) -> tuple[tuple[int, int], ...]:
 
 
 @lru_cache(maxsize=4096)
-def prime_for(order: int, roots: tuple[tuple[int, int], ...], seed: int | str) -> int:
+def prime_for(order: int = 1, roots: tuple[tuple[int, int], ...] = (), seed: int | str = 0) -> int:
     """Return a random prime p = 1 modulo 8 and 2 ``order`` such that the ``roots`` exist; may raise NoPointError."""
     rng = random.Random(f"dofkit prime {order} {roots} {seed}")
     step = lcm(8, 2 * order)

@@ -202,9 +202,7 @@ class Instructions(ABC):
 
     def power_node(self, base: int, exponent: int) -> int:
         """Return the node of an integer power of a node."""
-        if exponent == 1:
-            return base
-        return self.number(1) if exponent == 0 else self.emit(POW, (base, exponent))
+        return base if exponent == 1 else self.emit(POW, (base, exponent))
 
 
 def reachable(program: Instructions, roots: Iterable[int], through_generators: bool = True) -> list[int]:

@@ -44,12 +44,12 @@ def _size(quotient: Quotient) -> int:
 
 
 def rationalised(canon: Canon, quotient: Quotient) -> Quotient:
-    """Return a quotient in lowest terms; it may be expanded by a cosine, sine or root if that makes it shorter."""
+    """Return a quotient in lowest terms; it may be expanded by a power of a root if that makes it shorter."""
     best = in_lowest_terms(*quotient)
     for var in canon.ring.vars:
-        if var.kind not in ("cos", "sin", "root") or not any(p.degrees()[-1 - var.index] for p in best):
+        if var.kind != "root" or not any(p.degrees()[-1 - var.index] for p in best):
             continue
-        gen = canon.gens[var.index] ** (var.degree - 1 if var.kind == "root" else 1)
+        gen = canon.gens[var.index] ** (var.degree - 1)
         other = in_lowest_terms(canon.reduce(best[0] * gen), canon.reduce(best[1] * gen))
         best = min(best, other, key=_size)
     return best

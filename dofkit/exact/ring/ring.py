@@ -146,7 +146,7 @@ class Ring(Instructions):
         """Return an empty ring for other expressions, with basic angles so fine that its points are points of this."""
         ring = Ring(expressions, self.positive, self.alias)
         for key, denominator in self._denominators.items():
-            ring._denominators[key] = lcm(ring._denominators.get(key, 1), denominator)
+            ring._denominators[key] = lcm(ring._denominators.get(key, denominator), denominator)
         return ring
 
     def _denominator(self, family: str, argument: Expr, factor: Fraction) -> int:

@@ -91,7 +91,7 @@ class _Matrix(NamedTuple):
 
 def _matrix(pairs: Iterable[Ends]) -> _Matrix:
     """Return the rigidity matrix of links."""
-    rng, p, rows = random.Random("dofkit links in space"), prime_for(1, (), 0), list[SparseRow]()
+    rng, p, rows = random.Random("dofkit links in space"), prime_for(), list[SparseRow]()
     at: dict[int, list[int]] = {}
     for a, b in pairs:
         for v in (a, b):
