@@ -85,8 +85,8 @@ SAME: Mapping[tuple[str, str, str], str] = {
     ): "once in a million draws another number is drawn",
     (
         "dofkit/integrability/lie_algebra.py",
-        "enough = n - free + 2 + (BEYOND if drawn else 0)",
-        "enough = n - free + 2 + (BEYOND if drawn else 1)",
+        "enough = n - free + 2 + (BEYOND if special else 0)",
+        "enough = n - free + 2 + (BEYOND if special else 1)",
     ): "an order higher than is enough",
     (
         "dofkit/integrability/pfaffian_system.py",

@@ -23,6 +23,7 @@ from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.sparse import last_columns, rank_of_rows
 from dofkit.exact.zero import BOTH
 from dofkit.expressions import tree as ex
+from dofkit.expressions.renaming import coordinates_in
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import BITS, Answer
 from dofkit.relations.blocks import Block, make_chart
@@ -166,9 +167,10 @@ def _dependent_at_reference(group: TurnedGroup, setting: Setting, places_first: 
 
 
 def _may_be_parted(block: Block) -> bool:
-    """Return whether one relation holds functions, as 2 x y + sin(x) does, which has no factor x and is 0 at x = 0."""
+    """Return whether one relation has functions of coordinates: 2 x y + sin(x) has no factor x, and is 0 at x = 0."""
     relations = [r.piece.expr for r in block.finite if isinstance(r.piece, Finite)]
-    return any(e.functions for e in relations) and bool(explicit_relations(relations).implicit)
+    nodes = (n for e in relations for n in ex.nodes(e) if n.op in ("fn", "call") or {n.op} & n.functions)
+    return any(map(coordinates_in, nodes)) and bool(explicit_relations(relations).implicit)
 
 
 def orbit_at_reference(block: Block, a: Answer, setting: Setting) -> RigidOrbit | None:
