@@ -160,18 +160,20 @@ def redundant(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[st
 
     No more: of E equations with r independent rows E - r can be spared at most, where what depends does so by numbers,
     or is a single relation that depends with cofactors none of which is 0. None is named where ``without`` any the rows
-    of the others are independent, and leave more than the dof that was verified there.
+    that account for the others leave more than the dof (with velocity relations: of velocities) verified there.
     """
-    dropped, every = names_told(claim), set(evidence.equations)
+    dropped, every, whole = names_told(claim), set(evidence.equations), True
     order = [owner for owner in owners(evidence) if evidence.owned(owner)]
     if "without" in claim:
-        refuse(evidence.moving or "/dof at" not in verified or not order, "no dof of holonomic equations was verified")
+        number = "/velocity_dof" if evidence.moving else "/dof"
+        refuse(not order, "there are no constraints")
         for name in order:
-            other = evidence.minor(claim["without"][name])
-            whole = set(other.rows) == every.difference(evidence.owned(name))
-            larger = whole and verified_rank(evidence, other.point, verified) > len(other.rows)
-            refuse(not larger, f"without `{name}` the others are no manifold, or as large")
-        verified["apart"] = True
+            others = every.difference(evidence.owned(name))
+            minor = evidence.accounts(evidence.minor(claim["without"][name]), others)
+            whole &= others == {*minor.rows}
+            larger = verified_rank(evidence, minor.point, verified, number) > len(minor.rows)
+            refuse(not larger, f"without `{name}` the others leave no more")
+        verified |= {"apart": True} if whole else {}
         return []
     minor = evidence.accounts(evidence.minor(claim["minor"]), evidence.equations)
     refuse(not set(dropped) <= set(order) or not set(minor.rows) <= every, "no constraints, or rows of no relations")
@@ -215,11 +217,11 @@ def _is_general(evidence: CheckedEvidence, name: str) -> bool:
     return all(evidence.ring.rational(slope) is not None for slope in slopes) or bool(evidence.own_symbol(name))
 
 
-def verified_rank(evidence: CheckedEvidence, point: CheckedPoint, verified: Told) -> int:
-    """Return n - dof, if the dof was verified at this point."""
+def verified_rank(evidence: CheckedEvidence, point: CheckedPoint, verified: Told, number: str = "/dof") -> int:
+    """Return n - dof (or another number), if that was verified at this point."""
     place = evidence.is_about("here", point)
-    refuse(verified.get("/dof at") not in (None, place), "dof was verified at another point")
-    return len(evidence.problem.coordinates) - int(verified["/dof"])
+    refuse(verified.get(f"{number} at") not in (None, place), "dof was verified at another point")
+    return len(evidence.problem.coordinates) - int(verified[number])
 
 
 def generalized_coordinates(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[str]:
@@ -247,7 +249,7 @@ def growth(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[int]:
     refuse(evidence.timed and not any(verified.get(label) is False for label in labels), "time may be divided out")
     minor = evidence.accounts(evidence.minor(claim["minor"]), evidence.equations)
     whole = len(evidence.problem.coordinates) - verified_rank(evidence, minor.point, verified) + evidence.timed
-    refuse(not evidence.moving or not all(map(evidence.is_linear, evidence.moving)), "a growth vector is of forms")
+    refuse(not evidence.moving or not all(map(evidence.is_linear, minor.rows)), "a growth vector is of forms")
     point, fields = admissible(evidence, claim, evidence.equations)
     rank, vector = len(evidence.problem.coordinates) + evidence.timed - len(minor.rows), list[int]()
     refuse(point is not minor.point or len(fields) > rank, "the fields and the minor are of one point")
@@ -284,7 +286,8 @@ def everywhere(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     size = len(evidence.problem.coordinates)
     implied, rank = evidence.closure(names, None), len(names)
     whole, apart = implied.issuperset(evidence.equations), len(set(names)) == rank
-    apart = apart and set(names) <= set(evidence.equations) and all(map(evidence.is_linear, names))
+    apart = apart and evidence.closure(evidence.equations, None).issuperset(names)
+    apart = apart and all(evidence.is_linear(name) and not evidence.relation(name).leaf for name in names)
     fits = claim.get("about") == "everywhere" and apart and implied.issuperset(evidence.finite)
     refuse(not fits, "a relation is left out, stands twice or is not linear, or the claim is not about everywhere")
     forms = [name for name in names if evidence.relation(name).kind != "finite"]

@@ -80,17 +80,15 @@ class CheckedEvidence(CheckedRelations):
         A nonlinear relation speaks of a state, as all do where ``states``: velocity relations and rates hold there.
         """
         wanted = [self.relation(name) for name in names if not self.relation(name).leaf]
-        finite = {relation.name for relation in wanted if relation.kind == "finite"}
-        self.follow(finite, {*point.rows, *(name for name in finite if self.holds(name, point))}, point, "what holds")
         states |= not all(self.is_linear(relation.name) for relation in wanted)
+        met = {relation.name for relation in wanted if states or relation.kind == "finite"}
+        self.follow(met, {*point.rows, *(name for name in met if self.holds(name, point))}, point, "what holds")
         for relation in wanted:
-            still = relation.name in finite
             for velocity in self.met_by(relation.tree):
                 point.value(self.slope(relation.name, velocity[:-3]))
-            wrong = still and not_zero(point.value(relation.tree))
-            if states:
-                rate = total_derivative(relation.tree, self.variables) if still else relation.tree
-                wrong |= not self.is_zero(rate, point)
+            wrong = relation.name in met and not_zero(point.value(relation.tree))
+            if states and relation.kind == "finite":
+                wrong |= not self.is_zero(total_derivative(relation.tree, self.variables), point)
             refuse(wrong, f"`{relation.name}` is not satisfied at the point `{point.name}`, or not by its velocities")
 
     def minor(self, entry: Any, allowed: Collection[str] | None = None) -> CheckedMinor:

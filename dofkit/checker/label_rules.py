@@ -52,13 +52,14 @@ def integrable(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
 def bracket(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
     """A direction that motions through the point reach, and that a form of the constraint forbids.
 
-    A consequence of geometric equations holds for all directions in which the orbit of the fields extends.
+    A consequence of geometric equations holds for all directions in which the orbit of the fields extends, as does what
+    follows from it.
     """
     (point, _), name = admissible(evidence, claim, _setting(evidence, claim)), claim["pairs"]
     if claim["field"] != "holonomic_alone":
         evidence.is_about("here", point)
-    forbids = name in constraint_relations(evidence, claim) and evidence.relation(name).kind == "velocity"
-    refuse(not forbids, "what the bracket pairs with is no velocity relation of the constraint")
+    evidence.follow([name], constraint_relations(evidence, claim), point, "the constraint")
+    refuse(evidence.relation(name).kind != "velocity", "what the bracket pairs with holds no velocity")
     value = point.value(on_row(evidence, name, of_word(evidence, claim["word"], claim["fields"])))
     refuse(not not_zero(value), "the form may be 0 in that direction")
     return False

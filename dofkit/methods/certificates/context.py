@@ -15,7 +15,7 @@ from dofkit.checker.verification import PARTS
 from dofkit.methods.certificates.numerics import NoEstimateError, echelon
 from dofkit.methods.certificates.points import FoundPoint, PointSearch
 from dofkit.methods.certificates.scenery import MOST_ROWS, Scenery
-from dofkit.methods.certificates.steps import accounted, rate_of
+from dofkit.methods.certificates.steps import accounted, rates_of
 from dofkit.report import Report
 
 
@@ -77,7 +77,7 @@ class Context:
     @cached_property
     def nonlinear(self) -> bool:
         """Whether a velocity relation is not linear."""
-        return not all(self.scenery.linear(name) for name in self.equations)
+        return not all(map(self.scenery.linear, self.equations))
 
     @cached_property
     def at_reference(self) -> bool:
@@ -106,10 +106,10 @@ class Context:
     def _searched(self) -> FoundPoint | None:
         problem = self.problem
         unknowns = [*problem.coordinates, *problem.world.generic]
-        names = list(self.scenery.evidence.finite)
+        names = list(self.scenery.finite)
         if self.nonlinear:
             names, unknowns = states_of(self)
-        finite = not self.scenery.evidence.moving and self.report.dof is not None
+        finite = not self.scenery.moving and self.report.dof is not None
         rank = len(problem.coordinates) - (self.report.dof or 0) if finite else len(names)
         points: list[FoundPoint] = []
         for point in self.search.points(names, unknowns):
@@ -128,15 +128,10 @@ class Context:
             return True
         return False
 
-    @cached_property
-    def rates(self) -> list[str]:
-        """The steps for the rates of the geometric equations."""
-        return [step for name in self.scenery.evidence.finite if (step := rate_of(self.scenery, name))]
-
     @property
     def equations(self) -> tuple[str, ...]:
-        """All geometric equations, then those of velocities: the order in which independent ones are counted."""
-        return self.scenery.evidence.equations
+        """All relations in which rows are looked for."""
+        return self.scenery.equations
 
     def standing_of(
         self, names: Sequence[str], columns: Sequence[str] | None = None, point: FoundPoint | None = None
@@ -175,7 +170,7 @@ class Context:
     @cached_property
     def finite_standing(self) -> Standing | None:
         """The same for the geometric equations."""
-        return self.accounted(self.scenery.evidence.finite) if self.scenery.evidence.moving else self.standing
+        return self.accounted(self.scenery.finite) if self.scenery.moving else self.standing
 
     def accounted(self, names: Sequence[str]) -> Standing | None:
         """Independent rows in an order of their own, the others by steps where that is possible."""
@@ -190,4 +185,5 @@ class Context:
 def states_of(context: Context) -> tuple[list[str], list[str]]:
     """The relations that hold of a configuration with its velocities, and the symbols of both."""
     symbols = [*context.problem.coordinates, *context.problem.world.generic]
-    return [*context.equations, *context.rates], [*symbols, *(f"{q}dot" for q in context.problem.coordinates)]
+    rates = rates_of(context.scenery, context.scenery.finite)
+    return [*context.equations, *rates], [*symbols, *(f"{q}dot" for q in context.problem.coordinates)]

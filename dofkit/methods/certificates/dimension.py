@@ -17,10 +17,10 @@ from dofkit.checker.geometry import determinant, dot
 from dofkit.checker.ring import CheckedRing
 from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, operands, symbol, times
 from dofkit.methods.certificates.context import Context, Standing, Told
-from dofkit.methods.certificates.fields import LARGEST_CRAMER, backing, kept_motions, orbit
+from dofkit.methods.certificates.fields import backing, kept_motions, orbit
 from dofkit.methods.certificates.numerics import echelon, least_step
 from dofkit.methods.certificates.scenery import FAR, number_text, text_of
-from dofkit.methods.certificates.steps import accounted, solving_order
+from dofkit.methods.certificates.steps import LARGEST_CRAMER, accounted, solving_order
 
 #: The size of a step along a motion, of what is added by chance, and the largest denominator of a coefficient.
 STEP, NOISE, DENOMINATOR = 0.25, 0.05, 60
@@ -33,7 +33,7 @@ def families(context: Context, size: int) -> Iterator[Told]:
     """The rule `family` with so many freedoms, for a motion through the main point."""
     point, scenery = context.point, context.scenery
     size_of_all = sum(relation.tree.size for relation in context.problem.relations) * len(context.problem.coordinates)
-    if point is None or scenery.evidence.moving or size_of_all > MOST_FOLLOWED:
+    if point is None or scenery.moving or size_of_all > MOST_FOLLOWED:
         return
     assumed = []
     for i, text in enumerate(_linear_relations(context, _samples(context))):
@@ -41,7 +41,7 @@ def families(context: Context, size: int) -> Iterator[Told]:
         if step not in scenery.steps:
             scenery.add_step({"id": step, "by": "assumed", "function": text})
         assumed.append(step)
-    standing = context.standing_of([*assumed, *scenery.evidence.finite])
+    standing = context.standing_of([*assumed, *scenery.finite])
     if standing is None or len(standing.rows) != len(context.problem.coordinates) - size:
         return
     others = [name for name in standing.dependent if name not in assumed]
@@ -96,8 +96,8 @@ def everywhere(context: Context) -> Iterator[Told]:
     """dof of all of the set; with forms from that near the main point."""
     if context.scenery.cayley or context.standing is None:
         return
-    evidence, finite = context.scenery.evidence, context.finite_standing
-    if not evidence.moving:
+    finite = context.finite_standing
+    if not context.scenery.moving:
         yield from _of_set(context, context.standing)
         return
     for local in orbit(context):
@@ -114,20 +114,20 @@ def velocities_everywhere(context: Context) -> Iterator[Told]:
     and a single form stands beside them. ``standing`` is the point at which the relations are known to hold, with the
     rows that account for all.
     """
-    evidence, standing = context.scenery.evidence, context.standing
-    if standing is None or not standing.accounted or context.scenery.cayley:
+    scenery, standing = context.scenery, context.standing
+    if standing is None or not standing.accounted or scenery.cayley:
         return
     claim = {"rule": "everywhere", "about": "everywhere", "minor": context.minor(standing)}
-    chart = context.scenery, context.problem.coordinates, partial(_gives, context)
-    order, unordered = solving_order(_needed(standing, evidence.equations), *chart)
-    moving = _needed(standing, evidence.moving)
+    chart = scenery, context.problem.coordinates, partial(_gives, context)
+    order, unordered = solving_order(_needed(standing, scenery.equations), *chart)
+    moving = _needed(standing, scenery.moving)
     if not unordered:
         yield {**claim, "order": order}
         return
     if {*unordered} <= {*moving} and (gram := _gram(context, unordered)):
         yield {**claim, "order": order, "gram": gram}
     if len(moving) == 1:
-        order, unordered = solving_order(_needed(standing, evidence.finite), *chart)
+        order, unordered = solving_order(_needed(standing, scenery.finite), *chart)
         if not unordered:
             yield {**claim, "order": order, "alone": moving[0]}
 
@@ -176,7 +176,7 @@ def _needed(standing: Standing, names: Sequence[str]) -> list[str]:
 def _of_set(context: Context, standing: Standing) -> Iterator[Told]:
     """What the geometric equations define."""
     scenery, evidence, claim = context.scenery, context.scenery.evidence, {"rule": "everywhere", "about": "everywhere"}
-    finite, columns = _needed(standing, evidence.finite), context.problem.coordinates
+    finite, columns = _needed(standing, scenery.finite), context.problem.coordinates
     minor = {"minor": context.minor(standing)}
     for variables in (columns, evidence.variables):
         order, others = solving_order(finite, scenery, variables, partial(_gives, context), skips=True)
@@ -185,13 +185,13 @@ def _of_set(context: Context, standing: Standing) -> Iterator[Told]:
         if len(others) < 2:
             yield {**claim, **minor, "order": order, **({"alone": others[0]} if others else {})}
     letters = (*context.problem.world.generic, *context.problem.world.signs)
-    symbols = {name: letter for name in evidence.finite if (letter := evidence.own_symbol(name, letters))}
+    symbols = {name: letter for name in scenery.finite if (letter := evidence.own_symbol(name, letters))}
     for skips in (False, True) if not standing.dependent or standing.accounted else ():
         order, others = solving_order(finite, scenery, columns, partial(_gives, context, most=HIGHEST_DEGREE), skips)
         if all(name in symbols for name in others):
             yield {**claim, **minor, "order": order, "generic": [[name, symbols[name]] for name in others]}
-    if all(name in symbols for name in evidence.finite) and (backed := backing(context, standing)):
-        yield {**claim, **minor, "generic": [[name, symbols[name]] for name in evidence.finite], **backed}
+    if all(name in symbols for name in scenery.finite) and (backed := backing(context, standing)):
+        yield {**claim, **minor, "generic": [[name, symbols[name]] for name in scenery.finite], **backed}
 
 
 def _gives(context: Context, name: str, q: str, most: int = 1) -> bool:
@@ -223,10 +223,10 @@ def stationary(context: Context) -> Iterator[Told]:
 
 def _motions_from(context: Context, standing: Standing, size: int) -> Iterator[Told]:
     """Yield ``size`` motions from the point: rigid ones of all together, none, or a family."""
-    fields = kept_motions(context, context.scenery.evidence.finite, standing.point) if size else {}
+    fields = kept_motions(context, context.scenery.finite, standing.point) if size else {}
     if len(fields) == size:
         orbit_of = {"fields": list(fields), "words": [[name] for name in fields], "columns": list(fields.values())}
-        yield {"rule": "span", "at": standing.point.name, "rows": list(context.scenery.evidence.finite), **orbit_of}
+        yield {"rule": "span", "at": standing.point.name, "rows": list(context.scenery.finite), **orbit_of}
     yield from families(context, size)
 
 

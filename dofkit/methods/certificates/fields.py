@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from itertools import combinations
@@ -12,12 +12,12 @@ from networkx.utils import UnionFind
 
 from dofkit.checker.constraints import Surroundings
 from dofkit.checker.evidence import VelocityField, bracket, field_named, tangent
-from dofkit.checker.geometry import determinant
-from dofkit.checker.trees import ZERO, CheckError, Tree
+from dofkit.checker.trees import ZERO, CheckError
 from dofkit.methods.certificates.context import Context, Standing, Told
 from dofkit.methods.certificates.numerics import Estimates, NoEstimateError, echelon
 from dofkit.methods.certificates.points import FoundPoint
 from dofkit.methods.certificates.scenery import Scenery, text_of
+from dofkit.methods.certificates.steps import LARGEST_CRAMER, by_cramer, combined_integral, function_in
 
 
 def motions(world: Surroundings) -> list[dict[str, str]]:
@@ -50,7 +50,7 @@ def covering(context: Context, standing: Standing) -> list[Told] | None:
     """Blocks of relations whose rank is given by how many there are, or by rigid motions."""
     scenery, blocks = context.scenery, []
     accounted = {*standing.rows, *standing.dependent}
-    for names in parts_of(scenery, [name for name in scenery.evidence.finite if name in accounted]):
+    for names in parts_of(scenery, [name for name in scenery.finite if name in accounted]):
         rank = sum(row in names for row in standing.rows)
         fields = kept_motions(context, names, standing.point) if rank < len(names) else {}
         variables = held_by(scenery, names).intersection(context.problem.coordinates)
@@ -98,8 +98,8 @@ def _is_kept(scenery: Scenery, motion: str, names: Sequence[str]) -> bool:
 
 # Evidence about what velocities allow: fields by Cramer's rule, words of brackets, orbits, growth.
 
-#: The most rows of a determinant that is written out; the longest word, and the most words of a length.
-LARGEST_CRAMER, LONGEST, MOST_WORDS = 5, 7, 60
+#: The longest word, and the most words of a length.
+LONGEST, MOST_WORDS = 7, 60
 
 
 @dataclass
@@ -117,6 +117,8 @@ class Words:
 def tangent_fields(context: Context, standing: Standing) -> list[str] | None:
     """Fields that span the kernel of rows: one for every coordinate (and time) that is no column."""
     scenery, pairs = context.scenery, dict(zip(standing.rows, standing.columns, strict=True))
+    if not all(map(scenery.linear, standing.rows)):
+        return None
     evidence = scenery.evidence
     timed = any(not {"t", "tdot"}.isdisjoint(evidence.relation(row).tree.symbols) for row in standing.rows)
     free = [q for q in (*context.problem.coordinates, *(["t"] if timed else [])) if q not in pairs.values()]
@@ -132,14 +134,6 @@ def tangent_fields(context: Context, standing: Standing) -> list[str] | None:
         texts = {name: text_of(tree) for name, tree in components.items() if tree != ZERO}
         ids.append(scenery.entry_id("fields", {"components": texts}))
     return ids
-
-
-def by_cramer(matrix: Sequence[Sequence[Tree]], right: Sequence[Tree]) -> tuple[Tree, list[Tree]]:
-    """Return the determinant of a square matrix and Cramer's numerators: the matrix maps them to it times the right."""
-    replaced = (
-        [[*line[:i], b, *line[i + 1 :]] for line, b in zip(matrix, right, strict=True)] for i in range(len(matrix))
-    )
-    return determinant(matrix), [*map(determinant, replaced)]
 
 
 def _touched(context: Context, standing: Standing, free: str) -> list[str]:
@@ -190,22 +184,22 @@ def _grown(context: Context, standing: Standing, fields: list[str], most: int) -
                 columns = [p.column for p in pivots]
                 fresh.append((word, value))
         levels.append(len(words))
+        # where the point is singular, longer words of what brings nothing may bring something
+        fresh = fresh or [(word, value) for word, value in level if any(tree != ZERO for tree in value.values())]
         if len(words) >= most or not fresh:
             break
-        level = [
-            ([*word, name], bracket(context.scenery.evidence, value, bases[name]))
-            for word, value in fresh
-            for name in fields
-            if word != [name]
-        ]
-        level = level[:MOST_WORDS]
+        longer = [(word, name, value) for word, value in fresh for name in fields if word != [name]][:MOST_WORDS]
+        try:
+            level = [([*w, name], bracket(context.scenery.evidence, value, bases[name])) for w, name, value in longer]
+        except CheckError:
+            break
     return Words(fields, list(standing.rows), words, columns, vectors, levels)
 
 
 def orbit(context: Context) -> Iterator[Told]:
     """dof of a scene with forms: from below what brackets reach, from above finite rows and what integrates."""
     standing, freedom = context.standing, context.report.dof
-    if standing is None or not standing.accounted or freedom is None or context.nonlinear:
+    if standing is None or not standing.accounted or freedom is None:
         return
     least = _least(context, standing, freedom)
     if least is None:
@@ -236,17 +230,29 @@ def _most(context: Context, dof: int) -> Iterator[Told]:
     finite = context.finite_standing
     if finite is not None and dof >= len(context.problem.coordinates) - len(finite.rows):
         yield {"rule": "minor", "minor": context.minor(finite)}
+    if (standing := basis_rows(context)[0]) is not None:
+        yield {"rule": "minor", "minor": context.minor(standing)}
     yield from involutive_rows(context, integrable_names(context))
+
+
+def integral_steps(context: Context, functions: Iterable[str]) -> list[str]:
+    """The steps by which functions keep their values, of those for which there is one."""
+    texts = filter(None, dict.fromkeys(functions))
+    return [step for text in texts if (step := combined_integral(context.scenery, context.point, text))]
+
+
+def basis_rows(context: Context, columns: Sequence[str] | None = None) -> tuple[Standing | None, list[str]]:
+    """The geometric rows and the integrals of the reported basis, and these; None where there are no integrals."""
+    part, finite = context.report.integrable_part, context.finite_standing
+    steps = integral_steps(context, map(function_in, (part and part.basis) or ()))
+    return context.standing_of([*finite.rows, *steps], columns) if steps and finite else None, steps
 
 
 def integrable_names(context: Context) -> list[str]:
     """The geometric equations, and the forms that are said to be holonomic."""
-    owners = {entry.name for entry in context.report.constraints if entry.holonomic}
-    return [
-        relation.name
-        for relation in context.problem.relations
-        if relation.kind != "inequality" and relation.owner in owners
-    ]
+    owners = [entry.name for entry in context.report.constraints if entry.holonomic]
+    names = [name for owner in owners for name in context.scenery.owned(owner)]
+    return sorted(names, key=context.equations.index)
 
 
 def involutive_rows(context: Context, names: Sequence[str], columns: Sequence[str] | None = None) -> Iterator[Told]:
@@ -263,7 +269,7 @@ def involutive_rows(context: Context, names: Sequence[str], columns: Sequence[st
 def growth_vector(context: Context) -> Iterator[Told]:
     """Words for every entry, of as many entries as are claimed, and until nothing new comes."""
     standing, vector = context.standing, context.report.growth_vector
-    if standing is None or not standing.accounted or not vector or context.nonlinear:
+    if standing is None or not standing.accounted or not vector:
         return
     words = words_of(context, standing, reach(context))
     if words is None:

@@ -9,8 +9,7 @@ from typing import Any
 from dofkit.methods.certificates.context import Context, Told, states_of
 from dofkit.methods.certificates.dimension import everywhere, families, stationary, velocities_everywhere
 from dofkit.methods.certificates.emptiness import refutations
-from dofkit.methods.certificates.fields import backing, integrable_names, involutive_rows, orbit
-from dofkit.methods.certificates.labels import combined_integral, function_in
+from dofkit.methods.certificates.fields import backing, basis_rows, integrable_names, involutive_rows, orbit
 from dofkit.methods.certificates.points import FoundPoint
 from dofkit.report import ConstraintEntry
 
@@ -44,7 +43,7 @@ def _meeting(context: Context, inequalities: list[str]) -> FoundPoint | None:
     """Return a point that satisfies inequalities and the geometric equations; all relations, if velocities occur."""
     evidence = context.scenery.evidence
     moving = any(evidence.met_by(evidence.relation(name).tree) for name in inequalities)
-    names, unknowns = states_of(context) if moving else (evidence.finite, context.problem.coordinates)
+    names, unknowns = states_of(context) if moving else (context.scenery.finite, context.problem.coordinates)
     return context.search.meeting(inequalities, names, unknowns)
 
 
@@ -59,7 +58,7 @@ def dof(context: Context) -> Iterator[Told]:
 
 
 def _near(context: Context) -> Iterator[Told]:
-    if context.scenery.evidence.moving:
+    if context.scenery.moving:
         yield from orbit(context)
         return
     yield from _regular(context)
@@ -73,7 +72,7 @@ def _near(context: Context) -> Iterator[Told]:
 
 def velocity_dof(context: Context) -> Iterator[Told]:
     """The independent velocities."""
-    if not context.scenery.evidence.moving:
+    if not context.scenery.moving:
         yield from ({"rule": "count", "about": about} for about in ("everywhere", context.about))
         return
     if context.report.verdicts["velocity_dof"].about == "everywhere":
@@ -119,9 +118,10 @@ def redundant(context: Context) -> Iterator[Told]:
 def _needed(context: Context) -> Iterator[Told]:
     """For every constraint a minor of all rows of the others."""
     minors, relation = {}, context.scenery.evidence.relation
-    for owner in dict.fromkeys(relation(name).owner for name in context.equations):
-        standing = context.standing_of([name for name in context.equations if relation(name).owner != owner])
-        if standing is None or standing.dependent:
+    for owner in dict.fromkeys(relation(name).owner for name in context.scenery.evidence.equations):
+        own = context.scenery.owned(owner)
+        standing = context.accounted([name for name in context.equations if name not in own])
+        if standing is None or not standing.accounted:
             return
         minors[owner] = context.minor(standing)
     yield {"rule": "cofactors", "without": minors}
@@ -139,7 +139,9 @@ def generalized_coordinates(context: Context) -> Iterator[Told]:
     solving = context.standing_of(finite.rows, others) if len(others) == len(finite.rows) else None
     if solving is not None and not solving.dependent:
         yield {"rule": "minor", "minor": context.minor(solving)}
-    if context.scenery.evidence.moving:
+    if context.scenery.moving:
+        solving = basis_rows(context, others)[0]
+        yield from [{"rule": "minor", "minor": context.minor(solving)}] if solving else []
         yield from involutive_rows(context, integrable_names(context), others)
 
 
@@ -149,7 +151,7 @@ def independent(context: Context, entry: ConstraintEntry, field: str) -> Iterato
         yield {"rule": "inequality"}
         return
     standing, order = context.standing, context.equations
-    equations = context.scenery.evidence.owned(entry.name)
+    equations = context.scenery.owned(entry.name)
     last = max((k for k, name in enumerate(order) if name in equations), default=-1)
     rows = order[: last + 1]
     if standing is None or not rows:
@@ -180,9 +182,8 @@ def circuit(context: Context, entry: ConstraintEntry, field: str) -> Iterator[To
 
 
 def _circuit(context: Context, owner: str, members: Sequence[str]) -> Iterator[Told]:
-    evidence = context.scenery.evidence
-    equations = list(evidence.owned(owner))
-    rows = {name: list(evidence.owned(name)) for name in members}
+    equations = context.scenery.owned(owner)
+    rows = {name: context.scenery.owned(name) for name in members}
     whole = context.accounted([*(row for name in members for row in rows[name]), *equations])
     backed = backing(context, whole)
     minimal = {}
@@ -214,8 +215,6 @@ def integrable_part(context: Context) -> Iterator[Told]:
     if part is None or finite is None:
         return
     yield {"rule": "integrals", "minor": context.minor(finite), "steps": []}
-    functions = filter(None, map(function_in, part.basis or []))
-    steps = [step for function in functions if (step := combined_integral(context, function))]
-    standing = context.standing_of([*finite.rows, *steps])
-    if steps and standing is not None:
+    standing, steps = basis_rows(context)
+    if standing is not None:
         yield {"rule": "integrals", "minor": context.minor(standing), "steps": steps}

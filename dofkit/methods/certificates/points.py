@@ -79,7 +79,7 @@ class PointSearch:
             if self.scenery.timed:
                 values["t"], floats["t"] = "0", 0.0
             point = FoundPoint(values, floats)
-            return point if residual(self.scenery, floats, self.scenery.evidence.finite) < NEAR else None
+            return point if residual(self.scenery, floats, self.scenery.finite) < NEAR else None
         except NoEstimateError:
             return None
 
@@ -105,7 +105,7 @@ class PointSearch:
     def touching(self, name: str) -> Iterator[FoundPoint]:
         """Points at which a relation is 0, an inequality too, whatever the others say."""
         checked = self.scenery.evidence.relation(name)
-        names = [name] if checked.kind == "inequality" else self.scenery.evidence.finite
+        names = [name] if checked.kind == "inequality" else self.scenery.finite
         return self.points(names, self.problem.coordinates, 50)
 
     def _start(self, attempt: int, unknowns: Sequence[str]) -> dict[str, Fraction]:
