@@ -7,7 +7,17 @@ from typing import Any
 
 from flint import fmpq_mat
 
-from dofkit.checker.evidence import MOST, CheckedEvidence, CheckedMinor, Told, admissible, independent, of_word, span
+from dofkit.checker.evidence import (
+    MOST,
+    CheckedEvidence,
+    CheckedMinor,
+    Told,
+    admissible,
+    crossing,
+    independent,
+    of_word,
+    span,
+)
 from dofkit.checker.geometry import determinant, dot
 from dofkit.checker.point import CheckedPoint, not_zero
 from dofkit.checker.relations import total_derivative
@@ -22,9 +32,13 @@ def bounds(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     most, least = claim.get("most", {**claim, "rule": "minor"}), claim.get("least", {**claim, "rule": "regular"})
     refuse(path != "/dof" and most["rule"] != "minor", "an upper bound of velocities is `minor`")
     minor = MOST[most["rule"]](evidence, most) if path == "/dof" else evidence.minor(most["minor"])
-    above = size - len(minor.rows) - (most["rule"] == "isolated")
+    above = size - len(minor.rows) - (len(most["speeds"]) if most["rule"] == "isolated" else 0)
     if least["rule"] == "span":
         point, lower = span(evidence, {"minor": most["minor"], **least}, 1 if path == "/velocity_dof" else 12)
+    elif least["rule"] == "crossing":
+        refuse(path != "/dof", "what crosses has a dof")
+        other = crossing(evidence, least)
+        point, lower = other.point, size - len(other.rows) - 1
     else:
         rows = least["minor"]["rows"] if least["rule"] == "family" else None
         other = evidence.accounts(evidence.minor(least["minor"], rows), evidence.equations)

@@ -6,14 +6,14 @@ there (Hermann 1960, Nagano 1966, Sussmann 1973). Fields that are tangent to rel
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from functools import cached_property, partial
-from itertools import chain, product
+from itertools import chain, combinations, product
 from typing import Any, NamedTuple
 
 from flint import arb, arb_mat, ctx
 
 from dofkit.checker.point import PRECISION, CheckedPoint, evaluated, not_zero
 from dofkit.checker.relations import CheckedRelations, Consequence, total_derivative
-from dofkit.checker.trees import ONE, ZERO, Tree, along, call, derivative, linear_in, refuse, substituted, symbol
+from dofkit.checker.trees import ONE, ZERO, Tree, add, along, call, derivative, linear_in, refuse, substituted, symbol
 
 LARGEST_MINOR, LONGEST_WORD, LARGEST_FIELD, HIGHEST_ORDER = 250, 12, 100_000, 8
 Told = dict[str, Any]
@@ -322,19 +322,65 @@ def along_curve(evidence: CheckedEvidence, minor: CheckedMinor, speeds: Told, tr
     return minor.point.value_with(lefts[-1], rates)
 
 
-def isolated(evidence: CheckedEvidence, claim: Told) -> CheckedMinor:
-    """A minor whose rows leave a dimension more than there is: another relation is not 0 on all that they leave.
+def left_over(evidence: CheckedEvidence, claim: Told) -> tuple[CheckedMinor, Tree, list[Told]]:
+    """A minor, a combination of holonomic equations that is 0 besides its rows, and directions in free coordinates."""
+    minor, weights = evidence.minor(claim["minor"]), {name: evidence.text(text) for name, text in claim["zero"].items()}
+    names = [*minor.rows, *weights]
+    unfit = evidence.moving or evidence.problem.world.names.functions or evidence.holds_time(names)
+    refuse(unfit or not {*names} <= {*evidence.finite}, "holonomic equations of the scene, without time")
+    evidence.on_set(minor.point, names)
+    zero = add(*(weight * evidence.relation(name).tree for name, weight in weights.items()))
+    refuse(any(weight.symbols for weight in weights.values()), "the weights are numbers")
+    speeds = [{q: minor.point.value(evidence.text(text)) for q, text in way.items()} for way in claim["speeds"]]
+    free = {*evidence.problem.coordinates} - {*minor.columns}
+    refuse(not all(way.keys() <= free for way in speeds), "speeds are of free coordinates")
+    return minor, zero, speeds
 
-    It has a derivative that is not 0 along a curve there, and what is analytic is 0 on a thin set only.
+
+def isolated(evidence: CheckedEvidence, claim: Told) -> CheckedMinor:
+    """A minor whose rows leave more dimensions than there are: another relation is not 0 on all that they leave.
+
+    It has a derivative that is not 0 along a curve there, and what is analytic is 0 on a thin set only. Or it is
+    stationary, and its second derivatives in several directions are definite: across these it is 0 at the point alone.
+    Fields that keep all, and fill the other directions, carry that point to all that there is around.
     """
-    minor, name = evidence.minor(claim["minor"]), claim["zero"]
-    unfit = evidence.moving or evidence.problem.world.names.functions or evidence.holds_time((*minor.rows, name))
-    refuse(unfit or not {*minor.rows, name} <= {*evidence.finite}, "holonomic equations of the scene, without time")
-    evidence.on_set(minor.point, (*minor.rows, name))
-    speeds = {q: minor.point.value(evidence.text(text)) for q, text in claim["speeds"].items()}
-    refuse(not speeds.keys() <= {*evidence.problem.coordinates} - {*minor.columns}, "speeds are of free coordinates")
-    value = along_curve(evidence, minor, speeds, evidence.relation(name).tree, claim["order"])
-    refuse(not not_zero(value), "the zero on the curve is not shown to be isolated")
+    minor, zero, speeds = left_over(evidence, claim)
+    squares = [along_curve(evidence, minor, way, zero, claim["order"]) for way in speeds]
+    refuse(not speeds or not all(map(not_zero, squares)), "the zero on a curve is not shown to be isolated")
+    if len(speeds) > 1:
+        _is_definite(evidence, claim, squares)
+        fields, free = claim["fields"], [q for q in evidence.problem.coordinates if q not in minor.columns]
+        tangent(evidence, ([name] for name in fields), (*minor.rows, *claim["zero"]))
+        ways = [{q: evidence.text(text) for q, text in way.items()} for way in claim["speeds"]]
+        independent(evidence, [*ways, *(field_named(evidence, name) for name in fields)], free, minor.point)
+    return minor
+
+
+def _is_definite(evidence: CheckedEvidence, claim: Told, squares: list[Any]) -> None:
+    """`CheckError` unless a combination is stationary at the point, with a definite second derivative (Sylvester)."""
+    minor, zero, speeds = left_over(evidence, claim)
+    refuse(claim["order"] != 2 or len(speeds) > LONGEST_WORD or evidence.is_open(zero), "numbers, and order 2")
+    slopes = (minor.point.prepared(derivative(zero, q)) for q in evidence.problem.coordinates)
+    refuse(not all(map(evidence.ring.vanishes, slopes)), "the combination is not stationary at the point")
+    sign, form = 1 if squares[0] > 0 else -1, [[2 * square] * len(squares) for square in squares]
+    for (i, first), (j, other) in combinations(enumerate(speeds), 2):
+        both = {q: first.get(q, arb(0)) + other.get(q, arb(0)) for q in {**first, **other}}
+        form[i][j] = form[j][i] = along_curve(evidence, minor, both, zero, 2) - squares[i] - squares[j]
+    leading = ([[sign * entry for entry in row[:k]] for row in form[:k]] for k in range(1, len(form) + 1))
+    refuse(not all(arb_mat(part).det() > 0 for part in leading), "the form is not shown to be definite")
+
+
+def crossing(evidence: CheckedEvidence, claim: Told) -> CheckedMinor:
+    """A minor whose rows, with one relation more, are all: this takes both signs near the point, on what they leave.
+
+    So its zeros separate a manifold there, and have one dimension less at least (Hurewicz and Wallman 1941).
+    """
+    minor, zero, speeds = left_over(evidence, claim)
+    evidence.follow(evidence.finite, {*minor.rows, *claim["zero"]}, minor.point, "the rows and what is 0")
+    evidence.on_set(minor.point, evidence.finite)
+    values = [along_curve(evidence, minor, way, zero, 2) for way in speeds]
+    both = any(value > 0 for value in values) and any(value < 0 for value in values)
+    refuse(len(claim["zero"]) != 1 or not both, "one relation, with both signs, is needed")
     return minor
 
 

@@ -119,13 +119,15 @@ class Context:
         return max(points, key=lambda point: point.rank == rank, default=None)
 
     def _is_fit(self, point: FoundPoint) -> bool:
-        """Whether the checker accepts a point for claims, and the integrals that the report tells have values there."""
+        """Whether the checker accepts a point for claims, where velocities and integrals are as the report tells."""
         texts = (entry.integral.rpartition("=")[0].strip() for entry in self.report.constraints if entry.integral)
+        free = self.report.velocity_dof if self.scenery.moving else None
         with suppress(CheckError, NoEstimateError):
             self.scenery.evidence.is_about("here", self.scenery.evidence.point(self.add_point(point)))
             for text in texts:
                 point.estimates.value(self.scenery.chosen(self.scenery.evidence.text(text)))
-            return True
+            standing = self.standing_of(self.equations, point=point)
+            return free in (None, standing and len(self.problem.coordinates) - len(standing.rows))
         return False
 
     @property

@@ -82,9 +82,8 @@ def _reached(context: Context, owner: str, alone: bool) -> Iterator[Told]:
     standing = context.standing_of(context.scenery.owned(owner)) if alone else context.standing
     if standing is None or not (alone or standing.accounted):
         return
-    words = words_of(
-        context, standing, len(context.problem.coordinates) + context.scenery.timed if alone else reach(context)
-    )
+    most = len(context.problem.coordinates) + context.scenery.timed if alone else reach(context)
+    words = words_of(context, standing, most)
     if words is None:
         return
     for name in filter(context.scenery.linear, context.scenery.owned(owner, ("velocity",))):

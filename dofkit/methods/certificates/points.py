@@ -172,7 +172,11 @@ class PointSearch:
         return echelon(rows, weight)
 
     def settled(self, reached: dict[str, float], names: Sequence[str], unknowns: set[str]) -> FoundPoint | None:
-        """All that is no column rounded to short numbers, the columns found again."""
+        """All that is no column rounded to short numbers, the columns found again; or all, where that is exact."""
+        near = {name: Fraction(round(value * 32), 32) for name, value in reached.items()} | self.scenery.parameters
+        if all(abs(near[name] - value) < 1e-4 for name, value in reached.items()) and self._holds(near, names):
+            texts, floats = {name: number_text(near[name]) for name in reached}, floats_of(near)
+            return FoundPoint(texts, floats, rank=len(self.pivots(floats, names, unknowns)))
         pivots = self.pivots(reached, names, unknowns)
         rows, columns = [names[p.row] for p in pivots], [p.column for p in pivots]
         for most in _ROUNDINGS:
