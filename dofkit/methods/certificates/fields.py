@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
-from itertools import combinations
+from itertools import combinations, islice, product
 from typing import Any
 
 from networkx.utils import UnionFind
 
 from dofkit.checker.constraints import Surroundings
 from dofkit.checker.evidence import VelocityField, bracket, field_named, tangent
-from dofkit.checker.trees import ZERO, CheckError
+from dofkit.checker.trees import HALF, ONE, ZERO, CheckError, Tree, add, derivative, number, power, substituted, symbol
 from dofkit.methods.certificates.context import Context, Standing, Told
 from dofkit.methods.certificates.numerics import Estimates, NoEstimateError, echelon
 from dofkit.methods.certificates.points import FoundPoint
@@ -102,6 +102,8 @@ def _is_kept(scenery: Scenery, motion: str, names: Sequence[str]) -> bool:
 
 #: The longest word, and the most words of a length.
 LONGEST, MOST_WORDS = 7, 60
+#: How many velocities that meet a quadratic relation are looked at.
+MOST_CURVED = 40
 
 
 @dataclass
@@ -138,6 +140,45 @@ def tangent_fields(context: Context, standing: Standing) -> list[str] | None:
     return ids
 
 
+def curved_fields(context: Context, standing: Standing) -> list[str] | None:
+    """Fields with time going by that keep rows of which one is quadratic in velocities, independent at the point.
+
+    Each is a combination of fields that keep the other rows, by small numbers and a root of the quadratic equation.
+    """
+    scenery, ids, vectors = context.scenery, list[str](), list[dict[str, float]]()
+    linear = [row for row in standing.rows if scenery.linear(row)]
+    straight = context.standing_of(linear, point=standing.point)
+    basis = tangent_fields(context, straight) if straight and not scenery.timed else None
+    if not basis or len(linear) != len(standing.rows) - 1:
+        return None
+    fields = {symbol(f"{name} speed"): field_named(scenery.evidence, name) for name in basis}
+    speeds = {q: add(*(u * field.get(q, ZERO) for u, field in fields.items())) for q in context.problem.coordinates}
+    (curved,) = {*standing.rows} - {*linear}
+    relation = substituted(scenery.evidence.relation(curved).tree, {f"{q}dot": tree for q, tree in speeds.items()})
+    for chosen in islice(_small_speeds(relation, [str(u.value) for u in fields]), MOST_CURVED):
+        with suppress(NoEstimateError, CheckError):
+            field = {**{q: substituted(tree, chosen) for q, tree in speeds.items()}, "t": ONE}
+            vector = {q: standing.point.estimates.value(scenery.chosen(tree)) for q, tree in field.items()}
+            if len(echelon([*vectors, vector])) > len(vectors):
+                texts = {q: text_of(tree) for q, tree in field.items()}
+                ids.append(scenery.entry_id("fields", {"components": texts}))
+                vectors.append(vector)
+    return ids
+
+
+def _small_speeds(relation: Tree, letters: Sequence[str]) -> Iterator[dict[str, Tree]]:
+    """Yield solutions of a relation that is quadratic in one of the letters: this by small numbers for the others."""
+    for last in letters:
+        slope = derivative(relation, last)
+        curve, others = derivative(slope, last), [letter for letter in letters if letter != last]
+        for values in product((0, 1, -1, 2), repeat=len(others)) if last not in curve.symbols else ():
+            chosen = dict(zip(others, map(number, values), strict=True))
+            a, b, c = (substituted(tree, {**chosen, last: ZERO}) for tree in (curve, slope, relation))
+            root = power(b * b - number(2) * a * c, HALF)
+            for value in (-c / b,) if a == ZERO else ((root - b) / a, (-root - b) / a):
+                yield {**chosen, last: value}
+
+
 def _touched(context: Context, standing: Standing, free: str) -> list[str]:
     """The rows that move together when one free coordinate moves."""
     evidence, groups = context.scenery.evidence, parts_of(context.scenery, standing.rows)
@@ -151,7 +192,7 @@ def words_of(context: Context, standing: Standing, most: int) -> Words | None:
 
     def grown() -> Words | None:
         with suppress(CheckError, NoEstimateError, RecursionError):
-            fields = tangent_fields(context, standing)
+            fields = tangent_fields(context, standing) or curved_fields(context, standing)
             return _grown(context, standing, fields, most) if fields else None
         return None
 

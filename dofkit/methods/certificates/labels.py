@@ -86,8 +86,10 @@ def _reached(context: Context, owner: str, alone: bool) -> Iterator[Told]:
     words = words_of(context, standing, most)
     if words is None:
         return
-    for name in filter(context.scenery.linear, context.scenery.owned(owner, ("velocity",))):
-        for word, vector in zip(words.words, words.vectors, strict=True):
+    reached = [*zip(words.words, words.vectors, strict=True)]
+    means = [([*a, *b], {q: (x[q] + y.get(q, 0.0)) / 2 for q in x}) for (a, x), (b, y) in combinations(reached, 2)]
+    for name in context.scenery.owned(owner, ("velocity",)):
+        for word, vector in reached if context.scenery.linear(name) else means:
             if len(word) > 1 and abs(pairing(context, name, standing.point, vector)) > FAR:
                 used = {"fields": words.fields, "rows": words.rows, "word": word, "pairs": name}
                 if any(map(evidence.is_open, (evidence.relation(other).tree for other in evidence.finite))):
