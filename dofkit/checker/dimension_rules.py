@@ -14,6 +14,7 @@ from dofkit.checker.evidence import (
     Told,
     admissible,
     crossing,
+    curvature,
     independent,
     of_word,
     span,
@@ -35,10 +36,11 @@ def bounds(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     above = size - len(minor.rows) - (len(most["speeds"]) if most["rule"] == "isolated" else 0)
     if least["rule"] == "span":
         point, lower = span(evidence, {"minor": most["minor"], **least}, 1 if path == "/velocity_dof" else 12)
-    elif least["rule"] == "crossing":
-        refuse(path != "/dof", "what crosses has a dof")
-        other = crossing(evidence, least)
-        point, lower = other.point, size - len(other.rows) - 1
+    elif least["rule"] in ("crossing", "curved"):
+        refuse(path != "/dof", "what crosses or is curved has a dof")
+        crosses = least["rule"] == "crossing"
+        other = crossing(evidence, least) if crosses else curvature(evidence, least, evidence.equations)
+        point, lower = other.point, size - len(other.rows) + (-1 if crosses else 1)
     else:
         rows = least["minor"]["rows"] if least["rule"] == "family" else None
         other = evidence.accounts(evidence.minor(least["minor"], rows), evidence.equations)

@@ -209,8 +209,7 @@ def on_row(evidence: CheckedEvidence, row: str, field: VelocityField) -> Tree:
     checked = evidence.relation(row)
     if checked.kind == "finite":
         return along(field, checked.tree)
-    slow = not evidence.is_linear(row) and field.get("t", ZERO) != ONE
-    refuse(slow, f"`{row}` is not linear in velocities, and the field does not have time go by 1")
+    refuse(not evidence.is_linear(row), f"`{row}` is not linear in velocities")
     return substituted(checked.tree, {name + "dot": field.get(name, ZERO) for name in evidence.variables})
 
 
@@ -381,6 +380,29 @@ def crossing(evidence: CheckedEvidence, claim: Told) -> CheckedMinor:
     values = [along_curve(evidence, minor, way, zero, 2) for way in speeds]
     both = any(value > 0 for value in values) and any(value < 0 for value in values)
     refuse(len(claim["zero"]) != 1 or not both, "one relation, with both signs, is needed")
+    return minor
+
+
+def curvature(evidence: CheckedEvidence, claim: Told, allowed: Collection[str]) -> CheckedMinor:
+    """Rows that account for relations at a state, of which one is curved along a velocity that all of them allow.
+
+    Near the state the velocities that are allowed are a manifold with the rows' kernel for tangent space. A second
+    derivative of a row along it that is not 0 shows that the manifold is no plane: its vectors span a dimension more at
+    least, and motions reach all of that.
+    """
+    minor = evidence.accounts(evidence.minor(claim["minor"], allowed), allowed)
+    value, tree = minor.point.value, evidence.relation(claim["pairs"]).tree
+    speeds = {q: value(evidence.text(text)) for q, text in claim["speeds"].items()}
+    free = {*evidence.problem.coordinates} - {*minor.columns}
+    refuse(not speeds.keys() <= free or claim["pairs"] not in minor.rows, "speeds are of free coordinates")
+    with ctx.workprec(PRECISION):
+        slopes = [[value(evidence.slope(row, column)) for column in minor.columns] for row in minor.rows]
+        pushed = [[sum((value(evidence.slope(row, q)) * v for q, v in speeds.items()), arb(0))] for row in minor.rows]
+        solution = arb_mat(slopes).solve(arb_mat(pushed))
+        moved = {f"{q}dot": v for q, v in speeds.items()}
+        moved |= {f"{q}dot": -solution[i, 0] for i, q in enumerate(minor.columns)}
+        curves = ((derivative(derivative(tree, a), b), u * v) for (a, u), (b, v) in product(moved.items(), repeat=2))
+        refuse(not not_zero(sum((value(part) * speed for part, speed in curves), arb(0))), "it may not be curved")
     return minor
 
 

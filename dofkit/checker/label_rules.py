@@ -5,9 +5,9 @@ from itertools import combinations
 from typing import Any
 
 from dofkit.checker.dimension_rules import names_told, verified_rank
-from dofkit.checker.evidence import CheckedEvidence, Told, admissible, involutive, of_word, on_row
+from dofkit.checker.evidence import CheckedEvidence, Told, admissible, curvature, involutive, of_word, on_row
 from dofkit.checker.point import CheckedPoint, not_zero
-from dofkit.checker.trees import HALF, ONE, ZERO, Tree, add, derivative, homogeneous_degree, refuse, substituted, symbol
+from dofkit.checker.trees import ONE, ZERO, Tree, add, derivative, homogeneous_degree, refuse, substituted, symbol
 
 Form = dict[str, Tree]
 EQUATIONS, EVERY = ("finite", "velocity"), ("finite", "velocity", "inequality")
@@ -53,19 +53,27 @@ def bracket(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
     """A direction that motions through the point reach, and that a form of the constraint forbids.
 
     A consequence of geometric equations holds for all directions in which the orbit of the fields extends, as does what
-    follows from it. What is not linear says so of the mean of two fields: that is tangent to the orbit as well.
+    follows from it.
     """
     (point, _), name = admissible(evidence, claim, _setting(evidence, claim)), claim["pairs"]
     if claim["field"] != "holonomic_alone":
         evidence.is_about("here", point)
     evidence.follow([name], constraint_relations(evidence, claim), point, "the constraint")
     refuse(evidence.relation(name).kind != "velocity", "what the bracket pairs with holds no velocity")
-    if evidence.is_linear(name):
-        reached = of_word(evidence, claim["word"], claim["fields"])
-    else:
-        first, other = (of_word(evidence, [field], claim["fields"]) for field in claim["word"])
-        reached = {q: HALF * (first.get(q, ZERO) + other.get(q, ZERO)) for q in {**first, **other}}
-    refuse(not not_zero(point.value(on_row(evidence, name, reached))), "the relation may be 0 in that direction")
+    value = point.value(on_row(evidence, name, of_word(evidence, claim["word"], claim["fields"])))
+    refuse(not not_zero(value), "the form may be 0 in that direction")
+    return False
+
+
+def curved(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
+    """A relation of the constraint is curved along what is allowed: of an integral all such velocities form a plane.
+
+    Integrals that imply it, and geometric equations, leave a plane of velocities, on which it would be 0.
+    """
+    minor = curvature(evidence, claim, _setting(evidence, claim))
+    if claim["field"] != "holonomic_alone":
+        evidence.is_about("here", minor.point)
+    refuse(claim["pairs"] not in constraint_relations(evidence, claim), "what is curved is not of the constraint")
     return False
 
 

@@ -5,18 +5,18 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
-from itertools import combinations, islice, product
+from itertools import chain, combinations, product
 from typing import Any
 
 from networkx.utils import UnionFind
 
 from dofkit.checker.constraints import Surroundings
 from dofkit.checker.evidence import VelocityField, bracket, field_named, tangent
-from dofkit.checker.trees import HALF, ONE, ZERO, CheckError, Tree, add, derivative, number, power, substituted, symbol
+from dofkit.checker.trees import ZERO, CheckError, derivative
 from dofkit.methods.certificates.context import Context, Standing, Told
-from dofkit.methods.certificates.numerics import Estimates, NoEstimateError, echelon
+from dofkit.methods.certificates.numerics import Estimates, NoEstimateError, echelon, least_step
 from dofkit.methods.certificates.points import FoundPoint
-from dofkit.methods.certificates.scenery import Scenery, text_of
+from dofkit.methods.certificates.scenery import FAR, Scenery, text_of
 from dofkit.methods.certificates.steps import LARGEST_CRAMER, by_cramer, combined_integral, function_in
 
 
@@ -102,8 +102,6 @@ def _is_kept(scenery: Scenery, motion: str, names: Sequence[str]) -> bool:
 
 #: The longest word, and the most words of a length.
 LONGEST, MOST_WORDS = 7, 60
-#: How many velocities that meet a quadratic relation are looked at.
-MOST_CURVED = 40
 
 
 @dataclass
@@ -140,45 +138,6 @@ def tangent_fields(context: Context, standing: Standing) -> list[str] | None:
     return ids
 
 
-def curved_fields(context: Context, standing: Standing) -> list[str] | None:
-    """Fields with time going by that keep rows of which one is quadratic in velocities, independent at the point.
-
-    Each is a combination of fields that keep the other rows, by small numbers and a root of the quadratic equation.
-    """
-    scenery, ids, vectors = context.scenery, list[str](), list[dict[str, float]]()
-    linear = [row for row in standing.rows if scenery.linear(row)]
-    straight = context.standing_of(linear, point=standing.point)
-    basis = tangent_fields(context, straight) if straight and not scenery.timed else None
-    if not basis or len(linear) != len(standing.rows) - 1:
-        return None
-    fields = {symbol(f"{name} speed"): field_named(scenery.evidence, name) for name in basis}
-    speeds = {q: add(*(u * field.get(q, ZERO) for u, field in fields.items())) for q in context.problem.coordinates}
-    (curved,) = {*standing.rows} - {*linear}
-    relation = substituted(scenery.evidence.relation(curved).tree, {f"{q}dot": tree for q, tree in speeds.items()})
-    for chosen in islice(_small_speeds(relation, [str(u.value) for u in fields]), MOST_CURVED):
-        with suppress(NoEstimateError, CheckError):
-            field = {**{q: substituted(tree, chosen) for q, tree in speeds.items()}, "t": ONE}
-            vector = {q: standing.point.estimates.value(scenery.chosen(tree)) for q, tree in field.items()}
-            if len(echelon([*vectors, vector])) > len(vectors):
-                texts = {q: text_of(tree) for q, tree in field.items()}
-                ids.append(scenery.entry_id("fields", {"components": texts}))
-                vectors.append(vector)
-    return ids
-
-
-def _small_speeds(relation: Tree, letters: Sequence[str]) -> Iterator[dict[str, Tree]]:
-    """Yield solutions of a relation that is quadratic in one of the letters: this by small numbers for the others."""
-    for last in letters:
-        slope = derivative(relation, last)
-        curve, others = derivative(slope, last), [letter for letter in letters if letter != last]
-        for values in product((0, 1, -1, 2), repeat=len(others)) if last not in curve.symbols else ():
-            chosen = dict(zip(others, map(number, values), strict=True))
-            a, b, c = (substituted(tree, {**chosen, last: ZERO}) for tree in (curve, slope, relation))
-            root = power(b * b - number(2) * a * c, HALF)
-            for value in (-c / b,) if a == ZERO else ((root - b) / a, (-root - b) / a):
-                yield {**chosen, last: value}
-
-
 def _touched(context: Context, standing: Standing, free: str) -> list[str]:
     """The rows that move together when one free coordinate moves."""
     evidence, groups = context.scenery.evidence, parts_of(context.scenery, standing.rows)
@@ -192,7 +151,7 @@ def words_of(context: Context, standing: Standing, most: int) -> Words | None:
 
     def grown() -> Words | None:
         with suppress(CheckError, NoEstimateError, RecursionError):
-            fields = tangent_fields(context, standing) or curved_fields(context, standing)
+            fields = tangent_fields(context, standing)
             return _grown(context, standing, fields, most) if fields else None
         return None
 
@@ -255,6 +214,8 @@ def _least(context: Context, standing: Standing, dof: int) -> Told | None:
     size = len(context.problem.coordinates)
     if dof == size - len(standing.rows):
         return {"rule": "regular", "minor": context.minor(standing)}
+    if curved := next(curvatures(context, standing), None):
+        return {"rule": "curved", **curved} if dof == size - len(standing.rows) + 1 else None
     words = words_of(context, standing, reach(context))
     if words is None:
         return None
@@ -267,6 +228,30 @@ def _least(context: Context, standing: Standing, dof: int) -> Told | None:
         "words": words.words[: dof + moves],
         "columns": words.columns[: dof + moves],
     }
+
+
+def curvatures(context: Context, standing: Standing) -> Iterator[Told]:
+    """Yield rows that are curved along a velocity that all rows allow: the minor, the row, and the free velocities."""
+    point, size = standing.point, len(standing.rows)
+    slopes = [context.row(name, point) for name in standing.rows]
+    square = [{q: row.get(q, 0.0) for q in standing.columns} for row in slopes]
+    free = [q for q in context.problem.coordinates if q not in standing.columns]
+    ways = ([q] for q in free), ([*pair] for pair in combinations(free, 2))
+    for name in standing.rows if not all(map(context.scenery.linear, standing.rows)) else ():
+        tree = context.scenery.tree(name)
+        for way in chain(*ways):
+            solved = least_step(square, [sum(row.get(q, 0.0) for q in way) for row in slopes]) if size else {}
+            moved = {
+                f"{q}dot": value
+                for q, value in {**dict.fromkeys(way, 1.0), **{q: -v for q, v in solved.items()}}.items()
+            }
+            curve = sum(
+                point.estimates.value(derivative(derivative(tree, a), b)) * u * v
+                for (a, u), (b, v) in product(moved.items(), repeat=2)
+            )
+            if abs(curve) > FAR:
+                yield {"minor": context.minor(standing), "pairs": name, "speeds": dict.fromkeys(way, "1")}
+                break
 
 
 def _most(context: Context, dof: int) -> Iterator[Told]:

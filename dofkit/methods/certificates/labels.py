@@ -9,6 +9,7 @@ from dofkit.checker.label_rules import exterior_part, form_of
 from dofkit.checker.trees import ZERO, CheckError, Tree, add, derivative, symbol
 from dofkit.methods.certificates.context import Context, Told
 from dofkit.methods.certificates.fields import (
+    curvatures,
     integrable_names,
     integral_steps,
     involutive_rows,
@@ -82,14 +83,14 @@ def _reached(context: Context, owner: str, alone: bool) -> Iterator[Told]:
     standing = context.standing_of(context.scenery.owned(owner)) if alone else context.standing
     if standing is None or not (alone or standing.accounted):
         return
+    own = context.scenery.owned(owner)
+    yield from ({"rule": "curved", **curved} for curved in curvatures(context, standing) if curved["pairs"] in own)
     most = len(context.problem.coordinates) + context.scenery.timed if alone else reach(context)
     words = words_of(context, standing, most)
     if words is None:
         return
-    reached = [*zip(words.words, words.vectors, strict=True)]
-    means = [([*a, *b], {q: (x[q] + y.get(q, 0.0)) / 2 for q in x}) for (a, x), (b, y) in combinations(reached, 2)]
-    for name in context.scenery.owned(owner, ("velocity",)):
-        for word, vector in reached if context.scenery.linear(name) else means:
+    for name in filter(context.scenery.linear, context.scenery.owned(owner, ("velocity",))):
+        for word, vector in zip(words.words, words.vectors, strict=True):
             if len(word) > 1 and abs(pairing(context, name, standing.point, vector)) > FAR:
                 used = {"fields": words.fields, "rows": words.rows, "word": word, "pairs": name}
                 if any(map(evidence.is_open, (evidence.relation(other).tree for other in evidence.finite))):
