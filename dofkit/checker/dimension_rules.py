@@ -38,9 +38,9 @@ def bounds(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
         point, lower = span(evidence, {"minor": most["minor"], **least}, 1 if path == "/velocity_dof" else 12)
     elif least["rule"] in ("crossing", "curved"):
         refuse(path != "/dof", "what crosses or is curved has a dof")
-        crosses = least["rule"] == "crossing"
-        other = crossing(evidence, least) if crosses else curvature(evidence, least, evidence.equations)
-        point, lower = other.point, size - len(other.rows) + (-1 if crosses else 1)
+        flat = least["rule"] == "crossing"
+        other = crossing(evidence, least) if flat else curvature(evidence, least, evidence.equations)
+        point, lower = other.point, size - len(other.rows) + (-1 if flat else 1)
     else:
         rows = least["minor"]["rows"] if least["rule"] == "family" else None
         other = evidence.accounts(evidence.minor(least["minor"], rows), evidence.equations)

@@ -53,27 +53,18 @@ def bracket(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
     """A direction that motions through the point reach, and that a form of the constraint forbids.
 
     A consequence of geometric equations holds for all directions in which the orbit of the fields extends, as does what
-    follows from it.
+    follows from it. Or a relation is ``curved`` along what is allowed: integrals that imply it leave a plane of
+    velocities, on which it would be 0.
     """
-    (point, _), name = admissible(evidence, claim, _setting(evidence, claim)), claim["pairs"]
+    name, allowed, curves = claim["pairs"], _setting(evidence, claim), claim["rule"] == "curved"
+    point = curvature(evidence, claim, allowed).point if curves else admissible(evidence, claim, allowed)[0]
     if claim["field"] != "holonomic_alone":
         evidence.is_about("here", point)
     evidence.follow([name], constraint_relations(evidence, claim), point, "the constraint")
     refuse(evidence.relation(name).kind != "velocity", "what the bracket pairs with holds no velocity")
-    value = point.value(on_row(evidence, name, of_word(evidence, claim["word"], claim["fields"])))
-    refuse(not not_zero(value), "the form may be 0 in that direction")
-    return False
-
-
-def curved(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
-    """A relation of the constraint is curved along what is allowed: of an integral all such velocities form a plane.
-
-    Integrals that imply it, and geometric equations, leave a plane of velocities, on which it would be 0.
-    """
-    minor = curvature(evidence, claim, _setting(evidence, claim))
-    if claim["field"] != "holonomic_alone":
-        evidence.is_about("here", minor.point)
-    refuse(claim["pairs"] not in constraint_relations(evidence, claim), "what is curved is not of the constraint")
+    if not curves:
+        value = point.value(on_row(evidence, name, of_word(evidence, claim["word"], claim["fields"])))
+        refuse(not not_zero(value), "the form may be 0 in that direction")
     return False
 
 

@@ -35,7 +35,7 @@ TABLE: tuple[tuple[str, str, Rule], ...] = (
     ("/generalized_coordinates", "minor, frobenius", numbers.generalized_coordinates),
     ("holonomic, holonomic_alone", "finite, inequality", labels.by_kind),
     ("holonomic, holonomic_alone", "integral, frobenius", labels.integrable),
-    ("holonomic, holonomic_alone", "bracket", labels.bracket), ("holonomic, holonomic_alone", "curved", labels.curved),
+    ("holonomic, holonomic_alone", "bracket, curved", labels.bracket),
     ("scleronomic, catastatic", "timeless", labels.timeless),
     ("scleronomic, catastatic", "time-dependent", labels.time_dependent),
     ("exact", "exact, not exact", labels.exact), ("integral", "integral", labels.integral),

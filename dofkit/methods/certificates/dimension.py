@@ -263,9 +263,9 @@ def _crossing(context: Context, standing: Standing) -> Iterator[Told]:
     """Yield the rule `crossing`: along two directions the only dependent relation has different signs."""
     for zero in standing.dependent if len(standing.dependent) == 1 else ():
         pairs = [(_derivative_along(context, standing, zero, way, 2), way) for way in _directions(context, standing)]
-        signs = [next((way for value, way in pairs if value * sign > FAR), None) for sign in SIGNS]
-        if None not in signs:
-            yield {"rule": "crossing", **_left_over(context, standing, zero, *filter(None, signs))}
+        signs = [way for sign in SIGNS for value, way in pairs if value * sign == max(v * sign for v, _ in pairs) > FAR]
+        if len(signs) > 1:
+            yield {"rule": "crossing", **_left_over(context, standing, zero, signs[0], signs[-1])}
 
 
 def _left_over(context: Context, standing: Standing, zero: str, *directions: dict[str, int]) -> Told:
