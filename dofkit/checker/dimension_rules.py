@@ -13,7 +13,6 @@ from dofkit.checker.evidence import (
     CheckedMinor,
     Told,
     admissible,
-    crossing,
     curvature,
     independent,
     of_word,
@@ -33,14 +32,13 @@ def bounds(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     most, least = claim.get("most", {**claim, "rule": "minor"}), claim.get("least", {**claim, "rule": "regular"})
     refuse(path != "/dof" and most["rule"] != "minor", "an upper bound of velocities is `minor`")
     minor = MOST[most["rule"]](evidence, most) if path == "/dof" else evidence.minor(most["minor"])
-    above = size - len(minor.rows) - (len(most["speeds"]) if most["rule"] == "isolated" else 0)
+    above = size - len(minor.rows) - (most["rule"] == "isolated")
     if least["rule"] == "span":
         point, lower = span(evidence, {"minor": most["minor"], **least}, 1 if path == "/velocity_dof" else 12)
-    elif least["rule"] in ("crossing", "curved"):
-        refuse(path != "/dof", "what crosses or is curved has a dof")
-        flat = least["rule"] == "crossing"
-        other = crossing(evidence, least) if flat else curvature(evidence, least, evidence.equations)
-        point, lower = other.point, size - len(other.rows) + (-1 if flat else 1)
+    elif least["rule"] == "curved":
+        refuse(path != "/dof", "what is curved shows a dof")
+        other = curvature(evidence, least, evidence.equations)
+        point, lower = other.point, size - len(other.rows) + 1
     else:
         rows = least["minor"]["rows"] if least["rule"] == "family" else None
         other = evidence.accounts(evidence.minor(least["minor"], rows), evidence.equations)

@@ -6,7 +6,7 @@ import random
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from functools import partial
-from itertools import combinations, product
+from itertools import combinations
 from typing import Any
 
 from flint import arb
@@ -208,69 +208,40 @@ def _gives(context: Context, name: str, q: str, most: int = 1) -> bool:
 
 SIGNS = (1, -1)
 #: The engines' arguments by which it is so.
-STATIONARY = ("isolated zero of one variable", "indefinite form", "definite form", "cases")
+STATIONARY = ("isolated zero of one variable", "indefinite form", "cases")
 
 
 def stationary(context: Context) -> Iterator[Told]:
-    """Yield dof near a point at which the differential of a relation depends on others: `isolated`, `crossing`."""
-    standing, dof = context.standing, context.report.dof or 0
+    """Yield dof near a point at which only the differential of a relation depends on others, by the rule `isolated`."""
+    standing = context.standing
     if standing is None or context.report.verdicts["dof"].argument not in STATIONARY:
         return
-    fields = kept_motions(context, context.scenery.evidence.finite, standing.point, standing.columns)
-    for most in (*_isolated(context, standing), *_definite(context, standing, dof, fields)):
-        for least in (*_crossing(context, standing), *_motions_from(context, standing, dof, fields)):
+    for least in _motions_from(context, standing, context.report.dof or 0):
+        for most in _isolated(context, standing):
             yield {"rule": "squeeze", "about": context.about, "most": most, "least": least}
 
 
-def _motions_from(context: Context, standing: Standing, size: int, fields: dict[str, str]) -> Iterator[Told]:
+def _motions_from(context: Context, standing: Standing, size: int) -> Iterator[Told]:
     """Yield ``size`` motions from the point: rigid ones of all together, none, or a family."""
-    if len(fields) == size or not size:
-        names = list(fields)[:size]
-        orbit_of = {"fields": names, "words": [[name] for name in names], "columns": list(fields.values())[:size]}
+    fields = kept_motions(context, context.scenery.evidence.finite, standing.point) if size else {}
+    if len(fields) == size:
+        orbit_of = {"fields": list(fields), "words": [[name] for name in fields], "columns": list(fields.values())}
         yield {"rule": "span", "at": standing.point.name, "rows": list(context.scenery.evidence.finite), **orbit_of}
     yield from families(context, size)
 
 
-def _directions(context: Context, standing: Standing) -> list[dict[str, int]]:
-    free = [q for q in context.problem.coordinates if q not in standing.columns]
-    return [{q: 1} for q in free] + [{a: 1, b: sign} for a, b in combinations(free, 2) for sign in SIGNS]
-
-
 def _isolated(context: Context, standing: Standing) -> Iterator[Told]:
     """Yield the rule `isolated`: a derivative of a dependent relation along a free direction is not 0."""
-    directions = _directions(context, standing)
-    for order, zero, way in product(range(2, HIGHEST_ORDER + 1), standing.dependent, directions):
-        if abs(_derivative_along(context, standing, zero, way, order)) > FAR:
-            yield {"rule": "isolated", **_left_over(context, standing, zero, way), "order": order}
-            return
-
-
-def _definite(context: Context, standing: Standing, dof: int, fields: dict[str, str]) -> Iterator[Told]:
-    """Yield the rule `isolated` in several directions: all that are free, but for those of rigid motions."""
-    free = [q for q in context.problem.coordinates if q not in (*standing.columns, *fields.values())]
-    rows = {name: context.row(name, standing.point) for name in standing.rows}
-    for zero in standing.dependent if dof == len(fields) and len(free) > 1 else ():
-        slopes = context.row(zero, standing.point)
-        columns = [{name: row.get(q, 0.0) for name, row in rows.items()} for q in standing.columns]
-        terms = least_step(columns, [slopes.get(q, 0.0) for q in standing.columns])
-        weights = {name: number_text(-Fraction(value).limit_denominator(DENOMINATOR)) for name, value in terms.items()}
-        shown = _left_over(context, standing, zero, *({q: 1} for q in free))
-        shown["zero"] |= {name: weight for name, weight in weights.items() if weight != "0"}
-        yield {"rule": "isolated", **shown, "order": 2, "fields": list(fields)}
-
-
-def _crossing(context: Context, standing: Standing) -> Iterator[Told]:
-    """Yield the rule `crossing`: along two directions the only dependent relation has different signs."""
-    for zero in standing.dependent if len(standing.dependent) == 1 else ():
-        pairs = [(_derivative_along(context, standing, zero, way, 2), way) for way in _directions(context, standing)]
-        signs = [way for sign in SIGNS for value, way in pairs if value * sign == max(v * sign for v, _ in pairs) > FAR]
-        if len(signs) > 1:
-            yield {"rule": "crossing", **_left_over(context, standing, zero, signs[0], signs[-1])}
-
-
-def _left_over(context: Context, standing: Standing, zero: str, *directions: dict[str, int]) -> Told:
-    speeds = [{q: str(value) for q, value in way.items()} for way in directions]
-    return {"minor": context.minor(standing), "zero": {zero: "1"}, "speeds": speeds}
+    free = [q for q in context.problem.coordinates if q not in standing.columns]
+    directions = [{q: 1} for q in free] + [{a: 1, b: sign} for a, b in combinations(free, 2) for sign in SIGNS]
+    for order in range(2, HIGHEST_ORDER + 1):
+        for zero in standing.dependent:
+            for direction in directions:
+                if abs(_derivative_along(context, standing, zero, direction, order)) > FAR:
+                    speeds = {q: str(value) for q, value in direction.items()}
+                    rows = {"minor": context.minor(standing), "zero": zero, "speeds": speeds}
+                    yield {"rule": "isolated", **rows, "order": order}
+                    return
 
 
 def _derivative_along(context: Context, standing: Standing, zero: str, direction: dict[str, int], order: int) -> float:

@@ -250,7 +250,7 @@ def curvatures(context: Context, standing: Standing) -> Iterator[Told]:
                 for (a, u), (b, v) in product(moved.items(), repeat=2)
             )
             if abs(curve) > FAR:
-                yield {"minor": context.minor(standing), "pairs": name, "speeds": [dict.fromkeys(way, "1")]}
+                yield {"minor": context.minor(standing), "pairs": name, "speeds": dict.fromkeys(way, "1")}
                 break
 
 
