@@ -7,17 +7,7 @@ from typing import Any
 
 from flint import fmpq_mat
 
-from dofkit.checker.evidence import (
-    MOST,
-    CheckedEvidence,
-    CheckedMinor,
-    Told,
-    admissible,
-    curvature,
-    independent,
-    of_word,
-    span,
-)
+from dofkit.checker.evidence import MOST, CheckedEvidence, CheckedMinor, Told, curvature, span
 from dofkit.checker.geometry import determinant, dot
 from dofkit.checker.point import CheckedPoint, not_zero
 from dofkit.checker.relations import total_derivative
@@ -30,13 +20,13 @@ def bounds(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     """dof or velocity_dof near a point, between two bounds."""
     path, size = claim["path"], len(evidence.problem.coordinates)
     most, least = claim.get("most", {**claim, "rule": "minor"}), claim.get("least", {**claim, "rule": "regular"})
-    refuse(path != "/dof" and most["rule"] != "minor", "an upper bound of velocities is `minor`")
+    unfit = path != "/dof" and (most["rule"] != "minor" or least["rule"] == "curved")
+    refuse(unfit, "an upper bound of velocities is `minor`, and curvature shows a dof")
     minor = MOST[most["rule"]](evidence, most) if path == "/dof" else evidence.minor(most["minor"])
     above = size - len(minor.rows) - (most["rule"] == "isolated")
     if least["rule"] == "span":
         point, lower = span(evidence, {"minor": most["minor"], **least}, 1 if path == "/velocity_dof" else 12)
     elif least["rule"] == "curved":
-        refuse(path != "/dof", "what is curved shows a dof")
         other = curvature(evidence, least, evidence.equations)
         point, lower = other.point, size - len(other.rows) + 1
     else:
@@ -180,13 +170,12 @@ def redundant(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[st
     order = [owner for owner in owners(evidence) if evidence.owned(owner)]
     if "without" in claim:
         number = "/velocity_dof" if evidence.moving else "/dof"
-        refuse(not order, "there are no constraints")
         for name in order:
             others = every.difference(evidence.owned(name))
             minor = evidence.accounts(evidence.minor(claim["without"][name]), others)
             whole &= others == {*minor.rows}
-            larger = verified_rank(evidence, minor.point, verified, number) > len(minor.rows)
-            refuse(not larger, f"without `{name}` the others leave no more")
+            no_less = verified_rank(evidence, minor.point, verified, number) <= len(minor.rows)
+            refuse(no_less, f"without `{name}` the others leave no more")
         verified |= {"apart": True} if whole else {}
         return []
     minor = evidence.accounts(evidence.minor(claim["minor"]), evidence.equations)
@@ -264,14 +253,14 @@ def growth(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[int]:
     minor = evidence.accounts(evidence.minor(claim["minor"]), evidence.equations)
     whole = len(evidence.problem.coordinates) - verified_rank(evidence, minor.point, verified) + evidence.timed
     refuse(not evidence.moving or not all(map(evidence.is_linear, minor.rows)), "a growth vector is of forms")
-    point, fields = admissible(evidence, claim, evidence.equations)
     rank, vector = len(evidence.problem.coordinates) + evidence.timed - len(minor.rows), list[int]()
-    refuse(point is not minor.point or len(fields) > rank, "the fields and the minor are of one point")
+    refuse(len(claim["fields"]) > rank, "there are more fields than velocities")
     for step, entry in enumerate(claim["spans"], 1):
-        words = [of_word(evidence, word, claim["fields"], step) for word in entry["words"]]
-        independent(evidence, words, entry["columns"], point)
+        point, reached = span(evidence, {**claim, **entry}, step)
         most = min(whole, (rank, rank * (rank + 1) // 2, whole)[min(step, 3) - 1])
-        refuse(len(words) != most, f"entry {step} is at least {len(words)} and at most {most}")
+        refuse(
+            point is not minor.point or reached + evidence.timed != most, f"entry {step} is not {most}, or not there"
+        )
         vector.append(most)
     refuse(vector[-1] != whole and (len(vector) < 2 or vector[-1] != vector[-2]), "the last entry is not the whole")
     return vector

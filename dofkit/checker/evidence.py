@@ -346,9 +346,8 @@ def curvature(evidence: CheckedEvidence, claim: Told, allowed: Collection[str]) 
     """
     minor, name = evidence.accounts(evidence.minor(claim["minor"], allowed), allowed), claim["pairs"]
     value = minor.point.value
-    speeds = {q: value(evidence.text(text)) for q, text in claim["speeds"].items()}
-    free = {*evidence.problem.coordinates} - {*minor.columns}
-    refuse(not speeds.keys() <= free or name not in minor.rows, "a row is curved along free coordinates")
+    speeds = {q: value(evidence.text(text)) for q, text in claim["speeds"].items() if q not in (*minor.columns, "t")}
+    refuse(name not in minor.rows, "what is curved is a row")
     with ctx.workprec(PRECISION):
         slopes = [[value(evidence.slope(row, column)) for column in minor.columns] for row in minor.rows]
         pushed = [[sum((value(evidence.slope(row, q)) * v for q, v in speeds.items()), arb(0))] for row in minor.rows]

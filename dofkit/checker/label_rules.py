@@ -52,9 +52,8 @@ def integrable(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
 def bracket(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
     """A direction that motions through the point reach, and that a form of the constraint forbids.
 
-    A consequence of geometric equations holds for all directions in which the orbit of the fields extends, as does what
-    follows from it. Or a relation is ``curved`` along what is allowed: integrals that imply it leave a plane of
-    velocities, on which it would be 0.
+    A consequence of geometric equations holds for all directions in which the orbit of the fields extends. Or one is
+    ``curved`` along what is allowed: integrals that imply it leave a plane of velocities, on which it is 0.
     """
     name, allowed, curves = claim["pairs"], _setting(evidence, claim), claim["rule"] == "curved"
     point = curvature(evidence, claim, allowed).point if curves else admissible(evidence, claim, allowed)[0]

@@ -449,7 +449,7 @@ export class Rules {
     const value = list(claim.value);
     const owners = this.s.owners.filter((o) => this.e.relations.some((r) => r.owner === o));
     if (claim.without !== undefined) {
-      refuse(value.length || !owners.length, "it names none");
+      refuse(value.length, "it names none");
       const dof = this.before(this.e.relations.some((r) => r.kind === "velocity") ? "/velocity_dof" : "/dof");
       let apart = true;
       for (const name of owners) {
