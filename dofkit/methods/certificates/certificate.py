@@ -130,7 +130,7 @@ class Certifying:
 
 def _has_stationary_row(context: Context) -> bool:
     """Whether an equation has the differential 0 at the main point, as far as floats tell."""
-    rows = [] if context.point is None else [context.row(name, context.point) for name in context.equations]
+    rows = [] if context.point is None else [context.row(name, context.point) for name in context.scenery.equations]
     return any(all(abs(value) <= FAR for value in row.values()) for row in rows)
 
 

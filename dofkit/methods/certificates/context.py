@@ -77,7 +77,7 @@ class Context:
     @cached_property
     def nonlinear(self) -> bool:
         """Whether a velocity relation is not linear."""
-        return not all(map(self.scenery.linear, self.equations))
+        return not all(map(self.scenery.linear, self.scenery.equations))
 
     @cached_property
     def at_reference(self) -> bool:
@@ -126,14 +126,9 @@ class Context:
             self.scenery.evidence.is_about("here", self.scenery.evidence.point(self.add_point(point)))
             for text in texts:
                 point.estimates.value(self.scenery.chosen(self.scenery.evidence.text(text)))
-            standing = self.standing_of(self.equations, point=point)
+            standing = self.standing_of(self.scenery.equations, point=point)
             return free in (None, standing and len(self.problem.coordinates) - len(standing.rows))
         return False
-
-    @property
-    def equations(self) -> tuple[str, ...]:
-        """All relations in which rows are looked for."""
-        return self.scenery.equations
 
     def standing_of(
         self, names: Sequence[str], columns: Sequence[str] | None = None, point: FoundPoint | None = None
@@ -167,7 +162,7 @@ class Context:
     @cached_property
     def standing(self) -> Standing | None:
         """The main point with rows among all equations, the finite ones first; the others by steps if possible."""
-        return self.accounted(self.equations)
+        return self.accounted(self.scenery.equations)
 
     @cached_property
     def finite_standing(self) -> Standing | None:
@@ -188,4 +183,4 @@ def states_of(context: Context) -> tuple[list[str], list[str]]:
     """The relations that hold of a configuration with its velocities, and the symbols of both."""
     symbols = [*context.problem.coordinates, *context.problem.world.generic]
     rates = rates_of(context.scenery, context.scenery.finite)
-    return [*context.equations, *rates], [*symbols, *(f"{q}dot" for q in context.problem.coordinates)]
+    return [*context.scenery.equations, *rates], [*symbols, *(f"{q}dot" for q in context.problem.coordinates)]

@@ -60,7 +60,7 @@ def _samples(context: Context) -> Samples:
         moved = {
             q: now[q] + (now[q] - before[q]) * STEP / (far or 1.0) + noise * drawn.uniform(-1, 1) for q in coordinates
         }
-        reached = context.search.approached({**now, **moved}, context.equations, set(coordinates))
+        reached = context.search.approached({**now, **moved}, context.scenery.equations, set(coordinates))
         if reached is not None:
             samples.append(reached)
             before, now = now, reached

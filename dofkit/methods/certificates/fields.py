@@ -5,18 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
-from itertools import chain, combinations, product
-from typing import Any
-
-from networkx.utils import UnionFind
+from itertools import combinations
 
 from dofkit.checker.constraints import Surroundings
 from dofkit.checker.evidence import VelocityField, bracket, field_named, tangent
-from dofkit.checker.trees import ZERO, CheckError, derivative
+from dofkit.checker.trees import ZERO, CheckError
+from dofkit.exact.matrices.sparse import components
 from dofkit.methods.certificates.context import Context, Standing, Told
-from dofkit.methods.certificates.numerics import Estimates, NoEstimateError, echelon, least_step
+from dofkit.methods.certificates.numerics import Estimates, NoEstimateError, echelon
 from dofkit.methods.certificates.points import FoundPoint
-from dofkit.methods.certificates.scenery import FAR, Scenery, text_of
+from dofkit.methods.certificates.scenery import Scenery, text_of
 from dofkit.methods.certificates.steps import LARGEST_CRAMER, by_cramer, combined_integral, function_in
 
 
@@ -65,28 +63,22 @@ def held_by(scenery: Scenery, names: Sequence[str]) -> frozenset[str]:
     return frozenset[str]().union(*(scenery.evidence.relation(name).tree.symbols for name in names))
 
 
-def kept_motions(
-    context: Context, names: Sequence[str], point: FoundPoint, fixed: Sequence[str] = ()
-) -> dict[str, str]:
-    """Rigid motions of what relations hold that keep these, each with a column, not ``fixed``: independent there."""
+def kept_motions(context: Context, names: Sequence[str], point: FoundPoint) -> dict[str, str]:
+    """Rigid motions of what relations hold that keep these, each with a column: independent at the point."""
     scenery, held = context.scenery, held_by(context.scenery, names)
     fields = [{q: text for q, text in motion.items() if q in held} for motion in motions(context.problem.world)]
     ids = [scenery.entry_id("fields", {"components": field}) for field in fields]
     kept = [motion for motion in ids if _is_kept(scenery, motion, names)]
-    components = [field_named(scenery.evidence, motion) for motion in kept]
-    rows = [{q: point.estimates.value(tree) for q, tree in field.items() if q not in fixed} for field in components]
+    moved = [field_named(scenery.evidence, motion) for motion in kept]
+    rows = [{q: point.estimates.value(tree) for q, tree in field.items()} for field in moved]
     return {kept[p.row]: p.column for p in echelon(rows)}
 
 
 def parts_of(scenery: Scenery, names: Sequence[str]) -> list[list[str]]:
     """Return the relations in groups that share no coordinate."""
-    classes, groups = UnionFind(), dict[Any, list[str]]()
-    for name in names:
-        held = scenery.evidence.relation(name).tree.symbols
-        classes.union((name,), *(q for q in scenery.problem.coordinates if not held.isdisjoint((q, f"{q}dot"))))
-    for name in names:
-        groups.setdefault(classes[name,], []).append(name)
-    return list(groups.values())
+    trees = [scenery.evidence.relation(name).tree for name in names]
+    held = [[q for q in scenery.problem.coordinates if {q, f"{q}dot"} & tree.symbols] for tree in trees]
+    return [[names[k] for k in numbers] for numbers in components(held)]
 
 
 def _is_kept(scenery: Scenery, motion: str, names: Sequence[str]) -> bool:
@@ -132,8 +124,8 @@ def tangent_fields(context: Context, standing: Standing) -> list[str] | None:
         columns = [pairs[row] for row in touched]
         matrix = [[evidence.slope(row, column) for column in columns] for row in touched]
         h, numerators = by_cramer(matrix, [evidence.slope(row, coordinate) for row in touched])
-        components = {coordinate: h, **dict(zip(columns, (-tree for tree in numerators), strict=True))}
-        texts = {name: text_of(tree) for name, tree in components.items() if tree != ZERO}
+        trees = {coordinate: h, **dict(zip(columns, (-tree for tree in numerators), strict=True))}
+        texts = {name: text_of(tree) for name, tree in trees.items() if tree != ZERO}
         ids.append(scenery.entry_id("fields", {"components": texts}))
     return ids
 
@@ -203,55 +195,28 @@ def orbit(context: Context) -> Iterator[Told]:
     standing, freedom = context.standing, context.report.dof
     if standing is None or not standing.accounted or freedom is None:
         return
-    least = _least(context, standing, freedom)
-    if least is None:
-        return
-    for most in _most(context, freedom):
-        yield {"rule": "squeeze", "most": most, "least": least, "about": context.about}
+    for least in _least(context, standing, freedom):
+        for most in _most(context, freedom):
+            yield {"rule": "squeeze", "most": most, "least": least, "about": context.about}
 
 
-def _least(context: Context, standing: Standing, dof: int) -> Told | None:
-    size = len(context.problem.coordinates)
-    if dof == size - len(standing.rows):
-        return {"rule": "regular", "minor": context.minor(standing)}
-    if curved := next(curvatures(context, standing), None):
-        return {"rule": "curved", **curved} if dof == size - len(standing.rows) + 1 else None
-    words = words_of(context, standing, reach(context))
-    if words is None:
-        return None
-    moves = any("t" in vector for vector in words.vectors)
-    return {
-        "rule": "span",
-        "at": standing.point.name,
-        "fields": words.fields,
-        "rows": words.rows,
-        "words": words.words[: dof + moves],
-        "columns": words.columns[: dof + moves],
-    }
+def _least(context: Context, standing: Standing, dof: int) -> Iterator[Told]:
+    if dof == len(context.problem.coordinates) - len(standing.rows):
+        yield {"rule": "regular", "minor": context.minor(standing)}
+    yield from curvatures(context, standing)
+    if (words := words_of(context, standing, reach(context))) is not None:
+        size = dof + any("t" in vector for vector in words.vectors)
+        spanned = {"words": words.words[:size], "columns": words.columns[:size]}
+        yield {"rule": "span", "at": standing.point.name, "fields": words.fields, "rows": words.rows, **spanned}
 
 
 def curvatures(context: Context, standing: Standing) -> Iterator[Told]:
-    """Yield rows that are curved along a velocity that all rows allow: the minor, the row, and the free velocities."""
-    point, size = standing.point, len(standing.rows)
-    slopes = [context.row(name, point) for name in standing.rows]
-    square = [{q: row.get(q, 0.0) for q in standing.columns} for row in slopes]
+    """Yield the rule `curved`: a row that is not linear, with velocities along which it may be curved."""
     free = [q for q in context.problem.coordinates if q not in standing.columns]
-    ways = ([q] for q in free), ([*pair] for pair in combinations(free, 2))
-    for name in standing.rows if not all(map(context.scenery.linear, standing.rows)) else ():
-        tree = context.scenery.tree(name)
-        for way in chain(*ways):
-            solved = least_step(square, [sum(row.get(q, 0.0) for q in way) for row in slopes]) if size else {}
-            moved = {
-                f"{q}dot": value
-                for q, value in {**dict.fromkeys(way, 1.0), **{q: -v for q, v in solved.items()}}.items()
-            }
-            curve = sum(
-                point.estimates.value(derivative(derivative(tree, a), b)) * u * v
-                for (a, u), (b, v) in product(moved.items(), repeat=2)
-            )
-            if abs(curve) > FAR:
-                yield {"minor": context.minor(standing), "pairs": name, "speeds": dict.fromkeys(way, "1")}
-                break
+    for name in standing.rows:
+        for way in (*zip(free), *combinations(free, 2)) if not context.scenery.linear(name) else ():
+            minor = {"minor": context.minor(standing)}
+            yield {"rule": "curved", **minor, "pairs": name, "speeds": dict.fromkeys(way, "1")}
 
 
 def _most(context: Context, dof: int) -> Iterator[Told]:
@@ -280,7 +245,7 @@ def integrable_names(context: Context) -> list[str]:
     """The geometric equations, and the forms that are said to be holonomic."""
     owners = [entry.name for entry in context.report.constraints if entry.holonomic]
     names = [name for owner in owners for name in context.scenery.owned(owner)]
-    return sorted(names, key=context.equations.index)
+    return sorted(names, key=context.scenery.equations.index)
 
 
 def involutive_rows(context: Context, names: Sequence[str], columns: Sequence[str] | None = None) -> Iterator[Told]:

@@ -49,7 +49,7 @@ def _meeting(context: Context, inequalities: list[str]) -> FoundPoint | None:
 
 def dof(context: Context) -> Iterator[Told]:
     """The dimension of the configuration space: everywhere where that is one line, else near the main point."""
-    if not context.equations:
+    if not context.scenery.equations:
         yield {"rule": "everywhere", "about": "everywhere"}
         return
     if context.report.verdicts["dof"].about == "everywhere":
@@ -107,7 +107,7 @@ def redundant(context: Context) -> Iterator[Told]:
     """What is redundant is implied by the other constraints."""
     dropped = set(context.report.redundant or [])
     relation = context.scenery.evidence.relation
-    names = sorted(context.equations, key=lambda name: relation(name).owner in dropped)
+    names = sorted(context.scenery.equations, key=lambda name: relation(name).owner in dropped)
     standing = context.accounted(names)
     if standing is not None and (backed := backing(context, standing)) is not None:
         yield {"rule": "cofactors", "minor": context.minor(standing), **backed}
@@ -120,7 +120,7 @@ def _needed(context: Context) -> Iterator[Told]:
     minors, relation = {}, context.scenery.evidence.relation
     for owner in dict.fromkeys(relation(name).owner for name in context.scenery.evidence.equations):
         own = context.scenery.owned(owner)
-        standing = context.accounted([name for name in context.equations if name not in own])
+        standing = context.accounted([name for name in context.scenery.equations if name not in own])
         if standing is None or not standing.accounted:
             return
         minors[owner] = context.minor(standing)
@@ -150,7 +150,7 @@ def independent(context: Context, entry: ConstraintEntry, field: str) -> Iterato
     if entry.form == "inequality":
         yield {"rule": "inequality"}
         return
-    standing, order = context.standing, context.equations
+    standing, order = context.standing, context.scenery.equations
     equations = context.scenery.owned(entry.name)
     last = max((k for k, name in enumerate(order) if name in equations), default=-1)
     rows = order[: last + 1]
@@ -162,7 +162,7 @@ def independent(context: Context, entry: ConstraintEntry, field: str) -> Iterato
     upto.accounted = standing.accounted or not dependent
     if (backed := backing(context, upto)) is not None:
         yield {"rule": "independent", "minor": context.minor(upto), **backed}
-    if len(rows) == len(context.equations):
+    if len(rows) == len(context.scenery.equations):
         yield {"rule": "independent", "minor": context.minor(upto), "last": True}
 
 
@@ -202,7 +202,7 @@ def feasible(context: Context) -> Iterator[Told]:
     """A point at which everything holds."""
     inequalities = [relation.name for relation in context.problem.relations if relation.kind == "inequality"]
     for point in (context.point, _meeting(context, inequalities)) if context.report.feasible else ():
-        standing = None if point is None else context.standing_of(context.equations, point=point)
+        standing = None if point is None else context.standing_of(context.scenery.equations, point=point)
         if standing is not None:
             minor = {"minor": context.minor(standing)}
             yield {"rule": "point", "at": context.add_point(standing.point), **minor}

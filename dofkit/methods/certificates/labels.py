@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import combinations, product
 
-from dofkit.checker.label_rules import exterior_part, form_of
-from dofkit.checker.trees import ZERO, CheckError, Tree, add, derivative, symbol
+from dofkit.checker.label_rules import exterior_part
+from dofkit.checker.trees import ZERO, Tree, add, derivative, symbol
 from dofkit.methods.certificates.context import Context, Told
 from dofkit.methods.certificates.fields import (
     curvatures,
@@ -19,14 +19,7 @@ from dofkit.methods.certificates.fields import (
 )
 from dofkit.methods.certificates.points import FoundPoint
 from dofkit.methods.certificates.scenery import FAR
-from dofkit.methods.certificates.steps import (
-    Components,
-    combined,
-    combined_integral,
-    components,
-    function_in,
-    rates_of,
-)
+from dofkit.methods.certificates.steps import combined, combined_integral, function_in, rates_of
 from dofkit.report import ConstraintEntry
 
 
@@ -38,23 +31,16 @@ def add_step_from_integrals(context: Context, name: str, steps: Sequence[str], a
     sources = [*steps, *(() if alone else context.scenery.finite)]
     if context.point is None:
         return False
-    target, rates = components(context.scenery, name), rates_of(context.scenery, sources)
-    return combined(context.scenery, context.point, {"id": step, "by": "implied", "of": name}, target, rates)
+    rates = rates_of(context.scenery, sources)
+    implied = {"id": step, "by": "implied", "of": name}
+    return combined(context.scenery, context.point, implied, context.scenery.form(name), rates)
 
 
 def integral_alone(context: Context, entry: ConstraintEntry, name: str) -> str | None:
     """Return the step of the integral that is claimed of a form, where each implies the other on its own."""
-    function, is_form = function_in(entry.integral), form_or_none(context, name) is not None
-    step = combined_integral(context.scenery, context.point, function, name) if function and is_form else None
+    function, form = function_in(entry.integral), context.scenery.form(name)
+    step = combined_integral(context.scenery, context.point, function, name) if function and form else None
     return step if step and add_step_from_integrals(context, name, [step], alone=True) else None
-
-
-def form_or_none(context: Context, name: str) -> Components | None:
-    """Return the components of a relation that is a linear form, or None."""
-    try:
-        return form_of(context.scenery.evidence, name)
-    except CheckError:
-        return None
 
 
 # Evidence for the labels of one constraint.
@@ -84,7 +70,7 @@ def _reached(context: Context, owner: str, alone: bool) -> Iterator[Told]:
     if standing is None or not (alone or standing.accounted):
         return
     own = context.scenery.owned(owner)
-    yield from ({"rule": "curved", **curved} for curved in curvatures(context, standing) if curved["pairs"] in own)
+    yield from (claim for claim in curvatures(context, standing) if claim["pairs"] in own)
     most = len(context.problem.coordinates) + context.scenery.timed if alone else reach(context)
     words = words_of(context, standing, most)
     if words is None:
@@ -136,7 +122,7 @@ def exact(context: Context, entry: ConstraintEntry, field: str) -> Iterator[Told
     evidence = context.scenery.evidence
     names = evidence.owned(entry.name, ("velocity",)) if not context.scenery.cayley else ()
     for name in names:
-        form = form_or_none(context, name) or {}
+        form = context.scenery.form(name)
         which = {"relation": name} if len(names) > 1 else {}
         for point, pair in product(filter(None, _points_of(context, name)), combinations(evidence.variables, 2)):
             if context.scenery.differs(exterior_part(form, *pair), point.estimates):
@@ -155,13 +141,13 @@ def time_evidence(context: Context, entry: ConstraintEntry, field: str) -> Itera
 
 def _time_dependence(context: Context, name: str, field: str) -> Iterator[Told]:
     """Yield points at which time is in a relation, or in the quotient of two components of a form."""
-    scenery, tree, form = context.scenery, context.scenery.tree(name), form_or_none(context, name)
-    turned = derivative(tree, "t") if form is None else form.get("t", ZERO)
+    scenery, tree, form = context.scenery, context.scenery.tree(name), context.scenery.form(name)
+    turned = form["t"] if form else derivative(tree, "t")
     velocities = [v for v in scenery.evidence.velocities if v in tree.symbols]
-    if field == "catastatic" and form is None and velocities:
+    if field == "catastatic" and not form and velocities:
         turned = add(*(symbol(v) * derivative(tree, v) for v in velocities))
     changes: list[tuple[Tree, Told]] = [(turned, {})]
-    for (a, first), (b, other) in combinations((form or {}).items(), 2) if field == "scleronomic" else ():
+    for (a, first), (b, other) in combinations(form.items(), 2) if field == "scleronomic" else ():
         turn = first * derivative(other, "t") - other * derivative(first, "t")
         changes.append((turn, {"pair": [a, b]}))
     changes = [change for change in changes if change[0] != ZERO]

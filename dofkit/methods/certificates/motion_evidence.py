@@ -64,7 +64,7 @@ class MotionEvidence:
         claim: Told = {"rule": "lagrange", "c": self.cofactors()}
         claim |= {"constants": self.constants} if self.constants else {}
         size = len(self.eliminated) + len(self.constraint_of_multiplier)
-        standings = (self.context.standing_of(self.context.equations, point=point) for point in self.points())
+        standings = (self.context.standing_of(self.context.scenery.equations, point=point) for point in self.points())
         fit = (standing for standing in standings if standing is not None and len(standing.rows) == size)
         for minor in ({"minor": self.context.minor(standing)} for standing in fit) if size else [{}]:
             for factors in self.factors():

@@ -154,6 +154,11 @@ class Scenery:
         except CheckError:
             return False
 
+    def form(self, name: str) -> dict[str, Tree]:
+        """The components of a relation that is a linear form; nothing of another."""
+        is_form = self.evidence.relation(name).kind == "velocity" and self.linear(name)
+        return {v: self.evidence.slope(name, v) for v in self.evidence.variables} if is_form else {}
+
     def tree(self, name: str) -> Tree:
         """A relation's left side with the functions chosen."""
         if name not in self._prepared:

@@ -169,8 +169,7 @@ def accounted(scenery: Scenery, name: str, rows: Sequence[str], point: FoundPoin
         put = needed_puts(scenery, used, order)
         return is_accepted(scenery, {"id": step, "by": "implied", "of": name, "c": factors, "put": put})
     forms = dependent.kind == "velocity" and all(map(scenery.linear, (name, *sources)))
-    target = components(scenery, name)
-    return forms and combined(scenery, point, {"id": step, "by": "implied", "of": name}, target, sources)
+    return forms and combined(scenery, point, {"id": step, "by": "implied", "of": name}, scenery.form(name), sources)
 
 
 def constant_cofactors(
@@ -236,7 +235,7 @@ def combined_integral(scenery: Scenery, point: FoundPoint | None, function: str,
 
 def combined(scenery: Scenery, point: FoundPoint, step: Step, target: Components, sources: Sequence[str]) -> bool:
     """Whether a step stands up with cofactors, where need be after coordinates that relations give are put in."""
-    rows = {source: components(scenery, source) for source in sources}
+    rows = {source: scenery.form(source) for source in sources}
     for order in ([], puts(scenery, scenery.finite)):
         placed = {source: _placed(scenery, row, order) for source, row in rows.items()}
         combination = cofactors(scenery, point, _placed(scenery, target, order), placed)
@@ -253,12 +252,6 @@ def combined(scenery: Scenery, point: FoundPoint, step: Step, target: Components
 
 def _placed(scenery: Scenery, row: Components, order: Order) -> Components:
     return {v: with_puts(scenery, tree, order) for v, tree in row.items()} if order else row
-
-
-def components(scenery: Scenery, name: str) -> Components:
-    """The components of a linear relation of velocities."""
-    tree = scenery.evidence.relation(name).tree
-    return {v: derivative(tree, f"{v}dot") for v in scenery.evidence.variables}
 
 
 def cofactors(
