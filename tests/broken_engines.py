@@ -103,7 +103,7 @@ from pathlib import Path
 import dofkit
 from dofkit.checker import verify
 from dofkit.methods.certificates.certificate import Certifying
-from dofkit.methods.certificates.lowering import document_of_scene, verdicts_of
+from dofkit.methods.certificates.lowering import document_of_scene
 
 sound = json.loads(Path(sys.argv[1]).read_text()) if sys.argv[1] else None
 for path in sys.argv[2:]:

@@ -13,7 +13,7 @@ from shared.known_scenes import CATALOG, OURS, few, report_of, scene_of, stem, s
 
 import dofkit
 from dofkit.checker import verify
-from dofkit.methods.certificates.lowering import document_of_scene, verdicts_of
+from dofkit.methods.certificates.lowering import document_of_scene
 
 #: What is proved and not verified today: why, and of which scenes. A name may only go.
 UNCOVERED: Mapping[str, tuple[str, str]] = {

@@ -12,7 +12,6 @@ from shared.known_scenes import spread
 
 import dofkit
 from dofkit.checker import verify
-from dofkit.methods.certificates.lowering import verdicts_of
 
 LINES = Path(__file__).with_name("natural_scenes.yaml").read_text(encoding="utf-8").splitlines()
 SCENES = [line for line in LINES if line.startswith("- ")]

@@ -11,7 +11,7 @@ from shared.equation_texts import scenes
 from shared.known_scenes import VARIED, few, report_of, scene_of, stem
 
 import dofkit
-from dofkit.methods.certificates.lowering import verdicts_of, with_certificate
+from dofkit.methods.certificates.lowering import with_certificate
 from dofkit.methods.classify import classified
 
 #: Seconds for one scene of any texts.

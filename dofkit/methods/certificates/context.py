@@ -104,13 +104,12 @@ class Context:
         return place
 
     def _searched(self) -> FoundPoint | None:
-        problem = self.problem
-        unknowns = [*problem.coordinates, *problem.world.generic]
+        unknowns = [*self.problem.coordinates, *self.problem.world.generic]
         names = list(self.scenery.finite)
         if self.nonlinear:
             names, unknowns = states_of(self)
         finite = not self.scenery.moving and self.report.dof is not None
-        rank = len(problem.coordinates) - (self.report.dof or 0) if finite else len(names)
+        rank = len(self.problem.coordinates) - (self.report.dof or 0) if finite else len(names)
         points: list[FoundPoint] = []
         for point in self.search.points(names, unknowns):
             if point.rank == rank and self._is_fit(point):
@@ -150,14 +149,9 @@ class Context:
 
     def row(self, name: str, point: FoundPoint) -> dict[str, float]:
         """The entries of a row in floats: by coordinates, or by their velocities."""
-        scenery = self.scenery
-        finite = scenery.evidence.relation(name).kind == "finite"
-        gradient = point.estimates.gradient(scenery.tree(name))
-        return {
-            q: gradient[q if finite else f"{q}dot"]
-            for q in self.problem.coordinates
-            if (q if finite else f"{q}dot") in gradient
-        }
+        dot = "" if self.scenery.evidence.relation(name).kind == "finite" else "dot"
+        gradient = point.estimates.gradient(self.scenery.tree(name))
+        return {q: gradient[q + dot] for q in self.problem.coordinates if q + dot in gradient}
 
     @cached_property
     def standing(self) -> Standing | None:
@@ -173,9 +167,8 @@ class Context:
         """Independent rows in an order of their own, the others by steps where that is possible."""
         standing = self.standing_of(names)
         if standing is not None and standing.dependent:
-            standing.accounted = all(
-                accounted(self.scenery, name, standing.rows, standing.point) for name in standing.dependent
-            )
+            place = standing.rows, standing.point
+            standing.accounted = all(accounted(self.scenery, name, *place) for name in standing.dependent)
         return standing
 
 

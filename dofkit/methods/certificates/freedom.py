@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from typing import Any
 
 from dofkit.methods.certificates.context import Context, Told, states_of
@@ -150,19 +149,12 @@ def independent(context: Context, entry: ConstraintEntry, field: str) -> Iterato
     if entry.form == "inequality":
         yield {"rule": "inequality"}
         return
-    standing, order = context.standing, context.scenery.equations
-    equations = context.scenery.owned(entry.name)
+    order, equations = context.scenery.equations, context.scenery.owned(entry.name)
     last = max((k for k, name in enumerate(order) if name in equations), default=-1)
-    rows = order[: last + 1]
-    if standing is None or not rows:
-        return
-    size = len(set(rows).intersection(standing.rows))
-    dependent = [name for name in standing.dependent if name in set(rows)]
-    upto = replace(standing, rows=standing.rows[:size], columns=standing.columns[:size], dependent=dependent)
-    upto.accounted = standing.accounted or not dependent
-    if (backed := backing(context, upto)) is not None:
+    upto = context.accounted(order[: last + 1])
+    if upto is not None and (backed := backing(context, upto)) is not None:
         yield {"rule": "independent", "minor": context.minor(upto), **backed}
-    if len(rows) == len(context.scenery.equations):
+    if upto is not None and last + 1 == len(order):
         yield {"rule": "independent", "minor": context.minor(upto), "last": True}
 
 

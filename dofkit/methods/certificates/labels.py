@@ -59,7 +59,6 @@ def holonomic(context: Context, entry: ConstraintEntry, field: str) -> Iterator[
     if getattr(entry, field) is False:
         yield from _reached(context, entry.name, alone)
         return
-    yield from _integrated(context, entry)
     yield from involutive_rows(context, context.scenery.owned(entry.name) if alone else integrable_names(context))
 
 
@@ -85,13 +84,6 @@ def _reached(context: Context, owner: str, alone: bool) -> Iterator[Told]:
                 return
 
 
-def _integrated(context: Context, entry: ConstraintEntry) -> Iterator[Told]:
-    """Yield the rule `integral` for a constraint of one equation whose integral is known."""
-    names = [*filter(context.scenery.linear, context.scenery.owned(entry.name))]
-    if len(names) == 1 and context.point is not None and (step := integral_alone(context, entry, names[0])):
-        yield {"rule": "integral", "at": context.point.name, "integrals": [step]}
-
-
 def integral(context: Context, entry: ConstraintEntry, field: str) -> Iterator[Told]:
     """The integral that is reported: of the form alone, or in the system."""
     names = [*filter(context.scenery.linear, context.scenery.owned(entry.name, ("velocity",)))]
@@ -106,11 +98,8 @@ def integral(context: Context, entry: ConstraintEntry, field: str) -> Iterator[T
     texts = [function_in(other.integral) for other in context.report.constraints]
     others = [other for other in integral_steps(context, texts) if other != step]
     standing = context.standing_of([*context.scenery.finite, *others, names[0]])
-    if (
-        add_step_from_integrals(context, names[0], [step, *others])
-        and standing is not None
-        and names[0] in standing.rows
-    ):
+    implied = add_step_from_integrals(context, names[0], [step, *others])
+    if implied and standing is not None and names[0] in standing.rows:
         yield {**claim, "step": step, "integrals": others, "minor": context.minor(standing)}
 
 

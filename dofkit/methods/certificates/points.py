@@ -173,17 +173,16 @@ class PointSearch:
 
     def settled(self, reached: dict[str, float], names: Sequence[str], unknowns: set[str]) -> FoundPoint | None:
         """All that is no column rounded to short numbers, the columns found again; or all, where that is exact."""
-        near = {name: Fraction(round(value * 32), 32) for name, value in reached.items()} | self.scenery.parameters
+        chosen = self.scenery.parameters
+        near = {name: Fraction(round(value * 32), 32) for name, value in reached.items()} | chosen
         if all(abs(near[name] - value) < 1e-4 for name, value in reached.items()) and self._holds(near, names):
             texts, floats = {name: number_text(near[name]) for name in reached}, floats_of(near)
             return FoundPoint(texts, floats, rank=len(self.pivots(floats, names, unknowns)))
         pivots = self.pivots(reached, names, unknowns)
         rows, columns = [names[p.row] for p in pivots], [p.column for p in pivots]
         for most in _ROUNDINGS:
-            exact = {
-                name: Fraction(round(value * most), most) for name, value in reached.items() if name not in columns
-            }
-            exact |= {name: value for name, value in self.scenery.parameters.items() if name in exact}
+            short = {name: Fraction(round(value * most), most) for name, value in reached.items()}
+            exact = {name: value for name, value in (short | chosen).items() if name in short and name not in columns}
             floats = {**reached, **floats_of(exact)}
             try:
                 floats_again = self.approached(floats, rows, set(columns))
