@@ -196,7 +196,7 @@ def orbit(context: Context) -> Iterator[Told]:
     if standing is None or not standing.accounted or freedom is None:
         return
     for least in _least(context, standing, freedom):
-        for most in _most(context, freedom):
+        for most in rows_above(context):
             yield {"rule": "squeeze", "most": most, "least": least, "about": context.about}
 
 
@@ -219,26 +219,22 @@ def curvatures(context: Context, standing: Standing) -> Iterator[Told]:
             yield {"rule": "curved", **minor, "pairs": name, "speeds": dict.fromkeys(way, "1")}
 
 
-def _most(context: Context, dof: int) -> Iterator[Told]:
-    finite = context.finite_standing
-    if finite is not None and dof >= len(context.problem.coordinates) - len(finite.rows):
-        yield {"rule": "minor", "minor": context.minor(finite)}
-    if (standing := basis_rows(context)[0]) is not None:
-        yield {"rule": "minor", "minor": context.minor(standing)}
-    yield from involutive_rows(context, integrable_names(context))
+def rows_above(context: Context, columns: Sequence[str] | None = None) -> Iterator[Told]:
+    """Yield rows that bound dof, in ``columns`` if given: geometric equations, integrals, forms that are involutive."""
+    finite, part = context.finite_standing, context.report.integrable_part
+    steps = integral_steps(context, (part and part.basis) or ())
+    for names in ([], steps) if steps else ([],):
+        standing = finite and context.standing_of([*finite.rows, *names], columns)
+        if standing is not None:
+            yield {"rule": "minor", "minor": context.minor(standing)}
+    if context.scenery.moving:
+        yield from involutive_rows(context, integrable_names(context), columns)
 
 
-def integral_steps(context: Context, functions: Iterable[str]) -> list[str]:
-    """The steps by which functions keep their values, of those for which there is one."""
-    texts = filter(None, dict.fromkeys(functions))
-    return [step for text in texts if (step := combined_integral(context.scenery, context.point, text))]
-
-
-def basis_rows(context: Context, columns: Sequence[str] | None = None) -> tuple[Standing | None, list[str]]:
-    """The geometric rows and the integrals of the reported basis, and these; None where there are no integrals."""
-    part, finite = context.report.integrable_part, context.finite_standing
-    steps = integral_steps(context, map(function_in, (part and part.basis) or ()))
-    return context.standing_of([*finite.rows, *steps], columns) if steps and finite else None, steps
+def integral_steps(context: Context, texts: Iterable[str | None]) -> list[str]:
+    """The steps by which the functions in texts keep their values, of those for which there is one."""
+    functions = filter(None, dict.fromkeys(map(function_in, texts)))
+    return [step for function in functions if (step := combined_integral(context.scenery, context.point, function))]
 
 
 def integrable_names(context: Context) -> list[str]:

@@ -8,7 +8,7 @@ from typing import Any
 from dofkit.methods.certificates.context import Context, Told, states_of
 from dofkit.methods.certificates.dimension import everywhere, families, stationary, velocities_everywhere
 from dofkit.methods.certificates.emptiness import refutations
-from dofkit.methods.certificates.fields import backing, basis_rows, integrable_names, involutive_rows, orbit
+from dofkit.methods.certificates.fields import backing, integral_steps, orbit, rows_above
 from dofkit.methods.certificates.points import FoundPoint
 from dofkit.report import ConstraintEntry
 
@@ -128,20 +128,12 @@ def _needed(context: Context) -> Iterator[Told]:
 
 def generalized_coordinates(context: Context) -> Iterator[Told]:
     """Yield evidence that the other coordinates are functions of the chosen ones, or of what stands for these."""
-    chosen, finite = context.report.generalized_coordinates, context.finite_standing
+    chosen = context.report.generalized_coordinates
     if chosen == []:
         yield from counted(context)
-    if not chosen or finite is None:
-        return
-    moved = context.problem.world.charted(chosen)
-    others = [q for q in context.problem.coordinates if q not in moved]
-    solving = context.standing_of(finite.rows, others) if len(others) == len(finite.rows) else None
-    if solving is not None and not solving.dependent:
-        yield {"rule": "minor", "minor": context.minor(solving)}
-    if context.scenery.moving:
-        solving = basis_rows(context, others)[0]
-        yield from [{"rule": "minor", "minor": context.minor(solving)}] if solving else []
-        yield from involutive_rows(context, integrable_names(context), others)
+    if chosen:
+        moved = context.problem.world.charted(chosen)
+        yield from rows_above(context, [q for q in context.problem.coordinates if q not in moved])
 
 
 def independent(context: Context, entry: ConstraintEntry, field: str) -> Iterator[Told]:
@@ -207,6 +199,7 @@ def integrable_part(context: Context) -> Iterator[Told]:
     if part is None or finite is None:
         return
     yield {"rule": "integrals", "minor": context.minor(finite), "steps": []}
-    standing, steps = basis_rows(context)
-    if standing is not None:
+    steps = integral_steps(context, part.basis or ())
+    standing = context.standing_of([*finite.rows, *steps])
+    if steps and standing is not None:
         yield {"rule": "integrals", "minor": context.minor(standing), "steps": steps}

@@ -95,7 +95,7 @@ def integral(context: Context, entry: ConstraintEntry, field: str) -> Iterator[T
         yield {**claim, "step": alone}
     if (step := combined_integral(context.scenery, context.point, function)) is None:
         return
-    texts = [function_in(other.integral) for other in context.report.constraints]
+    texts = (other.integral for other in context.report.constraints)
     others = [other for other in integral_steps(context, texts) if other != step]
     standing = context.standing_of([*context.scenery.finite, *others, names[0]])
     implied = add_step_from_integrals(context, names[0], [step, *others])

@@ -73,7 +73,6 @@ class Scenery:
         self.effort = Effort(WORK)
         self._view = dict(lists)
         self.evidence = CheckedEvidence(problem, self._view, self.effort)
-        self._prepared: dict[str, Tree] = {}
         self.steps: set[str] = set()
 
     def entry_id(self, part: str, entry: dict[str, Any]) -> str:
@@ -161,10 +160,7 @@ class Scenery:
 
     def tree(self, name: str) -> Tree:
         """A relation's left side with the functions chosen."""
-        if name not in self._prepared:
-            tree = self.evidence.relation(name).tree
-            self._prepared[name] = self.chosen(tree)
-        return self._prepared[name]
+        return self.evidence.once(("chosen", name), lambda: self.chosen(self.evidence.relation(name).tree))
 
     def chosen(self, tree: Tree) -> Tree:
         """A tree with the functions chosen."""
