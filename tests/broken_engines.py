@@ -100,6 +100,8 @@ BUGS: Mapping[str, Bug] = {
 RUN = """
 import json, sys
 from pathlib import Path
+from shared.known_scenes import verdicts_of
+
 import dofkit
 from dofkit.checker import verify
 from dofkit.methods.certificates.certificate import Certifying
@@ -149,7 +151,7 @@ def answers(package: Path, scenes: list[str], sound: Mapping[str, Answers] | Non
         script.write_text(RUN, encoding="utf-8")
         if sound is not None:
             known.write_text(json.dumps({scene: told.values for scene, told in sound.items()}), encoding="utf-8")
-        environment = {**os.environ, "PYTHONPATH": str(package), "PYTHONDONTWRITEBYTECODE": "1"}
+        environment = {**os.environ, "PYTHONPATH": f"{package}{os.pathsep}{ROOT / 'tests'}", "PYTHONDONTWRITEBYTECODE": "1"}
         command = [sys.executable, str(script), "" if sound is None else str(known), *scenes]
         process = subprocess.run(
             command, capture_output=True, text=True, env=environment, check=False, timeout=4 * 3600

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 from checker.certified import document_of
-from shared.known_scenes import CATALOG, OURS, few, report_of, scene_of, stem, strict_report_of
+from shared.known_scenes import CATALOG, OURS, few, report_of, scene_of, stem, strict_report_of, verdicts_of
 
 import dofkit
 from dofkit.checker import verify
@@ -25,7 +25,7 @@ UNCOVERED: Mapping[str, tuple[str, str]] = {
     "/growth_vector": ("steps between the first and the whole", "snakeboard"),
 }
 #: The least share of the proved claims of all test scenes, and of a tenth, that verify.
-LEAST = 0.94
+LEAST = 0.96
 
 
 def _shown(path: Path) -> tuple[int, set[str]]:

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 import yaml
 from checker.test_second_checker import needs_node, second
-from shared.known_scenes import spread
+from shared.known_scenes import spread, verdicts_of
 
 import dofkit
 from dofkit.checker import verify
