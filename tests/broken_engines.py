@@ -151,7 +151,8 @@ def answers(package: Path, scenes: list[str], sound: Mapping[str, Answers] | Non
         script.write_text(RUN, encoding="utf-8")
         if sound is not None:
             known.write_text(json.dumps({scene: told.values for scene, told in sound.items()}), encoding="utf-8")
-        environment = {**os.environ, "PYTHONPATH": f"{package}{os.pathsep}{ROOT / 'tests'}", "PYTHONDONTWRITEBYTECODE": "1"}
+        paths = f"{package}{os.pathsep}{ROOT / 'tests'}"
+        environment = {**os.environ, "PYTHONPATH": paths, "PYTHONDONTWRITEBYTECODE": "1"}
         command = [sys.executable, str(script), "" if sound is None else str(known), *scenes]
         process = subprocess.run(
             command, capture_output=True, text=True, env=environment, check=False, timeout=4 * 3600

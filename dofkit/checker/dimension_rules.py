@@ -20,15 +20,14 @@ def bounds(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     """dof or velocity_dof near a point, between two bounds."""
     path, size = claim["path"], len(evidence.problem.coordinates)
     most, least = claim.get("most", {**claim, "rule": "minor"}), claim.get("least", {**claim, "rule": "regular"})
-    unfit = path != "/dof" and (most["rule"] != "minor" or least["rule"] == "curved")
-    refuse(unfit, "an upper bound of velocities is `minor`, and curvature shows a dof")
+    refuse(path != "/dof" and most["rule"] != "minor", "an upper bound of velocities is `minor`")
     minor = MOST[most["rule"]](evidence, most) if path == "/dof" else evidence.minor(most["minor"])
     above = size - len(minor.rows) - (most["rule"] == "isolated")
     if least["rule"] == "span":
         point, lower = span(evidence, {"minor": most["minor"], **least}, 1 if path == "/velocity_dof" else 12)
     elif least["rule"] == "curved":
         other = curvature(evidence, least, evidence.equations)
-        point, lower = other.point, size - len(other.rows) + 1
+        point, lower = other.point, size - len(other.rows) + (path == "/dof")
     else:
         rows = least["minor"]["rows"] if least["rule"] == "family" else None
         other = evidence.accounts(evidence.minor(least["minor"], rows), evidence.equations)
@@ -174,8 +173,9 @@ def redundant(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[st
             others = every.difference(evidence.owned(name))
             minor = evidence.accounts(evidence.minor(claim["without"][name]), others)
             whole &= others == {*minor.rows}
-            no_less = verified_rank(evidence, minor.point, verified, number) <= len(minor.rows)
-            refuse(no_less, f"without `{name}` the others leave no more")
+            refuse(
+                verified_rank(evidence, minor.point, verified, number) <= len(minor.rows), f"`{name}` may be dropped"
+            )
         verified |= {"apart": True} if whole else {}
         return []
     minor = evidence.accounts(evidence.minor(claim["minor"]), evidence.equations)
@@ -245,7 +245,6 @@ def growth(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[int]:
     """Check that each entry is spanned from below and bounded from above; return the growth vector.
 
     From below by words; from above by fields and their brackets, or by the dimension of all.
-
     Directions are those of (q, t) where a constraint was verified to be rheonomic or not catastatic.
     """
     labels = [f"{field} {owner}" for field in ("scleronomic", "catastatic") for owner in owners(evidence)]
@@ -254,7 +253,6 @@ def growth(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[int]:
     whole = len(evidence.problem.coordinates) - verified_rank(evidence, minor.point, verified) + evidence.timed
     refuse(not evidence.moving or not all(map(evidence.is_linear, minor.rows)), "a growth vector is of forms")
     rank, vector = len(evidence.problem.coordinates) + evidence.timed - len(minor.rows), list[int]()
-    refuse(len(claim["fields"]) > rank, "there are more fields than velocities")
     for step, entry in enumerate(claim["spans"], 1):
         point, reached = span(evidence, {**claim, **entry}, step)
         most = min(whole, (rank, rank * (rank + 1) // 2, whole)[min(step, 3) - 1])
@@ -278,7 +276,6 @@ def everywhere(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     ``generic``: relations with a symbol of their own in which they are nowhere stationary: for almost all values of
     these they cut every manifold of those that the others consist of regularly (Sard 1942, Lojasiewicz 1965). Where
     all are generic, the set is a manifold of the rank that a cover of all shows (Federer 3.4.3).
-
     dof, where there are forms: that near a point (``most``, ``least``). None is larger where the geometric equations
     allow no more, or where all relations are named here, analytic, and the finite ones a graph: then orbits have the
     dimension that the brackets span, which is largest almost everywhere at once (Nagano 1966).

@@ -353,11 +353,9 @@ def curvature(evidence: CheckedEvidence, claim: Told, allowed: Collection[str]) 
         pushed = [[sum((value(evidence.slope(row, q)) * v for q, v in speeds.items()), arb(0))] for row in minor.rows]
         solution = arb_mat(slopes).solve(arb_mat(pushed))
         speeds |= {q: -solution[i, 0] for i, q in enumerate(minor.columns)}
-        curves = (
-            value(derivative(evidence.slope(name, a), f"{b}dot")) * speeds[a] * speeds[b]
-            for a, b in product(speeds, repeat=2)
-        )
-        refuse(not not_zero(sum(curves, arb(0))), "it may not be curved")
+        parts = {(a, b): value(derivative(evidence.slope(name, a), f"{b}dot")) for a, b in product(speeds, repeat=2)}
+        curve = sum((part * speeds[a] * speeds[b] for (a, b), part in parts.items()), arb(0))
+        refuse(not not_zero(curve), "it may not be curved")
     return minor
 
 

@@ -123,7 +123,6 @@ def time_dependent(evidence: CheckedEvidence, claim: Told, verified: Told) -> bo
     """Return False, the label of a constraint that depends on time, where a point of the relation shows it.
 
     There its derivative by t is not 0; or the direction of the form changes with t; or it integrates alone, with dt.
-
     Where a relation is phi times one without time, none of these is so: where phi is 0 the relation is stationary.
     What is not homogeneous in velocities is not catastatic.
     """
@@ -144,8 +143,7 @@ def time_dependent(evidence: CheckedEvidence, claim: Told, verified: Told) -> bo
             evidence.on_set(point, names)
         held = checked.kind == "finite" or evidence.holds(name, point)
         refuse((catastatic and checked.kind != "velocity") or not held, "it holds no velocities, or is not 0 there")
-        moved = sorted(checked.tree.symbols.difference(evidence.chosen, ["t"]))
-        slopes = {v: derivative(checked.tree, v) for v in moved}
+        slopes = {v: derivative(checked.tree, v) for v in sorted(checked.tree.symbols - evidence.chosen - {"t"})}
         if catastatic:
             turned = add(*(symbol(v) * slopes[v] for v in slopes if v in evidence.velocities))
         stationary = not any(not_zero(point.value(slope)) for slope in slopes.values())

@@ -45,8 +45,6 @@ TABLE: tuple[tuple[str, str, Rule], ...] = (
 RULES = {
     (path, rule): rule_of for paths, rules, rule_of in TABLE for path in paths.split(", ") for rule in rules.split(", ")
 }
-#: The rules that look at what is written alone, or at claims that did.
-OF_KIND = ("finite", "inequality", "timeless", "count")
 #: What may be false of poses near the configuration alone.
 LOCAL = ("/singular", "/holonomic", "/scleronomic")
 
@@ -139,7 +137,8 @@ class Verifier:
         whole = about == "everywhere" or path == "/conflicting" or value is False
         refuse(cayley and whole and not field and path not in LOCAL, "a chart is no whole")
         refuse(keys[0] or ("about" in claim and path not in ("/dof", "/velocity_dof")), "no path, or a spare `about`")
-        refuse("tolerance" in self.document and rule not in OF_KIND, "what is measured up to a tolerance is not proved")
+        exact = rule in ("finite", "inequality", "timeless", "count") or "tolerance" not in self.document
+        refuse(not exact, "what is measured up to a tolerance is not proved")
         evidence = self.evidence(cayley)
         for name in claim.get("covers", []):
             evidence.once(("covers", name), partial(take_cover, evidence, name))

@@ -584,8 +584,7 @@ export class Rules {
       if (labels.some((one) => one?.uncovered)) uncovered("a label of time");
       refuse(!labels.some((one) => one?.value === false), "no label says that time occurs");
     }
-    const fields = claim.fields.length;
-    refuse(fields !== this.e.n + (moving ? 1 : 0) - minor.rows.length, "the fields do not span the distribution");
+    const fields = this.e.n + (moving ? 1 : 0) - minor.rows.length;
     const last = dof.value + (moving ? 1 : 0);
     value.forEach((entry, k) => {
       const most = Math.min(last, [fields, (fields * (fields + 1)) / 2, last][Math.min(k, 2)]);
