@@ -450,9 +450,10 @@ export class Rules {
     const owners = this.s.owners.filter((o) => this.e.relations.some((r) => r.owner === o));
     if (claim.without !== undefined) {
       refuse(value.length, "it names none");
-      const dof = this.before(this.e.relations.some((r) => r.kind === "velocity") ? "/velocity_dof" : "/dof");
+      const number = this.e.relations.some((r) => r.kind === "velocity") ? "/velocity_dof" : "/dof";
       let apart = true;
       for (const name of owners) {
+        const dof = this.before(number);
         const other = this.e.minor(claim.without[name]);
         this.sameplace(dof, other.point);
         const others = this.e.relations.filter((r) => r.owner !== name);
@@ -467,7 +468,7 @@ export class Rules {
     refuse(minor.rows.some((r) => !this.s.byId.has(r.id)), "rows are of the scene");
     refuse(new Set(value).size < value.length || value.some((name) => !owners.includes(name)), "these are no constraints");
     const [dropped, kept] = [true, false].map((named) => this.e.relations.filter((r) => value.includes(r.owner) === named));
-    this.e.account({ rows: kept, point: minor.point }, dropped, claim.covers);
+    this.e.account({ rows: kept, point: minor.point }, dropped, claim.covers, false);
     this.dependPlainly(minor, claim);
     const place = this.place(minor.point);
     // of E equations with r independent rows E - r can be spared: so many constraints at most
@@ -624,7 +625,7 @@ export class Rules {
       refuse(minor.rows.some((r) => !all.has(r.id)), "a row does not follow from its relations");
       relations.filter((r) => r.kind === "finite").forEach((r) => this.e.needHolds(r, minor.point));
       this.frobenius(claim, minor);
-      this.e.account(minor, equations, claim.covers);
+      this.e.account(minor, equations, claim.covers, false);
     } else if (rule === "integral") {
       refuse(!claim.value || equations.length < own.length, "the rule proves true");
       const point = this.e.point(claim.at);
