@@ -137,8 +137,8 @@ class Verifier:
         whole = about == "everywhere" or path == "/conflicting" or value is False
         refuse(cayley and whole and not field and path not in LOCAL, "a chart is no whole")
         refuse(keys[0] or ("about" in claim and path not in ("/dof", "/velocity_dof")), "no path, or a spare `about`")
-        exact = rule in ("finite", "inequality", "timeless", "count") or "tolerance" not in self.document
-        refuse(not exact, "what is measured up to a tolerance is not proved")
+        written = ("finite", "inequality", "timeless", "count")
+        refuse("tolerance" in self.document and rule not in written, "what is measured up to a tolerance is not proved")
         evidence = self.evidence(cayley)
         for name in claim.get("covers", []):
             evidence.once(("covers", name), partial(take_cover, evidence, name))
