@@ -67,13 +67,6 @@ def bracket(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
     return False
 
 
-def form_of(evidence: CheckedEvidence, name: str) -> Form:
-    """The coefficients of a relation that is linear in velocities."""
-    checked = evidence.relation(name)
-    refuse(checked.kind != "velocity" or not evidence.is_linear(name), f"`{name}` is no form")
-    return {v: evidence.slope(name, v) for v in evidence.variables if v + "dot" in checked.tree.symbols}
-
-
 def exact(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
     """Forms are exact near every point where they are closed; one is not where a part of its derivative is not 0.
 
@@ -81,12 +74,11 @@ def exact(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
     """
     refuse(claim.get("cayley"), "a body turns by its angles here")
     names = [name for name in constraint_relations(evidence, claim) if evidence.relation(name).kind == "velocity"]
-    forms = {name: form_of(evidence, name) for name in names}
-    refuse(not forms, "there is no form")
+    forms = {name: {v: evidence.slope(name, v) for v in evidence.variables} for name in names}
+    refuse(not forms or not all(map(evidence.is_linear, names)), "there is no form, or a relation that is none")
     if "pair" not in claim:
         for form in forms.values():
-            held = frozenset(form).union(*(part.symbols for part in form.values()))
-            for pair in combinations([name for name in evidence.variables if name in held], 2):
+            for pair in combinations(evidence.variables, 2):
                 evidence.identity(exterior_part(form, *pair), ZERO, f"the part for {' and '.join(pair)}")
         return True
     a, b = claim["pair"]

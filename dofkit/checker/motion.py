@@ -122,8 +122,7 @@ class CheckedEnergies:
 
 
 #: What a claim tells: the fields of a report of the motion.
-OF_COORDINATES = ("momenta", "forces")
-MOTION_FIELDS = ("coordinates", "lagrangian", *OF_COORDINATES, "equations", "constraints", "multipliers", "eliminated")
+FIELDS = ("coordinates", "lagrangian", "momenta", "forces", "equations", "constraints", "multipliers", "eliminated")
 
 
 def motion(evidence: CheckedEvidence, claim: Told, verified: Told) -> Told:
@@ -167,8 +166,8 @@ def motion(evidence: CheckedEvidence, claim: Told, verified: Told) -> Told:
         refuse(not evidence.is_nowhere_zero(factor), f"the factor of the equation of {q} may be 0")
         equation = along(energies.rates, momentum) - (force + held)
         evidence.identity(factor * read(text), equation, f"the equation of {q}")
-    fields = {part: {q: claimed[part][q] for q in kept} for part in OF_COORDINATES}
-    return {name: fields.get(name, claimed[name]) for name in MOTION_FIELDS}
+    fields = {part: {q: claimed[part][q] for q in kept} for part in ("momenta", "forces")}
+    return {name: fields.get(name, claimed[name]) for name in FIELDS}
 
 
 def _leaves(evidence: CheckedEvidence, claim: Told, put: Told, places: Told, limits: Told) -> None:

@@ -104,10 +104,8 @@ class Context:
         return place
 
     def _searched(self) -> FoundPoint | None:
-        unknowns = [*self.problem.coordinates, *self.problem.world.generic]
-        names = list(self.scenery.finite)
-        if self.nonlinear:
-            names, unknowns = states_of(self)
+        resting = [*self.scenery.finite], [*self.problem.coordinates, *self.problem.world.generic]
+        names, unknowns = states_of(self) if self.nonlinear else resting
         finite = not self.scenery.moving and self.report.dof is not None
         rank = len(self.problem.coordinates) - (self.report.dof or 0) if finite else len(names)
         points: list[FoundPoint] = []

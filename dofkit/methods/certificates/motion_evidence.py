@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from typing import Any
 
-from dofkit.checker.motion import MOTION_FIELDS
+from dofkit.checker.motion import FIELDS
 from dofkit.checker.problem import CheckedProblem as Problem
 from dofkit.checker.trees import ONE, Tree, along, number, substituted, symbol
 from dofkit.methods.certificates.certificate import HINDRANCES, Certifying, without_spare_parts
@@ -28,7 +28,7 @@ def certificate_of_motion(scene: Scene, motion: Mapping[str, Any], report: Repor
 
     ``report``: what the equations rest on.
     """
-    fields = {name: motion[name] for name in MOTION_FIELDS}
+    fields = {name: motion[name] for name in FIELDS}
     document, readings = scene_of_checker(scene)
     making = Certifying(document, report, readings)
     claim = making.confirmed(PATH, fields, lambda context: MotionEvidence(context, fields).claims(), True)

@@ -46,11 +46,15 @@ def _factor(tree: Tree) -> str:
 
 
 def _applied(tree: Tree) -> str:
-    """A declared function, or its derivative by its arguments."""
-    if len(tree.orders) > 1 and any(tree.orders):
+    """A declared function, or its derivative by its arguments; of several each is a symbol of its own then."""
+    names, several = [*map(text_of, tree.below)], len(tree.orders) > 1
+    if several and any(tree.orders) and len({part for part in tree.below if part.head == "symbol"}) < len(names):
         raise CheckError("a partial derivative of a declared function has no text")
-    primes = "'" * tree.orders[0]
-    return f"{tree.value}{primes}({', '.join(text_of(part) for part in tree.below)})"
+    primes = "" if several else "'" * tree.orders[0]
+    text = f"{tree.value}{primes}({', '.join(names)})"
+    for name, order in zip(names, tree.orders, strict=True) if several else ():
+        text = "diff(" * order + text + f", {name})" * order
+    return text
 
 
 # The checker's reading of a scene, with choices made for what it does not determine.
