@@ -96,10 +96,8 @@ class Scenery:
     @cached_property
     def functions(self) -> dict[str, dict[str, Any]]:
         """A polynomial for every unknown function."""
-        return {
-            name: _polynomial(len(arguments), i)
-            for i, (name, arguments) in enumerate(self.problem.world.names.functions.items())
-        }
+        functions = self.problem.world.names.functions.items()
+        return {name: _polynomial(len(arguments), i) for i, (name, arguments) in enumerate(functions)}
 
     @cached_property
     def parameters(self) -> dict[str, Fraction]:
@@ -140,15 +138,16 @@ class Scenery:
 
     def _roots(self, name: str) -> Iterator[str]:
         for sign, rest, squares in squares_of(self.evidence.relation(name).tree, frozenset()):
-            ids = {f"{self.label}root {i} of {name}": square for i, square in enumerate(squares)}
+            ids = {f"{self.label}root {i} of {name}": square for i, square in enumerate(squares) if not rest}
             with suppress(CheckError):
-                for step, (weight, root) in ids.items() if not rest else ():
+                for step, (weight, root) in ids.items():
                     others = [square for other, square in ids.items() if other != step]
                     of_root = {"function": root, "h": weight, "sos": others, "c": {name: str(sign)}}
                     self.add_step({"id": step, "by": "implied", **of_root})
                     yield step
-                back = {step: f"({sign})*({weight})*({root})" for step, (weight, root) in ids.items() if not rest}
-                self.add_step({"id": f"{self.label}{name} from others", "by": "implied", "of": name, "c": back})
+                back = {step: f"({sign})*({weight})*({root})" for step, (weight, root) in ids.items()}
+                if back:
+                    self.add_step({"id": f"{self.label}{name} from others", "by": "implied", "of": name, "c": back})
 
     def linear(self, name: str) -> bool:
         """Whether a relation is a linear form in the velocities; False where that is not known."""
