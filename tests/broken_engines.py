@@ -100,10 +100,12 @@ BUGS: Mapping[str, Bug] = {
 RUN = """
 import json, sys
 from pathlib import Path
+from shared.known_scenes import verdicts_of
+
 import dofkit
 from dofkit.checker import verify
 from dofkit.methods.certificates.certificate import Certifying
-from dofkit.methods.certificates.lowering import document_of_scene, verdicts_of
+from dofkit.methods.certificates.lowering import document_of_scene
 
 sound = json.loads(Path(sys.argv[1]).read_text()) if sys.argv[1] else None
 for path in sys.argv[2:]:
@@ -149,7 +151,8 @@ def answers(package: Path, scenes: list[str], sound: Mapping[str, Answers] | Non
         script.write_text(RUN, encoding="utf-8")
         if sound is not None:
             known.write_text(json.dumps({scene: told.values for scene, told in sound.items()}), encoding="utf-8")
-        environment = {**os.environ, "PYTHONPATH": str(package), "PYTHONDONTWRITEBYTECODE": "1"}
+        paths = f"{package}{os.pathsep}{ROOT / 'tests'}"
+        environment = {**os.environ, "PYTHONPATH": paths, "PYTHONDONTWRITEBYTECODE": "1"}
         command = [sys.executable, str(script), "" if sound is None else str(known), *scenes]
         process = subprocess.run(
             command, capture_output=True, text=True, env=environment, check=False, timeout=4 * 3600

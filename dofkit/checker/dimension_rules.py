@@ -7,7 +7,7 @@ from typing import Any
 
 from flint import fmpq_mat
 
-from dofkit.checker.evidence import MOST, CheckedEvidence, CheckedMinor, Told, admissible, independent, of_word, span
+from dofkit.checker.evidence import MOST, CheckedEvidence, CheckedMinor, Told, curvature, span
 from dofkit.checker.geometry import determinant, dot
 from dofkit.checker.point import CheckedPoint, not_zero
 from dofkit.checker.relations import total_derivative
@@ -25,6 +25,9 @@ def bounds(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     above = size - len(minor.rows) - (most["rule"] == "isolated")
     if least["rule"] == "span":
         point, lower = span(evidence, {"minor": most["minor"], **least}, 1 if path == "/velocity_dof" else 12)
+    elif least["rule"] == "curved":
+        other = curvature(evidence, least, evidence.equations)
+        point, lower = other.point, size - len(other.rows) + (path == "/dof")
     else:
         rows = least["minor"]["rows"] if least["rule"] == "family" else None
         other = evidence.accounts(evidence.minor(least["minor"], rows), evidence.equations)
@@ -85,9 +88,10 @@ def _groups(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[Told
         members = [name for name in group["members"] if name != claim["of"]]
         dependence = {**claim, "owner": claim["of"], "value": members}
         verified[f"circuit {claim['of']}"] = circuit(evidence, dependence, verified)
-    surplus, place = verified["/redundant_equations"], verified.get("at /redundant", object())
+    surplus, known = verified["/redundant_equations"], verified if "/redundant" in verified else {}
+    place = known.get("at /redundant", object())
     constrained = [owner for owner in owners(evidence) if evidence.owned(owner)]
-    whole = len(constrained) == 1 or "apart" in verified
+    whole = len(constrained) == 1 or "apart" in known
     tied = [owner for owner in constrained if verified.get(f"at circuit {owner}") == place]
     around = [{*constrained}] if whole else [{owner, *verified[f"circuit {owner}"]} for owner in tied]
     refuse(surplus and (len(around) != 1 or (surplus > 1 and not whole)), "several groups, or none that is shown")
@@ -160,18 +164,20 @@ def redundant(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[st
 
     No more: of E equations with r independent rows E - r can be spared at most, where what depends does so by numbers,
     or is a single relation that depends with cofactors none of which is 0. None is named where ``without`` any the rows
-    of the others are independent, and leave more than the dof that was verified there.
+    that account for the others leave more than the dof (with velocity relations: of velocities) verified there.
     """
-    dropped, every = names_told(claim), set(evidence.equations)
+    dropped, every, whole = names_told(claim), set(evidence.equations), True
     order = [owner for owner in owners(evidence) if evidence.owned(owner)]
     if "without" in claim:
-        refuse(evidence.moving or "/dof at" not in verified or not order, "no dof of holonomic equations was verified")
+        number = "/velocity_dof" if evidence.moving else "/dof"
         for name in order:
-            other = evidence.minor(claim["without"][name])
-            whole = set(other.rows) == every.difference(evidence.owned(name))
-            larger = whole and verified_rank(evidence, other.point, verified) > len(other.rows)
-            refuse(not larger, f"without `{name}` the others are no manifold, or as large")
-        verified["apart"] = True
+            others = every.difference(evidence.owned(name))
+            minor = evidence.accounts(evidence.minor(claim["without"][name]), others)
+            whole &= others == {*minor.rows}
+            refuse(
+                verified_rank(evidence, minor.point, verified, number) <= len(minor.rows), f"`{name}` may be dropped"
+            )
+        verified |= {"apart": True} if whole else {}
         return []
     minor = evidence.accounts(evidence.minor(claim["minor"]), evidence.equations)
     refuse(not set(dropped) <= set(order) or not set(minor.rows) <= every, "no constraints, or rows of no relations")
@@ -215,11 +221,11 @@ def _is_general(evidence: CheckedEvidence, name: str) -> bool:
     return all(evidence.ring.rational(slope) is not None for slope in slopes) or bool(evidence.own_symbol(name))
 
 
-def verified_rank(evidence: CheckedEvidence, point: CheckedPoint, verified: Told) -> int:
-    """Return n - dof, if the dof was verified at this point."""
+def verified_rank(evidence: CheckedEvidence, point: CheckedPoint, verified: Told, number: str = "/dof") -> int:
+    """Return n - dof (or another number), if that was verified at this point."""
     place = evidence.is_about("here", point)
-    refuse(verified.get("/dof at") not in (None, place), "dof was verified at another point")
-    return len(evidence.problem.coordinates) - int(verified["/dof"])
+    refuse(verified.get(f"{number} at") not in (None, place), "dof was verified at another point")
+    return len(evidence.problem.coordinates) - int(verified[number])
 
 
 def generalized_coordinates(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[str]:
@@ -240,22 +246,20 @@ def growth(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[int]:
     """Check that each entry is spanned from below and bounded from above; return the growth vector.
 
     From below by words; from above by fields and their brackets, or by the dimension of all.
-
     Directions are those of (q, t) where a constraint was verified to be rheonomic or not catastatic.
     """
     labels = [f"{field} {owner}" for field in ("scleronomic", "catastatic") for owner in owners(evidence)]
     refuse(evidence.timed and not any(verified.get(label) is False for label in labels), "time may be divided out")
     minor = evidence.accounts(evidence.minor(claim["minor"]), evidence.equations)
     whole = len(evidence.problem.coordinates) - verified_rank(evidence, minor.point, verified) + evidence.timed
-    refuse(not evidence.moving or not all(map(evidence.is_linear, evidence.moving)), "a growth vector is of forms")
-    point, fields = admissible(evidence, claim, evidence.equations)
+    refuse(not evidence.moving or not all(map(evidence.is_linear, minor.rows)), "a growth vector is of forms")
     rank, vector = len(evidence.problem.coordinates) + evidence.timed - len(minor.rows), list[int]()
-    refuse(point is not minor.point or len(fields) > rank, "the fields and the minor are of one point")
     for step, entry in enumerate(claim["spans"], 1):
-        words = [of_word(evidence, word, claim["fields"], step) for word in entry["words"]]
-        independent(evidence, words, entry["columns"], point)
+        point, reached = span(evidence, {**claim, **entry}, step)
         most = min(whole, (rank, rank * (rank + 1) // 2, whole)[min(step, 3) - 1])
-        refuse(len(words) != most, f"entry {step} is at least {len(words)} and at most {most}")
+        refuse(
+            point is not minor.point or reached + evidence.timed != most, f"entry {step} is not {most}, or not there"
+        )
         vector.append(most)
     refuse(vector[-1] != whole and (len(vector) < 2 or vector[-1] != vector[-2]), "the last entry is not the whole")
     return vector
@@ -273,7 +277,6 @@ def everywhere(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     ``generic``: relations with a symbol of their own in which they are nowhere stationary: for almost all values of
     these they cut every manifold of those that the others consist of regularly (Sard 1942, Lojasiewicz 1965). Where
     all are generic, the set is a manifold of the rank that a cover of all shows (Federer 3.4.3).
-
     dof, where there are forms: that near a point (``most``, ``least``). None is larger where the geometric equations
     allow no more, or where all relations are named here, analytic, and the finite ones a graph: then orbits have the
     dimension that the brackets span, which is largest almost everywhere at once (Nagano 1966).
@@ -284,7 +287,8 @@ def everywhere(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     size = len(evidence.problem.coordinates)
     implied, rank = evidence.closure(names, None), len(names)
     whole, apart = implied.issuperset(evidence.equations), len(set(names)) == rank
-    apart = apart and set(names) <= set(evidence.equations) and all(map(evidence.is_linear, names))
+    apart = apart and evidence.closure(evidence.equations, None).issuperset(names)
+    apart = apart and all(evidence.is_linear(name) and not evidence.relation(name).leaf for name in names)
     fits = claim.get("about") == "everywhere" and apart and implied.issuperset(evidence.finite)
     refuse(not fits, "a relation is left out, stands twice or is not linear, or the claim is not about everywhere")
     forms = [name for name in names if evidence.relation(name).kind != "finite"]

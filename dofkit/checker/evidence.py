@@ -80,17 +80,15 @@ class CheckedEvidence(CheckedRelations):
         A nonlinear relation speaks of a state, as all do where ``states``: velocity relations and rates hold there.
         """
         wanted = [self.relation(name) for name in names if not self.relation(name).leaf]
-        finite = {relation.name for relation in wanted if relation.kind == "finite"}
-        self.follow(finite, {*point.rows, *(name for name in finite if self.holds(name, point))}, point, "what holds")
         states |= not all(self.is_linear(relation.name) for relation in wanted)
+        met = {relation.name for relation in wanted if states or relation.kind == "finite"}
+        self.follow(met, {*point.rows, *(name for name in met if self.holds(name, point))}, point, "what holds")
         for relation in wanted:
-            still = relation.name in finite
             for velocity in self.met_by(relation.tree):
                 point.value(self.slope(relation.name, velocity[:-3]))
-            wrong = still and not_zero(point.value(relation.tree))
-            if states:
-                rate = total_derivative(relation.tree, self.variables) if still else relation.tree
-                wrong |= not self.is_zero(rate, point)
+            wrong = relation.name in met and not_zero(point.value(relation.tree))
+            if states and relation.kind == "finite":
+                wrong |= not self.is_zero(total_derivative(relation.tree, self.variables), point)
             refuse(wrong, f"`{relation.name}` is not satisfied at the point `{point.name}`, or not by its velocities")
 
     def minor(self, entry: Any, allowed: Collection[str] | None = None) -> CheckedMinor:
@@ -211,8 +209,7 @@ def on_row(evidence: CheckedEvidence, row: str, field: VelocityField) -> Tree:
     checked = evidence.relation(row)
     if checked.kind == "finite":
         return along(field, checked.tree)
-    slow = not evidence.is_linear(row) and field.get("t", ZERO) != ONE
-    refuse(slow, f"`{row}` is not linear in velocities, and the field does not have time go by 1")
+    refuse(not evidence.is_linear(row), f"`{row}` is not linear in velocities")
     return substituted(checked.tree, {name + "dot": field.get(name, ZERO) for name in evidence.variables})
 
 
@@ -337,6 +334,28 @@ def isolated(evidence: CheckedEvidence, claim: Told) -> CheckedMinor:
     refuse(not speeds.keys() <= {*evidence.problem.coordinates} - {*minor.columns}, "speeds are of free coordinates")
     value = along_curve(evidence, minor, speeds, evidence.relation(name).tree, claim["order"])
     refuse(not not_zero(value), "the zero on the curve is not shown to be isolated")
+    return minor
+
+
+def curvature(evidence: CheckedEvidence, claim: Told, allowed: Collection[str]) -> CheckedMinor:
+    """Rows that account for relations at a state, of which one is curved along a velocity that all of them allow.
+
+    Near the state the velocities that are allowed are a manifold with the rows' kernel for tangent space. A second
+    derivative of a row along it that is not 0 shows that the manifold is no plane: its vectors span a dimension more at
+    least, and motions reach all of that.
+    """
+    minor, name = evidence.accounts(evidence.minor(claim["minor"], allowed), allowed), claim["pairs"]
+    value = minor.point.value
+    speeds = {q: value(evidence.text(text)) for q, text in claim["speeds"].items() if q not in (*minor.columns, "t")}
+    refuse(name not in minor.rows, "what is curved is a row")
+    with ctx.workprec(PRECISION):
+        slopes = [[value(evidence.slope(row, column)) for column in minor.columns] for row in minor.rows]
+        pushed = [[sum((value(evidence.slope(row, q)) * v for q, v in speeds.items()), arb(0))] for row in minor.rows]
+        solution = arb_mat(slopes).solve(arb_mat(pushed))
+        speeds |= {q: -solution[i, 0] for i, q in enumerate(minor.columns)}
+        parts = {(a, b): value(derivative(evidence.slope(name, a), f"{b}dot")) for a, b in product(speeds, repeat=2)}
+        curve = sum((part * speeds[a] * speeds[b] for (a, b), part in parts.items()), arb(0))
+        refuse(not not_zero(curve), "it may not be curved")
     return minor
 
 

@@ -5,7 +5,7 @@ from itertools import combinations
 from typing import Any
 
 from dofkit.checker.dimension_rules import names_told, verified_rank
-from dofkit.checker.evidence import CheckedEvidence, Told, admissible, involutive, of_word, on_row
+from dofkit.checker.evidence import CheckedEvidence, Told, admissible, curvature, involutive, of_word, on_row
 from dofkit.checker.point import CheckedPoint, not_zero
 from dofkit.checker.trees import ONE, ZERO, Tree, add, derivative, homogeneous_degree, refuse, substituted, symbol
 
@@ -52,23 +52,19 @@ def integrable(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
 def bracket(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
     """A direction that motions through the point reach, and that a form of the constraint forbids.
 
-    A consequence of geometric equations holds for all directions in which the orbit of the fields extends.
+    A consequence of geometric equations holds for all directions in which the orbit of the fields extends. Or one is
+    ``curved`` along what is allowed: integrals that imply it leave a plane of velocities, on which it is 0.
     """
-    (point, _), name = admissible(evidence, claim, _setting(evidence, claim)), claim["pairs"]
+    name, allowed, curves = claim["pairs"], _setting(evidence, claim), claim["rule"] == "curved"
+    point = curvature(evidence, claim, allowed).point if curves else admissible(evidence, claim, allowed)[0]
     if claim["field"] != "holonomic_alone":
         evidence.is_about("here", point)
-    forbids = name in constraint_relations(evidence, claim) and evidence.relation(name).kind == "velocity"
-    refuse(not forbids, "what the bracket pairs with is no velocity relation of the constraint")
-    value = point.value(on_row(evidence, name, of_word(evidence, claim["word"], claim["fields"])))
-    refuse(not not_zero(value), "the form may be 0 in that direction")
+    evidence.follow([name], constraint_relations(evidence, claim), point, "the constraint")
+    refuse(evidence.relation(name).kind != "velocity", "what the bracket pairs with holds no velocity")
+    if not curves:
+        value = point.value(on_row(evidence, name, of_word(evidence, claim["word"], claim["fields"])))
+        refuse(not not_zero(value), "the form may be 0 in that direction")
     return False
-
-
-def form_of(evidence: CheckedEvidence, name: str) -> Form:
-    """The coefficients of a relation that is linear in velocities."""
-    checked = evidence.relation(name)
-    refuse(checked.kind != "velocity" or not evidence.is_linear(name), f"`{name}` is no form")
-    return {v: evidence.slope(name, v) for v in evidence.variables if v + "dot" in checked.tree.symbols}
 
 
 def exact(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
@@ -78,12 +74,11 @@ def exact(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
     """
     refuse(claim.get("cayley"), "a body turns by its angles here")
     names = [name for name in constraint_relations(evidence, claim) if evidence.relation(name).kind == "velocity"]
-    forms = {name: form_of(evidence, name) for name in names}
-    refuse(not forms, "there is no form")
+    forms = {name: {v: evidence.slope(name, v) for v in evidence.variables} for name in names}
+    refuse(not forms or not all(map(evidence.is_linear, names)), "there is no form, or a relation that is none")
     if "pair" not in claim:
         for form in forms.values():
-            held = frozenset(form).union(*(part.symbols for part in form.values()))
-            for pair in combinations([name for name in evidence.variables if name in held], 2):
+            for pair in combinations(evidence.variables, 2):
                 evidence.identity(exterior_part(form, *pair), ZERO, f"the part for {' and '.join(pair)}")
         return True
     a, b = claim["pair"]
@@ -120,7 +115,6 @@ def time_dependent(evidence: CheckedEvidence, claim: Told, verified: Told) -> bo
     """Return False, the label of a constraint that depends on time, where a point of the relation shows it.
 
     There its derivative by t is not 0; or the direction of the form changes with t; or it integrates alone, with dt.
-
     Where a relation is phi times one without time, none of these is so: where phi is 0 the relation is stationary.
     What is not homogeneous in velocities is not catastatic.
     """
@@ -141,8 +135,7 @@ def time_dependent(evidence: CheckedEvidence, claim: Told, verified: Told) -> bo
             evidence.on_set(point, names)
         held = checked.kind == "finite" or evidence.holds(name, point)
         refuse((catastatic and checked.kind != "velocity") or not held, "it holds no velocities, or is not 0 there")
-        moved = sorted(checked.tree.symbols.difference(evidence.chosen, ["t"]))
-        slopes = {v: derivative(checked.tree, v) for v in moved}
+        slopes = {v: derivative(checked.tree, v) for v in sorted(checked.tree.symbols - evidence.chosen - {"t"})}
         if catastatic:
             turned = add(*(symbol(v) * slopes[v] for v in slopes if v in evidence.velocities))
         stationary = not any(not_zero(point.value(slope)) for slope in slopes.values())

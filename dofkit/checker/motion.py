@@ -11,23 +11,8 @@ from typing import Any
 from dofkit.checker.constraints import Entry, known_fields
 from dofkit.checker.evidence import CheckedEvidence, Told
 from dofkit.checker.geometry import Vector, dot, length, less, scaled, square
-from dofkit.checker.grammar import parse
 from dofkit.checker.problem import CheckedProblem
-from dofkit.checker.trees import (
-    HALF,
-    MINUS,
-    ONE,
-    ZERO,
-    Tree,
-    add,
-    along,
-    call,
-    derivative,
-    homogeneous_degree,
-    refuse,
-    substituted,
-    symbol,
-)
+from dofkit.checker.trees import HALF, ONE, ZERO, Tree, add, along, call, derivative, refuse, substituted, symbol
 
 #: What pulls, and the fields that it has.
 ENTRIES = {
@@ -44,6 +29,7 @@ class CheckedEnergies:
     def __init__(self, problem: CheckedProblem) -> None:
         """Read the energies (``rates``: time derivatives) and pairs (force component, place or coordinate)."""
         self.scene, self.world, self.d = problem.scene, problem.world, problem.world.dimension
+        self.text = problem.in_rates
         self.rates = {"t": ONE, **{q: symbol(f"{q}dot") for q in problem.coordinates}}
         self.rates |= {f"{q}dot": symbol(f"{q}ddot") for q in problem.coordinates}
         energies: Entry = self.scene.get("energies", {})
@@ -63,12 +49,6 @@ class CheckedEnergies:
         """What all entries of a kind give."""
         read = {"spring": self.spring, "gravity": self.gravity, "damper": self.damper, "force": self.force}[kind]
         return [read(entry) for entry in self.scene.get("forces", []) if entry["type"] == kind]
-
-    def text(self, value: Any) -> Tree:
-        """A number or text, in which velocities may occur."""
-        tree = value if isinstance(value, Tree) else parse(value, self.world.names)
-        refuse(homogeneous_degree(tree, ["dt"]) != 0, "an energy holds differentials")
-        return substituted(tree, {"dt": ONE})
 
     def masses(self) -> Iterator[tuple[Tree, Vector]]:
         """The mass (a symbol where it is left out) and the place of every particle and body."""
@@ -119,7 +99,7 @@ class CheckedEnergies:
 
     def gravity(self, entry: Entry) -> Tree:
         """-sum m g.r."""
-        pull = self.vector(entry, "acceleration", MINUS)
+        pull = self.vector(entry, "acceleration", -ONE)
         return -add(*(mass * dot(pull, place) for mass, place in self.masses()))
 
     def force(self, entry: Entry) -> list[tuple[Tree, Tree]]:
@@ -140,16 +120,7 @@ class CheckedEnergies:
 
 
 #: What a claim tells: the fields of a report of the motion.
-MOTION_FIELDS = (
-    "coordinates",
-    "lagrangian",
-    "momenta",
-    "forces",
-    "equations",
-    "constraints",
-    "multipliers",
-    "eliminated",
-)
+FIELDS = ("coordinates", "lagrangian", "momenta", "forces", "equations", "constraints", "multipliers", "eliminated")
 
 
 def motion(evidence: CheckedEvidence, claim: Told, verified: Told) -> Told:
@@ -194,7 +165,7 @@ def motion(evidence: CheckedEvidence, claim: Told, verified: Told) -> Told:
         equation = along(energies.rates, momentum) - (force + held)
         evidence.identity(factor * read(text), equation, f"the equation of {q}")
     fields = {part: {q: claimed[part][q] for q in kept} for part in ("momenta", "forces")}
-    return {name: fields.get(name, claimed[name]) for name in MOTION_FIELDS}
+    return {name: fields.get(name, claimed[name]) for name in FIELDS}
 
 
 def _leaves(evidence: CheckedEvidence, claim: Told, put: Told, places: Told, limits: Told) -> None:

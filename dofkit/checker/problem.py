@@ -19,8 +19,8 @@ from typing import Any, NamedTuple
 
 from dofkit.checker.constraints import TYPES, Entry, Surroundings, known_fields
 from dofkit.checker.geometry import MaterialPoint, body_frame, ground
-from dofkit.checker.grammar import BUILT_IN, DECIMAL, KnownNames, Sided, spelled_out
-from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, refuse, symbol
+from dofkit.checker.grammar import BUILT_IN, DECIMAL, KnownNames, Sided, parse, spelled_out
+from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, homogeneous_degree, refuse, substituted, symbol
 
 LONGEST_VALUE, DEEPEST, MOST_RELATIONS = 400, 40, 8_000
 #: What is as good as left out; no name is one of these.
@@ -109,6 +109,12 @@ class CheckedProblem(NamedTuple):
     turns: tuple[tuple[str, ...], ...]
     scene: Entry
     world: Surroundings
+
+    def in_rates(self, value: Any) -> Tree:
+        """A number or text in which velocities may occur."""
+        tree = value if isinstance(value, Tree) else parse(value, self.world.names)
+        refuse(homogeneous_degree(tree, ["dt"]) != 0, "an energy holds differentials")
+        return substituted(tree, {"dt": ONE})
 
 
 def problem_of_canonical(scene: Entry, cayley: frozenset[str] = frozenset()) -> CheckedProblem:

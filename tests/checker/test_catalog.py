@@ -9,11 +9,11 @@ from pathlib import Path
 
 import pytest
 from checker.certified import document_of
-from shared.known_scenes import CATALOG, OURS, few, report_of, scene_of, stem, strict_report_of
+from shared.known_scenes import CATALOG, OURS, few, report_of, scene_of, stem, strict_report_of, verdicts_of
 
 import dofkit
 from dofkit.checker import verify
-from dofkit.methods.certificates.lowering import document_of_scene, verdicts_of
+from dofkit.methods.certificates.lowering import document_of_scene
 
 #: What is proved and not verified today: why, and of which scenes. A name may only go.
 UNCOVERED: Mapping[str, tuple[str, str]] = {
@@ -25,7 +25,7 @@ UNCOVERED: Mapping[str, tuple[str, str]] = {
     "/growth_vector": ("steps between the first and the whole", "snakeboard"),
 }
 #: The least share of the proved claims of all test scenes, and of a tenth, that verify.
-LEAST = 0.94
+LEAST = 0.96
 
 
 def _shown(path: Path) -> tuple[int, set[str]]:

@@ -8,11 +8,10 @@ from pathlib import Path
 import pytest
 import yaml
 from checker.test_second_checker import needs_node, second
-from shared.known_scenes import spread
+from shared.known_scenes import spread, verdicts_of
 
 import dofkit
 from dofkit.checker import verify
-from dofkit.methods.certificates.lowering import verdicts_of
 
 LINES = Path(__file__).with_name("natural_scenes.yaml").read_text(encoding="utf-8").splitlines()
 SCENES = [line for line in LINES if line.startswith("- ")]

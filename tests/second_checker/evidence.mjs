@@ -381,6 +381,7 @@ export class Evidence {
       const rows = given.rows.map((id) => this.relation(id));
       refuse(new Set(given.rows).size < rows.length, "a row stands twice");
       rows.forEach((r) => this.needHolds(r, point));
+      this.needState(rows, point);
       const all = this.closure(this.relations.map((r) => r.id), point);
       refuse(!assumed && !given.rows.every((id) => all.has(id)), "a row does not follow from the scene");
       const matrix = rows.map((r) => given.columns.map((q) => this.at(this.slope(r, q), point)));
@@ -390,10 +391,25 @@ export class Evidence {
   }
 
   /** Refuses unless all of some relations are rows or follow from them. */
-  account(minor, relations, covers = []) {
+  account(minor, relations, covers = [], state = true) {
     const found = this.closure(minor.rows.map((r) => r.id), minor.point, covers ?? []);
     const left = relations.find((r) => !found.has(r.id));
     refuse(left, `${left?.id} is no row and does not follow from rows`);
+    if (state) this.needState(relations, minor.point);
+  }
+
+  /** Beside a relation that is not linear in velocities all hold of the point with its velocities, and the rates too. */
+  needState(relations, point) {
+    const asked = relations.filter((r) => !r.leaf);
+    if (asked.every((r) => this.form(r))) return;
+    const met = asked.filter((r) => r.kind === "velocity" && this.zeroAt(r.tree, point)).map((r) => r.id);
+    const known = this.closure([...this.held(point), ...met], point);
+    for (const r of asked) {
+      const tree = r.kind === "finite" ? this.rateOf(r) : r.tree;
+      const row = point.rows.some((id) => isZero(sub(this.relation(id).tree, tree)));
+      const holds = r.kind === "finite" ? row || this.zeroAt(tree, point) : known.has(r.id);
+      refuse(!holds || this.at(tree, point).nonzero, `${r.id} does not hold at the velocities of ${point.id}`);
+    }
   }
 
   field(id) {

@@ -46,7 +46,6 @@ export function verdicts(document, certificate) {
     }
     return readings.get(cayley);
   };
-  refuse("tolerance" in reading(false).s.document, "what is measured up to a tolerance is not proved");
   return (certificate.claims ?? []).map((claim) => {
     ring.restart();
     try {

@@ -271,7 +271,12 @@ export class Rules {
     refuse(claim.about !== "everywhere", "about has another value");
     const forms = this.e.relations.filter((r) => r.kind === "velocity");
     const wanted = kind === "dof" ? this.e.relations.filter((r) => r.kind === "finite") : this.e.relations;
-    const inScene = (id) => this.s.byId.get(id) ?? refuse(true, `there is no relation ${id}`);
+    const every = this.e.closure(ids(this.e.relations), null);
+    const inScene = (id) => {
+      const found = this.e.relation(id);
+      refuse(found.leaf || found.assumed || !every.has(id), `${id} does not follow from the scene everywhere`);
+      return found;
+    };
     const order = pairs(claim.order ?? []).map(([id, q]) => [inScene(id), q]);
     const alone = claim.alone === undefined ? [] : [inScene(claim.alone)];
     const generic = pairs(claim.generic ?? []).map(([id, g]) => [inScene(id), g]);
@@ -444,23 +449,26 @@ export class Rules {
     const value = list(claim.value);
     const owners = this.s.owners.filter((o) => this.e.relations.some((r) => r.owner === o));
     if (claim.without !== undefined) {
-      refuse(value.length || this.e.relations.some((r) => r.kind === "velocity") || !owners.length, "it names none");
-      const dof = this.before("/dof");
+      refuse(value.length, "it names none");
+      const number = this.e.relations.some((r) => r.kind === "velocity") ? "/velocity_dof" : "/dof";
+      let apart = true;
       for (const name of owners) {
+        const dof = this.before(number);
         const other = this.e.minor(claim.without[name]);
         this.sameplace(dof, other.point);
-        const others = ids(this.e.relations.filter((r) => r.owner !== name));
-        refuse(!same(ids(other.rows).sort(), others.sort()), "the rows are all but those of one constraint");
+        const others = this.e.relations.filter((r) => r.owner !== name);
+        this.e.account(other, others, claim.covers);
+        apart &&= same(ids(other.rows).sort(), ids(others).sort());
         refuse(this.e.n - dof.value <= other.rows.length, "without one, the others are as large");
       }
-      return { apart: true };
+      return { apart };
     }
     const minor = this.e.minor(claim.minor);
     this.e.account(minor, this.e.relations, claim.covers);
     refuse(minor.rows.some((r) => !this.s.byId.has(r.id)), "rows are of the scene");
     refuse(new Set(value).size < value.length || value.some((name) => !owners.includes(name)), "these are no constraints");
     const [dropped, kept] = [true, false].map((named) => this.e.relations.filter((r) => value.includes(r.owner) === named));
-    this.e.account({ rows: kept, point: minor.point }, dropped, claim.covers);
+    this.e.account({ rows: kept, point: minor.point }, dropped, claim.covers, false);
     this.dependPlainly(minor, claim);
     const place = this.place(minor.point);
     // of E equations with r independent rows E - r can be spared: so many constraints at most
@@ -555,7 +563,7 @@ export class Rules {
   growth(claim) {
     refuse(claim.rule !== "span", "another rule");
     const forms = this.e.relations.filter((r) => r.kind === "velocity");
-    refuse(!forms.length || forms.some((r) => !this.e.form(r)), "a growth vector is of forms");
+    refuse(!forms.length, "a growth vector is of forms");
     const value = list(claim.value);
     const spans = list(claim.spans);
     refuse(value.length !== spans.length || !value.length || !value.every(whole), "a span for each entry is needed");
@@ -564,6 +572,7 @@ export class Rules {
     this.e.account(minor, this.e.relations, claim.covers);
     this.sameplace(dof, minor.point);
     refuse(minor.point.id !== claim.at, "the minor is at another point");
+    refuse(minor.rows.some((r) => !this.e.form(r)), "a growth vector is of forms");
     let moving = false;
     spans.forEach((span, i) => {
       const found = this.span({ ...span, at: claim.at, fields: claim.fields, rows: claim.rows }, this.e.relations, list(span.words), span.columns, claim.covers);
@@ -576,8 +585,7 @@ export class Rules {
       if (labels.some((one) => one?.uncovered)) uncovered("a label of time");
       refuse(!labels.some((one) => one?.value === false), "no label says that time occurs");
     }
-    const fields = claim.fields.length;
-    refuse(fields !== this.e.n + (moving ? 1 : 0) - minor.rows.length, "the fields do not span the distribution");
+    const fields = this.e.n + (moving ? 1 : 0) - minor.rows.length;
     const last = dof.value + (moving ? 1 : 0);
     value.forEach((entry, k) => {
       const most = Math.min(last, [fields, (fields * (fields + 1)) / 2, last][Math.min(k, 2)]);
@@ -617,7 +625,7 @@ export class Rules {
       refuse(minor.rows.some((r) => !all.has(r.id)), "a row does not follow from its relations");
       relations.filter((r) => r.kind === "finite").forEach((r) => this.e.needHolds(r, minor.point));
       this.frobenius(claim, minor);
-      this.e.account(minor, equations, claim.covers);
+      this.e.account(minor, equations, claim.covers, false);
     } else if (rule === "integral") {
       refuse(!claim.value || equations.length < own.length, "the rule proves true");
       const point = this.e.point(claim.at);
@@ -632,7 +640,8 @@ export class Rules {
     } else if (rule === "bracket") {
       refuse(claim.value, "the rule proves false");
       const pairs = this.e.relation(claim.pairs);
-      refuse(!equations.some((r) => r.id === pairs.id), "pairs is a relation of the constraint");
+      const follows = this.e.closure(ids(equations), this.e.point(claim.at)).has(pairs.id);
+      refuse(pairs.kind !== "velocity" || !follows, "pairs is a velocity relation that follows from the constraint");
       const columns = list(claim.fields).length;
       refuse(!columns, "fields are needed");
       const { point } = this.span({ ...claim, columns: [] }, relations, [], [], claim.covers);
@@ -642,7 +651,8 @@ export class Rules {
       refuse(!this.e.at(value, point).nonzero, "the bracket may be tangent");
       if (!alone) this.parameters(claim.minor, claim.covers, null);
       else if (equations.some((r) => r.kind === "finite") && this.hasParameters) this.parameters(claim.minor, claim.covers, null, equations);
-    } else refuse(true, "another rule");
+    } else if (rule === "curved") uncovered("curved velocities");
+    else refuse(true, "another rule");
     return {};
   }
 
@@ -824,6 +834,8 @@ export function check(rules, claim) {
   refuse("about" in claim && !["/dof", "/velocity_dof"].includes(claim.path), "a spare about");
   for (const id of claim.covers ?? []) rules.e.cover(id);
   const parts = String(claim.path).split("/");
+  const ofKind = ["finite", "inequality", "timeless", "count"].includes(claim.rule);
+  refuse("tolerance" in rules.s.document && !ofKind, "what is measured up to a tolerance is not proved");
   if (rules.s.unread.length) uncovered("a constraint of a type that is not known");
   if (parts.length === 4 && parts[1] === "constraints") return rules.constraint(claim, unescaped(parts[2]), parts[3]);
   refuse(parts.length !== 2, "there is no such path");

@@ -5,7 +5,7 @@ Tests that have the parameter ``path`` run where the others of that scene do: se
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -14,8 +14,9 @@ from zlib import crc32
 import pytest
 
 import dofkit
+from dofkit.methods.certificates.certificate import entry_path
 from dofkit.methods.certificates.lowering import with_certificate
-from dofkit.report import Report
+from dofkit.report import FieldVerdict, Report
 from dofkit.scene.scene import Scene
 
 ROOT = Path(__file__).parents[2]
@@ -46,6 +47,12 @@ def report_of(path: Path) -> Report:
 def strict_report_of(path: Path) -> Report:
     """Where what is proved was checked: with its certificate."""
     return with_certificate(scene_of(path), report_of(path), strict=True)
+
+
+def verdicts_of(report: Report) -> Iterator[tuple[str, Any, FieldVerdict]]:
+    """Every field with a verdict: its path, its value and how certain it is."""
+    for start, model in (("", report), *((entry_path(entry), entry) for entry in report.constraints)):
+        yield from ((f"{start}/{field}", getattr(model, field), verdict) for field, verdict in model.verdicts.items())
 
 
 def few(what: str, paths: Sequence[Path], of: int, always: Collection[str] = ()) -> list[Any]:

@@ -8,10 +8,10 @@ from typing import Any
 import pytest
 from hypothesis import example, given, settings
 from shared.equation_texts import scenes
-from shared.known_scenes import VARIED, few, report_of, scene_of, stem
+from shared.known_scenes import VARIED, few, report_of, scene_of, stem, verdicts_of
 
 import dofkit
-from dofkit.methods.certificates.lowering import verdicts_of, with_certificate
+from dofkit.methods.certificates.lowering import with_certificate
 from dofkit.methods.classify import classified
 
 #: Seconds for one scene of any texts.

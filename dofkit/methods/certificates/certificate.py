@@ -16,7 +16,7 @@ from dofkit.methods.certificates import emptiness, fields, freedom, labels
 from dofkit.methods.certificates.context import Context, Told, empty_certificate
 from dofkit.methods.certificates.numerics import NoEstimateError
 from dofkit.methods.certificates.scenery import FAR, Scenery
-from dofkit.report import Report
+from dofkit.report import ConstraintEntry, Report
 
 Maker = Callable[[Context], Iterator[Told]]
 
@@ -130,7 +130,7 @@ class Certifying:
 
 def _has_stationary_row(context: Context) -> bool:
     """Whether an equation has the differential 0 at the main point, as far as floats tell."""
-    rows = [] if context.point is None else [context.row(name, context.point) for name in context.equations]
+    rows = [] if context.point is None else [context.row(name, context.point) for name in context.scenery.equations]
     return any(all(abs(value) <= FAR for value in row.values()) for row in rows)
 
 
@@ -176,11 +176,15 @@ def _asked(report: Report) -> Iterator[tuple[str, Any, Maker]]:
         if verdict.verdict == "proved" or (verdict.verdict == "probable" and field in NUMBERS):
             yield f"/{field}", document[field], make
     for entry, values in zip(report.constraints, document["constraints"], strict=True):
-        name = entry.name.replace("~", "~0").replace("/", "~1")
         for field, verdict in sorted(entry.verdicts.items(), key=lambda item: item[0] == "scleronomic"):
             if verdict.verdict == "proved":
                 of_entry = partial(LABELS.get(field, _nothing), entry=entry, field=field)
-                yield f"/constraints/{name}/{field}", values[field], of_entry
+                yield f"{entry_path(entry)}/{field}", values[field], of_entry
+
+
+def entry_path(entry: ConstraintEntry) -> str:
+    """The path of a constraint's entry in the report."""
+    return "/constraints/" + entry.name.replace("~", "~0").replace("/", "~1")
 
 
 def _nothing(*_: object, **__: object) -> Iterator[Told]:

@@ -15,7 +15,7 @@ from dofkit.checker.verification import PARTS
 from dofkit.methods.certificates.numerics import NoEstimateError, echelon
 from dofkit.methods.certificates.points import FoundPoint, PointSearch
 from dofkit.methods.certificates.scenery import MOST_ROWS, Scenery
-from dofkit.methods.certificates.steps import accounted, rate_of
+from dofkit.methods.certificates.steps import accounted, rates_of
 from dofkit.report import Report
 
 
@@ -77,7 +77,7 @@ class Context:
     @cached_property
     def nonlinear(self) -> bool:
         """Whether a velocity relation is not linear."""
-        return not all(self.scenery.linear(name) for name in self.equations)
+        return not all(map(self.scenery.linear, self.scenery.equations))
 
     @cached_property
     def at_reference(self) -> bool:
@@ -104,13 +104,10 @@ class Context:
         return place
 
     def _searched(self) -> FoundPoint | None:
-        problem = self.problem
-        unknowns = [*problem.coordinates, *problem.world.generic]
-        names = list(self.scenery.evidence.finite)
-        if self.nonlinear:
-            names, unknowns = states_of(self)
-        finite = not self.scenery.evidence.moving and self.report.dof is not None
-        rank = len(problem.coordinates) - (self.report.dof or 0) if finite else len(names)
+        resting = [*self.scenery.finite], [*self.problem.coordinates, *self.problem.world.generic]
+        names, unknowns = states_of(self) if self.nonlinear else resting
+        finite = not self.scenery.moving and self.report.dof is not None
+        rank = len(self.problem.coordinates) - (self.report.dof or 0) if finite else len(names)
         points: list[FoundPoint] = []
         for point in self.search.points(names, unknowns):
             if point.rank == rank and self._is_fit(point):
@@ -119,24 +116,16 @@ class Context:
         return max(points, key=lambda point: point.rank == rank, default=None)
 
     def _is_fit(self, point: FoundPoint) -> bool:
-        """Whether the checker accepts a point for claims, and the integrals that the report tells have values there."""
+        """Whether the checker accepts a point for claims, where velocities and integrals are as the report tells."""
         texts = (entry.integral.rpartition("=")[0].strip() for entry in self.report.constraints if entry.integral)
+        free = self.report.velocity_dof if self.scenery.moving else None
         with suppress(CheckError, NoEstimateError):
             self.scenery.evidence.is_about("here", self.scenery.evidence.point(self.add_point(point)))
             for text in texts:
                 point.estimates.value(self.scenery.chosen(self.scenery.evidence.text(text)))
-            return True
+            standing = self.standing_of(self.scenery.equations, point=point)
+            return free in (None, standing and len(self.problem.coordinates) - len(standing.rows))
         return False
-
-    @cached_property
-    def rates(self) -> list[str]:
-        """The steps for the rates of the geometric equations."""
-        return [step for name in self.scenery.evidence.finite if (step := rate_of(self.scenery, name))]
-
-    @property
-    def equations(self) -> tuple[str, ...]:
-        """All geometric equations, then those of velocities: the order in which independent ones are counted."""
-        return self.scenery.evidence.equations
 
     def standing_of(
         self, names: Sequence[str], columns: Sequence[str] | None = None, point: FoundPoint | None = None
@@ -158,36 +147,31 @@ class Context:
 
     def row(self, name: str, point: FoundPoint) -> dict[str, float]:
         """The entries of a row in floats: by coordinates, or by their velocities."""
-        scenery = self.scenery
-        finite = scenery.evidence.relation(name).kind == "finite"
-        gradient = point.estimates.gradient(scenery.tree(name))
-        return {
-            q: gradient[q if finite else f"{q}dot"]
-            for q in self.problem.coordinates
-            if (q if finite else f"{q}dot") in gradient
-        }
+        dot = "" if self.scenery.evidence.relation(name).kind == "finite" else "dot"
+        gradient = point.estimates.gradient(self.scenery.tree(name))
+        return {q: gradient[q + dot] for q in self.problem.coordinates if q + dot in gradient}
 
     @cached_property
     def standing(self) -> Standing | None:
         """The main point with rows among all equations, the finite ones first; the others by steps if possible."""
-        return self.accounted(self.equations)
+        return self.accounted(self.scenery.equations)
 
     @cached_property
     def finite_standing(self) -> Standing | None:
         """The same for the geometric equations."""
-        return self.accounted(self.scenery.evidence.finite) if self.scenery.evidence.moving else self.standing
+        return self.accounted(self.scenery.finite) if self.scenery.moving else self.standing
 
     def accounted(self, names: Sequence[str]) -> Standing | None:
         """Independent rows in an order of their own, the others by steps where that is possible."""
         standing = self.standing_of(names)
         if standing is not None and standing.dependent:
-            standing.accounted = all(
-                accounted(self.scenery, name, standing.rows, standing.point) for name in standing.dependent
-            )
+            place = standing.rows, standing.point
+            standing.accounted = all(accounted(self.scenery, name, *place) for name in standing.dependent)
         return standing
 
 
 def states_of(context: Context) -> tuple[list[str], list[str]]:
     """The relations that hold of a configuration with its velocities, and the symbols of both."""
     symbols = [*context.problem.coordinates, *context.problem.world.generic]
-    return [*context.equations, *context.rates], [*symbols, *(f"{q}dot" for q in context.problem.coordinates)]
+    rates = rates_of(context.scenery, context.scenery.finite)
+    return [*context.scenery.equations, *rates], [*symbols, *(f"{q}dot" for q in context.problem.coordinates)]

@@ -17,10 +17,10 @@ from dofkit.checker.geometry import determinant, dot
 from dofkit.checker.ring import CheckedRing
 from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, operands, symbol, times
 from dofkit.methods.certificates.context import Context, Standing, Told
-from dofkit.methods.certificates.fields import LARGEST_CRAMER, backing, kept_motions, orbit
+from dofkit.methods.certificates.fields import backing, kept_motions, orbit
 from dofkit.methods.certificates.numerics import echelon, least_step
 from dofkit.methods.certificates.scenery import FAR, number_text, text_of
-from dofkit.methods.certificates.steps import accounted, solving_order
+from dofkit.methods.certificates.steps import LARGEST_CRAMER, accounted, solving_order
 
 #: The size of a step along a motion, of what is added by chance, and the largest denominator of a coefficient.
 STEP, NOISE, DENOMINATOR = 0.25, 0.05, 60
@@ -33,7 +33,7 @@ def families(context: Context, size: int) -> Iterator[Told]:
     """The rule `family` with so many freedoms, for a motion through the main point."""
     point, scenery = context.point, context.scenery
     size_of_all = sum(relation.tree.size for relation in context.problem.relations) * len(context.problem.coordinates)
-    if point is None or scenery.evidence.moving or size_of_all > MOST_FOLLOWED:
+    if point is None or scenery.moving or size_of_all > MOST_FOLLOWED:
         return
     assumed = []
     for i, text in enumerate(_linear_relations(context, _samples(context))):
@@ -41,7 +41,7 @@ def families(context: Context, size: int) -> Iterator[Told]:
         if step not in scenery.steps:
             scenery.add_step({"id": step, "by": "assumed", "function": text})
         assumed.append(step)
-    standing = context.standing_of([*assumed, *scenery.evidence.finite])
+    standing = context.standing_of([*assumed, *scenery.finite])
     if standing is None or len(standing.rows) != len(context.problem.coordinates) - size:
         return
     others = [name for name in standing.dependent if name not in assumed]
@@ -60,7 +60,7 @@ def _samples(context: Context) -> Samples:
         moved = {
             q: now[q] + (now[q] - before[q]) * STEP / (far or 1.0) + noise * drawn.uniform(-1, 1) for q in coordinates
         }
-        reached = context.search.approached({**now, **moved}, context.equations, set(coordinates))
+        reached = context.search.approached({**now, **moved}, context.scenery.equations, set(coordinates))
         if reached is not None:
             samples.append(reached)
             before, now = now, reached
@@ -96,8 +96,8 @@ def everywhere(context: Context) -> Iterator[Told]:
     """dof of all of the set; with forms from that near the main point."""
     if context.scenery.cayley or context.standing is None:
         return
-    evidence, finite = context.scenery.evidence, context.finite_standing
-    if not evidence.moving:
+    finite = context.finite_standing
+    if not context.scenery.moving:
         yield from _of_set(context, context.standing)
         return
     for local in orbit(context):
@@ -114,20 +114,20 @@ def velocities_everywhere(context: Context) -> Iterator[Told]:
     and a single form stands beside them. ``standing`` is the point at which the relations are known to hold, with the
     rows that account for all.
     """
-    evidence, standing = context.scenery.evidence, context.standing
-    if standing is None or not standing.accounted or context.scenery.cayley:
+    scenery, standing = context.scenery, context.standing
+    if standing is None or not standing.accounted or scenery.cayley:
         return
     claim = {"rule": "everywhere", "about": "everywhere", "minor": context.minor(standing)}
-    chart = context.scenery, context.problem.coordinates, partial(_gives, context)
-    order, unordered = solving_order(_needed(standing, evidence.equations), *chart)
-    moving = _needed(standing, evidence.moving)
+    chart = scenery, context.problem.coordinates, partial(_gives, context)
+    order, unordered = solving_order(_needed(standing, scenery.equations), *chart)
+    moving = _needed(standing, scenery.moving)
     if not unordered:
         yield {**claim, "order": order}
         return
     if {*unordered} <= {*moving} and (gram := _gram(context, unordered)):
         yield {**claim, "order": order, "gram": gram}
     if len(moving) == 1:
-        order, unordered = solving_order(_needed(standing, evidence.finite), *chart)
+        order, unordered = solving_order(_needed(standing, scenery.finite), *chart)
         if not unordered:
             yield {**claim, "order": order, "alone": moving[0]}
 
@@ -176,7 +176,7 @@ def _needed(standing: Standing, names: Sequence[str]) -> list[str]:
 def _of_set(context: Context, standing: Standing) -> Iterator[Told]:
     """What the geometric equations define."""
     scenery, evidence, claim = context.scenery, context.scenery.evidence, {"rule": "everywhere", "about": "everywhere"}
-    finite, columns = _needed(standing, evidence.finite), context.problem.coordinates
+    finite, columns = _needed(standing, scenery.finite), context.problem.coordinates
     minor = {"minor": context.minor(standing)}
     for variables in (columns, evidence.variables):
         order, others = solving_order(finite, scenery, variables, partial(_gives, context), skips=True)
@@ -185,13 +185,13 @@ def _of_set(context: Context, standing: Standing) -> Iterator[Told]:
         if len(others) < 2:
             yield {**claim, **minor, "order": order, **({"alone": others[0]} if others else {})}
     letters = (*context.problem.world.generic, *context.problem.world.signs)
-    symbols = {name: letter for name in evidence.finite if (letter := evidence.own_symbol(name, letters))}
+    symbols = {name: letter for name in scenery.finite if (letter := evidence.own_symbol(name, letters))}
     for skips in (False, True) if not standing.dependent or standing.accounted else ():
         order, others = solving_order(finite, scenery, columns, partial(_gives, context, most=HIGHEST_DEGREE), skips)
         if all(name in symbols for name in others):
             yield {**claim, **minor, "order": order, "generic": [[name, symbols[name]] for name in others]}
-    if all(name in symbols for name in evidence.finite) and (backed := backing(context, standing)):
-        yield {**claim, **minor, "generic": [[name, symbols[name]] for name in evidence.finite], **backed}
+    if all(name in symbols for name in scenery.finite) and (backed := backing(context, standing)):
+        yield {**claim, **minor, "generic": [[name, symbols[name]] for name in scenery.finite], **backed}
 
 
 def _gives(context: Context, name: str, q: str, most: int = 1) -> bool:
@@ -208,13 +208,13 @@ def _gives(context: Context, name: str, q: str, most: int = 1) -> bool:
 
 SIGNS = (1, -1)
 #: The engines' arguments by which it is so.
-ISOLATED, CROSSING = "isolated zero of one variable", "indefinite form"
+STATIONARY = ("isolated zero of one variable", "indefinite form", "cases")
 
 
 def stationary(context: Context) -> Iterator[Told]:
     """Yield dof near a point at which only the differential of a relation depends on others, by the rule `isolated`."""
     standing = context.standing
-    if standing is None or context.report.verdicts["dof"].argument not in (ISOLATED, CROSSING):
+    if standing is None or context.report.verdicts["dof"].argument not in STATIONARY:
         return
     for least in _motions_from(context, standing, context.report.dof or 0):
         for most in _isolated(context, standing):

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from fractions import Fraction
 
-from dofkit.checker.trees import ONE, Tree, add, number, operands, power, times
+from dofkit.checker.trees import ONE, add
 from dofkit.methods.certificates.context import Context, Told
-from dofkit.methods.certificates.scenery import Scenery, number_text, text_of
+from dofkit.methods.certificates.scenery import Scenery, number_text, squares_of, text_of
 from dofkit.methods.certificates.steps import constant_cofactors, is_accepted, rate_of
-
-HALF, EVEN = number(Fraction(1, 2)), range(2, 20, 2)
 
 
 def conflicting(context: Context) -> Iterator[Told]:
@@ -62,20 +59,5 @@ def _refuted(scenery: Scenery, reason: Told) -> Iterator[Told]:
 def _by_squares(context: Context, name: str) -> Iterator[Told]:
     """Yield evidence that one relation is never satisfied: it is a positive number and squares, or their negative."""
     evidence = context.scenery.evidence
-    *factors, whole = operands(evidence.relation(name).tree, "product")
-    for sign in (1, -1):
-        terms = [times(number(sign), *factors, term) for term in operands(whole, "sum")]
-        plain = [term for term in terms if term.symbols <= evidence.chosen]
-        squares = [_square(term) for term in terms if term not in plain]
-        if None not in squares:
-            yield {"h": text_of(add(*plain)), "sos": squares, "c": {name: number_text(sign)}}
-
-
-def _square(term: Tree) -> list[str] | None:
-    """A coefficient, and the root of what it is multiplied with; None where that is no product of even powers."""
-    factors = operands(term, "product")
-    powers = [factor for factor in factors if factor.symbols]
-    if any(factor.head != "power" or factor.below[1].value not in EVEN for factor in powers):
-        return None
-    roots = [power(factor.below[0], factor.below[1] * HALF) for factor in powers]
-    return [text_of(times(*(factor for factor in factors if not factor.symbols))), text_of(times(*roots))]
+    for sign, plain, squares in squares_of(evidence.relation(name).tree, evidence.chosen):
+        yield {"h": text_of(add(*plain)), "sos": squares, "c": {name: number_text(sign)}}

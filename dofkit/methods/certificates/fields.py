@@ -2,22 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from itertools import combinations
-from typing import Any
-
-from networkx.utils import UnionFind
 
 from dofkit.checker.constraints import Surroundings
 from dofkit.checker.evidence import VelocityField, bracket, field_named, tangent
-from dofkit.checker.geometry import determinant
-from dofkit.checker.trees import ZERO, CheckError, Tree
+from dofkit.checker.trees import ZERO, CheckError
+from dofkit.exact.matrices.sparse import components
 from dofkit.methods.certificates.context import Context, Standing, Told
 from dofkit.methods.certificates.numerics import Estimates, NoEstimateError, echelon
 from dofkit.methods.certificates.points import FoundPoint
 from dofkit.methods.certificates.scenery import Scenery, text_of
+from dofkit.methods.certificates.steps import LARGEST_CRAMER, by_cramer, combined_integral, function_in
 
 
 def motions(world: Surroundings) -> list[dict[str, str]]:
@@ -50,7 +48,7 @@ def covering(context: Context, standing: Standing) -> list[Told] | None:
     """Blocks of relations whose rank is given by how many there are, or by rigid motions."""
     scenery, blocks = context.scenery, []
     accounted = {*standing.rows, *standing.dependent}
-    for names in parts_of(scenery, [name for name in scenery.evidence.finite if name in accounted]):
+    for names in parts_of(scenery, [name for name in scenery.finite if name in accounted]):
         rank = sum(row in names for row in standing.rows)
         fields = kept_motions(context, names, standing.point) if rank < len(names) else {}
         variables = held_by(scenery, names).intersection(context.problem.coordinates)
@@ -71,20 +69,16 @@ def kept_motions(context: Context, names: Sequence[str], point: FoundPoint) -> d
     fields = [{q: text for q, text in motion.items() if q in held} for motion in motions(context.problem.world)]
     ids = [scenery.entry_id("fields", {"components": field}) for field in fields]
     kept = [motion for motion in ids if _is_kept(scenery, motion, names)]
-    components = [field_named(scenery.evidence, motion) for motion in kept]
-    rows = [{q: point.estimates.value(tree) for q, tree in field.items()} for field in components]
+    moved = [field_named(scenery.evidence, motion) for motion in kept]
+    rows = [{q: point.estimates.value(tree) for q, tree in field.items()} for field in moved]
     return {kept[p.row]: p.column for p in echelon(rows)}
 
 
 def parts_of(scenery: Scenery, names: Sequence[str]) -> list[list[str]]:
     """Return the relations in groups that share no coordinate."""
-    classes, groups = UnionFind(), dict[Any, list[str]]()
-    for name in names:
-        held = scenery.evidence.relation(name).tree.symbols
-        classes.union((name,), *(q for q in scenery.problem.coordinates if not held.isdisjoint((q, f"{q}dot"))))
-    for name in names:
-        groups.setdefault(classes[name,], []).append(name)
-    return list(groups.values())
+    trees = [scenery.evidence.relation(name).tree for name in names]
+    held = [[q for q in scenery.problem.coordinates if {q, f"{q}dot"} & tree.symbols] for tree in trees]
+    return [[names[k] for k in numbers] for numbers in components(held)]
 
 
 def _is_kept(scenery: Scenery, motion: str, names: Sequence[str]) -> bool:
@@ -98,8 +92,8 @@ def _is_kept(scenery: Scenery, motion: str, names: Sequence[str]) -> bool:
 
 # Evidence about what velocities allow: fields by Cramer's rule, words of brackets, orbits, growth.
 
-#: The most rows of a determinant that is written out; the longest word, and the most words of a length.
-LARGEST_CRAMER, LONGEST, MOST_WORDS = 5, 7, 60
+#: The longest word, and the most words of a length.
+LONGEST, MOST_WORDS = 7, 60
 
 
 @dataclass
@@ -117,6 +111,8 @@ class Words:
 def tangent_fields(context: Context, standing: Standing) -> list[str] | None:
     """Fields that span the kernel of rows: one for every coordinate (and time) that is no column."""
     scenery, pairs = context.scenery, dict(zip(standing.rows, standing.columns, strict=True))
+    if not all(map(scenery.linear, standing.rows)):
+        return None
     evidence = scenery.evidence
     timed = any(not {"t", "tdot"}.isdisjoint(evidence.relation(row).tree.symbols) for row in standing.rows)
     free = [q for q in (*context.problem.coordinates, *(["t"] if timed else [])) if q not in pairs.values()]
@@ -128,18 +124,10 @@ def tangent_fields(context: Context, standing: Standing) -> list[str] | None:
         columns = [pairs[row] for row in touched]
         matrix = [[evidence.slope(row, column) for column in columns] for row in touched]
         h, numerators = by_cramer(matrix, [evidence.slope(row, coordinate) for row in touched])
-        components = {coordinate: h, **dict(zip(columns, (-tree for tree in numerators), strict=True))}
-        texts = {name: text_of(tree) for name, tree in components.items() if tree != ZERO}
+        trees = {coordinate: h, **dict(zip(columns, (-tree for tree in numerators), strict=True))}
+        texts = {name: text_of(tree) for name, tree in trees.items() if tree != ZERO}
         ids.append(scenery.entry_id("fields", {"components": texts}))
     return ids
-
-
-def by_cramer(matrix: Sequence[Sequence[Tree]], right: Sequence[Tree]) -> tuple[Tree, list[Tree]]:
-    """Return the determinant of a square matrix and Cramer's numerators: the matrix maps them to it times the right."""
-    replaced = (
-        [[*line[:i], b, *line[i + 1 :]] for line, b in zip(matrix, right, strict=True)] for i in range(len(matrix))
-    )
-    return determinant(matrix), [*map(determinant, replaced)]
 
 
 def _touched(context: Context, standing: Standing, free: str) -> list[str]:
@@ -190,63 +178,70 @@ def _grown(context: Context, standing: Standing, fields: list[str], most: int) -
                 columns = [p.column for p in pivots]
                 fresh.append((word, value))
         levels.append(len(words))
+        # where the point is singular, longer words of what brings nothing may bring something
+        fresh = fresh or [(word, value) for word, value in level if any(tree != ZERO for tree in value.values())]
         if len(words) >= most or not fresh:
             break
-        level = [
-            ([*word, name], bracket(context.scenery.evidence, value, bases[name]))
-            for word, value in fresh
-            for name in fields
-            if word != [name]
-        ]
-        level = level[:MOST_WORDS]
+        longer = [(word, name, value) for word, value in fresh for name in fields if word != [name]][:MOST_WORDS]
+        try:
+            level = [([*w, name], bracket(context.scenery.evidence, value, bases[name])) for w, name, value in longer]
+        except CheckError:
+            break
     return Words(fields, list(standing.rows), words, columns, vectors, levels)
 
 
 def orbit(context: Context) -> Iterator[Told]:
     """dof of a scene with forms: from below what brackets reach, from above finite rows and what integrates."""
     standing, freedom = context.standing, context.report.dof
-    if standing is None or not standing.accounted or freedom is None or context.nonlinear:
+    if standing is None or not standing.accounted or freedom is None:
         return
-    least = _least(context, standing, freedom)
-    if least is None:
-        return
-    for most in _most(context, freedom):
-        yield {"rule": "squeeze", "most": most, "least": least, "about": context.about}
+    for least in _least(context, standing, freedom):
+        for most in rows_above(context):
+            yield {"rule": "squeeze", "most": most, "least": least, "about": context.about}
 
 
-def _least(context: Context, standing: Standing, dof: int) -> Told | None:
-    size = len(context.problem.coordinates)
-    if dof == size - len(standing.rows):
-        return {"rule": "regular", "minor": context.minor(standing)}
-    words = words_of(context, standing, reach(context))
-    if words is None:
-        return None
-    moves = any("t" in vector for vector in words.vectors)
-    return {
-        "rule": "span",
-        "at": standing.point.name,
-        "fields": words.fields,
-        "rows": words.rows,
-        "words": words.words[: dof + moves],
-        "columns": words.columns[: dof + moves],
-    }
+def _least(context: Context, standing: Standing, dof: int) -> Iterator[Told]:
+    if dof == len(context.problem.coordinates) - len(standing.rows):
+        yield {"rule": "regular", "minor": context.minor(standing)}
+    yield from curvatures(context, standing)
+    if (words := words_of(context, standing, reach(context))) is not None:
+        size = dof + any("t" in vector for vector in words.vectors)
+        spanned = {"words": words.words[:size], "columns": words.columns[:size]}
+        yield {"rule": "span", "at": standing.point.name, "fields": words.fields, "rows": words.rows, **spanned}
 
 
-def _most(context: Context, dof: int) -> Iterator[Told]:
-    finite = context.finite_standing
-    if finite is not None and dof >= len(context.problem.coordinates) - len(finite.rows):
-        yield {"rule": "minor", "minor": context.minor(finite)}
-    yield from involutive_rows(context, integrable_names(context))
+def curvatures(context: Context, standing: Standing) -> Iterator[Told]:
+    """Yield the rule `curved`: a row that is not linear, with velocities along which it may be curved."""
+    free = [q for q in context.problem.coordinates if q not in standing.columns]
+    for name in standing.rows:
+        for way in (*zip(free), *combinations(free, 2)) if not context.scenery.linear(name) else ():
+            minor = {"minor": context.minor(standing)}
+            yield {"rule": "curved", **minor, "pairs": name, "speeds": dict.fromkeys(way, "1")}
+
+
+def rows_above(context: Context, columns: Sequence[str] | None = None) -> Iterator[Told]:
+    """Yield rows that bound dof, in ``columns`` if given: geometric equations, integrals, forms that are involutive."""
+    finite, part = context.finite_standing, context.report.integrable_part
+    steps = integral_steps(context, (part and part.basis) or ())
+    for names in ([], steps) if steps else ([],):
+        standing = finite and context.standing_of([*finite.rows, *names], columns)
+        if standing is not None:
+            yield {"rule": "minor", "minor": context.minor(standing)}
+    if context.scenery.moving:
+        yield from involutive_rows(context, integrable_names(context), columns)
+
+
+def integral_steps(context: Context, texts: Iterable[str | None]) -> list[str]:
+    """The steps by which the functions in texts keep their values, of those for which there is one."""
+    functions = filter(None, dict.fromkeys(map(function_in, texts)))
+    return [step for function in functions if (step := combined_integral(context.scenery, context.point, function))]
 
 
 def integrable_names(context: Context) -> list[str]:
     """The geometric equations, and the forms that are said to be holonomic."""
-    owners = {entry.name for entry in context.report.constraints if entry.holonomic}
-    return [
-        relation.name
-        for relation in context.problem.relations
-        if relation.kind != "inequality" and relation.owner in owners
-    ]
+    owners = [entry.name for entry in context.report.constraints if entry.holonomic]
+    names = [name for owner in owners for name in context.scenery.owned(owner)]
+    return sorted(names, key=context.scenery.equations.index)
 
 
 def involutive_rows(context: Context, names: Sequence[str], columns: Sequence[str] | None = None) -> Iterator[Told]:
@@ -263,7 +258,7 @@ def involutive_rows(context: Context, names: Sequence[str], columns: Sequence[st
 def growth_vector(context: Context) -> Iterator[Told]:
     """Words for every entry, of as many entries as are claimed, and until nothing new comes."""
     standing, vector = context.standing, context.report.growth_vector
-    if standing is None or not standing.accounted or not vector or context.nonlinear:
+    if standing is None or not standing.accounted or not vector:
         return
     words = words_of(context, standing, reach(context))
     if words is None:

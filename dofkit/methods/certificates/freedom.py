@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from typing import Any
 
 from dofkit.methods.certificates.context import Context, Told, states_of
 from dofkit.methods.certificates.dimension import everywhere, families, stationary, velocities_everywhere
 from dofkit.methods.certificates.emptiness import refutations
-from dofkit.methods.certificates.fields import backing, integrable_names, involutive_rows, orbit
-from dofkit.methods.certificates.labels import combined_integral, function_in
+from dofkit.methods.certificates.fields import backing, integral_steps, orbit, rows_above
 from dofkit.methods.certificates.points import FoundPoint
 from dofkit.report import ConstraintEntry
 
@@ -44,13 +42,13 @@ def _meeting(context: Context, inequalities: list[str]) -> FoundPoint | None:
     """Return a point of the configuration space, or of all relations if velocities occur, with ``inequalities``."""
     evidence = context.scenery.evidence
     moving = any(evidence.met_by(evidence.relation(name).tree) for name in inequalities)
-    names, unknowns = states_of(context) if moving else (evidence.finite, context.problem.coordinates)
+    names, unknowns = states_of(context) if moving else (context.scenery.finite, context.problem.coordinates)
     return context.search.meeting(inequalities, names, unknowns)
 
 
 def dof(context: Context) -> Iterator[Told]:
     """The dimension of the configuration space: everywhere where that is one line, else near the main point."""
-    if not context.equations:
+    if not context.scenery.equations:
         yield {"rule": "everywhere", "about": "everywhere"}
         return
     if context.report.verdicts["dof"].about == "everywhere":
@@ -59,7 +57,7 @@ def dof(context: Context) -> Iterator[Told]:
 
 
 def _near(context: Context) -> Iterator[Told]:
-    if context.scenery.evidence.moving:
+    if context.scenery.moving:
         yield from orbit(context)
         return
     yield from _regular(context)
@@ -73,7 +71,7 @@ def _near(context: Context) -> Iterator[Told]:
 
 def velocity_dof(context: Context) -> Iterator[Told]:
     """The independent velocities."""
-    if not context.scenery.evidence.moving:
+    if not context.scenery.moving:
         yield from ({"rule": "count", "about": about} for about in ("everywhere", context.about))
         return
     if context.report.verdicts["velocity_dof"].about == "everywhere":
@@ -108,7 +106,7 @@ def redundant(context: Context) -> Iterator[Told]:
     """What is redundant is implied by the other constraints."""
     dropped = set(context.report.redundant or [])
     relation = context.scenery.evidence.relation
-    names = sorted(context.equations, key=lambda name: relation(name).owner in dropped)
+    names = sorted(context.scenery.equations, key=lambda name: relation(name).owner in dropped)
     standing = context.accounted(names)
     if standing is not None and (backed := backing(context, standing)) is not None:
         yield {"rule": "cofactors", "minor": context.minor(standing), **backed}
@@ -119,9 +117,10 @@ def redundant(context: Context) -> Iterator[Told]:
 def _needed(context: Context) -> Iterator[Told]:
     """For every constraint a minor of all rows of the others."""
     minors, relation = {}, context.scenery.evidence.relation
-    for owner in dict.fromkeys(relation(name).owner for name in context.equations):
-        standing = context.standing_of([name for name in context.equations if relation(name).owner != owner])
-        if standing is None or standing.dependent:
+    for owner in dict.fromkeys(relation(name).owner for name in context.scenery.evidence.equations):
+        own = context.scenery.owned(owner)
+        standing = context.accounted([name for name in context.scenery.equations if name not in own])
+        if standing is None or not standing.accounted:
             return
         minors[owner] = context.minor(standing)
     yield {"rule": "cofactors", "without": minors}
@@ -129,18 +128,12 @@ def _needed(context: Context) -> Iterator[Told]:
 
 def generalized_coordinates(context: Context) -> Iterator[Told]:
     """Yield evidence that the other coordinates are functions of the chosen ones, or of what stands for these."""
-    chosen, finite = context.report.generalized_coordinates, context.finite_standing
+    chosen = context.report.generalized_coordinates
     if chosen == []:
         yield from counted(context)
-    if not chosen or finite is None:
-        return
-    moved = context.problem.world.charted(chosen)
-    others = [q for q in context.problem.coordinates if q not in moved]
-    solving = context.standing_of(finite.rows, others) if len(others) == len(finite.rows) else None
-    if solving is not None and not solving.dependent:
-        yield {"rule": "minor", "minor": context.minor(solving)}
-    if context.scenery.evidence.moving:
-        yield from involutive_rows(context, integrable_names(context), others)
+    if chosen:
+        moved = context.problem.world.charted(chosen)
+        yield from rows_above(context, [q for q in context.problem.coordinates if q not in moved])
 
 
 def independent(context: Context, entry: ConstraintEntry, field: str) -> Iterator[Told]:
@@ -148,19 +141,12 @@ def independent(context: Context, entry: ConstraintEntry, field: str) -> Iterato
     if entry.form == "inequality":
         yield {"rule": "inequality"}
         return
-    standing, order = context.standing, context.equations
-    equations = context.scenery.evidence.owned(entry.name)
+    order, equations = context.scenery.equations, context.scenery.owned(entry.name)
     last = max((k for k, name in enumerate(order) if name in equations), default=-1)
-    rows = order[: last + 1]
-    if standing is None or not rows:
-        return
-    size = len(set(rows).intersection(standing.rows))
-    dependent = [name for name in standing.dependent if name in set(rows)]
-    upto = replace(standing, rows=standing.rows[:size], columns=standing.columns[:size], dependent=dependent)
-    upto.accounted = standing.accounted or not dependent
-    if (backed := backing(context, upto)) is not None:
+    upto = context.accounted(order[: last + 1])
+    if upto is not None and (backed := backing(context, upto)) is not None:
         yield {"rule": "independent", "minor": context.minor(upto), **backed}
-    if len(rows) == len(context.equations):
+    if upto is not None and last + 1 == len(order):
         yield {"rule": "independent", "minor": context.minor(upto), "last": True}
 
 
@@ -180,9 +166,8 @@ def circuit(context: Context, entry: ConstraintEntry, field: str) -> Iterator[To
 
 
 def _circuit(context: Context, owner: str, members: Sequence[str]) -> Iterator[Told]:
-    evidence = context.scenery.evidence
-    equations = list(evidence.owned(owner))
-    rows = {name: list(evidence.owned(name)) for name in members}
+    equations = context.scenery.owned(owner)
+    rows = {name: context.scenery.owned(name) for name in members}
     whole = context.accounted([*(row for name in members for row in rows[name]), *equations])
     backed = backing(context, whole)
     minimal = {}
@@ -201,7 +186,7 @@ def feasible(context: Context) -> Iterator[Told]:
     """A point at which everything holds."""
     inequalities = [relation.name for relation in context.problem.relations if relation.kind == "inequality"]
     for point in (context.point, _meeting(context, inequalities)) if context.report.feasible else ():
-        standing = None if point is None else context.standing_of(context.equations, point=point)
+        standing = None if point is None else context.standing_of(context.scenery.equations, point=point)
         if standing is not None:
             minor = {"minor": context.minor(standing)}
             yield {"rule": "point", "at": context.add_point(standing.point), **minor}
@@ -214,8 +199,7 @@ def integrable_part(context: Context) -> Iterator[Told]:
     if part is None or finite is None:
         return
     yield {"rule": "integrals", "minor": context.minor(finite), "steps": []}
-    functions = filter(None, map(function_in, part.basis or []))
-    steps = [step for function in functions if (step := combined_integral(context, function))]
+    steps = integral_steps(context, part.basis or ())
     standing = context.standing_of([*finite.rows, *steps])
     if steps and standing is not None:
         yield {"rule": "integrals", "minor": context.minor(standing), "steps": steps}

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from typing import Any, TypeVar
 
 from dofkit.base.verdicts import About, least, weakest
 from dofkit.checker.grammar import KnownNames, parse_relations
 from dofkit.checker.trees import CheckError, symbol
 from dofkit.expressions.text import Names
-from dofkit.methods.certificates.certificate import Certifying
+from dofkit.methods.certificates.certificate import Certifying, entry_path
 from dofkit.report import ConstraintEntry, FieldVerdict, Report
 from dofkit.scene.plain import PlainScene, plain_scene
 from dofkit.scene.scene import Scene
@@ -50,24 +50,9 @@ def with_certificate(scene: Scene, report: Report, strict: bool = False) -> Repo
     document, readings = scene_of_checker(scene)
     making = Certifying(document, report, readings)
     certificate = making.written()
-    uncovered = () if strict else certificate["uncovered"]
-    claims = (claim for claim in certificate["claims"] if f"/verdicts{claim['path']}/about" not in uncovered)
-    confirmed = {claim["path"]: claim.get("about") for claim in claims}
+    confirmed = {claim["path"]: claim.get("about") for claim in certificate["claims"]}
     checked = _checked(report, confirmed, making.contradictions, strict)
     return checked.model_copy(update={"certificate": certificate})
-
-
-def verdicts_of(report: Report) -> Iterator[tuple[str, Any, FieldVerdict]]:
-    """Every field with a verdict: its path, its value and how certain it is."""
-    for field, verdict in report.verdicts.items():
-        yield f"/{field}", getattr(report, field), verdict
-    for entry in report.constraints:
-        for field, verdict in entry.verdicts.items():
-            yield f"{_entry_path(entry)}/{field}", getattr(entry, field), verdict
-
-
-def _entry_path(entry: ConstraintEntry) -> str:
-    return "/constraints/" + entry.name.replace("~", "~0").replace("/", "~1")
 
 
 def _checked(
@@ -97,7 +82,7 @@ def _checked(
     warnings = [
         f"{path}: a second program finds otherwise ({why}); it is undecided" for path, why in contradictions.items()
     ]
-    entries = [revised(entry, _entry_path(entry)) for entry in report.constraints]
+    entries = [revised(entry, entry_path(entry)) for entry in report.constraints]
     whole = revised(report, "")
     verdict = weakest(whole.verdict, *(entry.verdict for entry in entries))
     changes = {"constraints": entries, "warnings": [*report.warnings, *warnings], "verdict": verdict}

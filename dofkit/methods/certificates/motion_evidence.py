@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from typing import Any
 
-from dofkit.checker.motion import MOTION_FIELDS
+from dofkit.checker.motion import FIELDS
 from dofkit.checker.problem import CheckedProblem as Problem
 from dofkit.checker.trees import ONE, Tree, along, number, substituted, symbol
 from dofkit.methods.certificates.certificate import HINDRANCES, Certifying, without_spare_parts
@@ -25,7 +25,7 @@ MOST_POINTS = 4
 
 def certificate_of_motion(scene: Scene, motion: Mapping[str, Any], report: Report) -> dict[str, Any]:
     """Return the certificate of the equations of motion on a ``report``; "uncovered" if no evidence was found."""
-    fields = {name: motion[name] for name in MOTION_FIELDS}
+    fields = {name: motion[name] for name in FIELDS}
     document, readings = scene_of_checker(scene)
     making = Certifying(document, report, readings)
     claim = making.confirmed(PATH, fields, lambda context: MotionEvidence(context, fields).claims(), True)
@@ -62,7 +62,7 @@ class MotionEvidence:
         claim |= {"constants": self.constants} if self.constants else {}
         size = len(self.eliminated) + len(self.constraint_of_multiplier)
         # The multipliers and eliminated coordinates are unique where this many rows are independent.
-        ranks = (self.context.standing_of(self.context.equations, point=point) for point in self.points())
+        ranks = (self.context.standing_of(self.context.scenery.equations, point=point) for point in self.points())
         minors = ({"minor": self.context.minor(r)} for r in ranks if r is not None and len(r.rows) == size)
         for minor in minors if size else [{}]:
             for factors in self.factors():

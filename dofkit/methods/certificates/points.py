@@ -79,7 +79,7 @@ class PointSearch:
             if self.scenery.timed:
                 values["t"], floats["t"] = "0", 0.0
             point = FoundPoint(values, floats)
-            return point if residual(self.scenery, floats, self.scenery.evidence.finite) < NEAR else None
+            return point if residual(self.scenery, floats, self.scenery.finite) < NEAR else None
         except NoEstimateError:
             return None
 
@@ -105,7 +105,7 @@ class PointSearch:
     def touching(self, name: str) -> Iterator[FoundPoint]:
         """Points at which a relation is 0, an inequality too, whatever the others say."""
         checked = self.scenery.evidence.relation(name)
-        names = [name] if checked.kind == "inequality" else self.scenery.evidence.finite
+        names = [name] if checked.kind == "inequality" else self.scenery.finite
         return self.points(names, self.problem.coordinates, 50)
 
     def _start(self, attempt: int, unknowns: Sequence[str]) -> dict[str, Fraction]:
@@ -172,14 +172,17 @@ class PointSearch:
         return echelon(rows, weight)
 
     def settled(self, reached: dict[str, float], names: Sequence[str], unknowns: set[str]) -> FoundPoint | None:
-        """All that is no column rounded to short numbers, the columns found again."""
+        """All that is no column rounded to short numbers, the columns found again; or all, where that is exact."""
+        chosen = self.scenery.parameters
+        near = {name: Fraction(round(value * 32), 32) for name, value in reached.items()} | chosen
+        if all(abs(near[name] - value) < 1e-4 for name, value in reached.items()) and self._holds(near, names):
+            texts, floats = {name: number_text(near[name]) for name in reached}, floats_of(near)
+            return FoundPoint(texts, floats, rank=len(self.pivots(floats, names, unknowns)))
         pivots = self.pivots(reached, names, unknowns)
         rows, columns = [names[p.row] for p in pivots], [p.column for p in pivots]
         for most in _ROUNDINGS:
-            exact = {
-                name: Fraction(round(value * most), most) for name, value in reached.items() if name not in columns
-            }
-            exact |= {name: value for name, value in self.scenery.parameters.items() if name in exact}
+            short = {name: Fraction(round(value * most), most) for name, value in reached.items()}
+            exact = {name: value for name, value in (short | chosen).items() if name in short and name not in columns}
             floats = {**reached, **floats_of(exact)}
             try:
                 floats_again = self.approached(floats, rows, set(columns))

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Iterator, Mapping
+from contextlib import suppress
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
 from dofkit.checker.evidence import CheckedEvidence
 from dofkit.checker.problem import CheckedProblem as Problem
-from dofkit.checker.trees import CheckError, Effort, Tree, substituted
+from dofkit.checker.trees import CheckError, Effort, Tree, number, operands, power, substituted, times
 from dofkit.methods.certificates.numerics import Estimates, NoEstimateError
 
 
@@ -45,15 +46,20 @@ def _factor(tree: Tree) -> str:
 
 
 def _applied(tree: Tree) -> str:
-    """A declared function, or its derivative by its arguments."""
-    if len(tree.orders) > 1 and any(tree.orders):
+    """A declared function, or its derivative by its arguments; of several each is a symbol of its own then."""
+    names, several = [*map(text_of, tree.below)], len(tree.orders) > 1
+    if several and any(tree.orders) and len({part for part in tree.below if part.head == "symbol"}) < len(names):
         raise CheckError("a partial derivative of a declared function has no text")
-    primes = "'" * tree.orders[0]
-    return f"{tree.value}{primes}({', '.join(text_of(part) for part in tree.below)})"
+    primes = "" if several else "'" * tree.orders[0]
+    text = f"{tree.value}{primes}({', '.join(names)})"
+    for name, order in zip(names, tree.orders, strict=True) if several else ():
+        text = "diff(" * order + text + f", {name})" * order
+    return text
 
 
 # The checker's reading of a scene, with choices made for what it does not determine.
 
+HALF, EVEN = number(Fraction(1, 2)), range(2, 20, 2)
 #: What is farther from 0 than this, in floats, is not 0.
 FAR = 1e-7
 #: Units of the checker's work that looking for the evidence of one scene may cost.
@@ -71,7 +77,6 @@ class Scenery:
         self.effort = Effort(WORK)
         self._view = dict(lists)
         self.evidence = CheckedEvidence(problem, self._view, self.effort)
-        self._prepared: dict[str, Tree] = {}
         self.steps: set[str] = set()
 
     def entry_id(self, part: str, entry: dict[str, Any]) -> str:
@@ -91,10 +96,8 @@ class Scenery:
     @cached_property
     def functions(self) -> dict[str, dict[str, Any]]:
         """A polynomial for every unknown function."""
-        return {
-            name: _polynomial(len(arguments), i)
-            for i, (name, arguments) in enumerate(self.problem.world.names.functions.items())
-        }
+        functions = self.problem.world.names.functions.items()
+        return {name: _polynomial(len(arguments), i) for i, (name, arguments) in enumerate(functions)}
 
     @cached_property
     def parameters(self) -> dict[str, Fraction]:
@@ -109,6 +112,43 @@ class Scenery:
         """Whether time occurs in any relation, inequalities included."""
         return any(not {"t", "tdot"}.isdisjoint(relation.tree.symbols) for relation in self.problem.relations)
 
+    @cached_property
+    def finite(self) -> tuple[str, ...]:
+        """The geometric equations, each after the roots of which it is a sum of squares."""
+        return self.owned(None, ("finite",))
+
+    @cached_property
+    def moving(self) -> tuple[str, ...]:
+        """The velocity relations in the same way."""
+        return self.owned(None, ("velocity",))
+
+    @property
+    def equations(self) -> tuple[str, ...]:
+        """All geometric equations, then those of velocities: the order in which independent ones are counted."""
+        return (*self.finite, *self.moving)
+
+    def owned(self, owner: str | None, kinds: Collection[str] = ("finite", "velocity")) -> tuple[str, ...]:
+        """The equations of a constraint, or of all, each after its roots."""
+        names = self.evidence.owned(owner, kinds)
+        return tuple(part for name in names for part in (*self.roots(name), name))
+
+    def roots(self, name: str) -> tuple[str, ...]:
+        """The steps for the roots of a sum of squares, which are 0 where it is; none of another relation."""
+        return self.evidence.once(("roots", name), lambda: tuple(self._roots(name)))
+
+    def _roots(self, name: str) -> Iterator[str]:
+        for sign, rest, squares in squares_of(self.evidence.relation(name).tree, frozenset()):
+            ids = {f"{self.label}root {i} of {name}": square for i, square in enumerate(squares) if not rest}
+            with suppress(CheckError):
+                for step, (weight, root) in ids.items():
+                    others = [square for other, square in ids.items() if other != step]
+                    of_root = {"function": root, "h": weight, "sos": others, "c": {name: str(sign)}}
+                    self.add_step({"id": step, "by": "implied", **of_root})
+                    yield step
+                back = {step: f"({sign})*({weight})*({root})" for step, (weight, root) in ids.items()}
+                if back:
+                    self.add_step({"id": f"{self.label}{name} from others", "by": "implied", "of": name, "c": back})
+
     def linear(self, name: str) -> bool:
         """Whether a relation is a linear form in the velocities; False where that is not known."""
         try:
@@ -116,12 +156,14 @@ class Scenery:
         except CheckError:
             return False
 
+    def form(self, name: str) -> dict[str, Tree]:
+        """The components of a relation that is a linear form; nothing of another."""
+        is_form = self.evidence.relation(name).kind == "velocity" and self.linear(name)
+        return {v: self.evidence.slope(name, v) for v in self.evidence.variables} if is_form else {}
+
     def tree(self, name: str) -> Tree:
         """A relation's left side with the functions chosen."""
-        if name not in self._prepared:
-            tree = self.evidence.relation(name).tree
-            self._prepared[name] = self.chosen(tree)
-        return self._prepared[name]
+        return self.evidence.once(("chosen", name), lambda: self.chosen(self.evidence.relation(name).tree))
 
     def chosen(self, tree: Tree) -> Tree:
         """A tree with the functions chosen."""
@@ -158,6 +200,27 @@ class Scenery:
             raise CheckError(self.evidence.faults[step["id"]])
         self.entries["relations"].append(step)
         self.steps.add(step["id"])
+
+
+def squares_of(tree: Tree, plain: frozenset[str]) -> Iterator[tuple[int, list[Tree], list[list[str]]]]:
+    """Yield a sign by which a tree is a sum of terms in ``plain`` symbols and of squares: a coefficient and a root."""
+    *factors, whole = operands(tree, "product")
+    for sign in (1, -1):
+        terms = [times(number(sign), *factors, term) for term in operands(whole, "sum")]
+        rest = [term for term in terms if term.symbols <= plain]
+        squares = [square for term in terms if term not in rest and (square := _square(term))]
+        if len(rest) + len(squares) == len(terms):
+            yield sign, rest, squares
+
+
+def _square(term: Tree) -> list[str] | None:
+    """A coefficient, and the root of what it is multiplied with; None where that is no product of even powers."""
+    factors = operands(term, "product")
+    powers = [factor for factor in factors if factor.symbols]
+    if any(factor.head != "power" or factor.below[1].value not in EVEN for factor in powers):
+        return None
+    roots = [power(factor.below[0], factor.below[1] * HALF) for factor in powers]
+    return [text_of(times(*(factor for factor in factors if not factor.symbols))), text_of(times(*roots))]
 
 
 def _polynomial(count: int, place: int) -> dict[str, Any]:

@@ -6,15 +6,18 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial, reduce
 from itertools import chain, combinations
+from typing import Any
 
 from flint import fmpq, fmpq_mat
 
+from dofkit.checker.geometry import determinant
 from dofkit.checker.ring import Quotient
-from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, linear_in, put_in, substituted
+from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, derivative, linear_in, put_in, substituted
+from dofkit.methods.certificates.numerics import Estimates, NoEstimateError, echelon, least_step
 from dofkit.methods.certificates.points import FoundPoint
-from dofkit.methods.certificates.scenery import Scenery, text_of
+from dofkit.methods.certificates.scenery import FAR, Scenery, text_of
 
-Step = dict[str, object]
+Step = dict[str, Any]
 
 
 def is_accepted(scenery: Scenery, step: Step) -> bool:
@@ -143,7 +146,8 @@ MOST_TERMS = 4_000
 def accounted(scenery: Scenery, name: str, rows: Sequence[str], point: FoundPoint, what: str = "others") -> bool:
     """Whether a step was found by which others imply a relation near the point.
 
-    The cofactors are numbers: as the relations are, or after coordinates that some of them give are put in.
+    The cofactors are numbers: as the relations are, or after coordinates that some of them give are put in; those of
+    forms may be functions.
     """
     dependent = scenery.evidence.relation(name)
     sources = [row for row in rows if scenery.evidence.relation(row).kind == dependent.kind]
@@ -160,11 +164,12 @@ def accounted(scenery: Scenery, name: str, rows: Sequence[str], point: FoundPoin
         factors = constant_cofactors(scenery, dependent.tree, sources, order) if order else None
     except CheckError:
         return False
-    if factors is None:
-        return False
-    used = [scenery.evidence.relation(row).tree for row in (name, *factors)]
-    put = needed_puts(scenery, used, order)
-    return is_accepted(scenery, {"id": step, "by": "implied", "of": name, "c": factors, "put": put})
+    if factors is not None:
+        used = [scenery.evidence.relation(row).tree for row in (name, *factors)]
+        put = needed_puts(scenery, used, order)
+        return is_accepted(scenery, {"id": step, "by": "implied", "of": name, "c": factors, "put": put})
+    forms = dependent.kind == "velocity" and all(map(scenery.linear, (name, *sources)))
+    return forms and combined(scenery, point, {"id": step, "by": "implied", "of": name}, scenery.form(name), sources)
 
 
 def constant_cofactors(
@@ -197,3 +202,101 @@ def rate_of(scenery: Scenery, name: str) -> str:
     """Return the id of a step for the rate of a configuration-level equation; "" where it does not stand up."""
     step = f"{scenery.label}rate of {name}"
     return step if is_accepted(scenery, {"id": step, "by": "rate", "of": name}) else ""
+
+
+def rates_of(scenery: Scenery, names: Iterable[str]) -> list[str]:
+    """The steps for the rates of configuration-level equations and integrals."""
+    return [step for name in names if (step := rate_of(scenery, name))]
+
+
+# Forms that follow from others, and functions that keep their values: cofactors by Cramer's rule.
+
+Components = dict[str, Tree]
+#: The most rows of a determinant that is written out.
+LARGEST_CRAMER = 5
+
+
+def combined_integral(scenery: Scenery, point: FoundPoint | None, function: str, alone: str = "") -> str | None:
+    """Return the id of a step by which a function keeps its value: by one form ``alone``, or whatever that takes."""
+    name = f"{scenery.label}{function} is constant{f' by {alone}' if alone else ''}"
+    if name in scenery.evidence.by_name:
+        return name
+    if point is None:
+        return None
+    try:
+        tree = scenery.evidence.text(function)
+    except CheckError:
+        return None
+    target = {v: derivative(tree, v) for v in scenery.evidence.variables}
+    step = {"id": name, "by": "integral", "function": function}
+    sources = [alone] if alone else [*rates_of(scenery, scenery.finite), *filter(scenery.linear, scenery.moving)]
+    return name if combined(scenery, point, step, target, sources) else None
+
+
+def combined(scenery: Scenery, point: FoundPoint, step: Step, target: Components, sources: Sequence[str]) -> bool:
+    """Whether a step stands up with cofactors, where need be after coordinates that relations give are put in."""
+    rows = {source: scenery.form(source) for source in sources}
+    for order in ([], puts(scenery, scenery.finite)):
+        placed = {source: _placed(scenery, row, order) for source, row in rows.items()}
+        combination = cofactors(scenery, point, _placed(scenery, target, order), placed)
+        if combination is None:
+            continue
+        h, factors = combination
+        used = [*target.values(), h, *factors.values(), *(tree for row in factors for tree in rows[row].values())]
+        multipliers = {"h": text_of(h), "c": {row: text_of(factor) for row, factor in factors.items()}}
+        put = needed_puts(scenery, used, order)
+        if is_accepted(scenery, {**step, **multipliers, **({"put": put} if put else {})}):
+            return True
+    return False
+
+
+def _placed(scenery: Scenery, row: Components, order: Order) -> Components:
+    return {v: with_puts(scenery, tree, order) for v, tree in row.items()} if order else row
+
+
+def cofactors(
+    scenery: Scenery, point: FoundPoint, target: Components, rows: dict[str, Components]
+) -> tuple[Tree, dict[str, Tree]] | None:
+    """h and c_i with h target = sum c_i row_i in as many columns as there are rows; None where a few do not do."""
+    try:
+        chosen, columns = _chosen(scenery, point, target, rows)
+    except NoEstimateError:
+        return None
+    if len(chosen) > LARGEST_CRAMER:
+        return None
+    matrix = [[rows[row][column] for row in chosen] for column in columns]
+    h, numerators = by_cramer(matrix, [target[column] for column in columns])
+    return h, dict(zip(chosen, numerators, strict=True))
+
+
+def by_cramer(matrix: Sequence[Sequence[Tree]], right: Sequence[Tree]) -> tuple[Tree, list[Tree]]:
+    """Return the determinant of a square matrix and Cramer's numerators: the matrix maps them to it times the right."""
+    replaced = (
+        [[*line[:i], b, *line[i + 1 :]] for line, b in zip(matrix, right, strict=True)] for i in range(len(matrix))
+    )
+    return determinant(matrix), [*map(determinant, replaced)]
+
+
+def _chosen(
+    scenery: Scenery, point: FoundPoint, target: Components, rows: dict[str, Components]
+) -> tuple[list[str], list[str]]:
+    """The sources whose cofactors are not 0 near the point, and columns in which they are independent at it."""
+    nearby = Estimates({name: value + (1 + i % 5) / 16 for i, (name, value) in enumerate(point.floats.items())})
+    numbers = {row: _floats(scenery, nearby, components) for row, components in rows.items()}
+    pivots = echelon(list(numbers.values()))
+    kept, goal = [list(rows)[p.row] for p in pivots], _floats(scenery, nearby, target)
+    square = [{row: numbers[row].get(p.column, 0.0) for row in kept} for p in pivots]
+    solution = least_step(square, [goal.get(p.column, 0.0) for p in pivots])
+    chosen = [row for row in rows if abs(solution.get(row, 0.0)) > FAR]
+    pivots = echelon([_floats(scenery, point.estimates, rows[row]) for row in chosen])
+    return [chosen[p.row] for p in pivots], [p.column for p in pivots]
+
+
+def _floats(scenery: Scenery, estimates: Estimates, row: Components) -> dict[str, float]:
+    return {v: estimates.value(scenery.chosen(tree)) for v, tree in row.items() if tree != ZERO}
+
+
+def function_in(text: str | None) -> str:
+    """The function that a text such as ``x*y = C`` says to be constant; none where it is 0."""
+    function, _, constant = (text or "").rpartition("=")
+    return function.strip() if constant.strip() != "0" else ""
