@@ -88,10 +88,10 @@ def _groups(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[Told
         members = [name for name in group["members"] if name != claim["of"]]
         dependence = {**claim, "owner": claim["of"], "value": members}
         verified[f"circuit {claim['of']}"] = circuit(evidence, dependence, verified)
-    surplus, known = verified["/redundant_equations"], verified if "/redundant" in verified else {}
-    place = known.get("at /redundant", object())
+    surplus, removable = verified["/redundant_equations"], verified if "/redundant" in verified else {}
+    place = removable.get("at /redundant", object())
     constrained = [owner for owner in owners(evidence) if evidence.owned(owner)]
-    whole = len(constrained) == 1 or "apart" in known
+    whole = len(constrained) == 1 or "apart" in removable
     tied = [owner for owner in constrained if verified.get(f"at circuit {owner}") == place]
     around = [{*constrained}] if whole else [{owner, *verified[f"circuit {owner}"]} for owner in tied]
     refuse(surplus and (len(around) != 1 or (surplus > 1 and not whole)), "several groups, or none that is shown")

@@ -353,8 +353,8 @@ def curvature(evidence: CheckedEvidence, claim: Told, allowed: Collection[str]) 
         pushed = [[sum((value(evidence.slope(row, q)) * v for q, v in speeds.items()), arb(0))] for row in minor.rows]
         solution = arb_mat(slopes).solve(arb_mat(pushed))
         speeds |= {q: -solution[i, 0] for i, q in enumerate(minor.columns)}
-        parts = {(a, b): value(derivative(evidence.slope(name, a), f"{b}dot")) for a, b in product(speeds, repeat=2)}
-        curve = sum((part * speeds[a] * speeds[b] for (a, b), part in parts.items()), arb(0))
+        second = {(a, b): value(derivative(evidence.slope(name, a), f"{b}dot")) for a, b in product(speeds, repeat=2)}
+        curve = sum((slope * speeds[a] * speeds[b] for (a, b), slope in second.items()), arb(0))
         refuse(not not_zero(curve), "it may not be curved")
     return minor
 

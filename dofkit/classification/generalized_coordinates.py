@@ -169,7 +169,7 @@ def _dependent_at_reference(group: TurnedGroup, setting: Setting, places_first: 
 def _may_be_parted(block: Block) -> bool:
     """Return whether one relation has functions of coordinates: 2 x y + sin(x) has no factor x, and is 0 at x = 0."""
     relations = [r.piece.expr for r in block.finite if isinstance(r.piece, Finite)]
-    nodes = (n for e in relations for n in ex.nodes(e) if n.op in ("fn", "call") or {n.op} & n.functions)
+    nodes = (n for e in relations for n in ex.nodes(e) if n.op == "fn" or (n.op == "pow" and "pow" in n.functions))
     return any(map(coordinates_in, nodes)) and bool(explicit_relations(relations).implicit)
 
 

@@ -214,9 +214,9 @@ def curvatures(context: Context, standing: Standing) -> Iterator[Told]:
     """Yield the rule `curved`: a row that is not linear, with velocities along which it may be curved."""
     free = [q for q in context.problem.coordinates if q not in standing.columns]
     for name in standing.rows:
-        for way in (*zip(free), *combinations(free, 2)) if not context.scenery.linear(name) else ():
+        for moved in (*zip(free), *combinations(free, 2)) if not context.scenery.linear(name) else ():
             minor = {"minor": context.minor(standing)}
-            yield {"rule": "curved", **minor, "pairs": name, "speeds": dict.fromkeys(way, "1")}
+            yield {"rule": "curved", **minor, "pairs": name, "speeds": dict.fromkeys(moved, "1")}
 
 
 def rows_above(context: Context, columns: Sequence[str] | None = None) -> Iterator[Told]:

@@ -68,8 +68,8 @@ def _reached(context: Context, owner: str, alone: bool) -> Iterator[Told]:
     standing = context.standing_of(context.scenery.owned(owner)) if alone else context.standing
     if standing is None or not (alone or standing.accounted):
         return
-    own = context.scenery.owned(owner)
-    yield from (claim for claim in curvatures(context, standing) if claim["pairs"] in own)
+    owned = context.scenery.owned(owner)
+    yield from (claim for claim in curvatures(context, standing) if claim["pairs"] in owned)
     most = len(context.problem.coordinates) + context.scenery.timed if alone else reach(context)
     words = words_of(context, standing, most)
     if words is None:

@@ -137,12 +137,12 @@ class Scenery:
         return self.evidence.once(("roots", name), lambda: tuple(self._roots(name)))
 
     def _roots(self, name: str) -> Iterator[str]:
-        for sign, rest, squares in squares_of(self.evidence.relation(name).tree, frozenset()):
-            ids = {f"{self.label}root {i} of {name}": square for i, square in enumerate(squares) if not rest}
+        for sign, others, squares in squares_of(self.evidence.relation(name).tree, frozenset()):
+            ids = {f"{self.label}root {i} of {name}": square for i, square in enumerate(squares) if not others}
             with suppress(CheckError):
                 for step, (weight, root) in ids.items():
-                    others = [square for other, square in ids.items() if other != step]
-                    of_root = {"function": root, "h": weight, "sos": others, "c": {name: str(sign)}}
+                    more = [square for other, square in ids.items() if other != step]
+                    of_root = {"function": root, "h": weight, "sos": more, "c": {name: str(sign)}}
                     self.add_step({"id": step, "by": "implied", **of_root})
                     yield step
                 back = {step: f"({sign})*({weight})*({root})" for step, (weight, root) in ids.items()}
@@ -207,10 +207,10 @@ def squares_of(tree: Tree, plain: frozenset[str]) -> Iterator[tuple[int, list[Tr
     *factors, whole = operands(tree, "product")
     for sign in (1, -1):
         terms = [times(number(sign), *factors, term) for term in operands(whole, "sum")]
-        rest = [term for term in terms if term.symbols <= plain]
-        squares = [square for term in terms if term not in rest and (square := _square(term))]
-        if len(rest) + len(squares) == len(terms):
-            yield sign, rest, squares
+        others = [term for term in terms if term.symbols <= plain]
+        squares = [square for term in terms if term not in others and (square := _square(term))]
+        if len(others) + len(squares) == len(terms):
+            yield sign, others, squares
 
 
 def _square(term: Tree) -> list[str] | None:
