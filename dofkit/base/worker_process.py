@@ -56,7 +56,7 @@ def _listen(jobs_end: int, jobs: SimpleQueue[bytes]) -> None:
 
 
 def _do(request: bytes, up: int, memory: int) -> None:
-    """Do one job, and send a ``value`` message for each value that it returns or yields, then how it ended."""
+    """Do one job: send to ``up`` a ``value`` message for each value, then ``done``, ``memory`` or ``failed``."""
     try:
         name, payload, (first, seconds) = pickle.loads(request)
         allow(first)

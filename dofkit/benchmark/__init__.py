@@ -2,7 +2,7 @@
 
 Types
     A `Trial` (in `trials`) is one question about a scene whose answer is known by construction. A `TrialLine`
-    (`record`) is the answer of one method, with its processor time. Trials that differ in size only form a ladder. A
+    (`record`) is the answer of one method, with its processor time. Trials that differ only in size form a ladder. A
     `Trap` is an expression for which it is hard to decide whether it is 0.
 
 From trials to charts

@@ -136,7 +136,7 @@ def show(data: Data, out: Path, drawn: Sequence[Path]) -> None:
 
 
 def table(data: Data) -> Table:
-    """Return the table of scores, question by question, the fastest method first."""
+    """Return the table of scores: for each question its methods by median time, those without a median first."""
     rows = Table("question", "method", *OUTCOMES, "median", "Pareto", box=None, pad_edge=False)
     for column in rows.columns[2:8]:
         column.justify = "right"

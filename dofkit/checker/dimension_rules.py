@@ -40,7 +40,7 @@ def bounds(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
 
 
 def instantaneous(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
-    """n less the rank of all rows at the configuration: of rational rows, or of rows that are all in a minor."""
+    """Return n - rank of all rows at the point: by rational arithmetic, or by a nonzero minor that has every row."""
     names, point, size = evidence.equations, evidence.point(claim["at"]), len(evidence.problem.coordinates)
     evidence.is_about("reference", point)
     evidence.on_set(point, names)

@@ -209,7 +209,7 @@ class _Reader:
         return -tree if minus else tree
 
     def primary(self) -> Tree:
-        """A number, a name, a group, or a function of something."""
+        """Read a number, a name, a group or a function with arguments; refuse ``a(b)`` if a is no function."""
         if self.next.kind == "(":
             group, *more = self.arguments()
             refuse(more, "a comma stands in a group")

@@ -164,6 +164,7 @@ class CheckedRing(QuotientRing):
         return self.memory[id(tree)][1]
 
     def _read(self, tree: Tree) -> Quotient:
+        """Return the normal form of a tree; a function without a rule here becomes a generator."""
         if isinstance(tree.value, Fraction):
             return self.constant(tree.value)
         head, below = tree.head, [self.read(part) for part in tree.below]

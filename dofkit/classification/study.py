@@ -79,7 +79,7 @@ class Study:
 
     @cached_property
     def dependence(self) -> Dependence:
-        """Conflicting and dependent constraints; undecided if the share `DEPENDENCE` of the time runs out."""
+        """Conflicting and dependent constraints; out of time (share `DEPENDENCE`): no conflict, all undecided."""
         nothing = undecided_dependence(i for i, r in enumerate(self.reduced) if r.normals)
         conflicting = Conflict([])
         with part(DEPENDENCE):

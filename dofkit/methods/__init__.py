@@ -12,7 +12,7 @@ Types
 
 Mechanisms, in the order in which they are applied
     1. `classify` makes the report. With a time budget a worker process makes it, and first returns a report in which
-       everything is undecided, in case that it has to be killed. (In a browser there are no processes.)
+       everything is undecided, in case it has to be killed. (In a browser there are no processes.)
     2. The methods `auto`, `field` and `balls` are dofkit's engines (both, exact arithmetic, ball arithmetic); any other
        method has a module of its name; `single_method` turns its answers into a report: fields for those that its own
        argument proves, warnings for the others.

@@ -101,7 +101,7 @@ def kutzbach_count(
 
 
 def _terms(system: System, joints: Sequence[CountedJoint], equations: int) -> list[tuple[str, int, str]]:
-    """Return the nonzero (sign, number, what it counts) of further terms of the count."""
+    """Return (sign, signed number, what it counts) of each nonzero term after those of bodies and joints."""
     driven = sum(j.driven for j in joints)
     owned = freedom_of_body(system) * len(system.bodies) + system.dimension * len(system.particles)
     further = len(system.coordinates) - owned
@@ -251,7 +251,7 @@ def formula(system: System, written: int) -> str:
 
 
 def why(system: System, facts: CountedFacts, naive: int) -> str | None:
-    """Return why the count differs from the degrees of freedom, or None where it does not."""
+    """Return why the textbook count ``naive`` is not the degrees of freedom; None if equal or not known."""
     if facts.consistent is False:
         return "no motion satisfies all constraints, so there are no degrees of freedom to count"
     if facts.dof is None or facts.dof == naive:

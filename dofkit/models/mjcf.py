@@ -185,7 +185,7 @@ class _MjcfScene:
         return JointSum(terms, tendon["length"] - tendon["zero"])
 
     def _string(self, name: str, index: int, more: float, line: int | None) -> bool:
-        """Add a tendon between sites as a string, ``more`` longer than at zero; return False for other tendons."""
+        """Add a tendon between sites as a string, ``more`` longer than in the zero pose; False for other tendons."""
         tendon = self.content["tendons"][index]
         if any(step["kind"] != "site" for step in tendon["path"]):
             return False

@@ -33,7 +33,7 @@ class Compiled(NamedTuple):
 
 
 def described_model(source: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the compiled content of a model as json can write it. ``source``: its ``path``, or else its ``text``."""
+    """Return what a compiled model contains, in values that json can write. ``source``: its ``path``, else ``text``."""
     mujoco.set_mju_user_warning(lambda message: None)
     path = source["path"]
     notes: list[str] = []

@@ -81,7 +81,7 @@ class ShapePlacement(NamedTuple):
         return Displacement(_frame(across) @ about(2, turn), shift)
 
     def planar(self) -> tuple[Expr, ...]:
-        """Return (shift x, shift y) of a planar carrier, and if it rotates also (cosine, sine) of its angle."""
+        """Return the (x, y) shift from ``start`` to ``at``, and if it rotates (cosine, sine) of heading + turn."""
         (x, y), (a, b) = ((*at, ZERO, ZERO)[:2] for at in (self.at, self.start))
         angles = [e for e in (self.heading, self.turn) if e is not None]
         if not angles:

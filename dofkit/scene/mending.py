@@ -44,7 +44,7 @@ _UNDECLARED = re.compile(
 
 
 def faults_hidden_by(faults: Sequence[Fault], value: Mapping[str, Any]) -> Iterator[Fault]:
-    """Yield the further faults of a scene that has these faults of shape; none where its dimension is not known."""
+    """Yield the faults that appear without the entries of these faults of structure; none without a dimension."""
     mended = _MendedScene(value)
     for _ in range(MOST_ROUNDS):
         if not mended.mend(faults):

@@ -98,7 +98,7 @@ def with_bench_links(text: str, bench: str) -> str:
 
 
 def anchor(text: str) -> str:
-    """Return a title as the name of an anchor in a page.
+    """Return the anchor name of a title.
 
     >>> anchor("Points over GF(p)")
     'points-over-gf-p'

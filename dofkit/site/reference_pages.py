@@ -66,7 +66,7 @@ def _pages_of(kind: str, cls: type[ConstraintBase], scenes: Sequence[ShownScene]
 
 
 def scene_of(cls: type[ConstraintBase]) -> str:
-    """Return a whole scene with the type's example, in the plane if possible; only names that occur are declared.
+    """Return a whole scene with the type's example, in the plane if possible, which declares the names that occur.
 
     >>> print(scene_of(TYPES["coincident"]))
     dimension: 2

@@ -361,7 +361,7 @@ DEPENDENT = [
 @pytest.mark.parametrize("name", spread(DEPENDENT))
 def test_looking_at_dependent_relations_alone_changes_nothing(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     apart = told(name)
-    monkeypatch.setattr(local, "_by_parts", lambda *_: None)
+    monkeypatch.setattr(local, "_by_classes", lambda *_: None)
     whole = dofkit.classify(dofkit.load(next(SCENES.glob(f"*/{name}.yaml"))))
     kept = (
         "consistent",

@@ -245,6 +245,7 @@ WITH_ECHOES = {
         "coordinates: ['{x}']\nconstraints: ['{x} = 1', 'x = 2']\n", 1, "write `x`",
     ),
     "a particle's name that cannot be read": ("particles: [A B]\nconstraints: [x_A = 1]\n", 1, "write `A_B`"),
+    "a body in place of its coordinates": ("bodies: [a]\nconstraints: []\nconfiguration: {a: 1}\n", 3, "x_a: 0"),
 }  # fmt: skip
 
 

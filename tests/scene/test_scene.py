@@ -358,7 +358,6 @@ BAD: list[tuple[Any, tuple[str | int, ...], int | None, str, str]] = [
     ),
     (plane("x_A = 1", energies={"kinetic": "m xdot_A^2"}), ("energies", "kinetic"), 1, "`m` is not declared", ""),
     (plane("x_A = 1", energies={"forces": {"x_C": 1}}), ("energies", "forces", "x_C"), None, "no coordinate", ""),
-    (plane("x_A = 1", configuration={"crank": 1}), ("configuration", "crank"), None, "no coordinate", "x_crank: 0"),
 ]  # fmt: skip
 
 

@@ -790,7 +790,8 @@ export class Rules {
     refuse(members.some((m) => written(m) < 0 || (ordered && written(m) >= written(name))), "a circuit holds constraints written before");
     refuse(members.includes(name) || new Set(members).size < members.length, "members are other constraints");
     const all = members.flatMap((m) => this.owned(m).filter((r) => r.kind !== "inequality"));
-    this.e.relations.forEach((r) => this.e.needHolds(r, point));
+    const met = this.e.relations.filter((r) => r.kind === "finite" || all.includes(r) || equations.includes(r));
+    met.forEach((r) => this.e.needHolds(r, point));
     this.e.account({ rows: all, point }, equations, claim.covers);
     refuse(!same(Object.keys(claim.minimal ?? {}).sort(), [...members].sort()), "each member needs a minor");
     for (const m of members) {

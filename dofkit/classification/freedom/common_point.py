@@ -120,7 +120,7 @@ def _is_same_component(block: Block, result: Answer) -> bool:
 
 
 def _is_strict_at_witness(block: Block, result: Answer) -> bool:
-    """Return whether the conditions are satisfied strictly at the witness; False if it is written with roots."""
+    """Return whether all conditions hold strictly at the witness: True without one, False if it has roots in it."""
     try:
         configuration = {s: Fraction(text) for s, text in (result.witness or {}).items()}
     except ValueError:

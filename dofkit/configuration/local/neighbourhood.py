@@ -107,7 +107,7 @@ class Neighbourhood:
         return self.keys[i], float(self.scales[i])
 
     def gradients(self, symbols: Mapping[Expr, arb], critical: Split) -> list[arb]:
-        """Return, for each equation (i, j) of the critical set N, df_i/dx_j on M at a point."""
+        """Return df_i/dx_j at a point for each (i, j) of ``critical``, along the manifold of the solved equations."""
         ball = self.ball
         point = BallPoint(symbols)
         at = values(self.ring, point)

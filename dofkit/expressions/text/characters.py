@@ -105,7 +105,7 @@ def fold(text: str) -> Folded:
 
 
 def _plain(char: str, column: int) -> str:
-    """Return the plain characters that ``char``, which is not ASCII, stands for. Raises TextError if there are none."""
+    """Return what a non-ASCII ``char`` stands for, or ``char`` if it is in `_KEPT`. Raises TextError if nothing."""
     if char in _KEPT:
         return char
     for table in (_SIGNS, LETTERS, _SPACES, _MARKS):

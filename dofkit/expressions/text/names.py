@@ -71,7 +71,7 @@ class Names:
     allow_accelerations: bool = False
 
     def refused(self, symbol: Expr) -> str | None:
-        """Return what a symbol is that cannot be used here; None for one that can."""
+        """Return the kind of the symbol in words if it may not be used here, else None."""
         kind = symbol.args[0]
         if kind == "acceleration" and not self.allow_accelerations:
             return "an acceleration"

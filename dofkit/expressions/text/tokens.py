@@ -204,7 +204,7 @@ def _check_size(tokens: list[Token], columns: Sequence[int]) -> None:
 
 
 def _other(match: re.Match[str], columns: Sequence[int], text: str, lookup: Lookup) -> Token:
-    """Return a number, primes, superscript digits, or the end."""
+    """Return the token of a number, fraction, superscript, primes or the end. Raises TextError for other signs."""
     kind = match.lastgroup or ""
     written, (start, end) = match[kind], match.span(kind)
     column = columns[start]

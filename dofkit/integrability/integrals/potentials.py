@@ -194,7 +194,7 @@ def _linear(u: Expr, x: Expr) -> Expr | None:
 
 
 def _of_factor(e: Expr, x: Expr) -> Expr | None:
-    """Return the antiderivative by x of a power or function that is in the table, else None."""
+    """Return the antiderivative by x of x itself, a power, an unknown function or one in the table, else None."""
     if e.op == "pow":
         return _of_power(e, x)
     if e.op == "call":

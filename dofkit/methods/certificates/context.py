@@ -130,7 +130,7 @@ class Context:
     def standing_of(
         self, names: Sequence[str], columns: Sequence[str] | None = None, point: FoundPoint | None = None
     ) -> Standing | None:
-        """Independent rows among ``names`` at a point (the main one), in order; in ``columns`` where given."""
+        """Return which rows of ``names`` are independent at ``point`` (default: main) in ``columns``, or None."""
         point = point or self.point
         if point is None:
             return None

@@ -166,6 +166,7 @@ def circuit(context: Context, entry: ConstraintEntry, field: str) -> Iterator[To
 
 
 def _circuit(context: Context, owner: str, members: Sequence[str]) -> Iterator[Told]:
+    """Yield evidence that the members, and no fewer of them, imply the constraint ``owner``."""
     equations = context.scenery.owned(owner)
     rows = {name: context.scenery.owned(name) for name in members}
     whole = context.accounted([*(row for name in members for row in rows[name]), *equations])

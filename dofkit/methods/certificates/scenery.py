@@ -166,7 +166,7 @@ class Scenery:
         return self.evidence.once(("chosen", name), lambda: self.chosen(self.evidence.relation(name).tree))
 
     def chosen(self, tree: Tree) -> Tree:
-        """A tree with the functions chosen."""
+        """Return the tree with each unknown function replaced by the one chosen for the certificate."""
         if not self.functions:
             return tree
         bodies_of_functions = {

@@ -60,7 +60,7 @@ class Tidier:
         return ordered(best)
 
     def _forms(self, e: Expr) -> Iterator[Expr]:
-        """Yield candidate forms: sorted by velocities with factored coefficients, then those of SymPy."""
+        """Yield other forms of e: collected by velocities with factored coefficients, then those of SymPy."""
         check()
         if all(n.op in ("num", "sym") for n in ex.nodes(e)):
             return

@@ -64,7 +64,7 @@ def hold_nowhere(relations: Sequence[Expr], conditions: Sequence[DomainCondition
 
 
 def _is_refuted(claims: Sequence[SignClaim], positive: frozenset[Expr]) -> bool:
-    """Return whether one claim is never satisfied, or the claims contradict each other by signs or by a resultant.
+    """Return whether an inequality never holds, or the claims contradict each other by signs or by a resultant.
 
     u >= 0 is also written u = s^2 with a new unknown s.
     """
