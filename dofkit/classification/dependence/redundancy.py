@@ -53,6 +53,8 @@ def redundancies(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome)
 def _within_domain(r: Redundancies, reduced: Sequence[Reduced], setting: Setting) -> Redundancies:
     """Return ``r``, about a component only if a redundant constraint as written has no value at some points."""
     required = {c for i in r.redundant for c in reduced[i].domain() if not is_always_satisfied(c, setting.positive)}
+    if not required:  # of many parts, each would look at all constraints otherwise
+        return r
     by_others = {c for i, other in enumerate(reduced) if i not in r.redundant for c in other.domain()}
     return r if required <= by_others else _within(r, "component")
 

@@ -180,6 +180,8 @@ def has_kink_at_reference(normal: Normal, setting: Setting) -> bool:
         return False
     written = (p for p in normal.pieces if isinstance(p, Finite) and not isinstance(p, JointEquation))
     pieces = [p for p in written if "abs" in p.expr.functions or "pow" in p.expr.functions]
+    if not pieces:  # the reference configuration may be long
+        return False
     configuration = {**setting.reference, ex.TIME: ex.ZERO}
     arguments = [substitute(u, configuration) for p in pieces for u in arguments_of(p.expr)]
     return any(is_zero(u, setting.positive) for u in arguments)
