@@ -262,4 +262,8 @@ def _scaled(piece: Piece) -> Hashable:
     """Return a key that is equal for pieces that are multiples of each other."""
     if isinstance(piece, DomainCondition):
         return piece
-    return type(piece), up_to_a_number(piece.rate if isinstance(piece, Pfaffian) else piece.expr)
+    if isinstance(piece, Pfaffian):  # coefficients of dense forms are not expanded: that takes long
+        written = sorted(piece.items(), key=lambda item: repr(item[0]))
+        scale = next((ex.num(1 / ex.number_and_rest(e)[0]) for _, e in written), ex.ONE)
+        return type(piece), tuple([(symbol, ex.mul(scale, e)) for symbol, e in written])
+    return type(piece), up_to_a_number(piece.expr)
