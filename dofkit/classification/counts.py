@@ -22,7 +22,7 @@ from dofkit.exact.matrices.sparse import cross, echelon
 from dofkit.exact.ring.program import raising_no_value
 from dofkit.mobility import special_position
 from dofkit.mobility.counts import kutzbach_count
-from dofkit.mobility.general_position import General, in_general_position
+from dofkit.mobility.general_position import GenericRank, in_general_position
 from dofkit.mobility.placement import TURNS, Member, Placement, drawn_placement, measured_placement, rows_of
 from dofkit.relations.normal.pieces import Finite
 from dofkit.report import Generic, Mobility
@@ -38,7 +38,7 @@ SHARE = 0.4
 #: Positions with a tolerance count as special (lines as parallel, for example) within so many tolerances.
 SLACK = 10
 T = TypeVar("T")
-_LATE = General(None, why="there was no time to count")
+_LATE = GenericRank(None, why="there was no time to count")
 
 
 @dataclass(frozen=True)

@@ -349,24 +349,24 @@ def modelled(system: System, outcome: Outcome) -> str:
     finite = sum(not b.forms and not b.nonlinear for b in outcome.blocks)
     if finite:
         sentences.append("no integrability test where all equations are geometric (d(dg) = 0)")
-    sentences += _looked_at(outcome)
+    sentences += _not_looked_at(outcome)
     if system.forces:
         sentences.append("forces are left out: they are not constraints")
     sentences += [f"left out: {answer}" for answer in system.left_out]
     return "; ".join(sentences) or "nothing constrains anything"
 
 
-def _looked_at(outcome: Outcome) -> Iterator[str]:
+def _not_looked_at(outcome: Outcome) -> Iterator[str]:
     """Yield sentences on the relations and coordinates that were left out of the analysis of finite motions."""
     left_out = sum(a.looked.left_out for a in outcome.answers)
     if left_out:
         whole = sum(len(b.rows) for b in outcome.blocks)
         yield (
             f"{left_out} of {many(whole, 'relation')} {verb(left_out)} in no dependent set (as in open chains), "
-            "so their finite motion was not examined"
+            "which was not examined for finite motions"
         )
     if any(a.looked.spared for a in outcome.answers):
         yield (
-            "fewer coordinates for the finite motions (welded bodies and rigid clusters as one body, bodies that do "
-            "not turn as particles, variables that a linear equation gives explicitly)"
+            "finite motions were examined in fewer coordinates (welded bodies and rigid clusters as one body, bodies "
+            "that do not turn as particles, variables that a linear equation gives explicitly)"
         )

@@ -41,9 +41,9 @@ from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Chart
 
 #: Number of searches for points near the reference, and size of the random displacements, in the columns' scales.
-BESIDE, AWAY = 12, 0.05
-#: A point differs from the reference beyond `MOVED`; it satisfies a relation up to `TOGETHER` (half the digits).
-MOVED, TOGETHER, TINY = 1e-3, 1e-6, 1e-300
+STARTS, PERTURBATION = 12, 0.05
+#: A point differs from the reference beyond `MOVED`; it satisfies a relation up to `SATISFIED` (half the digits).
+MOVED, SATISFIED, TINY = 1e-3, 1e-6, 1e-300
 
 
 @dataclass(frozen=True)
@@ -92,7 +92,8 @@ class ImpliedRelations:
     def seem_to_follow(self, rows: Sequence[int], others: Sequence[int]) -> bool:
         """Return whether ``rows`` are satisfied at points near the reference that satisfy ``others``.
 
-        This is numerical evidence, from random starts, for sets that are singular throughout.
+        This is numerical evidence, from random starts, for sets that are singular throughout. False also if half of the
+        searches end at the reference, which says nothing.
         """
         chart = self.chart
         start = float_point(chart, self.reference)
@@ -100,18 +101,18 @@ class ImpliedRelations:
             return False
         search = RealSearch(chart.ring, [chart.nodes[i] for i in others], chart.unknowns, chart.setting.positive)
         moved = 0
-        for seed in range(BESIDE):
+        for seed in range(STARTS):
             check()
             there = search.start(seed, {})
             for s, scale in zip(chart.symbols, chart.scales, strict=True):
-                there[s] = start[s] + AWAY * scale * there.get(s, 0.0)
+                there[s] = start[s] + PERTURBATION * scale * there.get(s, 0.0)
             there = {**start, **{s: there[s] for s in chart.symbols}}
             if search.descend(there, seed) is None:
                 continue
-            if self._distance(there, rows) > TOGETHER:
+            if self._distance(there, rows) > SATISFIED:
                 return False
             moved += any(abs(there[s] - start[s]) > MOVED * k for s, k in zip(chart.symbols, chart.scales, strict=True))
-        return moved >= BESIDE // 2
+        return moved >= STARTS // 2
 
     def _distance(self, symbols: Mapping[Expr, float], rows: Sequence[int]) -> float:
         """Return the linearised distance, in the columns' scales, from a point to the zeros of some relations."""

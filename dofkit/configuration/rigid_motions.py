@@ -17,11 +17,11 @@ from dofkit.exact.ring.program import gradient, values
 from dofkit.expressions import tree as ex
 from dofkit.relations.blocks import Chart
 
-#: A velocity field: {column: [(factor, other column or None)]} means the sum of factor * (its value, or 1 for None).
-Displacement = dict[int, list[tuple[int, int | None]]]
+#: A velocity field: {column: [(factor, another column or None)]}: the sum of factor * (that coordinate, or 1 for None).
+AffineField = dict[int, list[tuple[int, int | None]]]
 
 
-def displacement_fields(chart: Chart) -> list[Displacement]:
+def displacement_fields(chart: Chart) -> list[AffineField]:
     """Return the fields of translations and rotations of all particles and planar bodies of a block.
 
     Empty unless every coordinate is a position x, y, z or the angle of a planar body.
@@ -34,9 +34,9 @@ def displacement_fields(chart: Chart) -> list[Displacement]:
     for c in here:
         by_owner.setdefault(str(c.owner), {})[c.role] = place[c.name]
     axes = sorted({r for roles_of in by_owner.values() for r in roles_of if r != "angle"})
-    result: list[Displacement] = [{o[a]: [(1, None)] for o in by_owner.values() if a in o} for a in axes]
+    result: list[AffineField] = [{o[a]: [(1, None)] for o in by_owner.values() if a in o} for a in axes]
     for a, b in combinations(axes, 2):
-        turn: Displacement = {}
+        turn: AffineField = {}
         for o in by_owner.values():
             if a in o and b in o:
                 turn[o[a]] = [(-1, o[b])]
@@ -64,7 +64,7 @@ def rigid_fields(chart: Chart, point: FieldPoint) -> list[list[Any]]:
         return []
     slopes = _slopes(chart, away)
     kept = [f for f in fields if _keeps(chart, away, f, slopes)]
-    return [_at(chart, point, f) for f in kept]
+    return [_velocity_at(chart, point, f) for f in kept]
 
 
 def rigid_motions_real(chart: Chart, point: BallPoint | FloatPoint) -> int:
@@ -80,19 +80,19 @@ def displacements_real(chart: Chart, point: BallPoint | FloatPoint) -> list[list
     if away is None:
         return []
     slopes = _slopes(chart, away)
-    rows = [_at(chart, point, field) for field in fields if _keeps(chart, away, field, slopes)]
+    rows = [_velocity_at(chart, point, field) for field in fields if _keeps(chart, away, field, slopes)]
     return [[float(v.mid()) if isinstance(v, arb) else float(v) for v in row] for row in rows]
 
 
-def _at(chart: Chart, point: FieldPoint | BallPoint | FloatPoint, field: Displacement) -> list[Any]:
+def _velocity_at(chart: Chart, point: FieldPoint | BallPoint | FloatPoint, field: AffineField) -> list[Any]:
     """Return the velocity of a field at a point, over the columns."""
     zero = point.number(ex.ZERO.args[0])
     vector = [zero] * len(chart.columns)
     at = values(chart.ring, point)
-    factors = {k: at[chart.ring.var_node[c]] if c >= 0 else zero for k, c in enumerate(chart.columns)}
+    coordinates = {k: at[chart.ring.var_node[c]] if c >= 0 else zero for k, c in enumerate(chart.columns)}
     for column, terms in field.items():
         for factor, other in terms:
-            vector[column] = vector[column] + (zero + 1 if other is None else factors[other]) * factor
+            vector[column] = vector[column] + (zero + 1 if other is None else coordinates[other]) * factor
     return vector
 
 
@@ -104,10 +104,10 @@ def _slopes(chart: Chart, point: FieldPoint | BallPoint) -> list[dict[int, Any]]
 
 
 def _keeps(
-    chart: Chart, point: FieldPoint | BallPoint, field: Displacement, slopes: Sequence[Mapping[int, Any]]
+    chart: Chart, point: FieldPoint | BallPoint, field: AffineField, slopes: Sequence[Mapping[int, Any]]
 ) -> bool:
     """Return whether the derivatives of all relations along a field are 0 at a point."""
-    vector = _at(chart, point, field)
+    vector = _velocity_at(chart, point, field)
     unit = point.number(ex.ONE.args[0])
     of = {c: vector[i] for i, c in enumerate(chart.columns) if c >= 0}
     for g in slopes:

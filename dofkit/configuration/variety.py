@@ -231,10 +231,13 @@ def generators_of(chart: Chart) -> set[int]:
 
 
 def chart_of_relations(chart: Chart, relations: Sequence[Expr], ring: Ring | None = None) -> Chart:
-    """Return a chart of other relations with the columns that they mention; with a given ``ring``, with all columns."""
+    """Return the chart with other ``relations``, and a column for each coordinate that they mention.
+
+    With a ``ring`` all coordinates keep a column. Column -1: no relation mentions the coordinate.
+    """
     mentioned = frozenset[Expr]().union(*(g.symbols for g in relations))
-    symbols = chart.symbols if ring else tuple(s for s in chart.symbols if s in mentioned)
-    ring = ring or Ring(relations, chart.setting.positive)
+    symbols = chart.symbols if ring is not None else tuple(s for s in chart.symbols if s in mentioned)
+    ring = Ring(relations, chart.setting.positive) if ring is None else ring
     nodes = tuple(ring.node(g) for g in relations)
     columns = tuple(-1 if (i := ring.var_index(s)) is None else i for s in symbols)
     return replace(chart, ring=ring, nodes=nodes, symbols=symbols, columns=columns, relations=tuple(relations))

@@ -46,14 +46,14 @@ class Bridge:
         """Return the ``order``-th derivative by time of the coordinate ``name``, in SymPy."""
         return self.positions[name].diff(self.time, order)
 
-    def sympy(self, e: Expr) -> Any:
+    def to_sympy(self, e: Expr) -> Any:
         """Return ``e`` in SymPy. Raises KeyError if a coordinate of ``e`` was not given."""
-        for node in ex.nodes(e):
+        for node in ex.nodes(e):  # operands before what has them
             if node not in self._memo:
-                self._memo[node] = self._to_sympy(node)
+                self._memo[node] = self._node_to_sympy(node)
         return self._memo[e]
 
-    def _to_sympy(self, e: Expr) -> Any:
+    def _node_to_sympy(self, e: Expr) -> Any:
         """Return a node in SymPy, whose operands are in the memo already."""
         sp = self._sympy
         if e.op == "num":
@@ -96,14 +96,14 @@ class Bridge:
 
     # From SymPy
 
-    def expr(self, e: Any) -> Expr:
+    def from_sympy(self, e: Any) -> Expr:
         """Return the SymPy expression ``e`` as an `Expr`. Raises UntranslatableError if it has no counterpart."""
         translated = self._back.get(e)
         if translated is None:
-            translated = self._back[e] = self._from_sympy(e)
+            translated = self._back[e] = self._node_from_sympy(e)
         return translated
 
-    def _from_sympy(self, e: Any) -> Expr:
+    def _node_from_sympy(self, e: Any) -> Expr:
         """Return a SymPy expression as an `Expr`. Raises UntranslatableError."""
         sp = self._sympy
         if e.is_Rational:
@@ -118,11 +118,11 @@ class Bridge:
             if isinstance(e, getattr(sp, kind)):
                 return read(self, e)
         if isinstance(e, sp.core.function.AppliedUndef):
-            return ex.call(str(e.func.__name__), map(self.expr, e.args))
+            return ex.call(str(e.func.__name__), map(self.from_sympy, e.args))
         elementary = _BACK.get(type(e).__name__)
         if elementary is None:
             raise UntranslatableError(f"SymPy's {type(e).__name__} cannot be written here")
-        return ex.fn(elementary, *map(self.expr, e.args))
+        return ex.fn(elementary, *map(self.from_sympy, e.args))
 
     def _parameter(self, e: Any) -> Expr:
         return self._parameters.get(e) or ex.parameter(str(e.name))
@@ -140,7 +140,7 @@ class Bridge:
             return ex.sym(kinds[order], self._names[base])
         if not isinstance(base, self._sympy.core.function.AppliedUndef):
             raise UntranslatableError("a derivative that was not worked out")
-        return ex.call(str(base.func.__name__), map(self.expr, base.args), self._orders(base, steps))
+        return ex.call(str(base.func.__name__), map(self.from_sympy, base.args), self._orders(base, steps))
 
     def _orders(self, base: Any, steps: Mapping[Any, int]) -> tuple[int, ...]:
         """Return how often ``base`` is differentiated by each argument. Raises if two arguments share a variable."""
@@ -156,20 +156,20 @@ class Bridge:
             raise UntranslatableError("a substitution that was not carried out")
         values = dict(zip(e.variables, e.point, strict=True))
         steps = {variable: int(order) for variable, order in inner.variable_count}
-        arguments = [self.expr(values.get(a, a)) for a in inner.expr.args]
+        arguments = [self.from_sympy(values.get(a, a)) for a in inner.expr.args]
         return ex.call(str(inner.expr.func.__name__), arguments, self._orders(inner.expr, steps))
 
 
 def _sign(bridge: Bridge, e: Any) -> Expr:
-    argument = bridge.expr(e.args[0])
+    argument = bridge.from_sympy(e.args[0])
     return argument / ex.fn("abs", argument)
 
 
 _READ: dict[str, Callable[[Bridge, Any], Expr]] = {
-    "Add": lambda b, e: ex.add(*map(b.expr, e.args)),
-    "Mul": lambda b, e: ex.mul(*map(b.expr, e.args)),
-    "exp": lambda b, e: ex.fn("exp", b.expr(e.args[0])),
-    "Pow": lambda b, e: ex.power(b.expr(e.base), b.expr(e.exp)),
+    "Add": lambda b, e: ex.add(*map(b.from_sympy, e.args)),
+    "Mul": lambda b, e: ex.mul(*map(b.from_sympy, e.args)),
+    "exp": lambda b, e: ex.fn("exp", b.from_sympy(e.args[0])),
+    "Pow": lambda b, e: ex.power(b.from_sympy(e.base), b.from_sympy(e.exp)),
     "Derivative": Bridge.derivative,
     "Subs": Bridge.substituted,
     "sign": _sign,
@@ -195,12 +195,12 @@ def antiderivative_by_sympy(e: Expr, x: Expr, positive: frozenset[Expr]) -> Expr
 
     renamed = {s: ex.parameter(f"p{i}") for i, s in enumerate(sorted(e.symbols, key=repr))}
     bridge = Bridge((), frozenset(renamed[s] for s in e.symbols & positive))
-    integrand, variable = bridge.sympy(substitute(e, renamed)), bridge.sympy(renamed[x])
+    integrand, variable = bridge.to_sympy(substitute(e, renamed)), bridge.to_sympy(renamed[x])
     for integrate in integrators():
         try:
             integral = integrate(integrand, variable)
         except (ArithmeticError, AttributeError, BasePolynomialError, LookupError, RuntimeError, TypeError, ValueError):
             continue  # NotImplementedError is a RuntimeError
         if not integral.has(Integral, Piecewise):
-            return substitute(bridge.expr(integral), {p: s for s, p in renamed.items()})
+            return substitute(bridge.from_sympy(integral), {p: s for s, p in renamed.items()})
     return None

@@ -113,7 +113,7 @@ class IntegralSearch:
         chart = self.forms.chart
         self.ring = chart.ring
         self.functions = [v.index for v in self.ring.vars if v.kind not in ("sign", "pi")][:MAX_FUNCTIONS]
-        self.constant = {i for i in self.functions if not _moves(self.ring.var_expr[i])}
+        self.constant = {i for i in self.functions if not _depends_on_motion(self.ring.var_expr[i])}
         self.solver = TriangularSolver(self.ring, list(chart.nodes)) if chart.nodes else None
         self.points: list[FormSample] = []
         self._attempts = 0
@@ -148,7 +148,10 @@ class IntegralSearch:
                 yield f
 
     def _along_curve(self, monomials: Sequence[Monomial]) -> list[list[Residue]]:
-        """Return the equations X f = 0 as the coefficients of series along one random curve; [] without series."""
+        """Return the linear equations X f = 0 for the weights of the products in f, for every X of a basis of D.
+
+        They are coefficients of power series along one random curve; [] if a function has no series there.
+        """
         sample = self.sample(0)
         if sample is None:
             return []
@@ -232,7 +235,7 @@ def _with_all_symbols(forms: Codistribution) -> Codistribution:
     return Codistribution(chart, replace(forms.rows, columns=columns), forms.finite)
 
 
-def _moves(e: Expr) -> bool:
+def _depends_on_motion(e: Expr) -> bool:
     return any(s.args[0] in ("coordinate", "time") for s in e.symbols)
 
 
@@ -249,7 +252,10 @@ def _sample_at(forms: Codistribution, point: FieldPoint | None) -> FormSample | 
 def _sample_of(
     forms: Codistribution, base: FieldPoint, frame: Pivots, point: FieldPoint | SeriesPoint
 ) -> FormSample | None:
-    """Return the sample at ``base``, or along a curve through it; None if a function has no value or series."""
+    """Return the sample at ``point``: ``base``, or a curve through it; None if a function has no value or series.
+
+    ``frame``: the pivots of the rows at ``base``, which give a basis of D along the curve too.
+    """
     ring, columns = forms.chart.ring, forms.chart.columns
     unit = point.number(Fraction(1))
     at = values(ring, point)
@@ -257,7 +263,7 @@ def _sample_of(
     basis = kernel(matrix, frame, unit * 0) if frame.free else []
     gradients = []
     for v, node in zip(ring.vars, ring.var_node, strict=True):
-        g = gradient(ring, at, point, [(node, unit)]) if _moves(ring.var_expr[v.index]) else {}
+        g = gradient(ring, at, point, [(node, unit)]) if _depends_on_motion(ring.var_expr[v.index]) else {}
         gradients.append({i: g[c] for i, c in enumerate(columns) if c in g})
     return FormSample(base, frame, [at[node] for node in ring.var_node], gradients, basis, matrix)
 

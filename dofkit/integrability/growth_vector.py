@@ -317,7 +317,7 @@ def _derived(flows: Sequence[AdmissibleCurve], dimensions: Sequence[int], step: 
 
 
 def _random_bracket(flows: Sequence[AdmissibleCurve], step: int) -> tuple[Scalar, ...]:
-    """Return [Y, Z] at the point for random fields Y, Z of S_step."""
+    """Return the bracket [Y, Z] at the point of two random fields of S_k, k = ``step``: brackets of up to k factors."""
     weights = [[[random_column(f, f.pulled[k].ncols()) for k in range(step)] for f in flows] for _ in range(2)]
     fields = [_combined([f.pulled for f in flows], w) for w in weights]
     derivatives = [_combined([varied_frame(f, fields[1 - i]) for f in flows], weights[i]) for i in range(2)]

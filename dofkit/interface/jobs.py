@@ -174,10 +174,10 @@ def distinct_names(files: Sequence[str]) -> list[str]:
 
 
 def reply(pool: Pool, function: str, request: Request) -> Printed:
-    """Return what is printed about one file; if the worker was killed, that the answer is undecided or an error."""
+    """Return what is printed about one file; if the worker was killed, an undecided report or an error message."""
     share = SHARE if request.certificate or request.strict or request.picture else 1
-    reading = limit(max(request.budget, DEFAULT_SECONDS)) if function == "report_lines" else None
-    outcome = pool.run(Job(f"{ANSWERS}:{function}", request, share * limit(request.budget), reading))
+    reading_limit = limit(max(request.budget, DEFAULT_SECONDS)) if function == "report_lines" else None
+    outcome = pool.run(Job(f"{ANSWERS}:{function}", request, share * limit(request.budget), reading_limit))
     if outcome.finished:
         return Printed(**outcome.value)
     if function == "report_lines":

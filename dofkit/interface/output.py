@@ -72,10 +72,10 @@ def progress(line: str, stream: TextIO) -> Iterator[None]:
 
 @contextmanager
 def failures_of(file: str | None) -> Iterator[None]:
-    """Print an error of the block and end with status 2; ``file``: what it is about, if the error names no file."""
+    """Print an error that the ``with`` block raises, and end with status 2; ``file``: its subject if it names none."""
     try:
         yield
-    except BrokenPipeError:
+    except BrokenPipeError:  # nobody reads the output any more: not a fault of the file
         raise
     except (DofkitError, OSError) as error:
         from dofkit.interface.show.faults import complaint  # a command that succeeds needs no sentences about faults

@@ -145,7 +145,10 @@ def _is_finite(r: Reduced) -> bool:
 
 
 def _by_graph(system: System, question: Question) -> Reply | None:
-    """Return the reply by the graph for links of generic lengths, which are in general position; None for others."""
+    """Return the reply that the graph of links gives if no length is prescribed, so that they are in general position.
+
+    None for other systems, and for redundancy if a constraint has several links, of which some may be redundant.
+    """
     pairs = unprescribed_links(system)
     if pairs is None:
         return None

@@ -48,7 +48,7 @@ class Symbols:
 
     def read(self, e: Expr) -> Any:
         """Return an expression in positions, parameters and time as a SymPy expression."""
-        expression = self._bridge.sympy(e)
+        expression = self._bridge.to_sympy(e)
         return expression.xreplace(self._positions).xreplace({self._bridge.time: self._time})
 
     def row(self, form: Form) -> list[Any]:

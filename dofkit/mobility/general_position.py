@@ -44,7 +44,7 @@ NOWHERE = "the equations have no value at the random positions that were tried"
 
 
 @dataclass(frozen=True)
-class General:
+class GenericRank:
     """The ``rank`` of the geometric equations in general position; None if it was not computed (``why``)."""
 
     rank: int | None
@@ -52,15 +52,15 @@ class General:
     why: str = ""
 
 
-def in_general_position(system: System, rows: Sequence[Row], setting: Setting) -> General:
+def in_general_position(system: System, rows: Sequence[Row], setting: Setting) -> GenericRank:
     """Return the rank of the geometric equations ``rows`` with random positions and directions."""
     if any(not isinstance(row.piece, Finite) for row in rows):
-        return General(None, why=DIFFERENTIAL)
+        return GenericRank(None, why=DIFFERENTIAL)
     pairs = linked_particles(system) if "cheapest" in setting.reductions else None
     if pairs is None:
-        return _of_rows(system, rows, setting)
+        return _rank_of_rows(system, rows, setting)
     rank = linkage([pair for _, pair in pairs], system.dimension).rank
-    return General(rank, "proved" if system.dimension < 3 else "probable")
+    return GenericRank(rank, "proved" if system.dimension < 3 else "probable")
 
 
 def linked_particles(system: System) -> list[tuple[int, Pair]] | None:
@@ -72,11 +72,14 @@ def linked_particles(system: System) -> list[tuple[int, Pair]] | None:
     return [(constraint, pair) for constraint, names in ends for pair in combinations(names, 2)]
 
 
-def _of_rows(system: System, finite: Sequence[Row], setting: Setting) -> General:
-    """Return the rank of connections and formulas at random positions."""
+def _rank_of_rows(system: System, finite: Sequence[Row], setting: Setting) -> GenericRank:
+    """Return the rank of the connections, and of the ``finite`` rows that are formulas, at random positions.
+
+    At random positions formulas may have a smaller rank by chance, so that with them it is probable.
+    """
     written = _as_formulas(system, finite)
     if written and any(r.chart == "euler" for r in system.rotations):
-        return General(None, why=ANGLES)
+        return GenericRank(None, why=ANGLES)
     for seed in range(DRAWS):
         random_rows = _at_random_places(system, written, setting, seed)
         if random_rows is None:
@@ -84,11 +87,11 @@ def _of_rows(system: System, finite: Sequence[Row], setting: Setting) -> General
         placement, rows = random_rows
         for connection in placement.located:
             check()
-            conditions = rows_of(connection) or [] if connection.facts.placed else []
+            conditions = (rows_of(connection) or []) if connection.facts.placed else []
             rows += [{c: int(v % placement.p) for c, v in row.items() if v % placement.p} for row in conditions]
         rank = rank_of_rows(rows, placement.p)
-        return General(rank, "proved" if rank == len(rows) and not written else "probable")
-    return General(None, why=NOWHERE)
+        return GenericRank(rank, "proved" if rank == len(rows) and not written else "probable")
+    return GenericRank(None, why=NOWHERE)
 
 
 def _as_formulas(system: System, rows: Sequence[Row]) -> list[Row]:

@@ -232,7 +232,10 @@ def _hanging(graph: nx.Graph, fixed: Mapping[str, Sequence[float]], d: int) -> d
 
 
 def _spatial_poses(system: System, numbers: Mapping[Expr, float], gibbs: bool) -> dict[str, Displacement]:
-    """Return {spatial body: displacement from the reference}; ``gibbs``: rotations are in the system's charts."""
+    """Return {spatial body: displacement from the reference} with the coordinates' values in ``numbers``.
+
+    ``gibbs``: bodies with a Gibbs chart have Gibbs vectors there, as in the system; otherwise all have Euler angles.
+    """
     poses = {}
     for r in system.rotations:
         at = np.array([numbers.get(coordinate(c.name), 0.0) for c in system.coordinates if c.owner == r.body])

@@ -268,7 +268,11 @@ def _unit(points: Sequence[Array], size: float) -> float:
 def _all_places(
     scene: Scene, arrangement: Arrangement, written: Sequence[Place | None], unit: float
 ) -> tuple[list[Place | None], bool]:
-    """Return (place of every symbol, whether they are schematic); free ones are put near the bodies that they join."""
+    """Return (place of every constraint's symbol, whether the graph was laid out instead of geometry).
+
+    ``written``: the places that the scene gives; every other symbol is put near the bodies that it joins, apart from
+    the others.
+    """
     places = list(written)
     system = arrangement.system
     symbols = [constraint.symbol for constraint in scene.constraints]

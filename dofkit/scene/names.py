@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import NamedTuple
 
@@ -158,9 +158,10 @@ def _declared_names(scene: Declarations, table: NameTable, parameters: Mapping[s
 
 
 def within_member(names: Names, letters: tuple[str, ...]) -> Names:
-    """Return the names with ``letters`` as a member's coordinates instead of their other meanings."""
+    """Return the names in a formula about one particle or body, whose coordinates ``letters`` hide other meanings."""
     letter_names = frozenset(letters)
-    return Names(
+    return replace(
+        names,
         coordinates=names.coordinates | letter_names,
         parameters={name: value for name, value in names.parameters.items() if name not in letter_names},
         functions={name: arity for name, arity in names.functions.items() if name not in letter_names},

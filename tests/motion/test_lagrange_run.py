@@ -47,7 +47,7 @@ def drift(made: Scene, begin: Sequence[float] = ()) -> float:
     state = [*method.q, *method.u]
     flat = sympy.symbols(f"q:{2 * n}")
     bridge = Bridge(report.coordinates, derived.model.positive)
-    shown = bridge.sympy(parse_expression(energy, names_of(made, report)))
+    shown = bridge.to_sympy(parse_expression(energy, names_of(made, report)))
     constants = {s: sympy.Rational(8 + i, 7) for i, s in enumerate(sorted(shown.free_symbols, key=str))}
     constants |= {s: sympy.Rational(11, 7) for s in method.mass_matrix_full.free_symbols - set(constants)}
     swapped = dict(reversed(list(zip(state, flat, strict=True))))

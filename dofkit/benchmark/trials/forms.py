@@ -61,6 +61,7 @@ def many_blocks() -> Iterator[KnownScene]:
 
 
 def _blocks(name: str, blocks: Sequence[Row], because: str) -> KnownScene:
+    """Return a scene of separate blocks, whose names end in the block's number; its dof is the sum of theirs."""
     names = [f"{q}{k}" for k, part in enumerate(blocks) for q in part["coordinates"].split()]
     rows = [
         {"name": f"part{k}_{i}", "type": "equation", "text": row.replace("{k}", str(k))}

@@ -29,12 +29,12 @@ from dofkit.homework.formats.wording import decided, feedback, identity, line, n
 from dofkit.homework.result import Result
 
 #: Results without a row, each with the reason.
-Apart = list[tuple[Result, str]]
+Unwritten = list[tuple[Result, str]]
 POINTS = "Points Possible"
 #: Headers that Canvas does not read as assignments: words anywhere in a title, and whole titles.
 _TAKEN = re.compile(r"(Current|Final) (Score|Points|Grade)|Override (Score|Grade|Status)")
 _CANVAS = ("Student", "ID", "SIS User ID", "SIS Login ID", "Section")
-_RESERVED = frozenset({*_CANVAS, "LastName", "FirstName", "Integration ID", "Root Account"})
+_NO_TITLES = frozenset({*_CANVAS, "LastName", "FirstName", "Integration ID", "Root Account"})
 #: {Moodle's name of a column: function that returns a member's value}, in order of preference.
 _MOODLE: dict[str, Callable[[Participant], str]] = {
     "userid": lambda member: member.moodle,
@@ -49,7 +49,7 @@ def apart_path(out: Path) -> Path:
     return out.with_name(f"{out.stem}.apart.csv")
 
 
-def _write(rows: Sequence[Sequence[str]], apart: Apart, target: Target) -> None:
+def _write(rows: Sequence[Sequence[str]], apart: Unwritten, target: Target) -> None:
     """Write a table, and list the results without a row: in a file beside it, or for a stream on standard error."""
     with opened(target) as stream:
         table(stream).writerows(rows)
@@ -89,7 +89,9 @@ def is_cell(student: str) -> bool:
     return bool(student.strip()) and cell(identity(student)) == student
 
 
-def _rows(results: Iterable[Result], roster: Roster | None, apart: Apart) -> list[tuple[Result, Participant | None]]:
+def _rows(
+    results: Iterable[Result], roster: Roster | None, apart: Unwritten
+) -> list[tuple[Result, Participant | None]]:
     """Return (result, member of the roster or None) for the results that have a row; append the others to ``apart``."""
     rows: dict[str, tuple[Result, Participant | None]] = {}
     for result in results:
@@ -111,8 +113,8 @@ def _rows(results: Iterable[Result], roster: Roster | None, apart: Apart) -> lis
 
 def write_canvas(results: Sequence[Result], prepared: Prepared, target: Target, roster: Roster | None = None) -> None:
     """Write Canvas's table. Raises FormatError for a title that Canvas does not read as an assignment."""
-    title, apart = line(prepared.assignment.title), Apart()
-    if title in _RESERVED or _TAKEN.search(title):
+    title, apart = line(prepared.assignment.title), Unwritten()
+    if title in _NO_TITLES or _TAKEN.search(title):
         raise FormatError(f"Canvas takes no column '{title}' for an assignment: give the assignment another title")
     exported = re.compile(re.escape(title) + r"\s*\(\d+\)")  # as an exported gradebook has it, with Canvas's own id
     column = next((name for name in (roster.columns if roster else ()) if exported.fullmatch(name)), title)
@@ -140,7 +142,7 @@ def _canvas_identity(student: str, member: Participant | None) -> list[str]:
 
 def write_moodle(results: Sequence[Result], prepared: Prepared, target: Target, roster: Roster | None = None) -> None:
     """Write Moodle's table: a column that identifies the student, the grade, and the feedback."""
-    title, apart = line(prepared.assignment.title), Apart()
+    title, apart = line(prepared.assignment.title), Unwritten()
     rows = _rows(results, roster, apart)
     column = _moodle_column(roster, rows[0][0].student if rows else "")
     table_rows = [[column, cell(title), cell(f"{title} (feedback)")]]

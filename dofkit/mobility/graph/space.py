@@ -33,11 +33,11 @@ class SpaceGraph:
     def __init__(self, joints: int, ends: Sequence[Ends]) -> None:
         self._joints, self._ends = joints, ends
         first: dict[frozenset[int], int] = {}
-        self._original: dict[int, int] = {}
+        self._parallel_to: dict[int, int] = {}  # {link: the first link between the same joints}
         for i, pair in enumerate(self._ends):
             original = first.setdefault(frozenset(pair), i)
             if original != i:
-                self._original[i] = original
+                self._parallel_to[i] = original
         self._links = list(first.values())
         self._pairs = [self._ends[i] for i in self._links]
 
@@ -50,13 +50,13 @@ class SpaceGraph:
 
     @cached_property
     def _circuits(self) -> dict[int, list[int]]:
-        """{redundant link: the earlier links on which it depends}."""
-        if len(self.redundant) == len(self._original):
+        """Return {redundant link: the earlier links on which it depends}."""
+        if len(self.redundant) == len(self._parallel_to):
             supports: dict[int, tuple[int, ...]] = {}
         else:
             supports = echelon(self._matrix.rows, self._matrix.p, supports=True).supports
         circuits = {self._links[k]: [self._links[j] for j in support] for k, support in supports.items()}
-        return circuits | {i: circuits.get(original, [original]) for i, original in self._original.items()}
+        return circuits | {i: circuits.get(original, [original]) for i, original in self._parallel_to.items()}
 
     def circuits(self, links: Sequence[int]) -> Iterator[tuple[int, list[int]]]:
         return ((i, self._circuits[i]) for i in links)
@@ -70,7 +70,7 @@ class SpaceGraph:
         return sorted([*sets, *([v] for v in set(range(self._joints)).difference(*sets))])
 
     def proof(self) -> Proof:
-        circuits = {i: c for i, c in self._circuits.items() if i not in self._original}
+        circuits = {i: c for i, c in self._circuits.items() if i not in self._parallel_to}
         uncounted = [i for i, c in circuits.items() if not _is_counted([self._ends[j] for j in (i, *c)])]
         if uncounted:
             chance = chance_of_error(len(uncounted), len(self._ends))

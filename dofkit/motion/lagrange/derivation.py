@@ -79,16 +79,16 @@ def derive(model: LagrangeModel) -> Derived:
     bridge = Bridge(model.names, model.positive)
     method, tidy, multipliers = sympys_method(model, bridge), Tidier(bridge, model.positive), _multipliers(model)
     formed = list(method.form_lagranges_equations()) if model.names else []
-    symbols = [bridge.sympy(ex.parameter(name)) for name in multipliers]
+    symbols = [bridge.to_sympy(ex.parameter(name)) for name in multipliers]
     swapped = dict(zip(getattr(method, "lam_vec", ()) or (), symbols, strict=False))
     equations = {n: tidy(e.xreplace(swapped)) for n, e in zip(model.names, formed, strict=True)}
     if not multipliers:
         equations = {n: without_exponentials(e, model.positive) for n, e in equations.items()}
-    lagrangian = bridge.sympy(model.energy.lagrangian)
+    lagrangian = bridge.to_sympy(model.energy.lagrangian)
     momenta, forces = {}, {}
     for n, q in bridge.positions.items():
         momenta[n] = tidy(lagrangian.diff(bridge.velocity(n)))
-        forces[n] = tidy(lagrangian.diff(q) + bridge.sympy(model.applied(n)))
+        forces[n] = tidy(lagrangian.diff(q) + bridge.to_sympy(model.applied(n)))
     return Derived(model, tidy(lagrangian), momenta, forces, equations, multipliers)
 
 
@@ -98,18 +98,18 @@ def sympys_method(model: LagrangeModel, bridge: Bridge) -> Any:
 
     frame, loads = ReferenceFrame("N"), []
     for n, q in bridge.positions.items():
-        force = bridge.sympy(model.applied(n))
+        force = bridge.to_sympy(model.applied(n))
         if force != 0:
             point = Point(f"P_{n}")
             point.set_vel(frame, q.diff() * frame.x)
             loads.append((point, force * frame.x))
     return LagrangesMethod(
-        bridge.sympy(model.energy.lagrangian),
+        bridge.to_sympy(model.energy.lagrangian),
         list(bridge.positions.values()),
         forcelist=loads or None,
         frame=frame if loads else None,
-        hol_coneqs=[bridge.sympy(g) for g in model.holonomic] or None,
-        nonhol_coneqs=[bridge.sympy(r) for r in model.nonholonomic] or None,
+        hol_coneqs=[bridge.to_sympy(g) for g in model.holonomic] or None,
+        nonhol_coneqs=[bridge.to_sympy(r) for r in model.nonholonomic] or None,
     )
 
 

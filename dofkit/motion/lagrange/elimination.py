@@ -34,7 +34,7 @@ def by_time(e: Expr) -> Expr:
 
 
 def motions(solved: Mapping[str, Expr]) -> dict[Expr, Expr]:
-    """Return {q, qdot, qddot: expression} for every coordinate in ``solved``, with q = f(other coordinates, t)."""
+    """Return {q, qdot, qddot: expression} for every solved coordinate; ``solved`` gives q = f(other coordinates, t)."""
     values: dict[Expr, Expr] = {}
     for name, value in solved.items():
         velocity = by_time(value)
@@ -73,14 +73,14 @@ class Elimination:
 class Candidate(NamedTuple):
     """A solution q = value of a relation for the coordinate ``name``.
 
-    Candidates are ordered by ``cost``; ``over`` is a divisor that must not vanish; ``other`` is a second root.
+    Candidates are ordered by ``cost``; the ``divisor`` must not vanish; ``other_root``: of a quadratic relation.
     """
 
     cost: tuple[int, int, int]
     name: str
     value: Expr
-    over: Expr
-    other: Expr | None
+    divisor: Expr
+    other_root: Expr | None
 
 
 @dataclass
@@ -116,7 +116,10 @@ class Eliminator:
     def _attempt(
         self, relations: Sequence[EliminatedRelation], names: Sequence[str], preferred: Sequence[str], roots: bool
     ) -> Elimination | None:
-        """Solve for one coordinate after the other, with at most one root if ``roots``; None if it needs a second."""
+        """Return an elimination of one coordinate after the other; None if a second square root would be needed.
+
+        Without ``roots`` no quadratic relation is solved. It ends where a solution has no value in another relation.
+        """
         solved: dict[str, Expr] = {}
         constants: set[Expr] = set()
         notes: list[str] = []
@@ -128,26 +131,25 @@ class Eliminator:
             if best is None:
                 break
             relation, candidate = best
-            if candidate.other is not None and has_root:
+            if candidate.other_root is not None and has_root:
                 return None
-            remaining.remove(relation)
-            value = ordered(candidate.value)
-            if candidate.other is not None:
-                has_root = True
-                value, why = self._chosen(candidate.name, value, ordered(candidate.other), solved)
-                notes.append(why)
-            elif not _never_zero(candidate.over, self.positive):
-                notes.append(
-                    f"The solution for {candidate.name} is valid where {to_text(_unsigned(candidate.over))} is not 0."
-                )
+            value, note = ordered(candidate.value), None
+            if candidate.other_root is not None:
+                value, note = self._chosen(candidate.name, value, ordered(candidate.other_root), solved)
+            elif not _never_zero(candidate.divisor, self.positive):
+                divisor = to_text(_unsigned(candidate.divisor))
+                note = f"The solution for {candidate.name} is valid where {divisor} is not 0."
             mapping = {ex.coordinate(candidate.name): value}
             try:
-                solved = {n: substitute(e, mapping) for n, e in solved.items()} | {candidate.name: value}
-                remaining = [r._replace(expr=substitute(r.expr, mapping)) for r in remaining]
-                remaining = [r for r in remaining if not is_identically_zero(r.expr, self.positive)]
+                with_value = {n: substitute(e, mapping) for n, e in solved.items()}
+                others = [r._replace(expr=substitute(r.expr, mapping)) for r in remaining if r is not relation]
+                remaining = [r for r in others if not is_identically_zero(r.expr, self.positive)]
             except NoValueError:
                 break
+            solved = {**with_value, candidate.name: value}
+            has_root = has_root or candidate.other_root is not None
             constants |= relation.constants
+            notes += [note] if note else []
         return Elimination(solved, frozenset(constants), tuple(notes))
 
     def _best(
@@ -158,7 +160,7 @@ class Eliminator:
             for relation in relations
             for place, name in enumerate(names)
             if (candidate := self._solved(relation.expr, name, (name not in preferred, -place))) is not None
-            and (roots or candidate.other is None)
+            and (roots or candidate.other_root is None)
         ]
         candidates.sort(key=lambda pair: pair[1].cost)
         return next((pair for pair in candidates if self._checked(*pair)), None)
@@ -190,7 +192,7 @@ class Eliminator:
     @false_without_value
     def _checked(self, relation: EliminatedRelation, candidate: Candidate) -> bool:
         """Return whether the relation is proved to be 0 with the solution (and the other root), and short enough."""
-        q, solutions = ex.coordinate(candidate.name), (candidate.value, candidate.other)
+        q, solutions = ex.coordinate(candidate.name), (candidate.value, candidate.other_root)
         return all(
             sum(1 for _ in ex.nodes(value)) <= LONGEST_SOLUTION
             and is_identically_zero(substitute(relation.expr, {q: value}), self.positive) is True

@@ -79,17 +79,17 @@ class _Linearization:
 
     def plain(self, e: Expr) -> Expr:
         """Return an expression with its known values, such as sin(pi/5), evaluated by SymPy."""
-        return e if e.op == "num" else self.bridge.expr(self.bridge.sympy(e))
+        return e if e.op == "num" else self.bridge.from_sympy(self.bridge.to_sympy(e))
 
     def matrix(self, rows: Sequence[Sequence[Expr]]) -> Any:
         """Return a matrix of expressions as a SymPy matrix."""
         import sympy
 
-        return sympy.Matrix([[self.bridge.sympy(e) for e in row] for row in rows])
+        return sympy.Matrix([[self.bridge.to_sympy(e) for e in row] for row in rows])
 
     def may_vanish(self, det: Any) -> bool:
         """Return whether a determinant may be 0: False only if it is proved not to be."""
-        return is_identically_zero(self.bridge.expr(det.expand()), self.model.positive) is not False
+        return is_identically_zero(self.bridge.from_sympy(det.expand()), self.model.positive) is not False
 
     @none_without_value
     def balancing(self, place: Place) -> Place | None:
@@ -212,7 +212,7 @@ class _Linearization:
         system = self.model.study.system
         taken = {*(c.name for c in system.coordinates), *system.parameters, *system.functions}
         name = next(n for n in ("s", "sigma", "s_", "exponent", "characteristic_exponent") if n not in taken)
-        symbol = self.bridge.sympy(ex.parameter(name))
+        symbol = self.bridge.to_sympy(ex.parameter(name))
         top, bottom = sympy.fraction(sympy.together(polynomial))
         if s not in top.free_symbols:
             return to_text(self.tidy(polynomial.xreplace({s: symbol})))

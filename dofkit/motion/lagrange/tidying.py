@@ -42,7 +42,7 @@ class Tidier:
 
     def __call__(self, e: Any) -> Expr:
         """Return a SymPy expression as an `Expr` in its shortest form."""
-        return self.shorter(self.bridge.expr(e))
+        return self.shorter(self.bridge.from_sympy(e))
 
     def shorter(self, e: Expr) -> Expr:
         """Return the shortest form that is proved equal to ``e``, in the usual order of terms."""
@@ -67,14 +67,14 @@ class Tidier:
         sorted_by_rates = by_rates(e, self.positive)
         forms = [e] if sorted_by_rates is None else [e, sorted_by_rates]
         yield from forms[1:]
-        plain = self.bridge.sympy(forms[-1])
+        plain = self.bridge.to_sympy(forms[-1])
         if int(plain.count_ops()) > EXPANDED:
             return
         waves = any(n.op == "fn" and n.args[0] in ("sin", "cos") for n in ex.nodes(e))
         for form in self._by_sympy(plain, waves, terms(e) <= TERMS):
             check()
             try:
-                yield self.bridge.expr(form)
+                yield self.bridge.from_sympy(form)
             except (UntranslatableError, NoValueError):
                 continue
 
@@ -83,7 +83,7 @@ class Tidier:
         import sympy
         from sympy.simplify.fu import TR6, TR10i
 
-        if waves and terms(self.bridge.expr(e)) <= JOINED:
+        if waves and terms(self.bridge.from_sympy(e)) <= JOINED:
             yield TR10i(e)
         if expands:
             rates = [self.bridge.velocity(n, k) for k in (2, 1) for n in self.bridge.positions]

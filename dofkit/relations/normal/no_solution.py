@@ -41,7 +41,8 @@ MAX_RESULTANT_TERMS, MAX_RESULTANT_DEGREE, MAX_PAIRS, ROUNDS = 40, 8, 60, 2
 def no_solution(relations: Sequence[Expr], positive: frozenset[Expr], conditions: Sequence[Expr] = ()) -> bool:
     """Return whether it is proved that no real point satisfies ``relations`` (= 0) and ``conditions`` (>= 0).
 
-    Parameters may have any value (those of ``positive`` a positive one), unknown functions as well. False: not proved.
+    This holds for all values of parameters (for positive ones of those in ``positive``) and of unknown functions.
+    False: not proved.
     """
     return refuted([*(SignClaim(e, "=") for e in relations), *(SignClaim(e, ">=") for e in conditions)], positive)
 
