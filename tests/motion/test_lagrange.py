@@ -461,10 +461,30 @@ def test_equations_too_long_to_read_keep_a_multiplier() -> None:
     assert "too long" in report.notes[-1]
 
 
-def test_an_unstable_equilibrium_has_no_frequencies() -> None:
-    top = scene(coordinates="theta", **energies("m l^2 thetadot^2/2", "m g l cos(theta)"))
-    small = dofkit.lagrange(top, linearize=True).linearized
+@pytest.mark.parametrize(
+    ("potential", "forces", "frequencies", "unstable"),
+    [
+        ("m g l cos(theta)", {}, [], True),
+        ("-m g l cos(theta)", {"theta": "-l thetadot"}, [], False),  # m l^2 s^2 + l s + m g l
+        ("-m g l cos(theta)", {"theta": "l thetadot"}, [], True),
+        ("theta^4", {"theta": "-l thetadot"}, [], None),  # s (m l^2 s + l)
+        ("theta^2/2 + z^2/2", {"theta": "2 z", "z": "-2 theta"}, [], True),  # flutter: w^2 is not real
+        (
+            "theta^2/2 + 2 z^2",
+            {"theta": "z", "z": "z - theta"},
+            ["sqrt(2)"] * 2,
+            None,
+        ),  # (w^2 - 2)^2 = 0, with resonance
+    ],
+)
+def test_the_growth_of_small_motions(
+    potential: str, forces: dict[str, str], frequencies: list[str], unstable: bool | None
+) -> None:
+    kinetic = "thetadot^2/2 + zdot^2/2" if "z" in potential else "m l^2 thetadot^2/2"
+    letters = "theta z" if "z" in potential else "theta"
+    small = dofkit.lagrange(
+        scene(coordinates=letters, **energies(kinetic, potential, forces=forces)), linearize=True
+    ).linearized
     assert small is not None
-    assert small.stiffness == [["-m*g*l"]]
-    assert small.frequencies == []
-    assert small.unstable
+    assert small.unstable is unstable
+    assert small.frequencies == frequencies

@@ -90,7 +90,7 @@ def _small_motions(small: Linearized) -> SheetSection:
         remarks.append(Remark("characteristic equation", _formula(f"{small.characteristic} = 0")))
     remarks += [Remark("angular frequency", _formula(frequency)) for frequency in small.frequencies]
     if small.unstable:
-        remarks.append(Remark("unstable", "the square of a frequency is negative, and deviations grow"))
+        remarks.append(Remark("unstable", "some deviation grows"))
     return SheetSection(f"Linearized at {_place(small.equilibrium)}", remarks)
 
 

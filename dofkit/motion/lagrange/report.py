@@ -29,8 +29,8 @@ class Linearized(ReportModel):
     """M qddot + C qdot + K q = 0 for small deviations q of ``coordinates`` from an equilibrium.
 
     ``characteristic``: det(M s^2 + C s + K), empty for large systems; ``frequencies``: angular frequencies as texts, if
-    C is 0, all are real and have formulas, else empty. ``unstable``: whether a square of a frequency is negative, so
-    that deviations grow; false if that is not known.
+    C is 0, all are real and have formulas, else empty. ``unstable``: whether some deviation grows; null if that is not
+    known.
     """
 
     coordinates: list[str]
@@ -40,7 +40,7 @@ class Linearized(ReportModel):
     stiffness: list[list[str]]
     characteristic: str
     frequencies: list[str]
-    unstable: bool = False
+    unstable: bool | None = None
 
 
 class MotionReport(DisplayedFormulas, ReportModel):

@@ -201,8 +201,8 @@ class _Linearization:
             damping=damping,
             stiffness=stiffness,
             characteristic="" if polynomial is None else self._by_powers(polynomial, s),
-            frequencies=[] if any(w.is_negative for w in squares) else [self._frequency(w) for w in squares],
-            unstable=any(bool(w.is_negative) for w in squares),
+            frequencies=[] if any(map(_is_no_frequency, squares)) else [self._frequency(w) for w in squares],
+            unstable=None if polynomial is None else _grows(polynomial, s, squares, matrices.stiffness),
         )
 
     def _by_powers(self, polynomial: Any, s: Any) -> str:
@@ -231,6 +231,36 @@ class _Linearization:
         factored = sympy.factor(square)
         by_factors, whole = to_text(self.tidy(sympy.sqrt(factored))), f"sqrt({to_text(self.tidy(factored))})"
         return min(by_factors, whole, key=len)
+
+
+def _is_no_frequency(square: Any) -> bool:
+    """Return whether a square of a frequency is negative, or not real (flutter)."""
+    return bool(square.is_negative or square.is_real is False)
+
+
+def _grows(polynomial: Any, s: Any, squares: Sequence[Any], stiffness: Any) -> bool | None:
+    """Return whether some motion grows, from the characteristic polynomial; None if the signs do not tell.
+
+    A real polynomial whose roots have no positive real part has coefficients of one sign. They all have a negative one
+    if the principal minors of its Hurwitz matrix are positive [Hurwitz1895]. Equal frequencies may resonate unless the
+    stiffness is symmetric.
+    """
+    import sympy
+
+    coefficients = sympy.Poly(sympy.fraction(sympy.together(polynomial))[0], s).all_coeffs()
+    monic = [sympy.expand(c * sympy.sign(coefficients[0])) for c in coefficients]
+    if any(c.is_negative for c in monic) or any(map(_is_no_frequency, squares)):
+        return True
+    if (
+        squares
+        and all(w.is_positive for w in squares)
+        and (len(set(squares)) == len(squares) or stiffness.is_symmetric())
+    ):
+        return False
+    n = len(monic) - 1
+    hurwitz = sympy.Matrix(n, n, lambda i, j: monic[2 * j - i + 1] if 0 <= 2 * j - i + 1 <= n else 0)
+    minors = (hurwitz[:k, :k].det(method="berkowitz").expand() for k in range(1, n + 1))
+    return False if n and monic[0].is_positive and all(minor.is_positive for minor in minors) else None
 
 
 def _squares(polynomial: Any, s: Any, damping: Any) -> list[Any]:
