@@ -51,7 +51,8 @@ def timed_reply(asked: tuple[TrialTask, float, str]) -> Json:
     """Return the timed reply to ``asked``: (task, limit of processor time in seconds, answering ``module:function``).
 
     The reply is a mapping with ``value``, ``verdict``, ``reason``, ``cannot`` and ``seconds``; None if it took longer:
-    then it is interrupted, and the process goes on. What cannot be interrupted is killed with the process.
+    then it is interrupted, and the process goes on. What cannot be interrupted is killed with the process. A tiny scene
+    is answered first, so that imports are not timed; the least time of several counts where it is short.
     """
     task, limit, answering = asked
     function = partial(function_named(answering), task.trial.scene, task.trial.question, task.method, task.trial.answer)

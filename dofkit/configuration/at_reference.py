@@ -187,9 +187,9 @@ def _rigid() -> str:
 
 
 def _of_class(chart: Chart, pose: Mapping[Expr, Expr], rank: int) -> tuple[LocalDimension | None, int]:
-    """Return (local dimension of one class, number of coordinates that were eliminated).
+    """Return (local dimension of one class of relations, which depend on no others; number of eliminated coordinates).
 
-    None as the dimension if its set is not known to be a manifold whose codimension is the rank.
+    The dimension is None unless the set is known to be a manifold whose codimension is the rank.
     """
     point = pose_point(chart, pose, 3)
     if point is None:

@@ -151,7 +151,7 @@ def _confined_answer(chart: Chart, result: Answer) -> Answer:
 
 
 def _measured_answer(chart: Chart, freedom: MeasuredFreedom) -> Answer:
-    """Return the answer of a block with a given freedom within the tolerance."""
+    """Return the answer of a block whose ``freedom`` was measured, within the tolerance."""
     dimension = freedom.dimension
     result = Answer(True, dimension, dimension, "numeric" if dimension is not None else "undecided")
     result.argument, result.gap, result.about = "singular values", freedom.gap, "reference"

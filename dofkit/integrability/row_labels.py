@@ -261,9 +261,9 @@ def _label(place: int, forms_at_points: SampledForms, proof_of: Certificate | No
 
 
 def _modulo_the_others(place: int, sampled: SampledSpan, p: int) -> bool:
-    """Return whether the row is in the sum of I^(inf) and the span of the other rows, but not in that span.
+    """Return whether row ``place`` is in the sum of I^(inf) and the span of the other rows, but not in that span.
 
-    It is in the sum if it vanishes on all vectors of the Lie algebra on which the other rows vanish.
+    It is in the sum if it vanishes on all vectors of the Lie algebra on which the others vanish. False without others.
     """
     others = [row for i, row in enumerate(sampled.matrix) if i != place]
     if not others or rank_of(others, p) == rank_of(sampled.matrix, p):

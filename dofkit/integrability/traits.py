@@ -202,10 +202,11 @@ class Integrability:
     integral: str | None = None
 
 
-def integrability(form: Pfaffian, positive: frozenset[Expr], alone: bool | None) -> Integrability:
-    """Return the proof, if any, that a form is integrable; ``alone``: whether it is by numbers, None if undecided.
+def proved_integrability(form: Pfaffian, positive: frozenset[Expr], alone: bool | None) -> Integrability:
+    """Return the proof, if there is one, that a form is integrable on its own; without one it may still be.
 
-    An integral is searched for only if there is a proof or ``alone`` is True; if it is False nothing is tried.
+    ``alone``: whether it is so at random points, None if undecided. An integral is searched for only with a proof, or
+    if ``alone`` is True; if it is False nothing is tried.
     """
     if alone is False:
         return Integrability(False)

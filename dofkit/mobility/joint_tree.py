@@ -33,7 +33,7 @@ def tree_coordinates(system: System) -> list[str] | None:
     rows = [dict(row) for row in _coupled(system)]
     if len(rows) != sum(bool(c.rates) for c in system.connections):
         return None
-    dependent = _first_of_each(rows)
+    dependent = _pivots(rows)
     names = [f"{system.constraints[c.constraint].name}.{what}" for c in joints for what in c.facts.freedoms]
     return [name for name in (*names, *_floating(system, joints)) if name not in dependent]
 
@@ -78,8 +78,8 @@ def _coupled(system: System) -> Iterator[dict[str, Fraction]]:
             yield {rate.name: rate.slope.args[0] for rate in c.rates}
 
 
-def _first_of_each(rows: list[dict[str, Fraction]]) -> set[str]:
-    """Return the names for which the rows are solved: for each the first that remains after elimination."""
+def _pivots(rows: list[dict[str, Fraction]]) -> set[str]:
+    """Return the names for which the rows are solved: of each row the first that earlier rows leave; no entry is 0."""
     pivots: dict[str, dict[str, Fraction]] = {}
     for row in rows:
         for name, pivot in pivots.items():

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from dofkit.base.wording import first_of
-from dofkit.expressions.text import valid_name
+from dofkit.expressions.text import why_invalid
 from dofkit.models.joint_relations import DECIMALS, OVER, JointSum, bounds, whole_turns
 from dofkit.system import BINDING, GROUND
 
@@ -229,7 +229,7 @@ def identifier(name: str, taken: set[str]) -> str:
     """
     plain = re.sub(r"\W+", "_", name, flags=re.ASCII).strip("_") or "part"
     plain = plain if plain[0].isalpha() else f"n{plain}"
-    if valid_name(f"x_{plain}") is not None:
+    if why_invalid(f"x_{plain}") is not None:
         plain = f"{plain}_"
     return unique(plain, taken)
 

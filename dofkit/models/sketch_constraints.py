@@ -211,6 +211,7 @@ def _midpoint(m: SketchMentions) -> Iterable[Written]:
 
 
 def _diameter(m: SketchMentions) -> Iterable[Written]:
+    """Yield the equation of a diameter: of a circle by its radius, of an arc by the distance to its first end."""
     (curve,) = m.curves
     if curve.ends is not None:
         yield _link(curve.centre, curve.ends[0], m.value / 2)

@@ -99,7 +99,10 @@ def as_text(c: Comparison) -> str:
 
 
 def with_equations(scene: Scene, read: Read, called: str) -> Scene:
-    """Return the scene with the equations of ``read`` added to its constraints, named ``called`` 1, 2, ..."""
+    """Return the scene with the equations of ``read`` added to its constraints, named ``called`` 1, 2, ...
+
+    New constants become parameters; what the scene expects is left out, because it is about the scene as it was.
+    """
     more = tuple(Equation(name=f"{called} {i + 1}", text=text) for i, text in enumerate(read.texts))
     parameters = {**scene.parameters, **dict.fromkeys(read.constants, "real")}
     changes = {"constraints": (*scene.constraints, *more), "parameters": parameters, "expect": {}}

@@ -73,7 +73,8 @@ class ParsedTexts:
     def equations(self, text: str) -> list[Relation]:
         """Return the relations in a text, which may mention symbols of every kind.
 
-        Raises TextError for a text that cannot be read, for second derivatives, and for inhomogeneous differentials.
+        A text that differs from an earlier one only in names is not parsed again. Raises TextError for a text that
+        cannot be read, for second derivatives, and for inhomogeneous differentials.
         """
         pattern = pattern_of(text, self.names.lookup)
         earlier = None if pattern is None else self._patterns.get(pattern.key)
@@ -84,12 +85,12 @@ class ParsedTexts:
                 for r in earlier[1]
             ]
         relations = _equations(text, self.names)
-        for relation in relations:
+        for relation in relations:  # raise for what a constraint cannot contain
             refuse_accelerations(relation.expr)
             in_velocities(relation.expr)
         if pattern is not None:
             for relation in relations:
-                shape_of(relation.expr)
+                shape_of(relation.expr)  # renamed copies take it over
             self._patterns[pattern.key] = pattern.names, relations
         return relations
 

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from dofkit.base.errors import Fault
 from dofkit.base.wording import nearest
-from dofkit.expressions.text import Names, spelled, valid_name
+from dofkit.expressions.text import Names, spelled, why_invalid
 from dofkit.expressions.tree import Expr, num, parameter
 from dofkit.scene.ledger import Ledger, ParsedTexts, Texts
 from dofkit.scene.parts import Body, Declarations, Particle
@@ -88,7 +88,7 @@ def readable_name(name: str) -> str:
 
 def _renaming_hint(name: str) -> str:
     plain = readable_name(name)
-    return f"write `{plain}`" if plain != name and valid_name(plain) is None else "choose another name"
+    return f"write `{plain}`" if plain != name and why_invalid(plain) is None else "choose another name"
 
 
 @dataclass(frozen=True)
@@ -193,13 +193,13 @@ def name_faults(scene: Declarations, table: NameTable) -> tuple[Fault, ...]:
             detail = "time, and is never declared" if name == "t" else "the fixed world, and is never declared"
             ledger.fault(f"'{name}' is {detail}", *where, hint="choose another name")
         else:
-            why = valid_name(name)
+            why = why_invalid(name)
             if why is not None:
                 ledger.fault(f"{why} ({what})", *where, hint=_renaming_hint(name))
     _check_derived(entries, seen, ledger)
     for name, arguments in scene.functions.items():
         for i, argument in enumerate(arguments):
-            why = None if argument == "t" else valid_name(argument)
+            why = None if argument == "t" else why_invalid(argument)
             if why is not None:
                 ledger.fault(why, "functions", name, i, hint="the arguments are names, such as [s] or [x, t]")
     return tuple(ledger.faults)
@@ -229,7 +229,7 @@ def _check_owners(scene: Declarations, ledger: Ledger) -> None:
 
 def _is_owner_name(name: str) -> bool:
     """Return whether texts can mention the coordinates of a particle or body of this name."""
-    return valid_name(f"x_{subscript(name)}") is None
+    return why_invalid(f"x_{subscript(name)}") is None
 
 
 def _owned(scene: Declarations, table: NameTable) -> Iterator[Entry]:

@@ -9,7 +9,7 @@ import pytest
 from shared.work import counted
 
 from dofkit.base.errors import TextError
-from dofkit.expressions.text import Names, UnknownNameError, parse_expression, parse_relations, valid_name
+from dofkit.expressions.text import Names, UnknownNameError, parse_expression, parse_relations, why_invalid
 from dofkit.expressions.tree import num, parameter
 
 NAMES = Names(
@@ -302,7 +302,7 @@ def test_the_nearest_of_many_names_is_found_with_little_work() -> None:
 
 @pytest.mark.parametrize("name", ["x", "theta", "θ", "θ_1", "x_A", "E", "e", "lambda", "is", "S", "N", "q1", "x" * 64])
 def test_names_that_may_be_declared(name: str) -> None:
-    assert valid_name(name) is None
+    assert why_invalid(name) is None
 
 
 @pytest.mark.parametrize(
@@ -333,6 +333,6 @@ def test_names_that_may_be_declared(name: str) -> None:
     ],
 )
 def test_names_that_may_not_be_declared(name: str, why: str) -> None:
-    reason = valid_name(name)
+    reason = why_invalid(name)
     assert reason is not None
     assert why in reason

@@ -480,11 +480,9 @@ def test_equations_too_long_to_read_keep_a_multiplier() -> None:
 def test_the_growth_of_small_motions(
     potential: str, forces: dict[str, str], frequencies: list[str], unstable: bool | None
 ) -> None:
-    kinetic = "thetadot^2/2 + zdot^2/2" if "z" in potential else "m l^2 thetadot^2/2"
-    letters = "theta z" if "z" in potential else "theta"
-    small = dofkit.lagrange(
-        scene(coordinates=letters, **energies(kinetic, potential, forces=forces)), linearize=True
-    ).linearized
+    plane = "z" in potential
+    given = energies("thetadot^2/2 + zdot^2/2" if plane else "m l^2 thetadot^2/2", potential, forces=forces)
+    small = dofkit.lagrange(scene(coordinates="theta z" if plane else "theta", **given), linearize=True).linearized
     assert small is not None
     assert small.unstable is unstable
     assert small.frequencies == frequencies

@@ -75,7 +75,10 @@ class Companionship:
         return None if others.finite or a.hidden or advances else True
 
     def modulo(self, constraint: int, block: Block, a: Answer) -> Others:
-        """Return, for a constraint that is not holonomic, a geometric equation that it implies with all the others."""
+        """Return the geometric equation that follows from a non-holonomic constraint together with all the others.
+
+        Empty if none is known. ``a``: the answer of the block.
+        """
         owners = list(dict.fromkeys(r.constraint for r in block.rows))
         if a.dof is None or len(owners) > MAX_CONSTRAINTS or len(block.coordinates) > MAX_COORDINATES:
             return Others()

@@ -25,7 +25,7 @@ from dofkit.classification.labels.reasons import (
 )
 from dofkit.exact.zero import BOTH
 from dofkit.expressions.tree import TIME
-from dofkit.integrability.traits import Integrability, Traits, integrability, traits_of
+from dofkit.integrability.traits import Integrability, Traits, proved_integrability, traits_of
 from dofkit.relations.answer import GAP, Answer, HolonomyLabel
 from dofkit.relations.blocks import Block, Row
 from dofkit.relations.normal.pieces import Clause, Finite, JointEquation, Nonlinear, Normal, Pfaffian, Reduced
@@ -270,7 +270,7 @@ def _proofs(form: Form, forms: Sequence[Pfaffian], by_itself: Answer | None, set
         return [Integrability(False) for _ in forms]
     labels = [label.holonomic for label in by_itself.labels.values()]
     single = labels[0] if len(labels) == 1 else None
-    return [integrability(f, setting.positive, single) for f in forms]
+    return [proved_integrability(f, setting.positive, single) for f in forms]
 
 
 def label_in_system(

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from dofkit.expressions.real_values import Comparison
 from dofkit.expressions.text.applications import parse_expression, parse_relations
-from dofkit.expressions.text.names import AmbiguousError, Names, UnknownNameError, spelled, valid_name
+from dofkit.expressions.text.names import AmbiguousError, Names, UnknownNameError, spelled, why_invalid
 from dofkit.expressions.text.printing import to_text
 
 __all__ = [
@@ -23,5 +23,5 @@ __all__ = [
     "parse_relations",
     "spelled",
     "to_text",
-    "valid_name",
+    "why_invalid",
 ]

@@ -86,7 +86,7 @@ class TextReader:
 
     def check_allowed(self, e: Expr, token: Token) -> None:
         """Raise TextError at ``token`` if ``e`` is time, a velocity or an acceleration and not allowed here."""
-        what = self.names.refused(e)
+        what = self.names.kind_refused(e)
         if what is not None:
             written = self.source(token.start, self.last.end)
             self.fail(f"`{written}` is {what}, which cannot be used here", token, f"write it without {what}")

@@ -70,8 +70,8 @@ class Names:
     allow_velocities: bool = True
     allow_accelerations: bool = False
 
-    def refused(self, symbol: Expr) -> str | None:
-        """Return the kind of the symbol in words if it may not be used here, else None."""
+    def kind_refused(self, symbol: Expr) -> str | None:
+        """Return the kind of the symbol, in words, if texts with these names may not use it; else None."""
         kind = symbol.args[0]
         if kind == "acceleration" and not self.allow_accelerations:
             return "an acceleration"
@@ -263,8 +263,8 @@ def _declared(names: Names) -> dict[str, Meaning]:
     return {**twins, **meanings}
 
 
-def valid_name(name: str) -> str | None:
-    """None if ``name`` may be declared as a coordinate, parameter or function, else why not."""
+def why_invalid(name: str) -> str | None:
+    """Return why ``name`` may not be declared as a coordinate, parameter or function; None if it may."""
     if not isinstance(name, str):
         return f"a name is text, not {type(name).__name__}"
     if not name:

@@ -9,7 +9,7 @@ from typing import NamedTuple
 from dofkit.base.errors import Fault, TextError
 from dofkit.classification.dependence.implication import follows
 from dofkit.classification.freedom.preparation import prepared
-from dofkit.expressions.text import Comparison, parse_expression, to_text, valid_name
+from dofkit.expressions.text import Comparison, parse_expression, to_text, why_invalid
 from dofkit.homework.answers.declared import DeclaredNames
 from dofkit.homework.answers.relations import readings_of
 from dofkit.homework.answers.vocabulary import AnswerNames
@@ -111,7 +111,7 @@ def _follows(key: Key, text: str) -> bool:
 def faults_of_own(key: Key) -> Iterator[Fault]:
     """Yield the faults of the coordinates that an assignment offers."""
     for name, text in key.also.items():
-        odd = valid_name(name)
+        odd = why_invalid(name)
         if odd is not None:
             yield Fault(odd, (name,), hint="choose another name")
         elif key.declared.names.lookup.meaning(name) is not None:

@@ -43,6 +43,7 @@ class LabelQuestion(QuestionBase):
         return say(self.words().wanted, about=about, parts=pairs)
 
     def readings(self, answer: Given, names: DeclaredNames) -> list[Reading]:
+        """Return all sets of labels that the answer may state; DoubtError if a property is described but not named."""
         del names
         labels = read_labels(answer)
         hinted = [p for p in self.parts if p not in labels and mentions(p, answer)]

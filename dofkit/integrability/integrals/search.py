@@ -212,13 +212,16 @@ def _constants(work: Algebra, form: Form, logs: list[Expr]) -> list[Expr] | None
         below = canon.unit
         for _, bottom in row:
             below = below * (bottom / below.gcd(bottom))
-        system.extend(_compared([canon.reduce(top * (below / bottom)) for top, bottom in row], fixed, canon))
+        system.extend(_coefficient_rows([canon.reduce(top * (below / bottom)) for top, bottom in row], fixed, canon))
     solution = solve(system, canon.unit)
     return None if solution is None else [canon.to_expr(a) / canon.to_expr(b) for a, b in solution]
 
 
-def _compared(polys: list[Poly], fixed: frozenset[int], canon: Canon) -> list[list[Poly]]:
-    """Return a row of coefficients, one for each of ``polys``, for every monomial in the generators not ``fixed``."""
+def _coefficient_rows(polys: list[Poly], fixed: frozenset[int], canon: Canon) -> list[list[Poly]]:
+    """Return a row of coefficients, one for each of ``polys``, for every monomial in the generators not ``fixed``.
+
+    The ``fixed`` generators stay in the coefficients.
+    """
     moving = set(range(len(canon.ring.vars))) - fixed
     by_monomial: dict[Monomial, list[Poly]] = {}
     for column, poly in enumerate(polys):

@@ -64,7 +64,7 @@ class RigidBlocks:
             self.of[v] = block
 
     def _merged(self, joints: Iterable[int]) -> int:
-        """Unite the blocks that contain two of the joints, and return their number; a new one if there is none."""
+        """Unite all blocks that contain at least two of the joints, and return the block's number; a new one if none do."""
         once, block = set[int](), NONE
         for v in joints:
             for g in self.holding(v):

@@ -15,7 +15,7 @@ from typing import NamedTuple
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.text import parse_relations
-from dofkit.expressions.text.names import Names, valid_name
+from dofkit.expressions.text.names import Names, why_invalid
 from dofkit.expressions.text.printing import to_text
 from dofkit.expressions.tree import HALF, ZERO, Expr
 from dofkit.expressions.vectors import (
@@ -138,7 +138,7 @@ class _TreeReader:
         taken = {*self.names.values(), *self.system.parameters, *self.system.functions}
         name = "".join(c if c.isascii() and (c.isalnum() or c == "_") else "_" for c in quantity).strip("_")
         name = name if name[:1].isalpha() else f"q_{name}"
-        while name in taken or valid_name(name) is not None:
+        while name in taken or why_invalid(name) is not None:
             name += "_"
         self.names[quantity] = name
         return name

@@ -121,14 +121,14 @@ def with_absolute_values(e: Expr, positive: frozenset[Expr]) -> Expr:
     if "pow" not in e.functions or not any(_root_of_sum(node) for node in ex.nodes(e)):
         return e
 
-    def folded(node: Expr) -> Expr:
+    def with_absolute_values(node: Expr) -> Expr:
         operands = ex.children(node)
         base = square_root(node.args[0], positive) if _root_of_sum(node) else None
         if base is not None:
             return ex.power(ex.fn("abs", base), ex.num(2 * node.args[1].args[0]))
-        return ex.rebuild(node, tuple(map(folded, operands))) if operands else node
+        return ex.rebuild(node, tuple(map(with_absolute_values, operands))) if operands else node
 
-    return folded(e)
+    return with_absolute_values(e)
 
 
 def _root_of_sum(node: Expr) -> bool:

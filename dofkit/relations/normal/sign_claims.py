@@ -127,7 +127,7 @@ def _sign_of_factor(factor: Expr, positive: frozenset[Expr]) -> Sense | None:
 
 
 def _products(claims: Sequence[SignClaim], positive: frozenset[Expr]) -> Iterator[SignClaim]:
-    """Yield products of two inequalities, among them positive symbols and bounds of functions."""
+    """Yield the products of all pairs of inequalities, positive symbols, and bounds of functions; none if too many."""
     symbols = frozenset[Expr]().union(*(c.expr.symbols for c in claims))
     factors = [c for c in claims if c.sense != "="]
     factors += [SignClaim(s, ">") for s in sorted(symbols & positive, key=repr)]

@@ -14,7 +14,7 @@ from dofkit.base.errors import NoValueError
 from dofkit.exact.matrices.sparse import combined
 from dofkit.expressions.calculus import diff, linear_terms, substitute
 from dofkit.expressions.enclosures import approximate
-from dofkit.expressions.text import valid_name
+from dofkit.expressions.text import why_invalid
 from dofkit.expressions.tree import MINUS_ONE, ONE, TIME, ZERO, Expr, coordinate, mul
 from dofkit.expressions.vectors import difference, dot, is_zero, length
 from dofkit.scene.constraints.base import ConstraintBase, root, with_values
@@ -127,7 +127,7 @@ class Coupling(ConstraintBase):
 
     def _joint(self, world: World, letter: str, written: str) -> MeasuredJoint | None:
         """Return the joint that is ``written`` for a letter, such as `shoulder` or `nut.angle`; None after a fault."""
-        why = valid_name(letter)
+        why = why_invalid(letter)
         if why is not None:
             world.fault(why, "joints", letter, hint=f'write a letter for it: `joints: {{q: "{written}"}}`')
             return None
