@@ -196,7 +196,7 @@ class States:
         return [[zero if c is None else row[place[c]] for c in self.velocities] for row in rows]
 
     def ranks(self, point: FieldPoint | BallPoint) -> tuple[int, int, int]:
-        """Return ranks of Jacobians: of all relations by (q, t, qdot), of ``moving`` by qdot, of ``finite`` by (q, t)."""
+        """Return ranks of Jacobians: of all by (q, t, qdot), ``moving`` ones by qdot, ``finite`` by (q, t)."""
         at = values(self.ring, point)
         zero = at[0] * 0
         places = [i for s in (*self.places, ex.TIME) if (i := self.ring.var_index(s)) is not None]

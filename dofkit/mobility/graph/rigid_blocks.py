@@ -64,7 +64,7 @@ class RigidBlocks:
             self.of[v] = block
 
     def _merged(self, joints: Iterable[int]) -> int:
-        """Unite all blocks that contain at least two of the joints, and return the block's number; a new one if none do."""
+        """Unite all blocks that contain two or more of the joints, or begin a new one, and return its number."""
         once, block = set[int](), NONE
         for v in joints:
             for g in self.holding(v):
