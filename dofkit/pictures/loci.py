@@ -20,7 +20,7 @@ from dofkit.system import Connection, Relation
 
 #: Grid points per direction in the plane, and in a slice of space; slices per direction; the most points of a line in
 #: the plane, and in a slice.
-GRID, SLICE_GRID, SLICES, DRAWN, FEW_DRAWN = 161, 41, 6, 40, 22
+GRID, SLICE_GRID, SLICES, DRAWN, FEW_DRAWN = 161, 41, 6, 120, 22
 #: The most steps of a curve in space in each direction.
 STEPS = 220
 
@@ -188,7 +188,7 @@ def profile(stage: StagedScene, number: int, connection: Connection) -> Iterator
         moved = {symbols[0]: x - here[0] + starts[0], symbols[1]: y - here[1] + starts[1]}
         return evaluated(relations[0].expr, {**numbers, **moved})
 
-    half = 1.6 * max(stage.size, 1.0)
+    half = 1.6 * stage.size
     box = (here[0] - half * 1.3, here[0] + half * 1.3, here[1] - half * 1.3, here[1] + half * 1.3)
     for line in level_lines(value, box):
         rim = tuple(stage.carried(body, (float(p[0]), float(p[1]), 0.0)) for p in line)
