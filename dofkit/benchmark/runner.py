@@ -139,18 +139,18 @@ class Bench:
         asked = (task, self.limit, self.answering)
         return self.pool.submit(self.pool.run, Job(timed_reply, asked, PATIENCE * self.limit + SPARE))
 
-    def line(self, task: TrialTask, ended: Ended) -> TrialLine:
-        """Return the line of a trial that ended. Raises StoppedError if no worker could be started."""
-        if ended.ended == "absent":
-            raise StoppedError(ended.reason)
-        if ended.finished and ended.value is not None:
-            answer, seconds = ended.value["value"], float(ended.value["seconds"])
-            outcome = "cannot" if answer is None and ended.value["cannot"] else outcome_of(task.trial.truth, answer)
-            return _line(task, answer, outcome, seconds, str(ended.value["reason"]))
-        if ended.finished or ended.ended in ("overrun", "memory"):
-            reason = ended.reason if ended.ended == "memory" else f"not done after {self.limit:g} s"
+    def line(self, task: TrialTask, job: Ended) -> TrialLine:
+        """Return the line of a trial by how its job ended. Raises StoppedError if no worker could be started."""
+        if job.ended == "absent":
+            raise StoppedError(job.reason)
+        if job.finished and job.value is not None:
+            answer, seconds = job.value["value"], float(job.value["seconds"])
+            outcome = "cannot" if answer is None and job.value["cannot"] else outcome_of(task.trial.truth, answer)
+            return _line(task, answer, outcome, seconds, str(job.value["reason"]))
+        if job.finished or job.ended in ("overrun", "memory"):
+            reason = job.reason if job.ended == "memory" else f"not done after {self.limit:g} s"
             return _line(task, None, "timed out", self.limit, reason)
-        return _line(task, None, "undecided", self.limit, f"it failed: {ended.reason}")
+        return _line(task, None, "undecided", self.limit, f"it failed: {job.reason}")
 
 
 def _line(task: TrialTask, answer: object, outcome: Outcome, seconds: float, reason: str) -> TrialLine:

@@ -126,7 +126,8 @@ def _split(case: ZeroCase, moving: frozenset[Expr], positive: frozenset[Expr]) -
 def _combined(relations: Sequence[Expr], moving: frozenset[Expr], positive: frozenset[Expr]) -> tuple[Expr, ...] | None:
     """Return an equivalent set of linear combinations, if a new one is linear or can be split; else None.
 
-    x^2 + z^2 = a^2 and x^2 + (z - w)^2 = a^2 give w (w - 2 z) = 0; two circles give their radical line.
+    ``moving``: the unknowns, as against parameters. x^2 + z^2 = a^2 and x^2 + (z - w)^2 = a^2 give w (w - 2 z) = 0; two
+    circles give their radical line.
     """
     if len(relations) < 2:
         return None

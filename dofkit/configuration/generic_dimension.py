@@ -143,7 +143,7 @@ def _outside_calls(e: Expr) -> Iterator[Expr]:
 
 
 def _by_field_alone(chart: Chart, variety: Variety) -> Variety:
-    """Return the variety if only GF(p) is used: undecided if a relation between functions may have been missed."""
+    """Return what points over GF(p) alone show: probable at most, undecided if an identity may have been missed."""
     if independent_on_set(chart.ring, chart.nodes):
         variety.verdict = weakest(variety.verdict, "probable")
         return variety

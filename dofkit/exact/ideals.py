@@ -85,7 +85,11 @@ def _integer_polynomials(
 
 
 def _unknowns(ring: Ring, used: Sequence[int], moving: Sequence[int]) -> list[int] | None:
-    """Return the generators that are coordinates, or cosines and sines of other coordinates; None if others occur."""
+    """Return the generators ``used`` that are coordinates, or cosines and sines of other coordinates.
+
+    None if another function of a coordinate occurs, or one occurs outside its cosine and sine too. Parameters, and
+    their cosines, sines and exponentials, are constants.
+    """
     kept: set[int] = set()
     for i in used:
         var = ring.vars[i]

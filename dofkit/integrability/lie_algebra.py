@@ -163,7 +163,10 @@ class AdmissibleCurve:
             self.free_part.append(some_columns(m, self.frame.free, self.numbers))
 
     def dependent_series(self, right: Callable[[int], Matrix], order: int) -> MatrixSeries:
-        """Return the series x with A_d x = ``right``, coefficient by coefficient with the inverse of A_d at s = 0."""
+        """Return the series x with A_d x = ``right``, coefficient by coefficient with the inverse of A_d at s = 0.
+
+        A_d: the dependent columns of the rows along the curve, whose parameter is s.
+        """
         series: MatrixSeries = []
         for k in range(order):
             check()

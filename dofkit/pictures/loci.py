@@ -171,7 +171,10 @@ def curve(arrangement: Arrangement, exprs: Sequence[Expr], symbols: Sequence[Exp
 
 
 def profile(stage: StagedScene, number: int, connection: Connection) -> Iterator[Shape]:
-    """Yield the profile of a cam, which moves with the second member of the constraint."""
+    """Yield the profile of a cam, which moves with the second member of the constraint.
+
+    It consists of the places of the follower at which the relation is satisfied: an area if the line is closed.
+    """
     relations = stage.system.constraints[number].relations
     vertex = next(stage.vertices(connection), None)
     if not relations or vertex is None:

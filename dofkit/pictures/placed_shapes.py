@@ -91,7 +91,7 @@ class ShapePlacement(NamedTuple):
 
 
 def carrier_placements(system: System) -> dict[str, ShapePlacement]:
-    """Return the placements of particles, and of the bodies of a line or plane, by their names."""
+    """Return {name: placement} of particles, and of the bodies of a line or plane; bodies turn from the reference."""
     placements: dict[str, ShapePlacement] = {}
     flat = system.bodies if system.dimension < 3 else ()
     for carrier in (*flat, *system.particles):

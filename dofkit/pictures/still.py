@@ -204,7 +204,7 @@ def svg(scene: SceneLike, report: Report | None = None, width: float = WIDTH) ->
 
 
 def unanswered(scene: Scene, report: Report, title: str) -> Picture | None:
-    """Return the picture for an assignment, or None for coordinates without a `picture`. Raises as `draw`.
+    """Return the picture for an assignment; None if the scene has only coordinates and no `picture`. Raises as `draw`.
 
     It does not show the answers: no equations, motions, redundant or conflicting constraints, and no ruler.
     """

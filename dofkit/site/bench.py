@@ -42,7 +42,7 @@ def build_bench(out: Path, catalog: Sequence[ShownScene]) -> None:
             shutil.copyfile(path, out / path.name)
     _write_catalog(out, catalog)
     (out / "schema.json").write_text(json.dumps(scene_schema()), encoding="utf-8")
-    _write_version(out)
+    _write_service_worker(out)
 
 
 def _write_catalog(out: Path, catalog: Sequence[ShownScene]) -> None:
@@ -76,7 +76,7 @@ def _fill_script(out: Path) -> None:
     (out / WORKER).unlink()
 
 
-def _write_version(out: Path) -> None:
+def _write_service_worker(out: Path) -> None:
     """Write the service worker ``offline.js`` with the list of files to keep, and a digest of all as its version."""
     files = sorted(path for path in out.rglob("*") if path.is_file() and path.name != ONE_SCRIPT)
     digest = hashlib.sha256()

@@ -71,6 +71,10 @@ def _in_text(row: Row) -> Context:
     finite = not any("dz" in text for text in row["rows"])
 
     def scene_with_trap(trap: Trap, t: str, zero: bool) -> KnownScene | None:
+        """Return the scene of the row with T = ``t``, which is 0 if ``zero``; None if T may contradict or not.
+
+        Whole numbers in the table are counted from the number of coordinates.
+        """
         if contradictory and not zero and not trap.never:
             return None
         n = 3 + len(trap.coordinates)

@@ -130,7 +130,11 @@ class Equivalence:
     constants: frozenset[str]
 
     def result(self) -> Compared:
-        """Return how the submitted constraints compare with the wanted ones."""
+        """Return how the submitted constraints compare with the wanted ones, and which of these they imply.
+
+        A submitted constraint is sound if the wanted ones imply it, a wanted one is met if the sound ones imply it;
+        None is undecided.
+        """
         if any(r.inequalities for r in (*self.wanted, *self.submitted)):
             return self._unilateral()
         if same_up_to_numbers(self.submitted, self.wanted, self.setting.positive):
@@ -141,25 +145,25 @@ class Equivalence:
         if None in sound or None in met:
             # The submitted constraints may be inconsistent even if the implications are undecided.
             return Compared(Sameness.UNDECIDED) if self._possible else self._empty
-        answer = tuple(bool(m) for m in met)
-        if all(answer) and all(sound):
-            return Compared(self._regularity(), answer)
-        if all(answer):
-            return Compared(self._too_strong(), answer)
-        differentiated = all(sound) and not any(answer) and self._differentiated()
+        are_met = tuple(bool(m) for m in met)
+        if all(are_met) and all(sound):
+            return Compared(self._regularity(), are_met)
+        if all(are_met):
+            return Compared(self._too_strong(), are_met)
+        differentiated = all(sound) and not any(are_met) and self._differentiated()
         if differentiated is not False:
-            return Compared(Sameness.DIFFERENTIATED if differentiated else Sameness.UNDECIDED, answer)
+            return Compared(Sameness.DIFFERENTIATED if differentiated else Sameness.UNDECIDED, are_met)
         if not self._possible:
             return self._empty
         integrated = self._integrated()
         if integrated is not None:
-            return Compared(integrated, answer)
+            return Compared(integrated, are_met)
         if all(sound):
-            return Compared(Sameness.WEAKER, answer)
+            return Compared(Sameness.WEAKER, are_met)
         implied = self._follow(self._all_wanted, self._answer)
         if implied is None:
-            return Compared(Sameness.UNDECIDED, answer)
-        return Compared(self._too_strong() if implied else Sameness.DIFFERENT, answer)
+            return Compared(Sameness.UNDECIDED, are_met)
+        return Compared(self._too_strong() if implied else Sameness.DIFFERENT, are_met)
 
     @cached_property
     def _answer(self) -> list[Normal]:

@@ -183,7 +183,7 @@ DIGITS = 15
 
 
 def inequalities_together(study: Study, fields: Mapping[str, Any]) -> Mapping[str, Any]:
-    """Return the report's fields about inequalities, and those of ``fields`` that change."""
+    """Return the report's fields about inequalities, and new values of four of its ``fields`` that they change."""
     result = feasibility(study)
     at = _texts(study.system, result.at) if result.feasible else None
     claims = _claims(result)

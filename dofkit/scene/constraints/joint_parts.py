@@ -192,7 +192,7 @@ class Holds:
         return "point" in self.motion_parts or ("axis" in self.motion_parts and "across" in self.motion_parts)
 
     def mentioned(self, first: Frame, second: Frame, geometry: JointGeometry) -> frozenset[str] | None:
-        """Return the coordinates in the equations if common coordinates connect all of these, else None.
+        """Return the coordinates in the equations if these form one block; None if they may share no coordinate.
 
         A body's angles occur in all equations of a place that is not its origin, and in those of an axis. Equations in
         the directions of the first of two moving bodies mention all coordinates of both.

@@ -51,6 +51,7 @@ class Fixed(ConstraintBase):
                 yield from _hold(frame)
 
     def _hold_point(self, world: World, point: str | Vector | BodyPoint) -> Iterator[Relation]:
+        """Yield the relations that a point stays at its reference position; without one, at new parameters."""
         placed = world.point(point, "point")
         if placed.frame == GROUND:
             world.fault("this point is fixed in the world already", "point", hint="name a particle or a body's point")
