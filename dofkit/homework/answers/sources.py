@@ -179,13 +179,13 @@ def _lines(stream: BinaryIO, file: str) -> Iterator[Handed]:
 def _table(text: str, file: str, columns: Columns) -> Iterator[Handed]:
     try:
         for row in rows(text, columns):
-            place, student = FilePlace(file, row.line), row.student or _stem(file)
+            place = FilePlace(file, row.line)
             if row.error is not None:
-                yield Handed(student, place, error=row.error, listed=bool(row.student))
+                yield Handed(row.student, place, error=row.error)
             else:
                 named = {"student": row.student} if row.student else {}
                 value = {**named, "answers": row.answers}
-                yield Handed(student, place, value, listed=bool(named))
+                yield Handed(row.student or _stem(file), place, value, listed=bool(named))
     except TableError as error:
         yield Handed(_stem(file), FilePlace(file, 1), error=str(error))
 
