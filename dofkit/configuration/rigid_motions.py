@@ -24,8 +24,11 @@ AffineField = dict[int, list[tuple[int, int | None]]]
 def displacement_fields(chart: Chart) -> list[AffineField]:
     """Return the fields of translations and rotations of all particles and planar bodies of a block.
 
-    Empty unless every coordinate is a position x, y, z or the angle of a planar body.
+    Empty unless every coordinate is a position x, y, z or the angle of a planar body. Empty also if relations differ by
+    region: those of a random point may be preserved where those at the configuration are not.
     """
+    if any(v.kind == "sign" and chart.ring.var_expr[v.index].symbols for v in chart.ring.vars):
+        return []
     place = {str(s.args[1]): i for i, s in enumerate(chart.symbols) if s != ex.TIME}
     here = [c for c in chart.setting.roles if c.name in place]
     if len(here) != len(place) or any(c.role not in ("x", "y", "z", "angle") for c in here):

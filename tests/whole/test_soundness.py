@@ -42,7 +42,8 @@ RIGHT = yaml.safe_load((Path(__file__).parent / "soundness.yaml").read_text(enco
 def test_right(row: dict[str, Any]) -> None:
     """What a row calls open is right or undecided; all else is right."""
     report = dofkit.classify(row["scene"])
-    answers = {**report.to_dict(), **{f"{key}_about": claim.about for key, claim in report.verdicts.items()}}
+    claims = {f"{key}_{k}": v for key, claim in report.verdicts.items() for k, v in claim.model_dump().items()}
+    answers = {**report.to_dict(), **claims}
     undecided = {key: None for key in row.get("open", ()) if answers[key] is None}
     scene = dofkit.load(row["scene"]).model_copy(update={"expect": row["truth"] | undecided})
     assert unmet(scene, answers) == []

@@ -140,15 +140,16 @@ def conflict(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome) -> 
     A constraint is left out only if the others are proved to be inconsistent. If a check is undecided, the set still
     conflicts, but is perhaps not minimal.
     """
-    if outcome.impossible:
-        return Conflict([outcome.impossible[0]], MINIMAL)
-    plain = replace(setting, grows=False, flag=False)
-    inconsistent = next(b for b, a in zip(outcome.blocks, outcome.answers, strict=True) if a.consistent is False)
-    kept = sorted({row.constraint for row in inconsistent.rows})
-    members = next(a.conflict for a in outcome.answers if a.consistent is False)
-    if members and set(members) <= set(kept):
+    sets = ConstraintSets(reduced, replace(setting, grows=False, flag=False))
+    for i in outcome.impossible:
+        if sets.inconsistent([i]):
+            return Conflict([i], MINIMAL)
+    against = [(b, a) for b, a in zip(outcome.blocks, outcome.answers, strict=True) if a.consistent is False]
+    kept = sorted({row.constraint for b, _ in against[:1] for row in b.rows})
+    members = next((a.conflict for _, a in against), ())
+    plain = all(len(n.branches) == 1 for i in members for n in reduced[i].normals)
+    if plain and members and set(members) <= set(kept):
         return Conflict(list(members), MINIMAL)
-    sets = ConstraintSets(reduced, plain)
     if not sets.inconsistent(kept):
         kept = [i for i, r in enumerate(reduced) if r.normals]
     with limited(CONFLICT_SECONDS):

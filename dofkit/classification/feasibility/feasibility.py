@@ -17,6 +17,7 @@ from dofkit.base.deadline import limited, unless_late
 from dofkit.base.verdicts import ArgumentKey, Claim, Verdict, weakest
 from dofkit.classification.dependence.minimal_sets import minimal_set
 from dofkit.classification.feasibility.state_problem import Part, StateProblem, Values, certified_state, parts_of
+from dofkit.classification.freedom.common_point import may_restrict
 from dofkit.classification.freedom.preparation import copies
 from dofkit.classification.study import Study
 from dofkit.exact.zero import BOTH, is_proved_zero
@@ -113,9 +114,14 @@ def _judged(study: Study, numbers: Sequence[int]) -> Feasibility:
             if result.feasible is False:
                 return result
             met |= dict.fromkeys(part.numbers, result) if result.feasible else {}
-    in_parts = {i for part in alone for i in part.numbers}
+    in_parts, shared = ({i for part in parts for i in part.numbers} for parts in (alone, joined))
+    sharing = zip(study.outcome.blocks, study.outcome.answers, strict=True)
+    restricts = any(
+        may_restrict(b, a) and not (shared - met.keys()).isdisjoint(row.constraint for row in b.rows)
+        for b, a in sharing
+    )
     others = _answers(study, set(numbers) - in_parts)
-    if not in_parts <= met.keys() or None in [a.consistent for a in others]:
+    if restricts or not in_parts <= met.keys() or None in [a.consistent for a in others]:
         return Feasibility(None, reasons=(OPEN,))
     at = {s: v for result in met.values() for s, v in result.at.items()}
     sure = weakest(*(result.verdict for result in met.values()), *(a.verdict for a in others))

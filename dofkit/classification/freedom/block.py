@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from dofkit.base.verdicts import weakest
+from dofkit.base.verdicts import VERDICTS, least, weakest
 from dofkit.classification.freedom.bridged_blocks import bridged_answer
 from dofkit.classification.freedom.preparation import passes_reference
 from dofkit.configuration import distance_geometry
@@ -63,6 +63,9 @@ IRREGULAR = (
 MEASURED = (
     "measured equations occur together with differential ones; whether these integrate was not decided "
     "within the tolerance"
+)
+ONE_COMPONENT = (
+    "no motion is possible on one component of the set that the geometric equations define; others were not examined"
 )
 APART = "real configurations were found only on components other than those of the points over GF(p)"
 
@@ -172,7 +175,10 @@ def _mixed_answer(block: Block, setting: Setting) -> Answer:
 
 
 def _prolonged(block: Block, setting: Setting, result: Answer, relations: Sequence[Expr] = ()) -> Answer:
-    """Return the answer, of the largest branch, after adding the hidden relations that the rows imply, in rounds."""
+    """Return the answer, of the largest branch, after adding the hidden relations that the rows imply, in rounds.
+
+    They are implied on the component of the points, to which ``about`` of the ``result`` is restricted.
+    """
     extra = list(relations)
     for _ in range(MAX_ROUNDS):
         forms = codistribution(block, setting, extra)
@@ -180,25 +186,23 @@ def _prolonged(block: Block, setting: Setting, result: Answer, relations: Sequen
         points = _points(forms, setting)
         result.reasons = list(points.reasons)
         if not points.consistent or (not points.samples and points.real is None):
-            result.consistent, result.verdict, result.hidden = points.consistent, points.verdict, extra
-            result.argument = points.argument
-            return result
+            return _without_points(result, points, extra)
         new = confinements(forms, points)
         if new is None:  # no further hidden relation
-            return replace(_with_spans(block, forms, points, extra, setting), doubt=result.doubt)
+            answered = _with_spans(block, forms, points, extra, setting)
+            return replace(answered, doubt=result.doubt, about=least(result.about, answered.about))
+        result.about = least(result.about, points.about)
         outcome = prolong(new, setting)
         if outcome is None or (len(outcome) > MAX_HIDDEN_BRANCHES and len(extra) < MAX_ROUNDS):
             return Answer(None, verdict="undecided", hidden=extra, reasons=[MANY_BRANCHES])
         if not outcome:
-            result.consistent, result.verdict, result.hidden = False, "probable", extra
-            result.argument = "time fixed"
             result.reasons.append("the constraints allow no motion through an interval of time")
-            return result
+            return _without_points(result, Variety(False, None, "probable", argument="time fixed"), extra)
         if len(outcome) > 1 and len(extra) < MAX_ROUNDS:
             hidden = [[*extra, *branch] for branch in outcome]
             through = [h for h in hidden if setting.reference and _passes_reference(block, h, setting)]
             for choices in (through, hidden):
-                alternatives = [_prolonged(block, setting, Answer(), h) for h in choices]
+                alternatives = [_prolonged(block, setting, Answer(about=result.about), h) for h in choices]
                 if any(a.consistent is not False for a in alternatives):
                     break
             return _of_hidden_branches(alternatives)
@@ -209,6 +213,19 @@ def _prolonged(block: Block, setting: Setting, result: Answer, relations: Sequen
     result.verdict, result.consistent = "undecided", None
     result.reasons.append("the motion is confined to a locus for which no equations could be written")
     return result
+
+
+def _without_points(result: Answer, points: Variety, hidden: list[Expr]) -> Answer:
+    """Return the result if no points are known; undecided if other components were not examined for hidden relations.
+
+    Relations are ``hidden`` by a rank at points, so that with them nothing is proved.
+    """
+    if result.about != "everywhere":
+        return Answer(None, verdict="undecided", hidden=hidden, reasons=[*result.reasons, ONE_COMPONENT])
+    if hidden:
+        points = replace(points, verdict=weakest(points.verdict, "probable"), argument="time fixed")
+    result.consistent, result.verdict, result.argument = points.consistent, points.verdict, points.argument
+    return replace(result, hidden=hidden)
 
 
 def _passes_reference(block: Block, hidden: Sequence[Expr], setting: Setting) -> bool:
@@ -251,8 +268,10 @@ def _points(forms: Codistribution, setting: Setting) -> Variety:
 
 
 def _largest(a: Answer) -> tuple[int, int, int]:
-    """Return a key by which answers are compared: consistency, freedom, velocity freedom."""
-    return (int(a.consistent is not False), -1 if a.dof is None else a.dof, a.velocity_dof or 0)
+    """Return a key by which answers are compared: consistency, freedom, velocity freedom, or uncertainty."""
+    if a.consistent is False:
+        return (0, 0, VERDICTS.index(a.verdict))
+    return (1, -1 if a.dof is None else a.dof, a.velocity_dof or 0)
 
 
 def _with_spans(block: Block, forms: Codistribution, points: Variety, extra: list[Expr], setting: Setting) -> Answer:

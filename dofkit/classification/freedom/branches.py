@@ -9,6 +9,7 @@ from functools import partial
 from itertools import product as cartesian
 
 from dofkit.base.deadline import OUT_OF_TIME, OutOfTimeError, check, unless_late
+from dofkit.base.verdicts import OPEN, VERDICTS, Claim
 from dofkit.classification.freedom.block import answer
 from dofkit.classification.freedom.common_point import CommonPoint, at_one_point, restricted_to_domain
 from dofkit.classification.freedom.isomorphic_blocks import AnsweredBlock, Likenesses
@@ -115,6 +116,13 @@ class Outcome:
         return len(self.untouched) + sum(p for p in freedoms if p is not None)
 
     @property
+    def against(self) -> Claim:
+        """The most certain claim that there is no motion; undecided if none is made."""
+        claims = [Claim("proved", "inequality nowhere")] if self.impossible else []
+        claims += [a.claim for a in self.answers if a.consistent is False]
+        return min(claims, key=lambda c: VERDICTS.index(c.verdict), default=OPEN)
+
+    @property
     def most(self) -> int:
         """A bound on the freedom of this choice of branches; -1 if the freedom itself is known."""
         if self.dof is not None:
@@ -132,8 +140,10 @@ class Outcome:
 
     @property
     def size(self) -> tuple[int, int, int]:
-        """The key by which choices of branches are compared: consistency, freedom, velocity freedom."""
-        return (int(self.consistent is not False), -1 if self.dof is None else self.dof, self.velocity_dof or 0)
+        """The key by which choices of branches are compared: consistency, freedom, velocity freedom, or uncertainty."""
+        if self.consistent is False:
+            return (0, 0, VERDICTS.index(self.against.verdict))
+        return (1, -1 if self.dof is None else self.dof, self.velocity_dof or 0)
 
 
 def _most(block: Block, a: Answer) -> int:
@@ -268,7 +278,7 @@ def _largest(outcomes: Sequence[Outcome], why: str | None, setting: Setting) -> 
         best.answers = _among_branches(best, [o for o in remaining if o is not best])
         if best.reduced:
             best.answers = with_reductions_checked(best.reduced, best.blocks, best.answers, setting)
-    elif not best.impossible and any(o.divided for o in outcomes):
+    elif any(o.divided and not o.impossible for o in outcomes):
         best.answers = [Answer(None, verdict="undecided", reasons=[NOT_EQUIVALENT]) for _ in best.answers]
     return best
 

@@ -189,7 +189,10 @@ def at_one_point(
     kept, result = list(blocks), simultaneous(written, answers)
     if any(a.consistent is not True for a in result):
         return CommonPoint(kept, [restricted_to_domain(b, a, setting) for b, a in zip(written, result, strict=True)])
-    point = _point(result, setting)
+    unplaced = {
+        ex.coordinate(n) for b, a in zip(blocks, result, strict=True) if a.witness is None for n in b.coordinates
+    }
+    point = dict.fromkeys(unplaced, arb("nan")) | _point(result, setting)
     outside = [(i, c) for i, c in domain if not hold_strictly([c], {s: point.get(s, arb(0)) for s in c.expr.symbols})]
     if not outside:
         return CommonPoint(kept, result)
@@ -270,13 +273,13 @@ def simultaneous(blocks: Sequence[Block], answers: Sequence[Answer]) -> list[Ans
         group = [i for i in numbers if shared[i]]
         if len(group) < 2 or _is_common([result[i].witness for i in group], [shared[i] for i in group]):
             continue
-        restricting = [i for i in group if _may_restrict(blocks[i], result[i])]
+        restricting = [i for i in group if may_restrict(blocks[i], result[i])]
         for i in restricting if len(restricting) > 1 else ():
             result[i] = Answer(None, verdict="undecided", reasons=[APART], method=result[i].method)
     return result
 
 
-def _may_restrict(block: Block, a: Answer) -> bool:
+def may_restrict(block: Block, a: Answer) -> bool:
     """Return whether a block may be satisfiable only at some times, or only for some parameters."""
     if a.linear or not (block.finite or a.hidden or block.nonlinear or block.conditions):
         return False
