@@ -304,7 +304,7 @@ class WrittenModel(BaseModel):
     @classmethod
     def _retell(cls, data: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
         """Validate without keys of empty value; Pydantic's messages are reworded."""
-        if isinstance(data, (dict, Mapping)) and None in data.values():
+        if isinstance(data, (dict, Mapping)) and any(value is None for value in data.values()):
             data = {key: value for key, value in data.items() if value is not None or key not in cls.model_fields}
         try:
             return handler(data)
