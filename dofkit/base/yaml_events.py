@@ -186,7 +186,7 @@ class ComposedText:
         else:
             self._add(value, size)
 
-    def _scalar(self, event: ScalarEvent) -> None:
+    def _scalar(self, event: Any) -> None:
         """Add the value of a scalar, or take its text as a key; an invalid number is recorded as a fault."""
         self._check_tag(event)
         text = _whole_characters(event.value)

@@ -133,8 +133,9 @@ def _scan(text: str, columns: Sequence[int], lookup: Lookup) -> list[Token]:
         elif kind == "word":
             before = tokens[-1] if tokens and tokens[-1].kind == "number" else None
             factor = _FACTOR.match(text, end)
-            is_unit = before is not None and (len(match[kind]) > 1 or factor is None or factor[1] in UNITS)
-            number = text[before.start : before.end] if is_unit else ""
+            if factor is not None and len(match[kind]) == 1 and factor[1] not in UNITS:
+                before = None  # `1/2 m v^2`: a quantity and no unit
+            number = "" if before is None else text[before.start : before.end]
             words = read_word(match[kind], lookup, columns[start], text[end : end + 1] == "(", number)
             tokens += [_word_token(part, start, text) for part in words]
         elif kind == "sign" or kind == "relation":
