@@ -222,6 +222,9 @@ def in_words(value: object) -> str:
 
 _NEEDS = {
     "string_type": "a text",
+    "string_too_short": "a text",
+    "bool_type": "true or false",
+    "bool_parsing": "true or false",
     "tuple_type": "a list",
     "list_type": "a list",
     "dict_type": "a mapping",
