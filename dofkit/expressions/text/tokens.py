@@ -132,8 +132,7 @@ def _scan(text: str, columns: Sequence[int], lookup: Lookup) -> list[Token]:
             tokens[-1:] = [_in_degrees(tokens, start, end, columns)]
         elif kind == "word":
             before = tokens[-1] if tokens and tokens[-1].kind == "number" else None
-            factor = _FACTOR.match(text, end)
-            if factor is not None and len(match[kind]) == 1 and factor[1] not in UNITS:
+            if before and end == start + 1 and (factor := _FACTOR.match(text, end)) and factor[1] not in UNITS:
                 before = None  # `1/2 m v^2`: a quantity and no unit
             number = "" if before is None else text[before.start : before.end]
             words = read_word(match[kind], lookup, columns[start], text[end : end + 1] == "(", number)
