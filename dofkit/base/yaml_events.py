@@ -47,6 +47,8 @@ _NUMBER = re.compile(r"[-+]?(?:(?P<int>[0-9]+)|(?:\.[0-9]+|[0-9]+\.?[0-9]*)(?:[e
 _OTHER_BASE = re.compile(r"0o(?P<octal>[0-7]+)|0x(?P<hex>[0-9a-fA-F]+)", re.ASCII)
 _NOT_FINITE = re.compile(r"[-+]?(?:\.inf|\.Inf|\.INF|Infinity)|\.nan|\.NaN|\.NAN|NaN")
 _NUMERIC_START = frozenset("0123456789+-.IN")
+#: In a text without quotes, a line that looks like a further entry of a list.
+_HYPHEN = re.compile(r"[\r\n] *- ")
 
 
 class UnreadableError(Exception):
@@ -112,6 +114,7 @@ class ComposedText:
 
     def __init__(self, text: str, loader: Any) -> None:
         self.value: Any = None
+        self._text = text
         self.places: Places = {}
         self.faults: list[tuple[int, Fault]] = []
         self._documents = 0
@@ -183,7 +186,7 @@ class ComposedText:
         else:
             self._add(value, size)
 
-    def _scalar(self, event: ScalarEvent) -> None:
+    def _scalar(self, event: Any) -> None:
         """Add the value of a scalar, or take its text as a key; an invalid number is recorded as a fault."""
         self._check_tag(event)
         text = _whole_characters(event.value)
@@ -197,6 +200,10 @@ class ComposedText:
         if event.implicit[0] and (event.tag or "") != _CORE + "str":
             try:
                 value = plain(text)
+                start, end = event.start_mark, event.end_mark
+                if start.line < end.line and _HYPHEN.search(self._text, start.index, end.index):
+                    hint = "write it below the '- ' of the entry before, or put the whole text in double quotes"
+                    raise TextError("this text continues in a line that begins with a hyphen", hint=hint)
             except TextError as error:
                 self._fault(event, error.message, error.hint)
                 value = 1

@@ -213,15 +213,17 @@ def verification_lines(request: Request) -> Json:
     try:
         alone = request.file == request.certificate
         checked = dofkit.verify(None if alone else request.file, Path(str(request.certificate)))
+    except SceneError as error:
+        return _fault_streams(request, request.name, error.faults, None)
     except OSError as error:
-        fault = Fault(f"it cannot be read: {error.strerror or error}")
+        fault = Fault(f"the certificate cannot be read: {error.strerror or error}")
     except (CheckError, DofkitError, ValueError) as error:
         fault = Fault(" ".join(str(error).split()))
     else:
         refused = bool(checked.failed) or (request.strict and bool(checked.uncovered))
         out = _line(checked._asdict(), request) if request.output.as_json else _verification_text(checked)
         return streams(out, outcome={"status": FAILED if refused else 0})
-    return _fault_streams(replace(request, file=str(request.certificate)), request.file, (fault,), None)
+    return _fault_streams(replace(request, file=str(request.certificate)), request.name, (fault,), None)
 
 
 def _verification_text(checked: Verification) -> str:

@@ -59,8 +59,8 @@ def handout(
 ) -> None:
     """Write the handout for students, with pictures and notation.
 
-    It states the problems, the names and how answers are written, and gives no answer away. A `page` shows how each
-    answer is read as it is typed, and saves the file to submit; `runtime.js`, which does so, is put beside the pages.
+    It states the problems, the names and how answers are written. A `page`
+    shows how each answer is read as it is typed, and saves the file to submit.
     """
     from dofkit.homework.answers.roster import load_roster
     from dofkit.homework.assignment import load_assignment
@@ -115,7 +115,7 @@ def practice(
 ) -> None:
     """Write a practice sheet: a page that reads answers as they are typed, and judges them on request.
 
-    Nothing is handed in and nothing leaves the browser. Whoever reads the source of the page can find the key.
+    Nothing leaves the browser, and the source of the page contains the key.
     """
     from dofkit.homework.assignment import load_assignment
     from dofkit.homework.handout.page_sheets import BUILT, put_runtime, write_page
@@ -157,10 +157,11 @@ def vary(
 ) -> None:
     """Pick a variant for every student.
 
-    A problem lists what varies (`vary: {n: [2, 3, 5]}`); every combination is proved, and a keyed hash picks one for
-    each student. The folder gets one assignment for all of them (`dofkit assignment handout FOLDER/assignment.yaml
-    --roster TABLE.csv`, `dofkit grade FOLDER/assignment.yaml ...`), and a table of the variants. With the same seed
-    everyone keeps their variant when the roster changes.
+    A problem lists what varies (`vary: {n: [2, 3, 5]}`); every combination is
+    proved, and a keyed hash picks one for each student. The folder gets an
+    `assignment.yaml` for all, for `assignment handout --roster TABLE.csv` and
+    `grade`, and a table of the variants. With the same seed everyone keeps
+    their variant when the roster changes.
     """
     from dofkit.homework.answers.roster import load_roster
     from dofkit.homework.assignment import load_assignment

@@ -166,7 +166,7 @@ def new(file: options.NewPath = None) -> None:
 
 @app.command(rich_help_panel=MORE)
 def convert(file: options.ModelPath, out: options.ScenePath = None, limits: options.Limits = False) -> None:
-    """Convert a MJCF, URDF or SolveSpace model to a scene."""
+    """Convert an MJCF, URDF or SolveSpace model to a scene."""
     from dofkit.interface.named_files import write_converted
 
     with failures_of(file):
@@ -198,8 +198,8 @@ def explain(words: options.Word = None, as_json: options.AsJson = False) -> None
 def catalog(words: options.CatalogWords = None, as_json: options.AsJson = False) -> None:
     """List the catalog's scenes, search them, or show one.
 
-    `dofkit catalog` lists the names, with their titles on a terminal. `dofkit catalog WORD...` lists the scenes in
-    which all the words occur. `dofkit catalog show NAME` prints the YAML of a scene.
+    `catalog` lists the names, `catalog WORD...` the scenes in which all the
+    words occur, and `catalog show NAME` prints the YAML of a scene.
     """
     from dofkit.scene.catalog import catalog_names, catalog_search, catalog_text, catalog_titles
 

@@ -147,7 +147,7 @@ _ONLY = "Print these fields of the report only, such as dof."
 Only = Annotated[list[str] | None, Option("--only", metavar="FIELD,...", help=_ONLY)]
 _WITHOUT = "Drop these constraints, and show what changes."
 Without = Annotated[list[str] | None, Option("--without", metavar="NAME,...", help=_WITHOUT)]
-_FAIL_ON = f"Exit with status 1 if a scene is {', '.join(FAILURES)}."
+_FAIL_ON = f"Exit with status 1 if a scene is one of {', '.join(FAILURES)}."
 FailOn = Annotated[list[str] | None, Option("--fail-on", metavar="WHAT,...", help=_FAIL_ON)]
 SceneWorkers = Annotated[int | None, _workers("Number of processes; with --out the default is one per core.")]
 _REPORTS = "Write the reports to DIR/reports.jsonl; a later run answers only what is new or changed."
@@ -195,7 +195,7 @@ CheckOnly = Annotated[bool, flag("--check-only", "Show how every answer is read,
 
 _WRITTEN = "The file to write; without it the scene is printed."
 _YAML = file_of("yaml", "yml")
-ModelPath = Annotated[str, Argument(metavar="FILE", help="A MJCF or URDF file, or a SolveSpace sketch.")]
+ModelPath = Annotated[str, Argument(metavar="FILE", help="An MJCF or URDF file, or a SolveSpace sketch.")]
 ScenePath = Annotated[Path | None, Option("--out", metavar="SCENE.yaml", callback=_YAML, help=_WRITTEN)]
 NewPath = Annotated[Path | None, Argument(metavar="FILE", callback=_YAML, help=_WRITTEN)]
 _WORD = "A feedback code, report field, verdict, argument, theorem, constraint type or section of a scene."

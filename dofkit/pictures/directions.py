@@ -160,8 +160,8 @@ def _growth(report: Report, directions: Sequence[Direction3]) -> str:
 
 
 def _vector(distribution: Distribution, direction: Direction3) -> str:
-    pairs = zip(distribution.names, direction.vector, strict=True)
-    return " + ".join(f"{v:.3g} d/d{n}" for n, v in pairs if abs(v) > 1e-6).replace("+ -", "- ")
+    pairs, least = zip(distribution.names, direction.vector, strict=True), 1e-3 * abs(direction.vector).max()
+    return " + ".join(f"{v:.3g} d/d{n}" for n, v in pairs if abs(v) > least).replace("+ -", "- ")
 
 
 def directions_of(distribution: Distribution) -> list[Direction3]:

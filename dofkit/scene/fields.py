@@ -222,6 +222,9 @@ def in_words(value: object) -> str:
 
 _NEEDS = {
     "string_type": "a text",
+    "string_too_short": "a text",
+    "bool_type": "true or false",
+    "bool_parsing": "true or false",
     "tuple_type": "a list",
     "list_type": "a list",
     "dict_type": "a mapping",
@@ -304,7 +307,7 @@ class WrittenModel(BaseModel):
     @classmethod
     def _retell(cls, data: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
         """Validate without keys of empty value; Pydantic's messages are reworded."""
-        if isinstance(data, (dict, Mapping)) and None in data.values():
+        if isinstance(data, (dict, Mapping)) and any(value is None for value in data.values()):
             data = {key: value for key, value in data.items() if value is not None or key not in cls.model_fields}
         try:
             return handler(data)

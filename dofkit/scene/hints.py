@@ -20,8 +20,8 @@ UNKNOWN_KEY = "unknown key"
 UNKNOWN_TYPE = "there is no constraint type"
 #: Hints that need no example line.
 _ENOUGH = re.compile(
-    r"`|'[^']*[:=]|column|"
-    r"^(?:the (?:particles|bodies|joints) are|give each|declared|rename|leave|choose|check|delete|keep|move)"
+    r"`|'[^']*[:=]|column|^the (?:particles|bodies|joints|coordinates) are|"
+    r"^(?:give each|declared|rename|leave|choose|check|delete|keep|move)"
 )
 #: The differential or a velocity of a name.
 _RATE = re.compile(rf"d((?:[a-zA-Z]|{'|'.join(LETTERS_OF_NAMES)})(?:_\w+)?)|(\w+?)d{{0,2}}dot")
@@ -96,6 +96,9 @@ def type_advice(word: object, entry: Mapping[str, Any]) -> str | None:
     """Return the hint for a constraint ``entry`` whose type ``word`` is unknown (None: missing), or None."""
     if isinstance(word, str) and word in _FORCES:
         return f"write it under `forces`: `forces: [{{type: {word}, between: [A, B]}}]`; a force is not a constraint"
+    near = nearest("type", map(str, entry.keys() - {"type"})) if word is None else None
+    if near is not None:
+        return f"write `type` in place of `{near}`"
     kinds = likely_types(word, entry)
     if len(kinds) == 1:
         return f"did you mean '{kinds[0]}'?"
@@ -109,7 +112,7 @@ def likely_types(word: object, entry: Mapping[str, Any]) -> list[str]:
     """
     if word is None:
         types_as_keys = (key for key in entry if key not in _ALL_FIELDS and meant_type(key, {}))
-        word = next((part for key, part in entry.items() if str(key).lower() == "type"), next(types_as_keys, None))
+        word = next((entry[key] for key in entry if nearest("type", [str(key)])), next(types_as_keys, None))
     meant, keys = meant_type(word, entry), [str(key) for key in entry if str(key).lower() not in ("type", "name")]
     if meant or not keys:
         return [meant] if meant else []
@@ -175,6 +178,9 @@ def _hint(fault: Fault, value: Mapping[str, Any]) -> str:
     name = undeclared[1] if undeclared else ""
     if undeclared and undeclared[2]:
         return f"for a unit, {hint}; for a quantity, declare `parameters: [{name}]`"
+    called = re.match(r"there is no function `(\w+)`", fault.message)
+    if called and hint and hint.startswith("the functions are"):
+        return f"declare it: `functions: {{{called[1]}: [s]}}`; {hint}"
     rate = _RATE.fullmatch(name)
     if rate and hint:
         other = f"; {hint}" if re.search(r"`(?:d\w+|\w+dot)`", hint) else ""
@@ -233,8 +239,8 @@ def _line(fault: Fault, hint: str, value: Mapping[str, Any]) -> str | None:
     unknown = len(where) == 1 and fault.message.startswith(UNKNOWN_KEY) and not suggested
     if unknown or (hint and where[:1] == ("picture",)):
         return None
-    keys = [suggested[1]] if suggested else [key for key in reversed(where) if key in lines()]
-    return lines().get(str(next(iter(keys), "")))
+    keys = [suggested[1]] if suggested else [k for k in reversed(where) if k in where[:1] or k not in section_lines()]
+    return next((lines()[str(key)] for key in keys if key in lines()), None)
 
 
 def _entry_at(value: Mapping[str, Any], index: object) -> Any:

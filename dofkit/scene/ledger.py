@@ -140,9 +140,9 @@ class Texts(Ledger):
         while True:
             self.fault(error.message, *where, hint=self.advice(error, text), column=error.column)
             name = error.name if isinstance(error, UnknownNameError) and "is not declared" in error.message else ""
-            if not name or name in names.parameters or len(self.faults) >= MOST_HINTS:
+            if not name or name in names.coordinates or len(self.faults) >= MOST_HINTS:
                 return
-            names = replace(names, parameters={**names.parameters, name: parameter(name)})
+            names = replace(names, coordinates=names.coordinates | {name})
             try:
                 parse_relations(text, names)
             except UnknownNameError as other:
@@ -150,6 +150,8 @@ class Texts(Ledger):
                 unit = "without units" in other.message
                 error = UnknownNameError(other.message, other.column, other.hint if unit else nearest.hint)
             except TextError as other:
+                if 0 <= (other.column or 0) - (error.column or 0) <= len(name):
+                    return  # about the unknown name again, such as its argument
                 error = other
             else:
                 return

@@ -304,7 +304,8 @@ def _reference(surveyed: Survey, pose: Pose) -> tuple[Pose | None, Pose | None, 
     placed = surveyed.drawn or drawing.configuration
     missing = undrawn(drawing, surveyed.drawn, pose, touched()) if placed else ()
     listed = ", ".join(missing[:8]) + (", ..." if len(missing) > 8 else "")
-    message = f"There is no reference configuration: the position of {listed} is not given."
+    what = "positions of {} are" if len(missing) > 1 else "position of {} is"
+    message = f"There is no reference configuration: the {what.format(listed)} not given."
     return None, None, [message] if missing else []
 
 

@@ -19,6 +19,7 @@ from dofkit.system import BODY_ROLES, GROUND, PARTICLE_ROLES, Coordinate, Sign
 SIGNS: tuple[Sign, ...] = ("real", "positive", "nonzero")
 _KINDS_HINT = "write real, positive or nonzero, or a value in numbers and the parameters before it"
 RESERVED = frozenset({"t", GROUND})
+_OMIT = "leave it out, or choose another name"
 
 
 class OwnerKind(NamedTuple):
@@ -86,7 +87,10 @@ def readable_name(name: str) -> str:
     return plain if plain[0].isalpha() else f"n{plain}"
 
 
-def _renaming_hint(name: str) -> str:
+def _renaming_hint(name: str, why: str) -> str:
+    latin = re.search(r"not the \w+ (`.`)$", why)
+    if latin is not None:
+        return f"type {latin[1]} instead"
     plain = readable_name(name)
     return f"write `{plain}`" if plain != name and why_invalid(plain) is None else "choose another name"
 
@@ -191,11 +195,11 @@ def name_faults(scene: Declarations, table: NameTable) -> tuple[Fault, ...]:
         seen[word] = what
         if name in RESERVED:
             detail = "time, and is never declared" if name == "t" else "the fixed world, and is never declared"
-            ledger.fault(f"'{name}' is {detail}", *where, hint="choose another name")
+            ledger.fault(f"'{name}' is {detail}", *where, hint=_OMIT)
         else:
             why = why_invalid(name)
             if why is not None:
-                ledger.fault(f"{why} ({what})", *where, hint=_renaming_hint(name))
+                ledger.fault(f"{why} ({what})", *where, hint=_renaming_hint(name, why))
     _check_derived(entries, seen, ledger)
     for name, arguments in scene.functions.items():
         for i, argument in enumerate(arguments):
@@ -213,7 +217,7 @@ def _check_owners(scene: Declarations, ledger: Ledger) -> None:
             name, where = owner.name, (section, i, "name")
             if name in RESERVED:
                 meaning = "time" if name == "t" else "the fixed world"
-                ledger.fault(f"'{name}' is {meaning}, and never declared", *where, hint="choose another name")
+                ledger.fault(f"'{name}' is {meaning}, and never declared", *where, hint=_OMIT)
             elif not _is_owner_name(name):
                 hint = f"write `{readable_name(name)}`: a name has letters, digits, `_` and hyphens"
                 ledger.fault(f"'{name}' cannot be the name of a {called}", *where, hint=hint)

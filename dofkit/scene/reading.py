@@ -20,7 +20,7 @@ from dofkit.models.formats import is_model, read_model
 from dofkit.models.model_document import ModelFile
 from dofkit.scene.catalog import find
 from dofkit.scene.fields import faults_of
-from dofkit.scene.hints import UNKNOWN_KEY, UNKNOWN_TYPE, with_hint, without_echoes
+from dofkit.scene.hints import UNKNOWN_TYPE, with_hint, without_echoes
 from dofkit.scene.lowering import check
 from dofkit.scene.mending import faults_hidden_by
 from dofkit.scene.scene import Scene
@@ -181,6 +181,7 @@ class SceneFile:
             placed = self._with_place(fault)
             if fault.line is not None or not self.located or (placed.line, placed.column) not in taken:
                 located.append(placed)
+        located = list({(f.message, f.line, f.column, f.line is None and f.where): f for f in located}.values())
         located.sort(key=self._order_in_document)
         if len(located) > MOST_FAULTS:
             message = f"and {len(located) - MOST_FAULTS} further faults from here on"
@@ -203,7 +204,8 @@ class SceneFile:
         hinted = replace(with_hint(fault, self._words.value), where=self._words.written(fault.where))
         if not self.located:
             return hinted
-        key = fault.message.startswith(UNKNOWN_KEY)
+        quoted = fault.message.replace("`", "'")
+        key = fault.column is None and any(f"'{part}'" in quoted for part in fault.where[-1:])
         where = (*fault.where, "type") if fault.message.startswith(UNKNOWN_TYPE) else fault.where
         line, column = self.document.place(self._words.written(where), key=key, column=fault.column)
         return replace(hinted, line=line, column=column)

@@ -28,6 +28,8 @@ def scene_schema() -> dict[str, Any]:
     definitions = schema["$defs"]
     for cls in TYPES.values():
         definitions[cls.__name__] = _with_other_words(definitions[cls.__name__], cls.kind())
+    axes = definitions["Universal"]["properties"]["axes"]["anyOf"][0]
+    axes["prefixItems"] = [{"anyOf": [vector, _AXIS]} for vector in axes["prefixItems"]]
     definitions["Force"]["properties"]["direction"] = _with_letters(definitions["Force"]["properties"]["direction"])
     definitions[PictureShape.__name__] = _any_shape(definitions[PictureShape.__name__])
     constraints = schema["properties"]["constraints"]

@@ -224,7 +224,7 @@ def test_a_result_for_everyone_in_order(assignment: str, tmp_path: Path, capsys:
     table = tmp_path / "t.csv"
     table.write_text("student,p.f,p.label,p.eq,p.zz\nana,1,,x^2 = 1 - y^2,\nbo,2,((,,5\nana,1,,,\ncy,1\n")
     status, told, err = lines_of(capsys, "grade", assignment, str(table), "--workers", "1")
-    assert (status, err) == (2, "1 of the submissions have a 'doubt': a person has to decide whose they are\n")
+    assert (status, err) == (2, "1 submission with a 'doubt', which a person has to settle\n")
     assert [line["student"] for line in told] == ["ana", "bo", "ana", "cy"]
     assert [line["score"] for line in told] == [3.0, 0.0, None, None]
     assert {line["max_score"] for line in told} == {4.0}

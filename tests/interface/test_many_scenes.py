@@ -207,8 +207,9 @@ def test_a_run_fails_on_what_it_is_reported(
 @pytest.mark.parametrize(
     ("word", "kind", "said"),
     [
-        ("NH_HALF", "feedback code", "half of each"),
-        ("nh-half", "feedback code", "half of each"),
+        ("NH_HALF", "feedback code", "Half of each"),
+        ("nh-half", "feedback code", "Half of each"),
+        ("velocity freedom", "term", "velocity_dof"),
         ("velocity_dof", "field of a report", "non-holonomic constraints reduce it"),
         ("circuit", "field of a constraint", "minimal set"),
         ("proved", "verdict", "exact arithmetic"),

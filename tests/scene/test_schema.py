@@ -49,6 +49,7 @@ def test_every_scene_is_valid(path: Path) -> None:
     [
         "{type: hinge, between: [ground, a], at: [0, 0, 0], axis: -z}",
         "{type: slider, between: [ground, a], direction: x}",
+        "{type: universal, between: [ground, a], at: [0, 0, 0], axes: [x, -z]}",
         "{type: string, between: [A, [0, 0, 0], B]}",
         "{type: rod, between: [A, {on: a, at: [0, 0, 0]}], distance: 2}",
         '{name: spin, text: "x = 1"}',

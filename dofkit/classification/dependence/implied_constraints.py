@@ -177,9 +177,9 @@ class ConstraintSets:
         return bool(numbers) and unless_late(partial(self.inconsistent, numbers), False)
 
     def satisfied(self, numbers: Sequence[int]) -> Claim:
-        """Return how certain it is that some constraints, tested before, are consistent; undecided if not tested."""
-        consistent, proved = self._answers.get(tuple(numbers), (None, False))
-        return OPEN if consistent is not True else MINIMAL if proved else PROBABLY_MINIMAL
+        """Return how certain it is that some constraints are consistent, as they are if a larger tested set is."""
+        proved = {sure for tested, (answer, sure) in self._answers.items() if answer and {*numbers} <= {*tested}}
+        return MINIMAL if True in proved else PROBABLY_MINIMAL if proved else OPEN
 
     def _solved(self, numbers: Sequence[int]) -> tuple[bool | None, bool]:
         """Return (whether some constraints are consistent, whether this is proved)."""

@@ -53,6 +53,10 @@ class TextReader:
         """The token that was taken last."""
         return self.tokens[self.at - 1]
 
+    def comes(self, kind: str) -> bool:
+        """Return whether a token of this kind follows."""
+        return any(token.kind == kind for token in self.tokens[self.at :])
+
     def take(self) -> Token:
         """Return the next token and move past it."""
         token = self.tokens[self.at]
@@ -295,7 +299,7 @@ class Parser(TextReader):
         self.bars = bars
         token = self.take()
         sign = self.text[opening.start]
-        if token.kind == "end":
+        if token.kind == "end" or (token.kind == "relation" and not self.comes(")")):
             self.fail(f"this `{sign}` is never closed", opening, f"write `{_PAIRS[sign]}` where it ends")
         if token.kind != ")":
             self.unexpected(token)
@@ -310,7 +314,7 @@ class Parser(TextReader):
         inside = self.sum()
         self.bars -= 1
         token = self.take()
-        if token.kind == "end":
+        if token.kind == "end" or (token.kind == "relation" and not self.comes("|")):
             self.fail("this `|` is never closed", opening, "write `|` where it ends, or `abs(...)`")
         if token.kind != "|":
             self.unexpected(token)

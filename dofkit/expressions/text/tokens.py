@@ -88,6 +88,7 @@ _SQUARE = r"\s*(?:²|(?:\^|\*\*)\s*(?:2|\{\s*2\s*\}))"
 _SECOND = re.compile(rf"d{_SQUARE}\s*(?P<name>{WORD})\s*/\s*dt{_SQUARE}", re.ASCII)
 _SPACED_VARIATION = re.compile(rf"{VARIATION}[ \t]+(?P<name>{WORD})", re.ASCII)
 _PARTS = re.compile(r"(\d*)\.?(\d*)(?:[eE]([+-]?\d+))?", re.ASCII)
+_FACTOR = re.compile(r"\s*([^\W\d]\w*|[(\\])")
 _DEGREES = frozenset({"deg", "degree", "degrees"})
 _ALIKE = {"**": "^", "==": "=", "[": "(", "{": "(", "]": ")", "}": ")", FRACTION_MARK: "frac", "√": "root"}
 
@@ -131,6 +132,8 @@ def _scan(text: str, columns: Sequence[int], lookup: Lookup) -> list[Token]:
             tokens[-1:] = [_in_degrees(tokens, start, end, columns)]
         elif kind == "word":
             before = tokens[-1] if tokens and tokens[-1].kind == "number" else None
+            if before and end == start + 1 and (factor := _FACTOR.match(text, end)) and factor[1] not in UNITS:
+                before = None  # `1/2 m v^2`: a quantity and no unit
             number = "" if before is None else text[before.start : before.end]
             words = read_word(match[kind], lookup, columns[start], text[end : end + 1] == "(", number)
             tokens += [_word_token(part, start, text) for part in words]

@@ -72,7 +72,7 @@ def pieces_of(answer: object, names: Names) -> Pieces:
         derived = derived or ARROW in script.text
         equations += [p for part in _split(script, names) if (p := _cleaned(part, names)) is not None]
     if not equations:
-        raise TextError("there is no equation", 1, "write an equation such as x^2 + y^2 = l^2")
+        raise TextError("there is no formula in this answer", 1, "write a formula such as x^2 + y^2 = l^2")
     if len(equations) > MOST_PIECES:
         raise TextError(f"there are {len(equations)} equations", equations[MOST_PIECES].columns[0], "give fewer")
     return Pieces(tuple(equations), derived and len(equations) > 1)

@@ -21,14 +21,13 @@ from dofkit.base.documents import Document, read_document
 from dofkit.base.errors import Fault
 from dofkit.base.yaml_events import LARGEST_EXPONENT
 from dofkit.homework.answers.notation import backslashes_kept
+from dofkit.homework.answers.words import NO_ANSWER
 from dofkit.homework.judgement import Given
 
 #: The most bytes of a submission.
 MOST_BYTES = 8_000_000
 #: The most levels of lists within lists in an answer.
 DEEPEST = 10
-#: Replaces values that cannot be an answer, such as a mapping; no question can read it.
-NO_ANSWER = "{…}"
 #: The most faults in the message of an error.
 MOST_FAULTS = 5
 _SHAPE = "write 'student: NAME' and 'answers: {PROBLEM: {QUESTION: answer}}'"

@@ -36,14 +36,16 @@ _EITHER = re.compile(r"\A\s*(?:either|entweder|soit)\s+", re.IGNORECASE)
 _LOWERED = {0x2080 + n: str(n) for n in range(10)}
 _BRACES = re.compile(r"_\{(\w+)\}")
 
+#: Replaces values that cannot be an answer, such as a mapping; no question can read it.
+NO_ANSWER = "{…}"
 #: The most characters of an answer that are shown; the separator of a list.
 MOST_SHOWN = 2000
 _BETWEEN = "; "
 
 
 def one_text(answer: object) -> str:
-    """Return an answer as one text. Raises TextError for lists, booleans and long texts."""
-    if isinstance(answer, bool) or not isinstance(answer, (str, int, float, Fraction)):
+    """Return an answer as one text. Raises TextError for lists, mappings, booleans and long texts."""
+    if isinstance(answer, bool) or not isinstance(answer, (str, int, float, Fraction)) or answer == NO_ANSWER:
         raise TextError("one number or text is needed here", 1, "write a single answer")
     text = answer if isinstance(answer, str) else _number_text(answer)
     if len(text) > MOST_CHARACTERS:

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from dofkit.base import __version__
 from dofkit.base.runs import Journal, files_of
+from dofkit.base.wording import many
 from dofkit.homework.answers.roster import Roster, load_roster
 from dofkit.homework.answers.sources import hand_ins
 from dofkit.homework.assignment import Prepared, load_assignment
@@ -125,5 +126,5 @@ def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
             journal.remove()
     doubted = sum(entry.doubt is not None for entry in results)
     if doubted:
-        print(f"{doubted} of the submissions have a 'doubt': a person has to decide whose they are", file=sys.stderr)
+        print(f"{many(doubted, 'submission')} with a 'doubt', which a person has to settle", file=sys.stderr)
     return all(entry.error is None for entry in results)
