@@ -294,12 +294,6 @@ CIRCUITS: list[tuple[str, dict[str, Any], str, list[str]]] = [
         before(8),
     ),
     ("the same measured", cranks("AD", "BE", "CF", "DE", "EF", "DF", measured=True), "c9", before(8)),
-    (
-        "four cranks, and a link over all pins",
-        cranks("AD", "BE", "CF", "IG", "DE", "EF", "FG", "DG", more=1),
-        "c12",
-        before(11),
-    ),
     ("dx = y dz where y = 0", scene("x y z", "x = 0", "y = 0", "dx = y dz"), "c3", ["c1", "c2"]),
     ("a coefficient u - 1 where u = 1", scene("u x z", "u = 1", "x = 0", "dx = (u - 1) dz"), "c3", ["c1", "c2"]),
     ("two of them", scene("x y z w", "x = 0", "y = 0", "dx = y dz + y^2 dw"), "c3", ["c1", "c2"]),

@@ -7,7 +7,7 @@ only a geometric equation fixes the constant. A set of constraints is dependent 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from dofkit.base.deadline import check
@@ -15,7 +15,7 @@ from dofkit.base.verdicts import Claim, together
 from dofkit.classification.dependence.implication import Everywhere, NearReference
 from dofkit.classification.dependence.minimal_sets import SufficientSets, largest_redundant_set, minimal_set
 from dofkit.exact.matrices.sparse import SparseRow, Supports, components, echelon, rank_of_rows, transposed, vanishing
-from dofkit.relations.answer import BITS, Redundancies
+from dofkit.relations.answer import BITS, Redundancies, undecided_dependence
 
 #: Groups of up to so many constraints are searched exhaustively.
 SEARCHED = 12
@@ -32,6 +32,7 @@ class OwnedRows:
 
     ``supports`` computes, for each dependent row, the rows before it on which it depends, if this is not by the matrix.
     ``implication`` tests implications; without it a dependent row counts as implied. ``claim``: of the dependences.
+    ``by_removal`` answers if several freedoms are removed by one row.
     """
 
     matrix: Sequence[SparseRow]
@@ -42,6 +43,7 @@ class OwnedRows:
     supports: Supports | None = None
     implication: NearReference | Everywhere | None = None
     claim: Claim = ROWS
+    by_removal: Callable[[], Redundancies] | None = None
 
     def of(self, owners: frozenset[int] | set[int], finite_only: bool = False) -> list[SparseRow]:
         """Return the rows of some constraints."""
@@ -56,6 +58,9 @@ def analyse(matrices: Sequence[OwnedRows], needed: Collection[int] = ()) -> Redu
     """Return the redundancies in blocks that share constraints; those in ``needed`` are not redundant."""
     order = _order(matrices)
     bases = [_Basis(part) for part in matrices]
+    if any(b.several for b in bases):
+        by_removal = matrices[0].by_removal if len(matrices) == 1 else None
+        return undecided_dependence(order) if by_removal is None else by_removal()
     kept = Counter(b.owners[i] for b in bases for i in b.pivots)
     independent = {owner: kept[owner] for owner in order}
     if not any(b.supports for b in bases):
@@ -100,6 +105,8 @@ class _Basis:
         #: Constraints for which it is undecided what implies them, or how many of their equations earlier ones imply.
         self.undecided: set[int] = set()
         self.uncounted: set[int] = set()
+        #: Whether fewer constraints, each of one row, than the rank may imply all of them.
+        self.several = False
         self.implication = rows.implication
         if rows.implication is not None:
             self._enlarge(SufficientSets(rows.implication, rows.owners, self.pivots), rows.finite)
@@ -113,11 +120,14 @@ class _Basis:
 
         If this needs rows of a later constraint, neither constraint is counted: the other row may be the implied one.
         """
+        rows_of = Counter(self.owners)
         for i, support in self.supports.items():
             result = sets.enough(i, support)
             if result is None:
                 self.undecided.add(self.owners[i])
             else:
+                single = result != support and all(rows_of[self.owners[k]] == 1 for k in (i, *support))
+                self.several |= single and sets.implication.removes_several(i, support)
                 self.supports[i] = result
                 later = {o for k in result if (o := self.owners[k]) > self.owners[i] and finite[k] == finite[i]}
                 self.uncounted |= {self.owners[i], *later} if later else set()

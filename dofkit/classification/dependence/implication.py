@@ -16,6 +16,7 @@ from typing import NamedTuple
 
 from dofkit.base.deadline import OutOfTimeError, check
 from dofkit.base.verdicts import Claim
+from dofkit.classification.freedom.block import answer
 from dofkit.classification.freedom.branches import in_time
 from dofkit.classification.freedom.preparation import all_of, branches_at_reference, conditional, passes_reference
 from dofkit.configuration.implied_relations import ImpliedRelations
@@ -267,6 +268,13 @@ def _satisfied(states: States, point: BallPoint, condition: DomainCondition) -> 
     return condition.sense == "!=" or bool(value > 0)
 
 
+def freedom(coordinates: Sequence[str], rows: Sequence[Row], setting: Setting) -> int | None:
+    """Return the freedom of some coordinates with some rows; None if undecided."""
+    blocks, untouched = split(coordinates, rows)
+    dofs = [answer(block, setting).dof for block in blocks]
+    return None if None in dofs else len(untouched) + sum(dof for dof in dofs if dof is not None)
+
+
 @dataclass(frozen=True)
 class BlockImplication:
     """Implications between the rows of a block, which are given by their numbers."""
@@ -296,6 +304,15 @@ class BlockImplication:
         pieces = [self.block.rows[i].piece for i in (*others, row)]
         relations = [p.expr for p in pieces if isinstance(p, Finite) and linear(p.expr) is not None]
         return solve_linear(relations[:-1]).implies(relations[-1]) if len(relations) == len(pieces) else None
+
+    def removes_several(self, row: int, others: Sequence[int]) -> bool:
+        """Return whether it is known that a row removes several freedoms where independent ``others`` are satisfied.
+
+        With x = 0, x + y^2 + z^2 = 0 removes two more. Fewer rows than the rank may then imply all the others.
+        """
+        rows = [self.block.rows[i] for i in (*others, row)]
+        remaining = freedom(self.block.coordinates, rows, self.setting)
+        return remaining is not None and remaining < len(self.block.coordinates) - len(rows)
 
 
 class NearReference(BlockImplication):

@@ -50,10 +50,11 @@ def _equation_by_equation(
 ) -> tuple[dict[int, int], list[tuple[int, list[int]]]]:
     """Return the number of independent equations of each constraint, and the dependent groups among ``kept``.
 
-    Each of ``numbers`` is compared with those before it, configuration-level ones first. ``kept`` are constraints none
+    Each of ``numbers`` is compared with those before it, implied differential ones last. ``kept`` are constraints none
     of which is implied by the others. A group is (number of implied equations, constraints concerned).
     """
-    order = sorted(numbers, key=lambda i: any(not isinstance(p, Finite) for n in reduced[i].normals for p in n.pieces))
+    forms = {i for i in numbers if not all(isinstance(p, Finite) for n in reduced[i].normals for p in n.pieces)}
+    order = sorted(numbers, key=lambda i: i in forms and i not in kept)
     independent: dict[int, int] = {}
     groups: list[tuple[int, list[int]]] = []
     for k, i in enumerate(order):

@@ -242,20 +242,21 @@ def _of_block(
     owners = removal.owners_of(block)
     equations = [numbered.get(id(r.piece), -1) for r in block.rows]
     matrix = _without_hidden(block, a)
+    undecided = undecided_dependence(owners)
+    removed = partial(removal.by_removal, block, setting, a, nullity, equations)
+    is_finite = "balls" in setting.engines and len(block.finite) == len(block.rows)
+    by_removal = partial(unless_late, removed if is_finite else partial(undecided_dependence, owners), undecided)
     if nullity <= 0 and a.hidden and not a.degenerate:
         yield _independent(dict(Counter(owners)))
     elif a.degenerate or a.hidden or len(matrix) != len(block.rows):
-        undecided = undecided_dependence(owners)
-        is_finite = "balls" in setting.engines and len(block.finite) == len(block.rows)
-        removed = partial(removal.by_removal, block, setting, a, nullity, equations)
-        yield unless_late(removed, undecided) if is_finite else undecided
+        yield by_removal()
     else:
         finite = _finite_rows(block)
         # a constraint with a single row is redundant if and only if this row is
         sure = a.supports is not None or (a.identical and a.trusted and len({*owners}) == len(owners))
         implied = None if sure or nullity <= 0 else implication_of(block, a, setting)
         claim = a.claim if sure or a.linear else together(ROWS, IMPLIED)
-        yield OwnedRows(matrix, owners, finite, a.modulus, equations, a.supports, implied, claim)
+        yield OwnedRows(matrix, owners, finite, a.modulus, equations, a.supports, implied, claim, by_removal)
 
 
 def _joined(matrices: Sequence[OwnedRows]) -> list[list[OwnedRows]]:

@@ -23,14 +23,13 @@ from typing import NamedTuple
 
 from dofkit.base.deadline import OutOfTimeError, check, limited, unless_late
 from dofkit.base.verdicts import About, Claim, Verdict, weakest
-from dofkit.classification.dependence.implication import Everywhere, NearReference, is_at_reference
+from dofkit.classification.dependence.implication import Everywhere, NearReference, freedom, is_at_reference
 from dofkit.classification.dependence.implied_constraints import LEAVING_SECONDS
 from dofkit.classification.dependence.minimal_sets import SufficientSets, largest_redundant_set, minimal_set
-from dofkit.classification.freedom.block import answer
 from dofkit.classification.freedom.preparation import all_of
 from dofkit.exact.matrices.sparse import components, echelon
 from dofkit.relations.answer import BITS, GAP, Answer, Redundancies
-from dofkit.relations.blocks import Block, Row, split
+from dofkit.relations.blocks import Block
 from dofkit.relations.setting import Setting
 
 
@@ -134,13 +133,6 @@ class Removal:
             return True
         self.verdict = "numeric"
         return near.seem_to_imply(others, rows) or None
-
-
-def freedom(coordinates: Sequence[str], rows: Sequence[Row], setting: Setting) -> int | None:
-    """Return the freedom of some coordinates with some rows; None if undecided."""
-    blocks, untouched = split(coordinates, rows)
-    dofs = [answer(block, setting).dof for block in blocks]
-    return None if None in dofs else len(untouched) + sum(dof for dof in dofs if dof is not None)
 
 
 class EquationCount(NamedTuple):
