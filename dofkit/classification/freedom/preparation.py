@@ -220,6 +220,11 @@ def all_of(answers: Iterable[bool | None]) -> bool | None:
     return every
 
 
+def any_of(answers: Sequence[bool | None]) -> bool | None:
+    """Return True if one is True, otherwise None if one is None, otherwise False."""
+    return True if True in answers else None if None in answers else False
+
+
 def algebraic(e: Expr, *more: str) -> bool:
     """Return whether no functions other than sines, cosines, tangents (and ``more``) occur."""
     return all(n.op != "fn" or n.args[0] in ("sin", "cos", "tan", *more) for n in ex.nodes(e))
