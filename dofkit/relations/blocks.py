@@ -17,8 +17,8 @@ from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.pieces import Clause, Finite, JointEquation, Nonlinear, Pfaffian
 from dofkit.relations.setting import Reductions, Setting
 
-#: The constraint of a row that none wrote.
-NOBODY = 0
+#: The number of no constraint: that of a row which none wrote.
+NOBODY = -1
 
 
 class Row(NamedTuple):
