@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import pytest
+from shared.work import calls_of
 
 import dofkit
 from dofkit.classification.freedom import branches as solving
@@ -48,6 +51,18 @@ def test_discs_that_are_alike_are_answered_once(asked: list[tuple[str, ...]]) ->
     assert (report.dof, report.velocity_dof, report.growth_vector) == (48, 24, [24, 36, 48])
     assert all(e.holonomic is False and e.verdict == "proved" for e in report.constraints)
     assert report.generalized_coordinates == discs(12)["coordinates"]
+
+
+def chain(n: int) -> dict[str, Any]:
+    """n + 1 particles, placed on a zigzag, in a chain of n links."""
+    links = [{"type": "link", "between": [f"P{i}", f"P{i + 1}"]} for i in range(n)]
+    return {"particles": [{"name": f"P{i}", "at": [i, i % 2, 0]} for i in range(n + 1)], "constraints": links}
+
+
+@pytest.mark.parametrize("scene", [discs, chain])
+def test_work_grows_with_the_number_of_parts_and_not_with_its_square(scene: Callable[[int], dict[str, Any]]) -> None:
+    _, few, many = (calls_of(partial(classified, **scene(n))) for n in (20, 20, 200))  # once with cold caches
+    assert many < 12 * few
 
 
 def test_another_radius_is_another_block(asked: list[tuple[str, ...]]) -> None:
