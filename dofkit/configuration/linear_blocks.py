@@ -125,7 +125,7 @@ def _number(value: Any) -> fmpq:
 def eliminated(block: Block, setting: Setting) -> Answer | None:
     """Return the answer of a large block of linear geometric equations; None for others, which may be `confirmed`."""
     small = len(block.coordinates) <= BALL_COLUMNS or block.forms
-    if small or setting.engines != BOTH or setting.tolerance is not None or "eliminations" not in setting.reductions:
+    if small or setting.engines != BOTH or setting.tolerance is not None:
         return None
     reduced = elimination(block, setting.positive)
     if reduced is None:

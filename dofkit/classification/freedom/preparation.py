@@ -37,7 +37,7 @@ from dofkit.relations.normal.pieces import (
     unwritten,
 )
 from dofkit.relations.normal.polynomial_zeros import PRODUCT_NOTE
-from dofkit.relations.setting import ALL, Reductions, Setting
+from dofkit.relations.setting import Setting
 from dofkit.relations.velocity_reductions import Alternative, RewrittenRow
 from dofkit.system import System
 
@@ -45,13 +45,13 @@ from dofkit.system import System
 RATES = frozenset({"velocity", "differential", "dt"})
 
 
-def prepared(system: System, reductions: Reductions = ALL) -> tuple[list[Reduced], Setting]:
+def prepared(system: System) -> tuple[list[Reduced], Setting]:
     """Return (every constraint with its normal forms, the setting); raises SceneError as `reduce_all` does."""
     positive = frozenset(ex.parameter(p) for p, sign in system.parameters.items() if sign == "positive")
     generic = tuple([ex.parameter(p) for p in system.generic])
     positive |= frozenset([p for p in generic if p.args[1].startswith("_L")])  # squared lengths without a number
     exact = system.joints and system.tolerance is None
-    bridging = bridges(system) if "bridges" in reductions and exact else Bridges()
+    bridging = bridges(system) if exact else Bridges()
     reduced = reduce_all(system, positive, bridging.joints)
     setting = Setting(
         positive,
@@ -64,7 +64,6 @@ def prepared(system: System, reductions: Reductions = ALL) -> tuple[list[Reduced
         dimension=system.dimension,
         distances={} if system.tolerance else system.distances,
         links=_links(system),
-        reductions=reductions,
         geometric=frozenset(i for i, c in enumerate(system.constraints) if not c.facts.written or c.facts.contact),
         arms=system.arms,
         tilts=frozenset(r.names[1] for r in system.rotations if r.chart == "euler"),
