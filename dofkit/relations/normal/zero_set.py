@@ -10,6 +10,7 @@ from __future__ import annotations
 from dofkit.base.errors import NoValueError
 from dofkit.exact.ring.canonical import quotients_of
 from dofkit.exact.ring.radicals import never_negative
+from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.polynomial_zeros import (
     EMPTY_NOTE,
@@ -126,13 +127,8 @@ class _WrittenZeros:
 
 def sign_as_written(term: Expr, positive: frozenset[Expr]) -> int | None:
     """Return 1 if the factors of a term show that it is >= 0, -1 if <= 0, otherwise None."""
-    sign = 1
-    for factor in term.args if term.op == "mul" else (term,):
-        if factor.op == "num":
-            sign = sign if factor.args[0] > 0 else -sign
-        elif not never_negative(factor, positive):
-            return None
-    return sign
+    number, factors = ex.number_and_rest(term)
+    return None if not never_negative(factors, positive) else 1 if number > 0 else -1
 
 
 def _is_denominator(factor: Expr) -> bool:
