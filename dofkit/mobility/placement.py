@@ -46,7 +46,7 @@ class Placement:
     places: Mapping[str, NumberTuple]
 
 
-def drawn_placement(system: System, positive: frozenset[Expr]) -> Placement | None:
+def reference_placement(system: System, positive: frozenset[Expr]) -> Placement | None:
     """Return the placement at the reference configuration modulo p, with random values for missing geometry."""
     geometry = _geometry_of(system)
     ring = Ring([e for e in geometry if e.op != "num"], positive)
@@ -91,11 +91,11 @@ class _ReferenceNumbers:
     def random(self, dimension: int) -> NumberTuple:
         return tuple(self._rng.randrange(1, self.p or FREE) for _ in range(dimension))
 
-    def vector(self, drawn: Vector | None, dimension: int) -> NumberTuple:
-        return self.random(dimension) if drawn is None else tuple(self._numbers[e] for e in drawn)
+    def vector(self, reference: Vector | None, dimension: int) -> NumberTuple:
+        return self.random(dimension) if reference is None else tuple(self._numbers[e] for e in reference)
 
-    def place(self, member: str, drawn: Vector | None, dimension: int) -> NumberTuple:
-        return self.vector(drawn, dimension)
+    def place(self, member: str, reference: Vector | None, dimension: int) -> NumberTuple:
+        return self.vector(reference, dimension)
 
     def point(self, point: DrawnPoint, dimension: int) -> NumberTuple:
         if point.at is not None:
@@ -104,11 +104,11 @@ class _ReferenceNumbers:
             self._elsewhere[point.carrier] = self.random(dimension)
         return self._elsewhere[point.carrier]
 
-    def number(self, drawn: Expr | None, by_turn: bool) -> Any:
+    def number(self, reference: Expr | None, by_turn: bool) -> Any:
         """Return a number of a connection; a screw's pitch times any factor, because 2 pi is no number of GF(p)."""
-        if drawn is None:
+        if reference is None:
             return 0
-        scaled: Any = self._numbers[drawn] * (self._turn if by_turn else 1)
+        scaled: Any = self._numbers[reference] * (self._turn if by_turn else 1)
         return scaled % self.p if self.p else scaled
 
     def factor(self, rate: JointRate) -> Any:
@@ -135,11 +135,11 @@ class _RandomNumbers:
     def random(self, dimension: int) -> NumberTuple:
         return tuple(self._rng.randrange(1, self.p) for _ in range(dimension))
 
-    def vector(self, drawn: Vector | None, dimension: int) -> NumberTuple:
+    def vector(self, reference: Vector | None, dimension: int) -> NumberTuple:
         return self.random(dimension)
 
-    def place(self, member: str, drawn: Vector | None, dimension: int) -> NumberTuple:
-        return self.random(dimension) if drawn is None else self._at((member, drawn), dimension)
+    def place(self, member: str, reference: Vector | None, dimension: int) -> NumberTuple:
+        return self.random(dimension) if reference is None else self._at((member, reference), dimension)
 
     def point(self, point: DrawnPoint, dimension: int) -> NumberTuple:
         return self._at(_key(point), dimension)
@@ -150,7 +150,7 @@ class _RandomNumbers:
             self._places[root] = self.random(dimension)
         return self._places[root]
 
-    def number(self, drawn: Expr | None, by_turn: bool) -> int:
+    def number(self, reference: Expr | None, by_turn: bool) -> int:
         return self._rng.randrange(1, self.p)
 
     def factor(self, rate: JointRate) -> int:
@@ -335,7 +335,7 @@ class RowsAtReference:
 
     @cached_property
     def _placement(self) -> Placement | None:
-        return drawn_placement(replace(self.system, connections=self._joints), self.positive)
+        return reference_placement(replace(self.system, connections=self._joints), self.positive)
 
     @cached_property
     def _located(self) -> dict[int, Located]:

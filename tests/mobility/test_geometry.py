@@ -15,7 +15,7 @@ from dofkit.configuration import at_reference as local
 from dofkit.exact.matrices.sparse import rank_of_rows
 from dofkit.interface.show.report import sheet_of_report
 from dofkit.interface.show.terminal import as_text
-from dofkit.mobility.placement import drawn_placement, rows_of
+from dofkit.mobility.placement import reference_placement, rows_of
 from dofkit.report import Report
 from dofkit.scene.constraints import TYPES
 from dofkit.scene.lowering import lower
@@ -267,7 +267,7 @@ def test_without_a_drawing_there_is_no_general_position_beside_it() -> None:
 
 def drawn_rank(system: System) -> int | None:
     """The rank of all connections' relations between twists, where they are drawn."""
-    placement = drawn_placement(system, frozenset())
+    placement = reference_placement(system, frozenset())
     assert placement is not None
     p = placement.p
     rows = []
@@ -515,7 +515,7 @@ def test_a_body_that_is_fixed_keeps_its_origin_and_its_turn() -> None:
         "constraints": [{"type": "fixed", "body": "b"}],
         "configuration": {"x_b": 3, "y_b": 4},
     }
-    placement = drawn_placement(lower(dofkit.load(scene)), frozenset())
+    placement = reference_placement(lower(dofkit.load(scene)), frozenset())
     assert placement is not None
     rows = rows_of(placement.located[0])
     assert rows is not None
