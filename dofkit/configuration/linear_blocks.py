@@ -16,7 +16,8 @@ from typing import Any
 from flint import fmpq
 
 from dofkit.configuration.generic_dimension import BALL_COLUMNS
-from dofkit.exact.matrices.sparse import RationalRow, SparseRow, dependences, echelon, last_columns, without_time
+from dofkit.exact.matrices.rational import RationalRow, dependences
+from dofkit.exact.matrices.sparse import SparseRow, echelon, last_columns, without_time
 from dofkit.exact.points.field import prime_for
 from dofkit.exact.zero import BOTH, certainly_nonzero, zero_and_verdict
 from dofkit.expressions import tree as ex

@@ -8,20 +8,18 @@ occur, so that singularities of angle coordinates do not either.
 from __future__ import annotations
 
 import random
-from collections.abc import Callable, Hashable, Iterable, Mapping
-from dataclasses import dataclass, replace
-from functools import cached_property
+from collections.abc import Callable, Hashable, Mapping
+from dataclasses import dataclass
 from typing import Any
 
 from dofkit.base.errors import NoValueError
 from dofkit.base.libraries import nx
-from dofkit.exact.matrices.sparse import LinearRow, Numbers, SparseRow, less
+from dofkit.exact.matrices.sparse import LinearRow, Numbers, less
 from dofkit.exact.points.field import field_point
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.tree import Expr
-from dofkit.relations.setting import NamedRows
 from dofkit.system import GROUND, Connection, DrawnPoint, JointRate, Kinematics, System, TypeFacts
 
 #: Bound on random numbers if there is no prime.
@@ -315,61 +313,3 @@ def spin(member: Member, dimension: int) -> list[LinearRow]:
 
 
 # Rows of joints at the reference configuration
-
-
-@dataclass(frozen=True)
-class RowsAtReference:
-    """The rows of joints at the reference configuration, computed from their geometry without writing equations.
-
-    The columns of a body are those of its twist: w is twice the rate of a Gibbs vector that is 0, or the rate of an
-    angle in the plane. So the rows have the same dependences as those of the relations.
-    """
-
-    system: System
-    positive: frozenset[Expr]
-
-    @cached_property
-    def _joints(self) -> tuple[Connection, ...]:
-        """The undriven joints with complete geometry."""
-        return tuple(c for c in self.system.connections if self._is_plain(c))
-
-    @cached_property
-    def _placement(self) -> Placement | None:
-        return reference_placement(replace(self.system, connections=self._joints), self.positive)
-
-    @cached_property
-    def _located(self) -> dict[int, Located]:
-        """The joints with numbers, by constraint."""
-        located = () if self._placement is None else self._placement.located
-        return {c.constraint: at for c, at in zip(self._joints, located, strict=True)} if located else {}
-
-    @cached_property
-    def _turned_by_euler(self) -> frozenset[str]:
-        return frozenset(r.body for r in self.system.rotations if r.chart == "euler")
-
-    def rows_of_joints(self, constraints: Iterable[int]) -> NamedRows | None:
-        """Return rows modulo p at the reference; None if a constraint is not an undriven joint with given geometry."""
-        if self._placement is None:
-            return None
-        names = [q.name for q in self.system.coordinates]
-        p, named = self._placement.p, list[dict[str, int]]()
-        for i in constraints:
-            rows = self._rows(i, p)
-            if rows is None:
-                return None
-            named += [{names[c]: v for c, v in row.items()} for row in rows]
-        return NamedRows(named, p)
-
-    def _is_plain(self, c: Connection) -> bool:
-        facts = c.facts
-        plain = facts.placed and facts.joint and c.number is None and not c.driven and not facts.bars and not c.points
-        complete = all(vector is not None for vector in (*c.places, *c.directions))
-        return plain and complete and self._turned_by_euler.isdisjoint(c.members)
-
-    def _rows(self, number: int, p: int) -> list[SparseRow] | None:
-        at = self._located.get(number)
-        if at is None:
-            return None
-        rows = rows_of(at) or []
-        short = [{k: int(v % p) for k, v in row.items() if v % p} for row in rows]
-        return short if len(rows) == len(self.system.constraints[number].relations) else None

@@ -20,7 +20,7 @@ from dofkit.expressions.calculus import substitute
 from dofkit.expressions.renaming import Renaming, Unwritten, kinds_in, shape_of
 from dofkit.expressions.tree import Expr
 from dofkit.mobility.joint_tree import Bridges, bridges
-from dofkit.mobility.placement import RowsAtReference
+from dofkit.mobility.rows_at_reference import RowsAtReference
 from dofkit.relations.blocks import Block, Row, coordinates_of, make_chart
 from dofkit.relations.normal.domain import DomainCondition, arguments_of, is_satisfied_at, up_to_a_number
 from dofkit.relations.normal.normal_form import normalise
