@@ -36,7 +36,6 @@ from dofkit.relations.velocity_reductions import (
     Alternative,
     RewrittenRow,
     alternatives_of,
-    with_boundaries,
 )
 
 #: Bound on the choices of branches.
@@ -183,7 +182,7 @@ def _through_reference(
             elif i not in copied:
                 rows += [Row(i, p) for p in normal.branches[branch]]
         plain = not any(isinstance(row.piece, Nonlinear | DomainCondition) for row in rows)
-        alternatives = [Alternative(rows)] if plain else alternatives_of(with_boundaries(rows), positive)
+        alternatives = [Alternative(rows)] if plain else alternatives_of(rows, positive)
         why = _LEFT_OUT if len(alternatives) >= MAX_ALTERNATIVES else why
         through = reductions_at_reference(alternatives, setting)
         if len(through) < len(alternatives):
