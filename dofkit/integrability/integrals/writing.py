@@ -129,11 +129,9 @@ def _logs(e: Expr) -> tuple[dict[Expr, Fraction], list[Expr]]:
     logs: dict[Expr, Fraction] = {}
     terms = []
     for term in e.args if e.op == "add" else (e,):
-        factors = term.args if term.op == "mul" else (term,)
-        number = factors[0].args[0] if factors[0].op == "num" else Fraction(1)
-        last = factors[-1]
-        if last.op == "fn" and last.args[0] == "log" and len(factors) - (factors[0].op == "num") == 1:
-            logs[last.args[1]] = logs.get(last.args[1], Fraction(0)) + number
+        number, other = ex.number_and_rest(term)
+        if other.op == "fn" and other.args[0] == "log":
+            logs[other.args[1]] = logs.get(other.args[1], Fraction(0)) + number
         else:
             terms.append(term)
     return logs, terms
