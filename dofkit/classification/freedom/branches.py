@@ -31,12 +31,7 @@ from dofkit.relations.normal.no_solution import holds_somewhere
 from dofkit.relations.normal.normal_form import velocities_of
 from dofkit.relations.normal.pieces import Finite, JointEquation, Nonlinear, Normal, Pfaffian, Reduced
 from dofkit.relations.setting import Setting
-from dofkit.relations.velocity_reductions import (
-    MAX_ALTERNATIVES,
-    Alternative,
-    RewrittenRow,
-    alternatives_of,
-)
+from dofkit.relations.velocity_reductions import MAX_ALTERNATIVES, Alternative, RewrittenRow, alternatives_of
 
 #: Bound on the choices of branches.
 MAX_CHOICES = 16

@@ -10,11 +10,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import content
 from dofkit.expressions.text.printing import to_text
 from dofkit.expressions.tree import Expr
-from dofkit.integrability.integrals.potentials import (
-    Algebra,
-    as_power,
-    size,
-)
+from dofkit.integrability.integrals.potentials import Algebra, as_power
 
 #: (integral, factor).
 Pair = tuple[Expr, Expr]
@@ -165,6 +161,6 @@ def _without_roots(pair: Pair) -> Pair | None:
 def _reciprocal(pair: Pair) -> Pair | None:
     """Return the pair for 1/f; None if f is 0, a sum, or too large."""
     integral, factor = pair
-    if integral.is_zero or integral.op == "add" or size(integral) > 60:
+    if integral.is_zero or integral.op == "add" or ex.size(integral) > 60:
         return None
     return 1 / integral, -factor / integral**2

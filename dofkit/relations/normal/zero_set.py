@@ -12,6 +12,7 @@ from dofkit.exact.ring.canonical import quotients_of
 from dofkit.exact.ring.radicals import never_negative
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
+from dofkit.relations.linear_relations import linear
 from dofkit.relations.normal.polynomial_zeros import (
     EMPTY_NOTE,
     EXTREME_NOTE,
@@ -46,13 +47,8 @@ def zero_set(e: Expr, positive: frozenset[Expr], variables: frozenset[Expr]) -> 
 
 def _is_linear(e: Expr, variables: frozenset[Expr]) -> bool:
     """Return whether ``e`` is a linear combination of symbols with at least one variable (its gradient is not 0)."""
-    has_variable = False
-    for term in e.args if e.op == "add" else (e,):
-        symbol = term.args[-1] if term.op == "mul" and len(term.args) == 2 and term.args[0].op == "num" else term
-        if symbol.op not in ("sym", "num"):
-            return False
-        has_variable = has_variable or symbol in variables
-    return has_variable
+    terms = linear(e)
+    return terms is not None and not variables.isdisjoint(terms)
 
 
 class _WrittenZeros:
