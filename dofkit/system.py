@@ -269,8 +269,8 @@ class System:
     hold, by constraint index; ``connections`` what each constraint of given or generic geometry
     connects, ``starts`` where the bodies' origins stand; ``arms``, where geometry is measured, the vectors from the
     bodies' origins to their material points at the scene's centre. ``size``: the largest distance between given points.
-    ``left_out``: what the scene says that it leaves out. ``drawn``: a pose that is no ``reference`` since Euler angles
-    are singular there, so that coordinates tell no velocities of bodies.
+    ``left_out``: what the scene says that it leaves out. ``singular_pose``: a pose that is no ``reference`` since Euler
+    angles are singular there, so that coordinates tell no velocities of bodies.
     """
 
     name: str
@@ -295,12 +295,12 @@ class System:
     size: float = 1.0
     warnings: tuple[str, ...] = ()
     left_out: tuple[str, ...] = ()
-    drawn: Mapping[Expr, Expr] | None = None
+    singular_pose: Mapping[Expr, Expr] | None = None
 
     @property
     def in_coordinates(self) -> System:
-        """With every drawing as reference: to compare relations between coordinates, whatever bodies do there."""
-        return self if self.drawn is None else replace(self, reference=self.drawn)
+        """With every pose as reference: to compare relations between coordinates, whatever bodies do there."""
+        return self if self.singular_pose is None else replace(self, reference=self.singular_pose)
 
     @property
     def longest(self) -> int:

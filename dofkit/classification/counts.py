@@ -23,7 +23,7 @@ from dofkit.exact.ring.program import raising_no_value
 from dofkit.mobility import special_position
 from dofkit.mobility.counts import kutzbach_count
 from dofkit.mobility.general_position import GenericRank, in_general_position
-from dofkit.mobility.placement import TURNS, Member, Placement, drawn_placement, measured_placement, rows_of
+from dofkit.mobility.placement import TURNS, Member, Placement, measured_placement, reference_placement, rows_of
 from dofkit.relations.normal.pieces import Finite
 from dofkit.report import Generic, Mobility
 
@@ -86,7 +86,7 @@ class CountsBeside:
     def _placement(self) -> Placement | None:
         system = self.study.system
         measured = system.tolerance is not None
-        return measured_placement(system) if measured else drawn_placement(system, self.study.setting.positive)
+        return measured_placement(system) if measured else reference_placement(system, self.study.setting.positive)
 
     def _dependent_sets(self) -> list[list[int]]:
         """Return the constraints of minimal dependent sets of rows and of circuits; none contains another."""

@@ -21,7 +21,6 @@ from dofkit.exact.zero import BOTH, Engines
 from dofkit.expressions.text import to_text
 from dofkit.mobility.counts import without_drives
 from dofkit.relations.answer import DEFECTS
-from dofkit.relations.setting import ALL, Reductions
 from dofkit.report import BRANCH_WARNING, ConstraintEntry, FieldVerdict, ForceEntry, Mobility, Report
 from dofkit.system import BINDING, System
 
@@ -284,7 +283,7 @@ def _counts(study: Study, values: Values) -> Values:
     mobility, released = counts["mobility"], without_drives(study.system)
     if isinstance(mobility, Mobility) and released is not None and values["consistent"] is True:
         nothing: Values = {}
-        undriven = unless_late(partial(_velocity_freedom, study.setting.reductions, released), nothing)
+        undriven = unless_late(partial(_velocity_freedom, released), nothing)
         counts = {**counts, "mobility": mobility.model_copy(update=dict(undriven))}
     return {**counts, **({} if near is None else {"warnings": [*values["warnings"], near]})}
 
@@ -296,8 +295,7 @@ def _special(study: Study, values: Values) -> Values:
     """
     if study.system.reference is not None and not any(block.forms for block in study.outcome.blocks):
         return {}
-    reclassify = partial(fields.study, reductions=study.setting.reductions)
-    search = partial(special_cases, study, Report(**values), reclassify)
+    search = partial(special_cases, study, Report(**values), fields.study)
     late: Values = {"warnings": [*values["warnings"], NO_SPECIAL_CASES]}
     special = unless_late(search, late)
     branches = [case.where for case in special.get("special_cases", ()) if case.kind == "branch"]
@@ -305,9 +303,9 @@ def _special(study: Study, values: Values) -> Values:
     return {**special, "warnings": warnings}
 
 
-def _velocity_freedom(reductions: Reductions, released: System) -> Values:
+def _velocity_freedom(released: System) -> Values:
     """Return the velocity freedom of a system whose drives are released, with its verdict; nothing if undecided."""
-    answered = study(released, reductions=reductions)
+    answered = study(released)
     number, verdict = answered.outcome.velocity_dof, answered.free.verdict
     return {} if number is None or verdict == "undecided" else {"undriven": number, "undriven_verdict": verdict}
 
@@ -337,12 +335,11 @@ def examined(
     system: System,
     seconds: float = DEFAULT_SECONDS,
     engines: Engines = BOTH,
-    reductions: Reductions = ALL,
     passes: Sequence[Fill] = PASSES,
 ) -> Examined:
-    """Return the study and report of a system by some ``engines`` and ``reductions``; may raise OutOfTimeError."""
+    """Return the study and report of a system by some ``engines``; may raise OutOfTimeError."""
     with limited(seconds), precise_for(system.longest), gc_rarely():
         with part(SOLVING):
-            result = study(system, engines, reductions)
+            result = study(system, engines)
         report = report_of(result, passes)
         return Examined(result.system, result.reduced, result.setting, result.outcome, report)

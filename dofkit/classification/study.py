@@ -25,7 +25,7 @@ from dofkit.mobility.joint_tree import tree_coordinates
 from dofkit.relations.answer import BITS, Redundancies, undecided_dependence
 from dofkit.relations.blocks import Block, Row, uses_time
 from dofkit.relations.normal.pieces import Finite, Reduced
-from dofkit.relations.setting import ALL, Reductions, Setting
+from dofkit.relations.setting import Setting
 from dofkit.report import ConstraintEntry, Count, Redundancy
 from dofkit.system import System
 
@@ -117,15 +117,13 @@ class Study:
         return entries_of(self.reduced, self.setting, self.outcome, dependent, self.company)
 
 
-def study(
-    system: System, engines: Engines = BOTH, reductions: Reductions = ALL, grows: bool = True, flag: bool = False
-) -> Study:
-    """Return the study of a system by some engines, with some reductions in use.
+def study(system: System, engines: Engines = BOTH, grows: bool = True, flag: bool = False) -> Study:
+    """Return the study of a system by some engines.
 
     ``grows``, ``flag``: whether to compute the growth vector and the derived flag. Raises OutOfTimeError, and
     SceneError if an expression is not a valid relation.
     """
-    reduced, setting = prepared(system, reductions)
+    reduced, setting = prepared(system)
     setting = replace(setting, engines=engines, grows=grows, flag=flag)
     return Study(system, reduced, setting, solve(reduced, setting))
 

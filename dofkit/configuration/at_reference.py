@@ -111,8 +111,7 @@ def _by_field(chart: Chart, pose: Mapping[Expr, Expr]) -> AtReference | None:
     timed = len(chart.columns) - n
     fields = rigid_fields(chart, point)
     rigid = rank_of(fields, point.p)
-    together = timed or rank == n - rigid or "classes" not in chart.setting.reductions
-    by_classes = None if together else _by_classes(chart, pose, matrix, point.p, rank)
+    by_classes = None if timed or rank == n - rigid else _by_classes(chart, pose, matrix, point.p, rank)
     if by_classes is not None:
         local, looked = by_classes
         return AtReference(n - rank_q, local, matrix, point.p, rank, rigid, looked=looked)

@@ -140,7 +140,7 @@ def _combined(relations: Sequence[Expr], moving: frozenset[Expr], positive: froz
 
 def _linear(relations: Sequence[Expr], moving: frozenset[Expr]) -> Iterator[tuple[tuple[int, int], Expr, Expr, Expr]]:
     """Yield (cost of substituting, relation, unknown, its coefficient) for relations of first degree in an unknown."""
-    sizes = {g: sum(1 for _ in ex.nodes(g)) for g in relations}
+    sizes = {g: ex.size(g) for g in relations}
     for g in relations:
         for s in sorted(moving & g.symbols, key=repr):
             slope = diff(g, s)
@@ -148,7 +148,7 @@ def _linear(relations: Sequence[Expr], moving: frozenset[Expr]) -> Iterator[tupl
                 continue
             if sizes[g] + max((sizes[e] for e in relations if e != g and s in e.symbols), default=0) > MAX_NODES:
                 continue
-            yield (not moving.isdisjoint(slope.symbols), sum(1 for _ in ex.nodes(slope))), g, s, slope
+            yield (not moving.isdisjoint(slope.symbols), ex.size(slope)), g, s, slope
 
 
 @false_without_value

@@ -105,7 +105,7 @@ def separating_expressions(choices: Sequence[Sequence[all_cases.BoundedCase]], l
 
 
 def _length(e: Expr) -> tuple[int, str]:
-    return sum(1 for _ in ex.nodes(e)), repr(e)
+    return ex.size(e), repr(e)
 
 
 def _variety_of(chart: Chart, relations: Sequence[Expr], find: Callable[[Chart], Variety]) -> Variety:

@@ -16,7 +16,8 @@ from typing import Any
 from flint import fmpq
 
 from dofkit.configuration.generic_dimension import BALL_COLUMNS
-from dofkit.exact.matrices.sparse import RationalRow, SparseRow, dependences, echelon, last_columns, without_time
+from dofkit.exact.matrices.rational import RationalRow, dependences
+from dofkit.exact.matrices.sparse import SparseRow, echelon, last_columns, without_time
 from dofkit.exact.points.field import prime_for
 from dofkit.exact.zero import BOTH, certainly_nonzero, zero_and_verdict
 from dofkit.expressions import tree as ex
@@ -125,7 +126,7 @@ def _number(value: Any) -> fmpq:
 def eliminated(block: Block, setting: Setting) -> Answer | None:
     """Return the answer of a large block of linear geometric equations; None for others, which may be `confirmed`."""
     small = len(block.coordinates) <= BALL_COLUMNS or block.forms
-    if small or setting.engines != BOTH or setting.tolerance is not None or "eliminations" not in setting.reductions:
+    if small or setting.engines != BOTH or setting.tolerance is not None:
         return None
     reduced = elimination(block, setting.positive)
     if reduced is None:

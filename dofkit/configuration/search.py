@@ -94,8 +94,7 @@ def _variety(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> Variety:
         posed = pose_samples(chart, pose, seed)
         if posed:
             return variety_at(chart, posed, seed, chart.nodes)
-    eliminates = "eliminations" in chart.setting.reductions
-    solved = solve_linear(chart.relations if eliminates else ())
+    solved = solve_linear(chart.relations)
     if solved.contradictory:
         why = "the linear equations contradict each other"
         return Variety(False, None, "proved", reasons=[why], argument="linear contradiction")
@@ -132,10 +131,9 @@ def _reductions(chart: Chart, solved: Explicit) -> Iterator[tuple[Explicit, list
 
     The second way is not used with roots, signs and logarithms, which would be other generators after substitution.
     """
-    eliminates = "eliminations" in chart.setting.reductions
-    yield solved, [n for n, g in zip(chart.nodes, chart.relations, strict=True) if not eliminates or linear(g) is None]
+    yield solved, [n for n, g in zip(chart.nodes, chart.relations, strict=True) if linear(g) is None]
     kinds = {v.kind for v in chart.ring.vars if chart.ring.var_expr[v.index].symbols}
-    if eliminates and kinds.isdisjoint(("root", "sign", "log")):
+    if kinds.isdisjoint(("root", "sign", "log")):
         with suppress(NoValueError):
             yield explicit_relations(chart.relations, number_coefficients), []
 

@@ -255,7 +255,7 @@ def smaller(chart: Chart) -> tuple[Chart, int]:
     mentioned. This eliminates angles of bodies that do not turn (theta = 0), welded bodies (x_B = x_A, theta_B =
     theta_A), and z = 0. The chart itself if nothing can be solved.
     """
-    if chart.time is not None or "eliminations" not in chart.setting.reductions:
+    if chart.time is not None:
         return chart, 0
     solved = explicit_relations(chart.relations, lambda g: {} if linear(g) is None else number_coefficients(g))
     if not solved.explicit:

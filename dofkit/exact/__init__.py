@@ -23,7 +23,7 @@ Mechanisms
     in floating point finds real points, which the interval Newton test certifies [KrawczykNewton].
     `ideals` gives the dimension of a complex variety by Groebner bases [Buchberger1965], and `linear_inequalities` a
     solution of linear conditions or a proof that there is none [Motzkin1936].
-    `matrices` computes ranks: modulo p, of sparse rows, of rational rows, and certified ranks of balls. Its `dense`
+    `matrices` computes ranks: modulo p, of sparse rows, of rational rows (`rational`), and of balls. Its `dense`
     computes Newton steps and singular values in floating point; it imports numpy only for large matrices.
     `ring.program` defines the exceptions of arithmetic.
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from functools import partial
 
-from dofkit.exact.ring.radicals import never_negative
+from dofkit.exact.ring.radicals import sense_of
 from dofkit.expressions.tree import Expr
 
 #: Functions that are analytic on the whole real line, and have one value at every complex number but their poles.
@@ -57,9 +57,9 @@ def is_analytic(
         return ends or (all(map(without_poles, arguments)) and _is_inside_branch(name, arguments, positive))
     base, exponent = e.args
     if exponent.op == "num" and exponent.args[0].denominator == 1:
-        return within(base) and (poles or exponent.args[0] > 0 or _is_positive(base, positive))
+        return within(base) and (poles or exponent.args[0] > 0 or sense_of(base, positive) == ">")
     ends = poles and (exponent.op != "num" or exponent.args[0].denominator % 2 == 0) and _is_affine(base, moving)
-    return (ends or (without_poles(base) and _is_positive(base, positive))) and within(exponent)
+    return (ends or (without_poles(base) and sense_of(base, positive) == ">")) and within(exponent)
 
 
 def _is_affine(e: Expr, moving: frozenset[Expr]) -> bool:
@@ -74,21 +74,4 @@ def _is_affine(e: Expr, moving: frozenset[Expr]) -> bool:
 
 def _is_inside_branch(name: str, arguments: Sequence[Expr], positive: frozenset[Expr]) -> bool:
     """Return whether the arguments of a function stay away from the boundaries of its domain and of its branch."""
-    return name == "atan" or (name in ("log", "abs", "atan2") and _is_positive(arguments[-1], positive))
-
-
-def _is_positive(e: Expr, positive: frozenset[Expr]) -> bool:
-    """Return whether ``e`` is greater than 0 by its form, at every real point."""
-    positive_parts = partial(_is_positive, positive=positive)
-    if e.op == "add":
-        return all(never_negative(part, positive) for part in e.args) and any(map(positive_parts, e.args))
-    if e.op == "mul":
-        return all(map(positive_parts, e.args))
-    if e.op == "pow":
-        return positive_parts(e.args[0])
-    return (
-        e in positive
-        or e.op == "const"
-        or (e.op == "num" and e.args[0] > 0)
-        or (e.op == "fn" and e.args[0] in ("exp", "cosh"))
-    )
+    return name == "atan" or (name in ("log", "abs", "atan2") and sense_of(arguments[-1], positive) == ">")

@@ -360,3 +360,8 @@ def nodes(e: Expr) -> Iterator[Expr]:
             seen.add(node)
             stack.append((node, True))
             stack.extend((child, False) for child in reversed(children(node)))
+
+
+def size(e: Expr) -> int:
+    """Return the number of different nodes of ``e``."""
+    return sum(1 for _ in nodes(e))

@@ -17,7 +17,8 @@ from itertools import combinations_with_replacement
 
 from dofkit.base.deadline import check
 from dofkit.configuration.variety import pose_point
-from dofkit.exact.matrices.sparse import Pivots, rank_of, reconstructed
+from dofkit.exact.matrices.rational import reconstructed
+from dofkit.exact.matrices.sparse import Pivots, rank_of
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import field_frame, kernel, pairing
 from dofkit.exact.points.series import Series, SeriesPoint

@@ -16,6 +16,7 @@ Mechanisms, cheapest first
        [Laman1970], ranks at random positions in space, where no count is sufficient.
     4. `placement` gives the connections random numbers modulo a prime, or those of the reference modulo a prime or in
        floating point; `general_position` is the mobility at random positions, and analyses blocks of links.
+       `rows_at_reference` has the rows of joints there.
     5. `special_position` names what makes a geometry special: parallel or concurrent lines, points on one line, plane
        or conic [BolkerRoth1980].
 

@@ -56,7 +56,7 @@ def in_general_position(system: System, rows: Sequence[Row], setting: Setting) -
     """Return the rank of the geometric equations ``rows`` with random positions and directions."""
     if any(not isinstance(row.piece, Finite) for row in rows):
         return GenericRank(None, why=DIFFERENTIAL)
-    pairs = linked_particles(system) if "cheapest" in setting.reductions else None
+    pairs = linked_particles(system)
     if pairs is None:
         return _rank_of_rows(system, rows, setting)
     rank = linkage([pair for _, pair in pairs], system.dimension).rank

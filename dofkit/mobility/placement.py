@@ -8,20 +8,18 @@ occur, so that singularities of angle coordinates do not either.
 from __future__ import annotations
 
 import random
-from collections.abc import Callable, Hashable, Iterable, Mapping
-from dataclasses import dataclass, replace
-from functools import cached_property
+from collections.abc import Callable, Hashable, Mapping
+from dataclasses import dataclass
 from typing import Any
 
 from dofkit.base.errors import NoValueError
 from dofkit.base.libraries import nx
-from dofkit.exact.matrices.sparse import LinearRow, Numbers, SparseRow, less
+from dofkit.exact.matrices.sparse import LinearRow, Numbers, less
 from dofkit.exact.points.field import field_point
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.tree import Expr
-from dofkit.relations.setting import NamedRows
 from dofkit.system import GROUND, Connection, DrawnPoint, JointRate, Kinematics, System, TypeFacts
 
 #: Bound on random numbers if there is no prime.
@@ -46,7 +44,7 @@ class Placement:
     places: Mapping[str, NumberTuple]
 
 
-def drawn_placement(system: System, positive: frozenset[Expr]) -> Placement | None:
+def reference_placement(system: System, positive: frozenset[Expr]) -> Placement | None:
     """Return the placement at the reference configuration modulo p, with random values for missing geometry."""
     geometry = _geometry_of(system)
     ring = Ring([e for e in geometry if e.op != "num"], positive)
@@ -91,11 +89,11 @@ class _ReferenceNumbers:
     def random(self, dimension: int) -> NumberTuple:
         return tuple(self._rng.randrange(1, self.p or FREE) for _ in range(dimension))
 
-    def vector(self, drawn: Vector | None, dimension: int) -> NumberTuple:
-        return self.random(dimension) if drawn is None else tuple(self._numbers[e] for e in drawn)
+    def vector(self, reference: Vector | None, dimension: int) -> NumberTuple:
+        return self.random(dimension) if reference is None else tuple(self._numbers[e] for e in reference)
 
-    def place(self, member: str, drawn: Vector | None, dimension: int) -> NumberTuple:
-        return self.vector(drawn, dimension)
+    def place(self, member: str, reference: Vector | None, dimension: int) -> NumberTuple:
+        return self.vector(reference, dimension)
 
     def point(self, point: DrawnPoint, dimension: int) -> NumberTuple:
         if point.at is not None:
@@ -104,11 +102,11 @@ class _ReferenceNumbers:
             self._elsewhere[point.carrier] = self.random(dimension)
         return self._elsewhere[point.carrier]
 
-    def number(self, drawn: Expr | None, by_turn: bool) -> Any:
+    def number(self, reference: Expr | None, by_turn: bool) -> Any:
         """Return a number of a connection; a screw's pitch times any factor, because 2 pi is no number of GF(p)."""
-        if drawn is None:
+        if reference is None:
             return 0
-        scaled: Any = self._numbers[drawn] * (self._turn if by_turn else 1)
+        scaled: Any = self._numbers[reference] * (self._turn if by_turn else 1)
         return scaled % self.p if self.p else scaled
 
     def factor(self, rate: JointRate) -> Any:
@@ -135,11 +133,11 @@ class _RandomNumbers:
     def random(self, dimension: int) -> NumberTuple:
         return tuple(self._rng.randrange(1, self.p) for _ in range(dimension))
 
-    def vector(self, drawn: Vector | None, dimension: int) -> NumberTuple:
+    def vector(self, reference: Vector | None, dimension: int) -> NumberTuple:
         return self.random(dimension)
 
-    def place(self, member: str, drawn: Vector | None, dimension: int) -> NumberTuple:
-        return self.random(dimension) if drawn is None else self._at((member, drawn), dimension)
+    def place(self, member: str, reference: Vector | None, dimension: int) -> NumberTuple:
+        return self.random(dimension) if reference is None else self._at((member, reference), dimension)
 
     def point(self, point: DrawnPoint, dimension: int) -> NumberTuple:
         return self._at(_key(point), dimension)
@@ -150,7 +148,7 @@ class _RandomNumbers:
             self._places[root] = self.random(dimension)
         return self._places[root]
 
-    def number(self, drawn: Expr | None, by_turn: bool) -> int:
+    def number(self, reference: Expr | None, by_turn: bool) -> int:
         return self._rng.randrange(1, self.p)
 
     def factor(self, rate: JointRate) -> int:
@@ -315,61 +313,3 @@ def spin(member: Member, dimension: int) -> list[LinearRow]:
 
 
 # Rows of joints at the reference configuration
-
-
-@dataclass(frozen=True)
-class RowsAtReference:
-    """The rows of joints at the reference configuration, computed from their geometry without writing equations.
-
-    The columns of a body are those of its twist: w is twice the rate of a Gibbs vector that is 0, or the rate of an
-    angle in the plane. So the rows have the same dependences as those of the relations.
-    """
-
-    system: System
-    positive: frozenset[Expr]
-
-    @cached_property
-    def _joints(self) -> tuple[Connection, ...]:
-        """The undriven joints with complete geometry."""
-        return tuple(c for c in self.system.connections if self._is_plain(c))
-
-    @cached_property
-    def _placement(self) -> Placement | None:
-        return drawn_placement(replace(self.system, connections=self._joints), self.positive)
-
-    @cached_property
-    def _located(self) -> dict[int, Located]:
-        """The joints with numbers, by constraint."""
-        located = () if self._placement is None else self._placement.located
-        return {c.constraint: at for c, at in zip(self._joints, located, strict=True)} if located else {}
-
-    @cached_property
-    def _turned_by_euler(self) -> frozenset[str]:
-        return frozenset(r.body for r in self.system.rotations if r.chart == "euler")
-
-    def rows_of_joints(self, constraints: Iterable[int]) -> NamedRows | None:
-        """Return rows modulo p at the reference; None if a constraint is not an undriven joint with given geometry."""
-        if self._placement is None:
-            return None
-        names = [q.name for q in self.system.coordinates]
-        p, named = self._placement.p, list[dict[str, int]]()
-        for i in constraints:
-            rows = self._rows(i, p)
-            if rows is None:
-                return None
-            named += [{names[c]: v for c, v in row.items()} for row in rows]
-        return NamedRows(named, p)
-
-    def _is_plain(self, c: Connection) -> bool:
-        facts = c.facts
-        plain = facts.placed and facts.joint and c.number is None and not c.driven and not facts.bars and not c.points
-        complete = all(vector is not None for vector in (*c.places, *c.directions))
-        return plain and complete and self._turned_by_euler.isdisjoint(c.members)
-
-    def _rows(self, number: int, p: int) -> list[SparseRow] | None:
-        at = self._located.get(number)
-        if at is None:
-            return None
-        rows = rows_of(at) or []
-        short = [{k: int(v % p) for k, v in row.items() if v % p} for row in rows]
-        return short if len(rows) == len(self.system.constraints[number].relations) else None

@@ -16,10 +16,10 @@ _LETTERS = "pqrsuvwabcdefgh"
 
 
 class JointSum(NamedTuple):
-    """A sum of (joint, factor) ``terms``, joint values from the reference on, and its value there (``drawn``)."""
+    """A sum of (joint, factor) ``terms``, joint values from the reference on, and its value there (``reference``)."""
 
     terms: tuple[tuple[str, float], ...]
-    drawn: float = 0.0
+    reference: float = 0.0
 
     def text(self, letters: dict[str, str]) -> str:
         """Return the sum as text; new joints are added to ``letters``, {joint: letter}."""
@@ -27,8 +27,8 @@ class JointSum(NamedTuple):
         for name, factor in self.terms:
             letter = letters.setdefault(name, _letter(len(letters)))
             terms.append(_term(factor, letter))
-        if round(self.drawn, DECIMALS):
-            terms.append(_signed(figures(self.drawn)))
+        if round(self.reference, DECIMALS):
+            terms.append(_signed(figures(self.reference)))
         return _joined(terms)
 
 
@@ -60,11 +60,11 @@ def bounds(total: JointSum, between: Sequence[float]) -> dict[str, Any]:
     """
     letters: dict[str, str] = {}
     text = JointSum(total.terms).text(letters)
-    low, high = (figures(b - total.drawn) for b in between)
+    low, high = (figures(b - total.reference) for b in between)
     return {"joints": {letter: name for name, letter in letters.items()}, "text": f"{low} <= {text} <= {high}"}
 
 
-def whole_turns(drawn: float, between: Sequence[float]) -> float | None:
+def whole_turns(reference: float, between: Sequence[float]) -> float | None:
     """Return the multiple of 2 pi by which a hinge's range must be shifted to be within half a turn of the reference.
 
     None if the range extends beyond half a turn, 0 if it contains a full turn around the reference. Angles in radians.
@@ -72,7 +72,7 @@ def whole_turns(drawn: float, between: Sequence[float]) -> float | None:
     >>> round(whole_turns(0.0, [3.5, 5.0]), 6), whole_turns(0.0, [-7.0, 7.0]), whole_turns(0.0, [3.0, 4.0])
     (6.283185, 0.0, None)
     """
-    low, high = (b - drawn for b in between)
+    low, high = (b - reference for b in between)
     if high - low >= math.tau:
         return 0.0 if low <= -math.pi and high >= math.pi else None
     turns = math.tau * round((low + high) / 2 / math.tau)

@@ -174,7 +174,7 @@ class _MjcfScene:
 
     def _joint_sum(self, index: int) -> JointSum:
         joint = self.content["joints"][index]
-        return JointSum(((self.names[index], 1.0),), joint["drawn"] - joint["zero"])
+        return JointSum(((self.names[index], 1.0),), joint["reference"] - joint["zero"])
 
     def _fixed_tendon(self, index: int) -> JointSum | None:
         """Return the elongation, from MuJoCo's zero, of a tendon that is a sum of joint values; None for others."""
@@ -204,7 +204,7 @@ class _MjcfScene:
         joints = [(name, self.content["joints"][i]) for i, name in self.names.items()]
         self.draft.ranges(
             [
-                JointRange(name, j["kind"] == "hinge", j["drawn"], j["range"], self.line.get(("joint", j["name"])))
+                JointRange(name, j["kind"] == "hinge", j["reference"], j["range"], self.line.get(("joint", j["name"])))
                 for name, j in joints
                 if j["range"] and not (self.limits and j["kind"] == "ball")
             ],

@@ -57,7 +57,7 @@ class JointRange(NamedTuple):
 
     joint: str
     turns: bool
-    drawn: float
+    reference: float
     between: Sequence[float]
     line: int | None
 
@@ -99,11 +99,11 @@ class SceneDraft:
         self.particles.append({"name": unique_name, "at": vector(at)})
         return unique_name
 
-    def coordinate(self, name: str, drawn: float) -> str:
+    def coordinate(self, name: str, reference: float) -> str:
         """Add a further coordinate with its reference value, unless it exists already, and return its name."""
         if name not in self.configuration:
             self.coordinates.append(name)
-            self.configuration[name] = number(drawn)
+            self.configuration[name] = number(reference)
         return name
 
     def constraint(self, name: str, kind: str, line: int | None, **fields: Any) -> str:
@@ -119,12 +119,12 @@ class SceneDraft:
             named = listed(f"{r.joint} from {r.between[0]:.4g} to {r.between[1]:.4g}" for r in ranged)
             self.leave_out(f"the ranges of joints ({named}): with `--limits` they become inequalities")
             return
-        for joint, turns_about, drawn, between, line in ranged:
-            turns = whole_turns(drawn, between) if turns_about else 0.0
+        for joint, turns_about, reference, between, line in ranged:
+            turns = whole_turns(reference, between) if turns_about else 0.0
             if turns is None:
                 self.leave_out(f"the range of {joint}: {OVER}")
             else:
-                fields = bounds(JointSum(((joint, 1.0),), drawn + turns), between)
+                fields = bounds(JointSum(((joint, 1.0),), reference + turns), between)
                 self.constraint(f"{joint} range", "coupling", line, **fields)
 
     def leave_out(self, what: str, binding: bool = False) -> None:

@@ -179,7 +179,7 @@ def _bodies(compiled: Compiled) -> Iterator[dict[str, Any]]:
 
 
 def _joints(compiled: Compiled) -> Iterator[dict[str, Any]]:
-    """Yield all joints as JSON; ``zero`` and ``drawn``: the coordinate at rest and in the reference configuration."""
+    """Yield all joints as JSON; ``zero`` and ``reference``: the coordinate at rest and that of the reference pose."""
     model, data = compiled.model, compiled.data
     for i in range(model.njnt):
         kind = ("free", "ball", "slide", "hinge")[int(model.jnt_type[i])]
@@ -191,7 +191,7 @@ def _joints(compiled: Compiled) -> Iterator[dict[str, Any]]:
             "axis": _list(data.xaxis[i]),
             "range": _list(model.jnt_range[i]) if model.jnt_limited[i] and kind != "free" else None,
             "zero": float(model.qpos0[at]),
-            "drawn": float(data.qpos[at]),
+            "reference": float(data.qpos[at]),
         }
 
 

@@ -5,8 +5,7 @@ Types
     satisfied together. A piece is finite (f(q, t) = 0), Pfaffian (a(q, t) dq + b dt = 0), nonlinear in the velocities,
     or a condition under which the equation as written has a value. `Reduced` is a constraint with the normal forms of
     its equations. A `Row` is a piece with its constraint; a `Block` (`blocks`) is a set of rows that share coordinates;
-    an `Answer` (`answer`) is the result of the engines for a block. The `Setting` (`setting`) is what they may assume,
-    with the table of reductions: what may be left out of the model, and why no answer changes.
+    an `Answer` (`answer`) is the result of the engines for a block. The `Setting` (`setting`) is what they may assume.
 
 Mechanisms, in the order in which they are applied to an equation
     1. `normal` computes the zero set. `zero_set` splits powers, products and sums of squares as written, and

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import NamedTuple
 
 from dofkit.base.deadline import check
@@ -15,10 +15,10 @@ from dofkit.expressions.tree import Expr
 from dofkit.relations.linear_relations import explicit_relations, number_coefficients
 from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.pieces import Clause, Finite, JointEquation, Nonlinear, Pfaffian
-from dofkit.relations.setting import Reductions, Setting
+from dofkit.relations.setting import Setting
 
-#: The constraint of a row that none wrote.
-NOBODY = 0
+#: The number of no constraint: that of a row which none wrote.
+NOBODY = -1
 
 
 class Row(NamedTuple):
@@ -93,19 +93,6 @@ def _linked(rows: Sequence[Row], touched: Sequence[frozenset[str]]) -> Iterator[
 
 def _all(sets: Iterable[frozenset[str]]) -> frozenset[str]:
     return frozenset[str]().union(*sets)
-
-
-def blocks_of(coordinates: Sequence[str], rows: Sequence[Row], reductions: Reductions) -> tuple[list[Block], list[str]]:
-    """Return `split`; without the reduction "blocks" all are joined, without "untouched" no coordinate is apart."""
-    blocks, untouched = split(coordinates, rows)
-    place = {c: k for k, c in enumerate(coordinates)}
-    if "blocks" not in reductions and len(blocks) > 1:
-        names = sorted((c for b in blocks for c in b.coordinates), key=place.__getitem__)
-        blocks = [joined(names, blocks)]
-    if "untouched" not in reductions and blocks:
-        names = sorted((*blocks[0].coordinates, *untouched), key=place.__getitem__)
-        blocks, untouched = [replace(blocks[0], coordinates=tuple(names)), *blocks[1:]], []
-    return blocks, untouched
 
 
 def _is_no_equation(row: Row) -> bool:

@@ -159,5 +159,5 @@ def _fits(value: Expr, others: Sequence[Expr]) -> bool:
     terms = linear(value)
     if terms is not None and (len(terms) <= SHORT or all(linear(e) is not None for e in others)):
         return True
-    size = sum(1 for _ in ex.nodes(value))
-    return all(sum(1 for _ in ex.nodes(e)) + size <= MAX_NODES for e in others)
+    size = ex.size(value)
+    return all(ex.size(e) + size <= MAX_NODES for e in others)

@@ -5,36 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Literal, NamedTuple
+from typing import NamedTuple
 
 from dofkit.exact.zero import BOTH, Engines
 from dofkit.expressions.tree import Expr
 from dofkit.system import Coordinate, Distance
-
-ReductionName = Literal[
-    "untouched", "blocks", "twins", "copies", "eliminations", "bridges", "classes", "closed", "cheapest"
-]  # fmt: skip
-Reductions = frozenset[ReductionName]
-
-#: What each reduction leaves out of the model, and why no answer changes.
-REDUCTIONS: Mapping[ReductionName, str] = {
-    "untouched": "coordinates that no relation mentions: the set is a product with a line for each of them",
-    "blocks": "zeros between equations that share no coordinate: the set is a product, the codistribution a direct sum",
-    "twins": "blocks that equal another one up to names: renaming coordinates is a diffeomorphism",
-    "copies": "equations that an earlier constraint states already, up to a numerical factor",
-    "eliminations": "coordinates that a linear equation gives at the reference configuration (z = 0, a body that does "
-    "not turn, or welded to another); elsewhere linear equations are solved beforehand: the set is a graph",
-    "bridges": "at a reference configuration, joints that alone connect some bodies to the others: the set is a "
-    "product with the joint's own manifold, after moving these bodies as one",
-    # [ImplicitFunctions] [AsimowRoth1978]
-    "classes": "at a reference configuration, equations in no dependent set; the others are treated class by class: "
-    "where every class defines a manifold, so do all equations together",
-    "closed": "the integrability test of holonomic equations: d(dg) = 0, so their differentials are in I^(inf)",
-    "cheapest": "coordinates, where generic rigid links between particles are answered by counting in their graph",
-}
-
-#: All reductions, the default.
-ALL: Reductions = frozenset(REDUCTIONS)
 
 
 class NamedRows(NamedTuple):
@@ -46,7 +21,7 @@ class NamedRows(NamedTuple):
 
 @dataclass(frozen=True)
 class Setting:
-    """What the engines may assume about the symbols, which ``engines`` and ``reductions`` they use, and the questions.
+    """What the engines may assume about the symbols, which ``engines`` they use, and the questions.
 
     ``grows``, ``flag``: whether to compute growth vectors and derived flags. ``positive`` symbols are > 0; ``generic``
     parameters have no name; ``pose`` has the given initial values; ``size`` is the unit of length. Constraints are
@@ -70,7 +45,6 @@ class Setting:
     dimension: int = 3
     distances: Mapping[int, Sequence[Distance]] = field(default_factory=dict)
     links: Mapping[int, Sequence[tuple[str, str]]] = field(default_factory=dict)
-    reductions: Reductions = ALL
     geometric: frozenset[int] = frozenset()
     arms: Mapping[str, tuple[Expr, ...]] = field(default_factory=dict)
     tilts: frozenset[str] = frozenset()

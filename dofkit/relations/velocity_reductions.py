@@ -1,10 +1,9 @@
-"""Relations nonlinear in the velocities reduced by linear ones, and pairs of opposite conditions made equations."""
+"""Relations nonlinear in the velocities reduced by linear ones."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from itertools import islice
 from itertools import product as cartesian
 from typing import NamedTuple
@@ -13,12 +12,12 @@ from dofkit.base.errors import NoValueError
 from dofkit.exact.ring.canonical import quotients_of
 from dofkit.exact.zero import is_zero
 from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import diff, linear_terms, substitute
+from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Row, coordinates_of, split
 from dofkit.relations.linear_relations import explicit_relations, number_coefficients
 from dofkit.relations.normal.domain import DomainCondition, conditions_of
-from dofkit.relations.normal.normal_form import linear_form, normalise, velocities_of
+from dofkit.relations.normal.normal_form import normalise, velocities_of
 from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian
 from dofkit.relations.normal.zero_set import never_vanishes
 
@@ -31,27 +30,6 @@ def rate(g: Expr) -> Expr:
     moving = sorted((s for s in g.symbols if s.args[0] == "coordinate"), key=repr)
     terms = [diff(g, s) * ex.velocity(str(s.args[1])) for s in moving]
     return ex.add(*terms, diff(g, ex.TIME))
-
-
-def with_boundaries(rows: Sequence[Row]) -> list[Row]:
-    """Return the rows with u = 0 in place of two conditions u >= 0 and -u >= 0, as a row of the later constraint.
-
-    This is done only if u is linear in the velocities, or contains none.
-    """
-    kept: dict[int, Row] = {}
-    sides: dict[frozenset[tuple[Expr, Fraction]], int] = {}
-    for place, row in enumerate(rows):
-        kept[place] = row
-        if not isinstance(row.piece, DomainCondition) or row.piece.sense != ">=":
-            continue
-        form, terms = linear_form(row.piece.expr), linear_terms(row.piece.expr).items()
-        pair = sides.pop(frozenset((term, -c) for term, c in terms), None)
-        if pair is None or form is None:
-            sides[frozenset(terms)] = place
-            continue
-        del kept[pair]
-        kept[place] = Row(row.constraint, form if form.coefficients else Finite(row.piece.expr))
-    return list(kept.values())
 
 
 @dataclass(frozen=True)

@@ -11,6 +11,7 @@ from math import dist
 from operator import mul as times
 
 from dofkit.base.errors import Fault
+from dofkit.exact.matrices.sparse import components
 from dofkit.expressions.enclosures import approximate, differs_from_zero
 from dofkit.expressions.tree import ONE, ZERO, Expr, coordinate, num
 from dofkit.expressions.vectors import Vec
@@ -28,7 +29,7 @@ EVERY_PAIR = 1000
 class Drawing:
     """The particles and bodies of a scene, in its coordinates and in the reference configuration.
 
-    ``configuration``: the given values of coordinates; ``points``: the given positions of particles; ``drawn``: the
+    ``configuration``: the given values of coordinates; ``points``: the given positions of particles; ``placed``: the
     bodies whose position is given (at least in part) in ``configuration``.
     """
 
@@ -40,7 +41,7 @@ class Drawing:
     ground: Frame
     frames: Mapping[str, Frame]
     points: tuple[Vec, ...]
-    drawn: frozenset[str]
+    placed: frozenset[str]
 
 
 def drawing_of(scene: Declarations, vocabulary: Vocabulary, mentioned: frozenset[str], faults: list[Fault]) -> Drawing:
@@ -75,7 +76,7 @@ def drawing_of(scene: Declarations, vocabulary: Vocabulary, mentioned: frozenset
         ground=Frame(GROUND, origin, origin),
         frames=_frames(scene.dimension, vocabulary, configuration, mentioned),
         points=tuple(points),
-        drawn=frozenset(b for b, names in vocabulary.table.bodies.items() if any(n in configuration for n in names)),
+        placed=frozenset(b for b, names in vocabulary.table.bodies.items() if any(n in configuration for n in names)),
     )
 
 
@@ -140,23 +141,10 @@ def _extremes(points: list[tuple[float, ...]]) -> list[tuple[float, ...]]:
     return list(extremes)
 
 
-def drawn_bodies(placed: Iterable[str], welds: Iterable[Sequence[str]]) -> frozenset[str]:
+def placed_bodies(placed: Iterable[str], welds: Iterable[Sequence[str]]) -> frozenset[str]:
     """Return the bodies that are ``placed``, and those that pairs of ``welds`` connect to them or to the ground."""
-    drawn = set(placed) - {GROUND}
-    welded: dict[str, list[str]] = {}
-    for first, second in welds:
-        if GROUND in (first, second):
-            drawn |= {first, second} - {GROUND}
-        else:
-            welded.setdefault(first, []).append(second)
-            welded.setdefault(second, []).append(first)
-    stack = list(drawn)
-    while stack:
-        for other in welded.get(stack.pop(), ()):
-            if other not in drawn:
-                drawn.add(other)
-                stack.append(other)
-    return frozenset(drawn)
+    groups = [{GROUND, *placed}, *map(set, welds)]
+    return frozenset[str]().union(*(groups[i] for i in components(groups)[0])) - {GROUND}
 
 
 def pose_of(drawing: Drawing) -> dict[Expr, Expr]:
@@ -175,23 +163,23 @@ def pose_of(drawing: Drawing) -> dict[Expr, Expr]:
 
 
 def reference_of(
-    drawing: Drawing, drawn: Set[str], pose: Mapping[Expr, Expr], touched: Callable[[], Set[str]]
+    drawing: Drawing, placed: Set[str], pose: Mapping[Expr, Expr], touched: Callable[[], Set[str]]
 ) -> dict[Expr, Expr] | None:
     """Return ``pose``, with 0 elsewhere, if it places all coordinates that constraints mention, else None.
 
-    ``drawn``: the bodies that it places; ``touched`` returns the mentioned coordinates (if empty, all count), and is
+    ``placed``: the bodies that it places; ``touched`` returns the mentioned coordinates (if empty, all count), and is
     called only if something is not placed, because it takes time.
     """
     names = [q.name for q in drawing.vocabulary.table.coordinates]
     every = frozenset(names)
-    if undrawn(drawing, drawn, pose, every) and undrawn(drawing, drawn, pose, touched() or every):
+    if unplaced(drawing, placed, pose, every) and unplaced(drawing, placed, pose, touched() or every):
         return None
     return {s: pose.get(s, ZERO) for s in map(coordinate, names)}
 
 
-def undrawn(drawing: Drawing, drawn: Set[str], pose: Mapping[Expr, Expr], touched: Set[str]) -> tuple[str, ...]:
-    """Return the bodies, particles and coordinates in ``touched`` that are not in ``drawn`` or ``pose``."""
+def unplaced(drawing: Drawing, placed: Set[str], pose: Mapping[Expr, Expr], touched: Set[str]) -> tuple[str, ...]:
+    """Return the bodies, particles and coordinates in ``touched`` that are not in ``placed`` or ``pose``."""
     table, posed = drawing.vocabulary.table, frozenset(str(s.args[1]) for s in pose)
-    bodies = [b for b, names in table.bodies.items() if b not in drawn and not touched.isdisjoint(names)]
+    bodies = [b for b, names in table.bodies.items() if b not in placed and not touched.isdisjoint(names)]
     others = (q for q in table.coordinates if q.name in touched and q.name not in posed)
     return tuple(dict.fromkeys([*bodies, *(q.owner or q.name for q in others)]))

@@ -24,7 +24,7 @@ from dofkit.expressions.vectors import Vec
 from dofkit.report import Companion, Report
 from dofkit.scene.constraints import ConstraintBase
 from dofkit.scene.constraints.base import LETTERS
-from dofkit.scene.drawing import Drawing, centre_of, drawing_of, drawn_bodies, pose_of, reference_of, size_of, undrawn
+from dofkit.scene.drawing import Drawing, centre_of, drawing_of, placed_bodies, pose_of, reference_of, size_of, unplaced
 from dofkit.scene.fields import suggestion
 from dofkit.scene.ledger import MOVING, Texts, symbols_of
 from dofkit.scene.names import Vocabulary, name_faults, names_by_position, owner_kinds, vocabulary_of, within_member
@@ -61,13 +61,13 @@ LEVEL = (
 class Survey:
     """The result of reading a whole scene: the world of its constraints, their relations, connections and the faults.
 
-    ``drawn``: the bodies placed in the reference configuration; ``size``: the largest distance in that configuration.
+    ``placed``: the bodies placed in the reference configuration; ``size``: the largest distance in that configuration.
     """
 
     world: World
     constraints: tuple[Constraint, ...]
     connections: tuple[Connection, ...]
-    drawn: frozenset[str]
+    placed: frozenset[str]
     size: float
     faults: tuple[Fault, ...]
 
@@ -121,10 +121,10 @@ def survey(scene: Scene, euler: bool = False) -> Survey:
         constraints.append(_constraint_of(world, constraint, name))
         connections.append(_connection(world, constraints[-1]))
     _check_other_sections(scene, world, vocabulary)
-    size, drawn = size_of(world.points), drawn_bodies(world.drawn, world.welds)
-    misfits = (m for m in world.misfits if m.body is None or m.body in drawn)
+    size, placed = size_of(world.points), placed_bodies(world.placed, world.welds)
+    misfits = (m for m in world.misfits if m.body is None or m.body in placed)
     faults += [m.fault for m in misfits if not within(m.distance, drawing.tolerance, size)]
-    return Survey(world, tuple(constraints), tuple(connections), drawn, size, tuple(faults))
+    return Survey(world, tuple(constraints), tuple(connections), placed, size, tuple(faults))
 
 
 def _check_other_sections(scene: Scene, world: World, vocabulary: Vocabulary) -> None:
@@ -286,23 +286,23 @@ def system_of(scene: Scene, surveyed: Survey) -> System:
         size=surveyed.size,
         warnings=(*world.warnings, *_joint_warnings(surveyed.constraints, surveyed.connections), *warning),
         left_out=scene.left_out,
-        drawn=singular,  # the given configuration, where Euler angles are singular
+        singular_pose=singular,  # the given configuration, where Euler angles are singular
     )
 
 
 def _reference(surveyed: Survey, pose: Pose) -> tuple[Pose | None, Pose | None, list[str]]:
     """Return (reference or None, a reference that is singular for Euler angles or None, warnings)."""
-    special = surveyed.world.special or not surveyed.drawn.isdisjoint(surveyed.world.special_of)
+    special = surveyed.world.special or not surveyed.placed.isdisjoint(surveyed.world.special_of)
     if special or surveyed.world.generic:
         return None, None, [SPECIAL] if special else []
     drawing = surveyed.drawing
     touched = cache(lambda: frozenset[str]().union(*(c.mentioned for c in surveyed.constraints)))
-    reference = reference_of(drawing, surveyed.drawn, pose, touched)
+    reference = reference_of(drawing, surveyed.placed, pose, touched)
     if reference is not None:
         level = _level(drawing, touched)
         return (None, reference, [LEVEL.format(", ".join(level))]) if level else (reference, None, [])
-    placed = surveyed.drawn or drawing.configuration
-    missing = undrawn(drawing, surveyed.drawn, pose, touched()) if placed else ()
+    placed = surveyed.placed or drawing.configuration
+    missing = unplaced(drawing, surveyed.placed, pose, touched()) if placed else ()
     listed = ", ".join(missing[:8]) + (", ..." if len(missing) > 8 else "")
     what = "positions of {} are" if len(missing) > 1 else "position of {} is"
     message = f"There is no reference configuration: the {what.format(listed)} not given."
@@ -381,6 +381,6 @@ def _at_rest(connections: Sequence[Connection]) -> set[str]:
     """Return the ground, the fixed bodies and all bodies welded to these."""
     still = {GROUND} | {c.members[0] for c in connections if c.facts.held and len(c.members) == 1 and not c.points}
     return {
-        *drawn_bodies(still, [c.members[:2] for c in connections if c.facts.welded and len(c.members) == 2]),
+        *placed_bodies(still, [c.members[:2] for c in connections if c.facts.welded and len(c.members) == 2]),
         GROUND,
     }

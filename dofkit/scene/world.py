@@ -66,7 +66,7 @@ class World(Texts):
     """The frames, points and directions of a scene, and what is collected while its entries are read one by one.
 
     ``mentioned``: what the current entry mentions, the constraint number ``index``; ``entries``: the constraints of the
-    scene by name. Collected from the entries so far: ``generic`` parameters; given ``points``; ``drawn``, the bodies
+    scene by name. Collected from the entries so far: ``generic`` parameters; given ``points``; ``placed``, the bodies
     that these place; ``welds`` as pairs of bodies; ``links`` and ``distances`` with the number of their constraint;
     ``misfits`` and ``warnings``. ``special``: the given geometry fits special values of parameters only;
     ``special_of``: bodies for which this is so if the reference places them.
@@ -89,7 +89,7 @@ class World(Texts):
         self.mentioned = Mentioned()
         self.generic: list[str] = []
         self.points: list[Vec] = [*drawing.points]
-        self.drawn: set[str] = {*drawing.drawn}
+        self.placed: set[str] = {*drawing.placed}
         self.welds: list[tuple[str, str]] = []
         self.links: list[tuple[int, str, str]] = []
         self.distances: dict[int, list[Distance]] = {}
@@ -134,15 +134,15 @@ class World(Texts):
         first_axis = (ONE, *(ZERO,) * (self.dimension - 1))
         return direction or Direction(first_axis, across(first_axis, 0))
 
-    def drawn_vector(self, values: Vector | None) -> Vec | None:
+    def reference_vector(self, values: Vector | None) -> Vec | None:
         """Return a place or direction of another entry, which also records its faults; None after a fault."""
         texts = Texts(self._reader, self.here)
         vector = None if values is None else texts.vector(values, self.dimension)
         return None if texts.faults else vector
 
-    def drawn_direction(self, values: Vector | None) -> Direction | None:
+    def reference_direction(self, values: Vector | None) -> Direction | None:
         """Return a direction of another entry; None if it is missing or faulty."""
-        return _direction_along(self.drawn_vector(values))
+        return _direction_along(self.reference_vector(values))
 
     def fresh(self, stem: str = "a") -> Expr:
         """Return a new generic parameter."""
@@ -202,7 +202,7 @@ class World(Texts):
         if isinstance(point, BodyPoint):
             frame = self.frame(point.on, *where, "on")
             at = self._place(point.at, *where, "at")
-            self.drawn.add(frame.name)
+            self.placed.add(frame.name)
             self.mentioned.points.append(DrawnPoint(frame.name, at))
             return frame.point(at, show_point(point))
         at = self._place(point, *where)
@@ -242,9 +242,9 @@ class World(Texts):
         """Return whether any of ``gaps`` differs from 0; each is examined, because `differs` takes notes."""
         return sum(self.differs(gap) for gap in gaps) > 0
 
-    def is_drawn(self, frame: Frame) -> bool:
+    def is_placed(self, frame: Frame) -> bool:
         """Return whether the configuration, or an entry that was read so far, places the body of ``frame``."""
-        return frame.name in self.drawn
+        return frame.name in self.placed
 
     def misfit(
         self, distance: float | None, message: str, *where: str | int, hint: str, body: str | None = None

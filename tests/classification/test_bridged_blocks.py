@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
+from shared.reductions import study_of
 from shared.trees import tree_with_loops
 
 import dofkit
 from dofkit.classification.passes import GENERIC, examined
 from dofkit.expressions.renaming import Unwritten
-from dofkit.relations.setting import ALL
 from dofkit.scene.lowering import lower
 
 PINS = {("h", "p"): (0, 0), ("p", "q"): (1, 2), ("q", "r"): (5, 3), ("r", "h"): (4, 0)}
@@ -46,7 +46,7 @@ def test_by_parts_as_whole(name: str) -> None:
     scene, dof = CASES[name]
     system = lower(dofkit.load(scene))
     apart = examined(system, passes=GENERIC).report
-    whole = examined(system, reductions=ALL - {"bridges"}, passes=GENERIC).report
+    whole = study_of(scene, ("bridges",), GENERIC).report
     assert apart.dof == dof
     told = "consistent dof velocity_dof instantaneous_dof singular redundant redundancies redundant_equations"
     for field in (*told.split(), "generalized_coordinates", "joint_coordinates", "warnings", "verdict", "witness"):
@@ -78,7 +78,7 @@ def test_a_tree_beside_what_is_not_drawn(name: str) -> None:
     scene, dof = BESIDE[name]
     system = lower(dofkit.load(scene))
     apart = examined(system, passes=GENERIC).report
-    whole = examined(system, reductions=ALL - {"bridges"}, passes=GENERIC).report
+    whole = study_of(scene, ("bridges",), GENERIC).report
     assert (apart.dof, apart.velocity_dof, apart.instantaneous_dof) == (dof, dof, None)
     assert (apart.verdicts["dof"].verdict, apart.verdicts["dof"].about) == ("proved", "everywhere")
     for field in ("consistent", "dof", "velocity_dof", "redundant", "redundant_equations", "singular", "warnings"):

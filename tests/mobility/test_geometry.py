@@ -15,7 +15,7 @@ from dofkit.configuration import at_reference as local
 from dofkit.exact.matrices.sparse import rank_of_rows
 from dofkit.interface.show.report import sheet_of_report
 from dofkit.interface.show.terminal import as_text
-from dofkit.mobility.placement import drawn_placement, rows_of
+from dofkit.mobility.placement import reference_placement, rows_of
 from dofkit.report import Report
 from dofkit.scene.constraints import TYPES
 from dofkit.scene.lowering import lower
@@ -136,27 +136,25 @@ def test_general_position_beside_the_drawing(name: str, dof: int, redundant: int
         assert why in found.differs
 
 
-@pytest.mark.parametrize("bodies", [("ground", "A"), ("A", "B")])
-def test_two_slides_in_one_direction(bodies: tuple[str, str]) -> None:
-    """They say the same of the drawing; in general position each keeps two of three freedoms away."""
-    slide = {"type": "prismatic", "between": list(bodies), "axis": [1, 0]}
-    scene = {"dimension": 2, "bodies": [b for b in bodies if b != "ground"], "constraints": [slide, slide]}
-    report = dofkit.classify(dofkit.load(scene))
-    assert report.generic is not None
-    assert report.generic.differs is not None
-    assert report.generic.differs.endswith("; c1 and c2 slide in parallel directions")
+SLIDE, LINK = {"type": "prismatic", "axis": [1, 0]}, {"type": "link", "between": [[0, 0], "P"]}
+#: Scenes of the plane, and why the drawing is special: the constraints say the same of it, but not in general position.
+REPEATED = [
+    ({"bodies": ["A"]}, [{**SLIDE, "between": ["ground", "A"]}] * 2, "; c1 and c2 slide in parallel directions"),
+    ({"bodies": ["A", "B"]}, [{**SLIDE, "between": ["A", "B"]}] * 2, "; c1 and c2 slide in parallel directions"),
+    (
+        {"particles": [{"name": "P", "at": [3, 4]}]},
+        [LINK, "x_P^2 + y_P^2 = 25"],
+        "consistent with the others at the reference configuration only",
+    ),
+]
 
 
-def test_an_equation_that_repeats_a_link_fits_at_the_drawing_only() -> None:
-    scene = {
-        "dimension": 2,
-        "particles": [{"name": "P", "at": [3, 4]}],
-        "constraints": [{"type": "link", "between": [[0, 0], "P"]}, "x_P^2 + y_P^2 = 25"],
-    }
-    report = dofkit.classify(dofkit.load(scene))
+@pytest.mark.parametrize(("parts", "constraints", "why"), REPEATED)
+def test_what_repeats_another_fits_at_the_drawing_only(parts: dict[str, Any], constraints: list[Any], why: str) -> None:
+    report = dofkit.classify(dofkit.load({"dimension": 2, **parts, "constraints": constraints}))
     assert report.generic is not None
     assert report.generic.differs is not None
-    assert report.generic.differs.endswith("consistent with the others at the reference configuration only")
+    assert report.generic.differs.endswith(why)
 
 
 def test_points_in_one_plane_of_space() -> None:
@@ -267,7 +265,7 @@ def test_without_a_drawing_there_is_no_general_position_beside_it() -> None:
 
 def drawn_rank(system: System) -> int | None:
     """The rank of all connections' relations between twists, where they are drawn."""
-    placement = drawn_placement(system, frozenset())
+    placement = reference_placement(system, frozenset())
     assert placement is not None
     p = placement.p
     rows = []
@@ -515,7 +513,7 @@ def test_a_body_that_is_fixed_keeps_its_origin_and_its_turn() -> None:
         "constraints": [{"type": "fixed", "body": "b"}],
         "configuration": {"x_b": 3, "y_b": 4},
     }
-    placement = drawn_placement(lower(dofkit.load(scene)), frozenset())
+    placement = reference_placement(lower(dofkit.load(scene)), frozenset())
     assert placement is not None
     rows = rows_of(placement.located[0])
     assert rows is not None

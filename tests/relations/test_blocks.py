@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import pytest
+from shared.speed_scenes import discs, linked
+from shared.work import calls_of
 
 import dofkit
 from dofkit.classification.freedom import branches as solving
@@ -31,17 +35,6 @@ def classified(**scene: Any) -> dofkit.Report:
     return dofkit.classify(dofkit.load(scene))
 
 
-def discs(n: int, radius: str = "R") -> dict[str, Any]:
-    """n discs that roll apart."""
-    return {
-        "parameters": {"R": "positive", "S": "positive"},
-        "coordinates": [f"{q}{i}" for i in range(n) for q in ("x", "y", "theta", "phi")],
-        "constraints": [
-            f"d{q}{i} = {radius} {f}(theta{i}) dphi{i}" for i in range(n) for q, f in (("x", "cos"), ("y", "sin"))
-        ],
-    }
-
-
 def test_discs_that_are_alike_are_answered_once(asked: list[tuple[str, ...]]) -> None:
     report = classified(**discs(12))
     assert len(asked) == 1
@@ -50,8 +43,20 @@ def test_discs_that_are_alike_are_answered_once(asked: list[tuple[str, ...]]) ->
     assert report.generalized_coordinates == discs(12)["coordinates"]
 
 
+def chain(n: int) -> dict[str, Any]:
+    """A chain of n links, its joints placed on a zigzag."""
+    scene = linked([(k, k + 1) for k in range(n)])
+    return {**scene, "particles": [{"name": name, "at": [k, k % 2]} for k, name in enumerate(scene["particles"])]}
+
+
+@pytest.mark.parametrize("scene", [discs, chain])
+def test_work_grows_with_the_number_of_parts_and_not_with_its_square(scene: Callable[[int], dict[str, Any]]) -> None:
+    _, few, many = (calls_of(partial(classified, **scene(n))) for n in (20, 20, 200))  # once with cold caches
+    assert many < 12 * few
+
+
 def test_another_radius_is_another_block(asked: list[tuple[str, ...]]) -> None:
-    scene = discs(2)
+    scene = {**discs(2), "parameters": {"R": "positive", "S": "positive"}}
     scene["constraints"][2:] = [text.replace("R", "S") for text in scene["constraints"][2:]]
     classified(**scene)
     assert len(asked) == 2

@@ -5,11 +5,20 @@ The scenes grow by what one reduction leaves out.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+import sys
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
-from dofkit.classification.passes import Examined, examined
-from dofkit.relations.setting import ReductionName, Reductions
+import pytest
+
+from dofkit.classification.freedom import branches
+from dofkit.classification.passes import PASSES, Examined, Fill, examined
+from dofkit.configuration import at_reference
+from dofkit.configuration.linear_blocks import eliminated
+from dofkit.configuration.variety import smaller
+from dofkit.mobility.general_position import framework_answer, linked_particles
+from dofkit.mobility.joint_tree import Bridges, bridges
+from dofkit.relations.blocks import joined, split
 from dofkit.report import ConstraintEntry, Report
 from dofkit.scene.lowering import lower
 from dofkit.scene.reading import load
@@ -39,12 +48,35 @@ class SceneFamily(NamedTuple):
 
     scene: Callable[[int], Mapped]
     size: int
-    reduction: ReductionName
+    reduction: str
 
 
-def study_of(source: Mapped | str, reductions: Reductions) -> Examined:
-    """Return the answer with some reductions in use."""
-    return examined(lower(load(source)), 60.0, reductions=reductions)
+def _in_one(names: Sequence[str], rows: Any) -> Any:
+    blocks, untouched = split(names, rows)
+    return [joined(sorted(set(names) - {*untouched}, key=names.index), blocks)] if blocks else [], untouched
+
+
+#: The functions that make each reduction, and what stands in their place where it is not made.
+REDUCTIONS: Mapping[str, Mapping[Callable[..., Any], Callable[..., Any]]] = {
+    "blocks": {split: _in_one},
+    "twins": {branches._shape: id},
+    "copies": {branches.copies: lambda reduced: {}},
+    "eliminations": {smaller: lambda chart: (chart, 0), eliminated: lambda *_: None},
+    "bridges": {bridges: lambda system: Bridges()},
+    "classes": {at_reference._by_classes: lambda *_: None},
+    "cheapest": {framework_answer: lambda *_: None, linked_particles: lambda system: None},
+}
+
+
+def study_of(source: Mapped | str, without: Iterable[str] = (), passes: Sequence[Fill] = PASSES) -> Examined:
+    """Return the answer without some reductions: their functions are replaced in all modules that use them."""
+    system = lower(load(source))
+    with pytest.MonkeyPatch.context() as patch:
+        for function, replacement in (pair for name in without for pair in REDUCTIONS[name].items()):
+            for module in [m for name, m in sys.modules.items() if name.startswith("dofkit.")]:
+                if vars(module).get(function.__name__) is function:
+                    patch.setattr(module, function.__name__, replacement)
+        return examined(system, 60.0, passes=passes)
 
 
 def model_sizes(study: Examined) -> dict[str, int]:
@@ -106,18 +138,13 @@ def _strip_bars(joints: int) -> list[Mapped]:
     return [_link(f"p{a}", f"p{b}") for a, b in pairs]
 
 
-def _discs(n: int, radius: Callable[[int], str], free: int = 0) -> Mapped:
+def _discs(n: int, radius: Callable[[int], str]) -> Mapped:
     """Return discs that roll upright on a plane: coordinates (x, y, theta, phi) each."""
     coordinates = [f"{q}{i}" for i in range(n) for q in ("x", "y", "theta", "phi")]
     rows = [
         f"d{q}{i} - {radius(i)} {f}(theta{i}) dphi{i} = 0" for i in range(n) for q, f in (("x", "cos"), ("y", "sin"))
     ]
-    return {"coordinates": [*coordinates, *(f"free{i}" for i in range(free))], "constraints": rows}
-
-
-def _untouched(n: int) -> Mapped:
-    """Return one disc with n further coordinates that nothing touches."""
-    return _discs(1, lambda _: "2", n)
+    return {"coordinates": coordinates, "constraints": rows}
 
 
 def _blocks(n: int) -> Mapped:
@@ -144,16 +171,6 @@ def _still(n: int) -> Mapped:
     joints: list[Any] = [{"type": "prismatic", "between": below[i : i + 2], "axis": axes[i % 2]} for i in range(n)]
     joints += [_link([x, 0], {"on": below[-1], "at": [x + 1, 2]}) for x in (0, 3)]
     return {"dimension": 2, "bodies": below[1:], "constraints": joints}
-
-
-def _welds(n: int) -> Mapped:
-    """Return three equal parallel cranks under n bodies welded in a row."""
-    row = [f"b{i}" for i in range(n)]
-    joints: list[Any] = [{"type": "weld", "between": row[i : i + 2]} for i in range(n - 1)]
-    for i in range(3):
-        joints.append({"type": "revolute", "between": ["ground", f"crank{i}"], "at": [3 * i, 0]})
-        joints.append({"type": "revolute", "between": [f"crank{i}", row[i * (n - 1) // 2]], "at": [3 * i + 1, 2]})
-    return {"dimension": 2, "bodies": [*row, *(f"crank{i}" for i in range(3))], "constraints": joints}
 
 
 def _cranked_strip(n: int) -> Mapped:
@@ -189,27 +206,18 @@ def _classes(n: int) -> Mapped:
     return _links([*joints, *({"name": f"h{i}", "at": [10 + i, 2 + i % 2]} for i in range(n))], links)
 
 
-def _closed(n: int) -> Mapped:
-    """Return n particles in space on quadrics that move with the next of them: configuration-level equations only."""
-    surfaces = [f"x_p{i}^2 + y_p{i}^2 = {i + 2} + z_p{i} x_p{i + 1}" for i in range(n - 1)]
-    return {"particles": [f"p{i}" for i in range(n)], "constraints": surfaces}
-
-
 def _cheapest(n: int) -> Mapped:
     """Return a strip of n triangles in the plane, its bars in general position."""
     return _links([f"p{i}" for i in range(n + 2)], _strip_bars(n + 2))
 
 
 SCENES: Mapping[str, SceneFamily] = {
-    "untouched": SceneFamily(_untouched, 32, "untouched"),
     "blocks": SceneFamily(_blocks, 8, "blocks"),
     "twins": SceneFamily(_twins, 32, "twins"),
     "copies": SceneFamily(_copies, 6, "copies"),
     "still": SceneFamily(_still, 6, "eliminations"),
-    "welds": SceneFamily(_welds, 8, "eliminations"),
     "eliminations": SceneFamily(_eliminations, 8, "eliminations"),
     "bridges": SceneFamily(_bridges, 6, "bridges"),
     "classes": SceneFamily(_classes, 8, "classes"),
-    "closed": SceneFamily(_closed, 6, "closed"),
     "cheapest": SceneFamily(_cheapest, 16, "cheapest"),
 }

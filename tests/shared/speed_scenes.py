@@ -183,7 +183,7 @@ def python(*arguments: str) -> Callable[[], object]:
     return lambda: subprocess.run([sys.executable, *arguments], check=True, capture_output=True)
 
 
-def discs(number: int) -> dict[str, object]:
+def discs(number: int) -> dict[str, Any]:
     """Equal discs, each rolling by itself."""
     places = [name for k in range(number) for name in (f"x{k}", f"y{k}", f"theta{k}", f"phi{k}")]
     rolls = [f"d{q}{k} = R {f}(theta{k}) dphi{k}" for k in range(number) for q, f in (("x", "cos"), ("y", "sin"))]

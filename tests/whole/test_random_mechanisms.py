@@ -9,7 +9,7 @@ import pytest
 
 import dofkit
 from dofkit.exact.matrices.sparse import rank_of_rows
-from dofkit.mobility.placement import drawn_placement, rows_of
+from dofkit.mobility.placement import reference_placement, rows_of
 from dofkit.scene.lowering import lower
 
 #: By dimension: the types, and which have a place and an axis.
@@ -72,7 +72,7 @@ LEFT_OUT = frozenset({8, 23, 26, 29})
 def test_counts_of_a_mechanism_agree(seed: int) -> None:
     scene = dofkit.load(mechanism(seed))
     report, system = dofkit.classify(scene), lower(scene)
-    placement = drawn_placement(system, frozenset())
+    placement = reference_placement(system, frozenset())
     assert system.reference is not None
     assert placement is not None
     assert report.instantaneous_dof is not None

@@ -7,7 +7,8 @@ Types
 Mechanisms, in the order in which they are tried (`redundancy` is the driver)
     1. If each block removes as much freedom as it has equations, none is redundant.
     2. `circuits`: the rank of the rows over GF(p) and its circuits [Whitney1935]; `minimal_sets` enlarges
-       a dependent set of rows until it implies the dependent row near the reference, or at random states.
+       a dependent set of rows until it implies the dependent row near the reference (`near_reference`), or at random
+       states.
     3. `removal`: if dependence in a block of geometric equations is not a deficiency of the rank, constraints are
        removed; a redundant one is such that the freedom and the set stay the same.
     4. `implied_constraints`: a constraint is redundant if it is satisfied at every state of motion that the others

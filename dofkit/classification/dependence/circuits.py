@@ -12,8 +12,9 @@ from dataclasses import dataclass
 
 from dofkit.base.deadline import check
 from dofkit.base.verdicts import Claim, together
-from dofkit.classification.dependence.implication import Everywhere, NearReference
+from dofkit.classification.dependence.implication import Everywhere
 from dofkit.classification.dependence.minimal_sets import SufficientSets, largest_redundant_set, minimal_set
+from dofkit.classification.dependence.near_reference import NearReference
 from dofkit.exact.matrices.sparse import SparseRow, Supports, components, echelon, rank_of_rows, transposed, vanishing
 from dofkit.relations.answer import BITS, Redundancies, undecided_dependence
 

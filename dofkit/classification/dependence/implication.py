@@ -9,30 +9,37 @@ reference configuration implication is asked on the manifold through it.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from itertools import product as cartesian
 from typing import NamedTuple
 
 from dofkit.base.deadline import OutOfTimeError, check
 from dofkit.base.verdicts import Claim
-from dofkit.classification.freedom.block import answer
+from dofkit.classification.dependence.near_reference import (
+    BlockImplication,
+    NearReference,
+    implied_near,
+    is_at_reference,
+)
 from dofkit.classification.freedom.branches import in_time
-from dofkit.classification.freedom.preparation import all_of, branches_at_reference, conditional, passes_reference
-from dofkit.configuration.implied_relations import ImpliedRelations
+from dofkit.classification.freedom.preparation import (
+    all_of,
+    any_of,
+    branches_at_reference,
+    conditional,
+    passes_reference,
+)
 from dofkit.configuration.states import States, value_at
-from dofkit.configuration.variety import field_jacobian, point_at
 from dofkit.exact.ideals import have_complex_points
-from dofkit.exact.matrices.sparse import echelon, rank_of_rows
 from dofkit.exact.points.balls import BallPoint
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import vanishes
-from dofkit.exact.zero import odd_constants
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import BITS, Answer
-from dofkit.relations.blocks import NOBODY, Block, Row, coordinates_of, make_chart, split
-from dofkit.relations.linear_relations import explicit_relations, linear, solve_linear
+from dofkit.relations.blocks import NOBODY, Block, Row, coordinates_of, split
+from dofkit.relations.linear_relations import explicit_relations
 from dofkit.relations.normal.domain import DomainCondition, conditions_of
 from dofkit.relations.normal.no_solution import hold_nowhere, no_solution
 from dofkit.relations.normal.pieces import Finite, Nonlinear, Normal, Pfaffian, Piece
@@ -87,7 +94,7 @@ def _on(alternative: Alternative, relation: Normal, setting: Setting) -> bool | 
     None also if it is satisfied on some branches of the hidden relations and not on others; only those through the
     reference configuration count, if there are any.
     """
-    near = None if setting.reference is None else _on_near(alternative.rows, relation, setting)
+    near = implied_near(alternative.rows, relation, setting)
     if near is not None:
         return near
     here = replace(setting, reference=None, pose={}, grows=False, flag=False)
@@ -104,24 +111,6 @@ def _on(alternative: Alternative, relation: Normal, setting: Setting) -> bool | 
         hidden = [h for h in hidden if passes_reference([*map(Finite, h)], setting)] or hidden
     satisfied = {_on_hidden(alternative, relation, answers, h, here) for h in hidden}
     return satisfied.pop() if len(satisfied) == 1 else None
-
-
-def _on_near(rows: Sequence[Row], relation: Normal, setting: Setting) -> bool | None:
-    """Return whether one of the relation's branches is satisfied near the reference configuration where the rows are.
-
-    None where the rows are not geometric equations that are independent there, or a branch has conditions.
-    """
-    all_rows = (*rows, *(Row(NOBODY, p) for branch in relation.branches for p in branch))
-    if not rows or not all(isinstance(row.piece, Finite) for row in all_rows):
-        return None
-    block = Block(tuple(sorted({n for row in all_rows for n in coordinates_of(row.piece)})), all_rows)
-    chart, premises = make_chart(block, setting), range(len(rows))
-    point = point_at(chart, {**(setting.reference or {}), ex.TIME: ex.ZERO}, 3)
-    independent = point is not None and rank_of_rows(field_jacobian(chart, point)[: len(rows)], point.p) == len(rows)
-    if not independent or odd_constants(chart.ring, named=True):
-        return None
-    near, numbers = ImpliedRelations(chart, setting.reference or {}), iter(range(len(rows), len(all_rows)))
-    return _any([all_of([near.follows(next(numbers), premises) for _ in branch]) for branch in relation.branches])
 
 
 def _on_hidden(
@@ -222,7 +211,7 @@ def _vanishes_on_states(
     for k in range(many):
         p = states.draw(k)
         if p is not None and _all_vanish(states, p, written):
-            over_field.append(_any([_all_vanish(states, p, b.relations) for b in branches]))
+            over_field.append(any_of([_all_vanish(states, p, b.relations) for b in branches]))
             if over_field[-1] is False:
                 break
     plain = not written and not domain and states.independent and not smaller
@@ -241,17 +230,12 @@ def _vanishes_on_states(
 
 def _some_hold(states: States, point: BallPoint, branches: Sequence[ImpliedBranch]) -> bool | None:
     """Return whether one of the branches, with its conditions, is satisfied at a real state; None if undecided."""
-    return _any(
+    return any_of(
         [
             all_of((_all_vanish(states, point, b.relations), *(_satisfied(states, point, c) for c in b.conditions)))
             for b in branches
         ]
     )
-
-
-def _any(answers: Sequence[bool | None]) -> bool | None:
-    """Return True if one is True, otherwise None if one is None, otherwise False."""
-    return True if True in answers else None if None in answers else False
 
 
 def _all_vanish(states: States, point: FieldPoint | BallPoint, expressions: Sequence[Expr]) -> bool | None:
@@ -268,19 +252,8 @@ def _satisfied(states: States, point: BallPoint, condition: DomainCondition) -> 
     return condition.sense == "!=" or bool(value > 0)
 
 
-def freedom(coordinates: Sequence[str], rows: Sequence[Row], setting: Setting) -> int | None:
-    """Return the freedom of some coordinates with some rows; None if undecided."""
-    blocks, untouched = split(coordinates, rows)
-    dofs = [answer(block, setting).dof for block in blocks]
-    return None if None in dofs else len(untouched) + sum(dof for dof in dofs if dof is not None)
-
-
-@dataclass(frozen=True)
-class BlockImplication:
-    """Implications between the rows of a block, which are given by their numbers."""
-
-    block: Block
-    setting: Setting
+class Everywhere(BlockImplication):
+    """Implications between any rows, at all states of motion that the premises ``others`` allow."""
 
     @cached_property
     def _coordinates(self) -> list[frozenset[str]]:
@@ -298,64 +271,6 @@ class BlockImplication:
         """Return the rows that share a coordinate with some of ``rows``, these included."""
         named = frozenset[str]().union(*(self._coordinates[i] for i in rows))
         return set[int]().union(*(self._users[name] for name in named))
-
-    def linearly(self, row: int, others: Sequence[int]) -> bool | None:
-        """Return whether a linear relation is a combination of others over Q; None if not all of them are linear."""
-        pieces = [self.block.rows[i].piece for i in (*others, row)]
-        relations = [p.expr for p in pieces if isinstance(p, Finite) and linear(p.expr) is not None]
-        return solve_linear(relations[:-1]).implies(relations[-1]) if len(relations) == len(pieces) else None
-
-    def removes_several(self, row: int, others: Sequence[int]) -> bool:
-        """Return whether it is known that a row removes several freedoms where independent ``others`` are satisfied.
-
-        With x = 0, x + y^2 + z^2 = 0 removes two more. Fewer rows than the rank may then imply all the others.
-        """
-        rows = [self.block.rows[i] for i in (*others, row)]
-        remaining = freedom(self.block.coordinates, rows, self.setting)
-        return remaining is not None and remaining < len(self.block.coordinates) - len(rows)
-
-
-class NearReference(BlockImplication):
-    """Implications between geometric equations near a reference that satisfies them; premises must be independent."""
-
-    @cached_property
-    def _relations(self) -> ImpliedRelations:
-        return ImpliedRelations(make_chart(self.block, self.setting), self.setting.reference or {})
-
-    def follows(self, row: int, others: Sequence[int]) -> bool | None:
-        """Return whether a relation that is dependent at the reference is implied by the others near it, or None."""
-        answer = self.linearly(row, others)
-        return self._relations.follows(row, others) if answer is None else answer
-
-    def seems(self, row: int, others: Sequence[int]) -> bool:
-        """Return whether the relation vanishes to some order near the reference where the others do."""
-        answer = self.linearly(row, others)
-        return bool(self._relations.follows(row, others, False) if answer is None else answer)
-
-    def needed(self, row: int, others: Sequence[int]) -> list[int]:
-        """Return the others whose multiplier in the relation is not 0 all along a curve of the set."""
-        return self._relations.needed(row, others)
-
-    def imply(self, others: Sequence[int], rows: Sequence[int], a: Answer) -> bool:
-        """Return whether the relations ``others`` (those independent at the reference) imply ``rows`` near it."""
-        result = echelon([a.matrix[i] for i in others], a.modulus).independent
-        pivots = [others[k] for k in result]
-        return all(self.follows(i, pivots) for i in rows)
-
-    def seem_to_imply(self, others: Sequence[int], rows: Sequence[int]) -> bool:
-        """Return whether ``rows`` are satisfied at all sampled points near the reference at which ``others`` are."""
-        return self._relations.seem_to_follow(rows, others)
-
-    def is_orbit(self, rows: Sequence[int], dof: int | None) -> bool:
-        """Return whether the set of some relations, of dimension ``dof``, is an orbit of rigid motions.
-
-        It is a union of orbits; those of this dimension are finitely many, and pass through the reference.
-        """
-        return dof is not None and self._relations.rigid(rows) == dof
-
-
-class Everywhere(BlockImplication):
-    """Implications between any rows, at all states of motion that the premises ``others`` allow."""
 
     def follows(self, row: int, others: Sequence[int]) -> bool | None:
         """Return whether a dependent row is satisfied wherever the others are; None if undecided.
@@ -383,8 +298,3 @@ class Everywhere(BlockImplication):
 def implication_of(block: Block, a: Answer, setting: Setting) -> NearReference | Everywhere:
     """Return the implications near the reference if the block was analysed there, otherwise those everywhere."""
     return NearReference(block, setting) if is_at_reference(block, a, setting) else Everywhere(block, setting)
-
-
-def is_at_reference(block: Block, a: Answer, setting: Setting) -> bool:
-    """Return whether all rows are finite and the answer is about the reference configuration."""
-    return setting.reference is not None and a.instantaneous is not None and len(block.finite) == len(block.rows)

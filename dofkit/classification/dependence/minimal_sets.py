@@ -17,7 +17,8 @@ from itertools import combinations
 from typing import NamedTuple, TypeVar
 
 from dofkit.base.deadline import check
-from dofkit.classification.dependence.implication import Everywhere, NearReference
+from dofkit.classification.dependence.implication import Everywhere
+from dofkit.classification.dependence.near_reference import NearReference
 
 T = TypeVar("T")
 

@@ -23,9 +23,10 @@ from typing import NamedTuple
 
 from dofkit.base.deadline import OutOfTimeError, check, limited, unless_late
 from dofkit.base.verdicts import About, Claim, Verdict, weakest
-from dofkit.classification.dependence.implication import Everywhere, NearReference, freedom, is_at_reference
+from dofkit.classification.dependence.implication import Everywhere
 from dofkit.classification.dependence.implied_constraints import LEAVING_SECONDS
 from dofkit.classification.dependence.minimal_sets import SufficientSets, largest_redundant_set, minimal_set
+from dofkit.classification.dependence.near_reference import NearReference, freedom, is_at_reference
 from dofkit.classification.freedom.preparation import all_of
 from dofkit.exact.matrices.sparse import components, echelon
 from dofkit.relations.answer import BITS, GAP, Answer, Redundancies

@@ -17,7 +17,6 @@ from dofkit.configuration.search import LEVEL, find, level_angle
 from dofkit.configuration.variety import Variety, all_configurations, is_unconstrained, of_real_point
 from dofkit.exact.matrices.sparse import echelon
 from dofkit.exact.points.field import FieldPoint
-from dofkit.exact.points.frames import pairing
 from dofkit.exact.ring.program import NoPointError
 from dofkit.exact.zero import BALLS, BOTH, independent_generators, odd_constants
 from dofkit.expressions.tree import Expr
@@ -82,14 +81,13 @@ def answer(block: Block, setting: Setting) -> Answer:
         reasons = [*result.reasons, LEVEL.format(level)]
         result = replace(result, dof=None, velocity_dof=None, growth=None, verdict="undecided", reasons=reasons)
     differential = bool(block.forms or block.nonlinear)
-    tested = differential or "closed" not in setting.reductions
-    model_size = Size(len(block.coordinates), len(block.finite), len(block.rows) if tested else 0)
+    model_size = Size(len(block.coordinates), len(block.finite), len(block.rows) if differential else 0)
     return replace(result, size=model_size)
 
 
 def _engines(block: Block, setting: Setting) -> Answer:
     """Return the answer of the cheapest sound method; if functions may be related, balls have to confirm it."""
-    if setting.links and setting.engines == BOTH and "cheapest" in setting.reductions:
+    if setting.links and setting.engines == BOTH:
         framework = framework_answer(block, setting)
         if framework is not None:
             return framework
@@ -148,17 +146,8 @@ def _answer(block: Block, setting: Setting) -> Answer:
         of_linear = eliminated(block, setting) if setting.reference is None else None
         finite = finite_answer(block, setting) if of_linear is None else of_linear
         finite.derived = None if finite.dof is None else (len(block.coordinates) - finite.dof,)
-        return finite if "closed" in setting.reductions else _tested(block, setting, finite)
+        return finite
     return _mixed_answer(block, setting)
-
-
-def _tested(block: Block, setting: Setting, finite: Answer) -> Answer:
-    """Return the answer of geometric equations, undecided if their differentials fail the integrability test."""
-    forms = codistribution(block, setting, ())
-    for point, sampled in _spans(forms, find(forms.chart, setting.pose)):
-        if any(v != 0 for row in sampled.matrix for v in pairing(row, sampled.span.vectors)):
-            return replace(finite, verdict="undecided", reasons=[*finite.reasons, f"not closed modulo {point.p}"])
-    return finite
 
 
 def _mixed_answer(block: Block, setting: Setting) -> Answer:

@@ -26,19 +26,13 @@ from dofkit.expressions.tree import Expr
 from dofkit.integrability.rewritten_rows import NOT_EQUIVALENT, with_reductions_checked
 from dofkit.integrability.traits import is_curved
 from dofkit.relations.answer import Answer, AnsweredPart
-from dofkit.relations.blocks import Block, Row, blocks_of
+from dofkit.relations.blocks import Block, Row, split
 from dofkit.relations.normal.domain import DomainCondition, is_always_satisfied
 from dofkit.relations.normal.no_solution import holds_somewhere
 from dofkit.relations.normal.normal_form import velocities_of
 from dofkit.relations.normal.pieces import Finite, JointEquation, Nonlinear, Normal, Pfaffian, Reduced
 from dofkit.relations.setting import Setting
-from dofkit.relations.velocity_reductions import (
-    MAX_ALTERNATIVES,
-    Alternative,
-    RewrittenRow,
-    alternatives_of,
-    with_boundaries,
-)
+from dofkit.relations.velocity_reductions import MAX_ALTERNATIVES, Alternative, RewrittenRow, alternatives_of
 
 #: Bound on the choices of branches.
 MAX_CHOICES = 16
@@ -178,7 +172,7 @@ def _through_reference(
     options = [range(len(normal.branches)) or (None,) for _, normal in normals]
     positive = setting.positive
     never, unsettled = _one_sided(reduced, positive)
-    copied = copies(reduced) if "copies" in setting.reductions else {}
+    copied = copies(reduced)
     outcomes, why = list[Outcome](), None
     domain = [(i, c) for i, r in enumerate(reduced) for c in r.domain() if not is_always_satisfied(c, setting.positive)]
     names = [c.name for c in setting.roles]
@@ -193,7 +187,7 @@ def _through_reference(
             elif i not in copied:
                 rows += [Row(i, p) for p in normal.branches[branch]]
         plain = not any(isinstance(row.piece, Nonlinear | DomainCondition) for row in rows)
-        alternatives = [Alternative(rows)] if plain else alternatives_of(with_boundaries(rows), positive)
+        alternatives = [Alternative(rows)] if plain else alternatives_of(rows, positive)
         why = _LEFT_OUT if len(alternatives) >= MAX_ALTERNATIVES else why
         through = reductions_at_reference(alternatives, setting)
         if len(through) < len(alternatives):
@@ -315,7 +309,7 @@ def _answered(
 ) -> Outcome:
     """Return the outcome for some rows; ``domain``: (constraint, condition for a value of it as written)."""
     setting = answered.setting
-    blocks, untouched = blocks_of(names, rows, setting.reductions)
+    blocks, untouched = split(names, rows)
     result = CommonPoint(list(blocks), answered.answers(blocks))
     moving = [(i, c) for i, c in domain if velocities_of(c.expr) and not is_always_satisfied(c, setting.positive)]
     still = [(i, c) for i, c in domain if not velocities_of(c.expr)]
@@ -350,8 +344,7 @@ class AnsweredBlocks:
 
     def answers(self, blocks: Sequence[Block]) -> list[Answer]:
         """Return the blocks' answers; likenesses are computed only for blocks that may be twins (`_shape`)."""
-        twins = len(blocks) > 1 and "twins" in self.setting.reductions
-        shapes = Counter(map(_shape, blocks)) if twins else Counter()
+        shapes = Counter(map(_shape, blocks)) if len(blocks) > 1 else Counter()
         self._shapes |= {shape for shape, times in shapes.items() if times > 1}
         likenesses = Likenesses(self.setting) if self._shapes else None
         return [self.of(block, likenesses) for block in blocks]

@@ -20,7 +20,7 @@ from dofkit.expressions.calculus import substitute
 from dofkit.expressions.renaming import Renaming, Unwritten, kinds_in, shape_of
 from dofkit.expressions.tree import Expr
 from dofkit.mobility.joint_tree import Bridges, bridges
-from dofkit.mobility.placement import RowsAtReference
+from dofkit.mobility.rows_at_reference import RowsAtReference
 from dofkit.relations.blocks import Block, Row, coordinates_of, make_chart
 from dofkit.relations.normal.domain import DomainCondition, arguments_of, is_satisfied_at, up_to_a_number
 from dofkit.relations.normal.normal_form import normalise
@@ -37,7 +37,7 @@ from dofkit.relations.normal.pieces import (
     unwritten,
 )
 from dofkit.relations.normal.polynomial_zeros import PRODUCT_NOTE
-from dofkit.relations.setting import ALL, Reductions, Setting
+from dofkit.relations.setting import Setting
 from dofkit.relations.velocity_reductions import Alternative, RewrittenRow
 from dofkit.system import System
 
@@ -45,13 +45,13 @@ from dofkit.system import System
 RATES = frozenset({"velocity", "differential", "dt"})
 
 
-def prepared(system: System, reductions: Reductions = ALL) -> tuple[list[Reduced], Setting]:
+def prepared(system: System) -> tuple[list[Reduced], Setting]:
     """Return (every constraint with its normal forms, the setting); raises SceneError as `reduce_all` does."""
     positive = frozenset(ex.parameter(p) for p, sign in system.parameters.items() if sign == "positive")
     generic = tuple([ex.parameter(p) for p in system.generic])
     positive |= frozenset([p for p in generic if p.args[1].startswith("_L")])  # squared lengths without a number
     exact = system.joints and system.tolerance is None
-    bridging = bridges(system) if "bridges" in reductions and exact else Bridges()
+    bridging = bridges(system) if exact else Bridges()
     reduced = reduce_all(system, positive, bridging.joints)
     setting = Setting(
         positive,
@@ -64,7 +64,6 @@ def prepared(system: System, reductions: Reductions = ALL) -> tuple[list[Reduced
         dimension=system.dimension,
         distances={} if system.tolerance else system.distances,
         links=_links(system),
-        reductions=reductions,
         geometric=frozenset(i for i, c in enumerate(system.constraints) if not c.facts.written or c.facts.contact),
         arms=system.arms,
         tilts=frozenset(r.names[1] for r in system.rotations if r.chart == "euler"),
@@ -218,6 +217,11 @@ def all_of(answers: Iterable[bool | None]) -> bool | None:
             return False
         every = every if answer else None
     return every
+
+
+def any_of(answers: Sequence[bool | None]) -> bool | None:
+    """Return True if one is True, otherwise None if one is None, otherwise False."""
+    return True if True in answers else None if None in answers else False
 
 
 def algebraic(e: Expr, *more: str) -> bool:

@@ -10,7 +10,8 @@ Mechanisms, in the order in which they are tried
        the constraint as a system of its own.
     2. `companions` finds a minimal set of other constraints together with which a form is integrable, and the integral.
     3. `entry` combines the labels of all rows; a form with a verified integral is holonomic in any system.
-    4. `reasons` gives the labels of time, the claims, and one or two sentences that a student can follow.
+    4. `reasons` gives the labels of time, the claims, and one or two sentences that a student can follow;
+       `relation_words` has the relations of joints in words.
 
 Result: one entry of the report for each constraint.
 """

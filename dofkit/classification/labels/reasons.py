@@ -8,8 +8,8 @@ from typing import NamedTuple
 
 from dofkit.base.verdicts import OPEN, ArgumentKey, Claim, TraitAnswer, Verdict, all_of, least, together, weakest
 from dofkit.base.wording import verb
+from dofkit.classification.labels.relation_words import in_words
 from dofkit.expressions import tree as ex
-from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.traits import Integrability, Traits, timeless, vanishes_on
 from dofkit.relations.answer import BITS, GAP, Answer, HolonomyLabel
@@ -18,7 +18,6 @@ from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.pieces import INSTANT_NOTE, Clause, Finite, Normal, Pfaffian, Piece, Reduced
 from dofkit.relations.setting import Setting
 from dofkit.report import Form
-from dofkit.system import Relation
 
 _INITIAL = "the constant is determined by the initial conditions"
 _CHECKED = " (checked at random points)"
@@ -130,48 +129,6 @@ def _integrable(proofs: Sequence[Integrability], others: Others) -> str:
         return f"It integrates to {others.text}: holonomic; {_INITIAL}."
     how = next((p.reason for p in proofs if p.reason and p.integral is None), "d(omega) ^ omega = 0")
     return f"It is integrable ({how}), though no integral was found in closed form: holonomic; {_INITIAL}."
-
-
-#: A relation of a joint in words, by the first word of its name; ``{}`` is the rest of the name.
-_SAYS = {
-    "point": "no displacement along {} of the common point",
-    "origin": "no displacement along {}",
-    "x": "no displacement along x",
-    "y": "no displacement along y",
-    "z": "no displacement along z",
-    "axis": "no rotation across the axis",
-    "orientation": "no rotation about {}",
-    "angle": "no rotation",
-    "across": "no displacement across the axis",
-    "distance": "no displacement along the normal",
-    "axes": "the axes stay perpendicular",
-    "thread": "the advance by the pitch",
-    "drive": "the prescribed motion",
-    "length": "the distance {}",
-}
-#: The addition, or the other text, for relations with a direction or point of the reference configuration.
-_ABOUT = {
-    "point": " {}",
-    "axis": "no rotation about {}",
-    "across": "no displacement along {}",
-    "distance": " {}",
-}
-
-
-def in_words(relation: Relation, otherwise: str) -> str:
-    """Return a relation in words; ``otherwise`` for a relation without a name.
-
-    >>> from dofkit.expressions.tree import ONE, ZERO
-    >>> in_words(Relation(ZERO, part="axis", vector=(ONE, ZERO, ZERO)), "")
-    'no rotation about (1, 0, 0)'
-    """
-    word, _, remainder = relation.part.partition(" ")
-    answer = _SAYS[word].format(remainder) if word in _SAYS else relation.part or otherwise
-    general = any(str(s.args[1]).startswith("_") for part in relation.vector or () for s in part.symbols)
-    if word not in _ABOUT or not relation.vector or general:
-        return answer
-    about = _ABOUT[word].format(f"({', '.join(to_text(part) for part in relation.vector)})")
-    return answer + about if about.startswith(" ") else about
 
 
 REDUNDANT = " It is redundant: the other constraints, including those written after it, allow the same motions."

@@ -107,7 +107,7 @@ class CommonZeros:
             if not remaining:
                 loci.append(locus)
                 continue
-            first, *others = sorted(map(locus.on, remaining), key=_size)
+            first, *others = sorted(map(locus.on, remaining), key=ex.size)
             branches = self.branches(first)
             if any({*locus.equations} >= {*branch} for branch in branches):
                 pending.append((locus, others))
@@ -115,10 +115,6 @@ class CommonZeros:
             narrower = (Locus(tuple(dict.fromkeys((*locus.equations, *branch)))) for branch in reversed(branches))
             pending += [(narrow, others) for narrow in narrower if narrow.is_short]
         raise TooLargeError
-
-
-def _size(e: Expr) -> int:
-    return sum(1 for _ in ex.nodes(e))
 
 
 class RowPolynomials:

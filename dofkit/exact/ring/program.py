@@ -31,7 +31,7 @@ NUM, VAR, ADD, MUL, POW = range(5)
 
 P = ParamSpec("P")
 T = TypeVar("T")
-Decision = TypeVar("Decision", bool, bool | None)
+D = TypeVar("D")
 
 
 class TooLargeError(NoValueError):
@@ -69,30 +69,25 @@ def raising_no_value(work: Callable[P, T]) -> Callable[P, T]:
     return wrapper
 
 
-def false_without_value(function: Callable[P, Decision]) -> Callable[P, Decision]:
-    """Return ``function`` with the result False ("not proved") where it would raise NoValueError."""
+def default_without_value(default: D) -> Callable[[Callable[P, T]], Callable[P, T | D]]:
+    """Return a decorator of functions: the result is ``default`` where the function would raise NoValueError."""
 
-    @wraps(function)
-    def decision(*args: P.args, **kwargs: P.kwargs) -> Decision:
-        try:
-            return function(*args, **kwargs)
-        except NoValueError:
-            return False
+    def decorated(function: Callable[P, T]) -> Callable[P, T | D]:
+        @wraps(function)
+        def result(*args: P.args, **kwargs: P.kwargs) -> T | D:
+            try:
+                return function(*args, **kwargs)
+            except NoValueError:
+                return default
 
-    return decision
+        return result
+
+    return decorated
 
 
-def none_without_value(function: Callable[P, T]) -> Callable[P, T | None]:
-    """Return ``function`` with the result None where it would raise NoValueError."""
-
-    @wraps(function)
-    def value_or_none(*args: P.args, **kwargs: P.kwargs) -> T | None:
-        try:
-            return function(*args, **kwargs)
-        except NoValueError:
-            return None
-
-    return value_or_none
+#: Decorators: the result is False ("not proved"), or None, where the function would raise NoValueError.
+false_without_value = default_without_value(False)
+none_without_value = default_without_value(None)
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import Any
+from typing import Any, Literal
 
 from flint import fmpz
 
@@ -61,18 +61,26 @@ def known_signs(ring: Instructions, product: Expr) -> tuple[list[Expr], Expr]:
 
 def never_negative(part: Expr, positive: frozenset[Expr]) -> bool:
     """Return whether the form of ``part`` shows that it is >= 0 wherever it is defined."""
-    if part.op == "num":
-        return bool(part.args[0] > 0)
-    if part in positive or part.op == "const" or (part.op == "fn" and part.args[0] in ("exp", "abs", "cosh")):
-        return True
-    if part.op in ("add", "mul"):
-        return all(never_negative(p, positive) for p in part.args)
-    if part.op != "pow":
-        return False
-    if part.args[1].op != "num":
-        return never_negative(part.args[0], positive)
-    exponent: Fraction = part.args[1].args[0]
-    return exponent.denominator % 2 == 0 or exponent.numerator % 2 == 0 or never_negative(part.args[0], positive)
+    return sense_of(part, positive) is not None
+
+
+def sense_of(e: Expr, positive: frozenset[Expr]) -> Literal[">", ">="] | None:
+    """Return ">" or ">=" if the form of ``e`` shows that it is > 0 or >= 0 wherever it has a value; otherwise None."""
+    if e in positive or e.op == "const" or (e.op == "num" and e.args[0] > 0):
+        return ">"
+    if e.op == "fn":
+        return ">" if e.args[0] in ("exp", "cosh") else ">=" if e.args[0] in ("abs", "acos") else None
+    if e.op in ("add", "mul"):
+        senses = {sense_of(part, positive) for part in e.args}
+        strict = ">" in senses if e.op == "add" else senses == {">"}
+        return None if None in senses else ">" if strict else ">="
+    if e.op != "pow":
+        return None
+    sense, exponent = sense_of(e.args[0], positive), e.args[1]
+    if exponent.op != "num" or sense == ">":
+        return sense
+    even = exponent.args[0].denominator % 2 == 0 or exponent.args[0].numerator % 2 == 0
+    return None if not even and sense is None else ">" if exponent.args[0] < 0 else ">="
 
 
 def _new_root(ring: Instructions, key: Key, radicand: Expr, node: int) -> int:

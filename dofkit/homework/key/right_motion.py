@@ -140,7 +140,7 @@ def _add_rate(form: Expr, rates: dict[Expr, Expr], positive: frozenset[Expr]) ->
 
 def is_zero(e: Expr, positive: frozenset[Expr]) -> bool | None:
     """Return whether an expression is 0 identically; None if it is too large or undefined, or if uncertain."""
-    if sum(1 for _ in ex.nodes(e)) > MOST_NODES:
+    if ex.size(e) > MOST_NODES:
         return None
     try:
         zero, verdict = zero_and_verdict(e, positive)

@@ -10,15 +10,7 @@ from pydantic import Field
 
 from dofkit.homework.answers.declared import DeclaredNames
 from dofkit.homework.answers.label_words import TERMS, label_text, mentions, read_labels, word_of
-from dofkit.homework.judgement import (
-    DoubtError,
-    Given,
-    Judgement,
-    Reading,
-    Sentence,
-    needs_review,
-    partly,
-)
+from dofkit.homework.judgement import DoubtError, Given, Judgement, Reading, Sentence, needs_review, partly
 from dofkit.homework.key.key import Key
 from dofkit.homework.key.misconceptions import explain_label
 from dofkit.homework.questions.base import Earlier, QuestionBase

@@ -35,11 +35,6 @@ class GivenUpError(Exception):
     """The budget of steps is exhausted."""
 
 
-def size(e: Expr) -> int:
-    """Return the number of different nodes of an expression."""
-    return sum(1 for _ in ex.nodes(e))
-
-
 class Algebra:
     """Canonical forms of expressions, within one budget of steps and seconds; ``positive`` symbols are > 0."""
 
@@ -56,7 +51,7 @@ class Algebra:
 
     def spend(self, expressions: Iterable[Expr]) -> None:
         """Deduct the steps for canonical forms. Raises TooLargeError above MAX_NODES; GivenUpError: see `tick`."""
-        sizes = [size(e) for e in expressions]
+        sizes = [ex.size(e) for e in expressions]
         if max(sizes) > MAX_NODES:
             raise TooLargeError
         self.tick(sum(1 + nodes // 20 for nodes in sizes))
@@ -152,7 +147,7 @@ def antiderivative(work: Algebra, e: Expr, x: Expr) -> Expr | None:
         integral = _termwise(work, expand(integrand), x)
         if integral is not None:
             return integral
-    return _by_sympy(work, min(e, work.tidy(e), key=size), x)
+    return _by_sympy(work, min(e, work.tidy(e), key=ex.size), x)
 
 
 def _termwise(work: Algebra, e: Expr, x: Expr) -> Expr | None:
@@ -271,7 +266,7 @@ def _of_unknown_function(e: Expr, x: Expr) -> Expr | None:
 
 def _by_sympy(work: Algebra, e: Expr, x: Expr) -> Expr | None:
     """Return SymPy's antiderivative, or None if SymPy finds none within the seconds that remain of the budget."""
-    if size(e) > MAX_SYMPY or any(n.op == "call" for n in ex.nodes(e)):
+    if ex.size(e) > MAX_SYMPY or any(n.op == "call" for n in ex.nodes(e)):
         return None
     work.tick(SYMPY_STEPS)
     integrators()

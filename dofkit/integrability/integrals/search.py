@@ -18,13 +18,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, exterior_derivative
 from dofkit.expressions.text.printing import to_text
 from dofkit.expressions.tree import Expr
-from dofkit.integrability.integrals.potentials import (
-    Algebra,
-    Form,
-    GivenUpError,
-    potential,
-    size,
-)
+from dofkit.integrability.integrals.potentials import Algebra, Form, GivenUpError, potential
 from dofkit.integrability.integrals.writing import Pair, arranged, cost, shapes, upright
 from dofkit.relations.normal.pieces import Pfaffian
 
@@ -63,7 +57,7 @@ def integrate(form: Pfaffian, positive: frozenset[Expr]) -> Integral | None:
 @raising_no_value
 def _integrate(work: Algebra, form: Pfaffian) -> Integral | None:
     omega = {s: ex.ZERO if work.vanishes(a) else a for s, a in form.components.items()}
-    sizes = [size(a) for a in omega.values() if not a.is_zero]
+    sizes = [ex.size(a) for a in omega.values() if not a.is_zero]
     if not sizes or sum(sizes) > MAX_FORM:
         return None
     if work.closed(omega):
@@ -112,7 +106,7 @@ def _pairs(work: Algebra, form: Form) -> Iterator[Pair]:
 def _integral(work: Algebra, form: Form, mu: Expr) -> Pair | None:
     """Return (f, mu) in its simplest proved form if mu omega is closed and its potential is found, else None."""
     scaled = {s: a if a.is_zero else work.tidy(mu * a) for s, a in form.items()}
-    if sum(map(size, scaled.values())) > 2 * MAX_FORM or not work.closed(scaled):
+    if sum(map(ex.size, scaled.values())) > 2 * MAX_FORM or not work.closed(scaled):
         return None
     f = potential(work, scaled)
     if f is None:

@@ -10,11 +10,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import content
 from dofkit.expressions.text.printing import to_text
 from dofkit.expressions.tree import Expr
-from dofkit.integrability.integrals.potentials import (
-    Algebra,
-    as_power,
-    size,
-)
+from dofkit.integrability.integrals.potentials import Algebra, as_power
 
 #: (integral, factor).
 Pair = tuple[Expr, Expr]
@@ -129,11 +125,9 @@ def _logs(e: Expr) -> tuple[dict[Expr, Fraction], list[Expr]]:
     logs: dict[Expr, Fraction] = {}
     terms = []
     for term in e.args if e.op == "add" else (e,):
-        factors = term.args if term.op == "mul" else (term,)
-        number = factors[0].args[0] if factors[0].op == "num" else Fraction(1)
-        last = factors[-1]
-        if last.op == "fn" and last.args[0] == "log" and len(factors) - (factors[0].op == "num") == 1:
-            logs[last.args[1]] = logs.get(last.args[1], Fraction(0)) + number
+        number, other = ex.number_and_rest(term)
+        if other.op == "fn" and other.args[0] == "log":
+            logs[other.args[1]] = logs.get(other.args[1], Fraction(0)) + number
         else:
             terms.append(term)
     return logs, terms
@@ -167,6 +161,6 @@ def _without_roots(pair: Pair) -> Pair | None:
 def _reciprocal(pair: Pair) -> Pair | None:
     """Return the pair for 1/f; None if f is 0, a sum, or too large."""
     integral, factor = pair
-    if integral.is_zero or integral.op == "add" or size(integral) > 60:
+    if integral.is_zero or integral.op == "add" or ex.size(integral) > 60:
         return None
     return 1 / integral, -factor / integral**2

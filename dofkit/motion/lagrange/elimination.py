@@ -194,7 +194,7 @@ class Eliminator:
         """Return whether the relation is proved to be 0 with the solution (and the other root), and short enough."""
         q, solutions = ex.coordinate(candidate.name), (candidate.value, candidate.other_root)
         return all(
-            sum(1 for _ in ex.nodes(value)) <= LONGEST_SOLUTION
+            ex.size(value) <= LONGEST_SOLUTION
             and is_identically_zero(substitute(relation.expr, {q: value}), self.positive) is True
             for value in solutions
             if value is not None

@@ -171,8 +171,7 @@ def _sorted(model: LagrangeModel) -> LagrangeModel:
     """Return the model with kinetic and potential energy sorted by velocities, if that is shorter."""
     tidy = Tidier(Bridge(model.names, model.positive), model.positive, SORTING)
     kinetic, potential = (
-        e if sum(1 for _ in ex.nodes(e)) > MOST_NODES else tidy.shorter(e)
-        for e in (model.energy.kinetic, model.energy.potential)
+        e if ex.size(e) > MOST_NODES else tidy.shorter(e) for e in (model.energy.kinetic, model.energy.potential)
     )
     return replace(model, energy=replace(model.energy, kinetic=kinetic, potential=potential))
 

@@ -218,29 +218,18 @@ def _is_reversible(e: Expr) -> bool:
 
 def _content(e: Expr) -> Fraction:
     """Return the common numerical factor of the terms of a sum, negative if that saves minus signs."""
-    numbers = [_number(term) for term in e.args]
+    numbers = [ex.number_and_rest(term)[0] for term in e.args]
     common = Fraction(gcd(*(n.numerator for n in numbers)), lcm(*(n.denominator for n in numbers)))
     return -common if _better_negated(e) else common
 
 
-def _number(term: Expr) -> Fraction:
-    first = term.args[0] if term.op == "mul" else term
-    value: Fraction = first.args[0] if first.op == "num" else Fraction(1)
-    return value
-
-
 def _times(term: Expr, number: Fraction) -> Expr:
     """Return number * term, with the factors in their order."""
-    if term.op == "num":
-        return ex.num(term.args[0] * number)
-    first, others = (term.args[0], term.args[1:]) if term.op == "mul" else (term, (term,))
-    if term.op == "mul" and first.op == "num":
-        number *= first.args[0]
-    elif term.op == "mul":
-        others = term.args
-    if number == 1:
-        return others[0] if len(others) == 1 else Expr("mul", others)
-    return Expr("mul", (ex.num(number), *others)) if others else ex.num(number)
+    factor, others = ex.number_and_rest(term)
+    number *= factor
+    if number == 1 or others == ex.ONE:
+        return others if number == 1 else ex.num(number)
+    return Expr("mul", (ex.num(number), *(others.args if others.op == "mul" else (others,))))
 
 
 def _better_negated(e: Expr) -> bool:
@@ -252,7 +241,7 @@ def _better_negated(e: Expr) -> bool:
 
 
 def _is_negative(term: Expr) -> bool:
-    return _number(term) < 0
+    return ex.number_and_rest(term)[0] < 0
 
 
 def _orders(e: Expr, kind: str) -> int:

@@ -16,6 +16,7 @@ from typing import Literal, NamedTuple
 from flint import fmpq
 
 from dofkit.exact.linear_inequalities import LinearCondition, solution
+from dofkit.exact.ring.radicals import sense_of
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import linear_terms
 from dofkit.expressions.tree import Expr
@@ -24,8 +25,6 @@ from dofkit.expressions.tree import Expr
 MAX_FACTORS = 8
 #: Bound on the number of terms (or twice the number of claims, if that is larger).
 MAX_TERMS = 80
-#: Functions that are >= 0, and functions that are > 0.
-_NOT_NEGATIVE, _POSITIVE = frozenset({"abs", "acos"}), frozenset({"exp", "cosh"})
 #: Bounds on the absolute values of functions, and the functions that do not reach their bounds (11/7 > pi/2).
 _BOUNDS = {name: Fraction(1) for name in ("sin", "cos", "tanh")} | {
     name: Fraction(11, 7) * turns for name, turns in (("asin", 1), ("atan", 1), ("acos", 2), ("atan2", 2))
@@ -90,7 +89,7 @@ def _linear_condition(claim: SignClaim, order: Sequence[Expr]) -> LinearConditio
 
 def _facts(term: Expr, positive: frozenset[Expr]) -> Iterator[SignClaim]:
     """Yield the sign and the bounds of a term, which it has wherever it has a value."""
-    sense = _sign(term, positive)
+    sense = sense_of(term, positive)
     if sense is not None:
         yield SignClaim(term, sense)
     if term.op == "fn" and term.args[0] in _BOUNDS:
@@ -101,29 +100,6 @@ def _facts(term: Expr, positive: frozenset[Expr]) -> Iterator[SignClaim]:
         yield SignClaim(term - ex.ONE, ">=")
     if term.op == "fn" and term.args[0] == "abs":
         yield from (SignClaim(term - term.args[1], ">="), SignClaim(term + term.args[1], ">="))
-
-
-def _sign(term: Expr, positive: frozenset[Expr]) -> Sense | None:
-    """Return ">" or ">=" if the factors of a term show that it is > 0 or >= 0; otherwise None."""
-    signs = [_sign_of_factor(f, positive) for f in (term.args if term.op == "mul" else (term,))]
-    if None in signs:
-        return None
-    return ">=" if ">=" in signs else ">"
-
-
-def _sign_of_factor(factor: Expr, positive: frozenset[Expr]) -> Sense | None:
-    """Return ">" or ">=" if a factor is seen to be positive or nonnegative, else None."""
-    if factor in positive or factor.op == "const" or (factor.op == "fn" and factor.args[0] in _POSITIVE):
-        return ">"
-    if factor.op == "fn" and factor.args[0] in _NOT_NEGATIVE:
-        return ">="
-    if factor.op == "pow" and factor.args[1].op == "num":
-        exponent = factor.args[1].args[0]
-        if _sign_of_factor(factor.args[0], positive) == ">":
-            return ">"
-        if exponent.denominator % 2 == 0 or exponent.numerator % 2 == 0:
-            return ">" if exponent < 0 else ">="
-    return None
 
 
 def _products(claims: Sequence[SignClaim], positive: frozenset[Expr]) -> Iterator[SignClaim]:

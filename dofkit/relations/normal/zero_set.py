@@ -10,7 +10,9 @@ from __future__ import annotations
 from dofkit.base.errors import NoValueError
 from dofkit.exact.ring.canonical import quotients_of
 from dofkit.exact.ring.radicals import never_negative
+from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
+from dofkit.relations.linear_relations import linear
 from dofkit.relations.normal.polynomial_zeros import (
     EMPTY_NOTE,
     EXTREME_NOTE,
@@ -45,13 +47,8 @@ def zero_set(e: Expr, positive: frozenset[Expr], variables: frozenset[Expr]) -> 
 
 def _is_linear(e: Expr, variables: frozenset[Expr]) -> bool:
     """Return whether ``e`` is a linear combination of symbols with at least one variable (its gradient is not 0)."""
-    has_variable = False
-    for term in e.args if e.op == "add" else (e,):
-        symbol = term.args[-1] if term.op == "mul" and len(term.args) == 2 and term.args[0].op == "num" else term
-        if symbol.op not in ("sym", "num"):
-            return False
-        has_variable = has_variable or symbol in variables
-    return has_variable
+    terms = linear(e)
+    return terms is not None and not variables.isdisjoint(terms)
 
 
 class _WrittenZeros:
@@ -126,13 +123,8 @@ class _WrittenZeros:
 
 def sign_as_written(term: Expr, positive: frozenset[Expr]) -> int | None:
     """Return 1 if the factors of a term show that it is >= 0, -1 if <= 0, otherwise None."""
-    sign = 1
-    for factor in term.args if term.op == "mul" else (term,):
-        if factor.op == "num":
-            sign = sign if factor.args[0] > 0 else -sign
-        elif not never_negative(factor, positive):
-            return None
-    return sign
+    number, factors = ex.number_and_rest(term)
+    return None if not never_negative(factors, positive) else 1 if number > 0 else -1
 
 
 def _is_denominator(factor: Expr) -> bool:

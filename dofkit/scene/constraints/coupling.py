@@ -156,12 +156,12 @@ class Coupling(ConstraintBase):
             hint = "give the joint its `at` and `axis`"
             world.fault("a joint in general position has no angle that a coupling can use", "joints", letter, hint=hint)
             return None
-        axis = None if planar else world.drawn_direction(joint.axis)
-        place = world.drawn_vector(joint.at) if joint.holds.placed else None
+        axis = None if planar else world.reference_direction(joint.axis)
+        place = world.reference_vector(joint.at) if joint.holds.placed else None
         if (axis is None and not planar) or (place is None and placed):
             return None
         first, second = (world.frame(end, "joints", letter) for end in joint.between)
-        world.drawn.update(joint.between)
+        world.placed.update(joint.between)
         return MeasuredJoint(first, second, JointGeometry(place, () if axis is None else (axis,)), measure, "")
 
     def _fits(self, world: World, e: Expr, measured: Mapping[Expr, MeasuredJoint]) -> bool:
@@ -199,29 +199,29 @@ class MeasuredJoint(NamedTuple):
 
     first: Frame
     second: Frame
-    drawn: JointGeometry
+    geometry: JointGeometry
     measure: Measure
     name: str
 
     @property
     def turns_in_space(self) -> bool:
         """Whether an angle about an axis in space is measured."""
-        return self.measure.turns and bool(self.drawn.axes)
+        return self.measure.turns and bool(self.geometry.axes)
 
     @property
     def value(self) -> Expr:
         """The measured angle or displacement."""
-        return self.measure.value(self.first, self.second, self.drawn)
+        return self.measure.value(self.first, self.second, self.geometry)
 
     def rate(self, slope: Expr) -> JointRate:
         """Return the joint's term in the rate of a relation whose derivative by the joint is ``slope``."""
-        axis = self.drawn.axis.vector if self.drawn.axes else ()
+        axis = self.geometry.axis.vector if self.geometry.axes else ()
         return JointRate(
             self.name,
             slope,
             self.measure.rate,
             (self.first.name, self.second.name),
-            self.drawn.place or (ZERO,) * self.first.dimension,
+            self.geometry.place or (ZERO,) * self.first.dimension,
             axis,
             slope / length(axis) if axis else slope,
             not self.measure.turns,
@@ -232,7 +232,7 @@ class MeasuredJoint(NamedTuple):
         turned = relative(self.first, self.second) if self.turns_in_space else None
         if turned is None:
             return None
-        axis = self.drawn.axis.vector
+        axis = self.geometry.axis.vector
         return mul(turned[0], length(axis)), dot(turned[1], axis)
 
 

@@ -69,7 +69,7 @@ class Joint(ConstraintBase):
     def relations(self, world: World) -> Iterable[Relation]:
         ends = self.ends(world)
         if any(getattr(self, key, None) is not None for key in ("at", "axis", "axes")):
-            world.drawn.update(self.between)
+            world.placed.update(self.between)
         return self.joined(world, *(ends or (world.ground, world.ground)))
 
     @property

@@ -47,7 +47,7 @@ class Fixed(ConstraintBase):
         elif self.body is not None:
             frame = world.frame(self.body, "body")
             if not frame.fixed:
-                world.drawn.add(frame.name)
+                world.placed.add(frame.name)
                 yield from _hold(frame)
 
     def _hold_point(self, world: World, point: str | Vector | BodyPoint) -> Iterator[Relation]:
@@ -141,7 +141,7 @@ class Slot(ConstraintBase):
         through_point = self.at is None and point.reference is not None
         place = point.reference if through_point and point.reference else world.place(self.at, "at")
         if self.at is not None or self.axis is not None:
-            world.drawn.add(frame.name)
+            world.placed.add(frame.name)
         _check_on_line(world, point, place, axis)
         for u in axis.across:
             yield Relation(along(frame, point, place, u), part="across", vector=u)
