@@ -49,7 +49,7 @@ class Placement:
 def drawn_placement(system: System, positive: frozenset[Expr]) -> Placement | None:
     """Return the placement at the reference configuration modulo p, with random values for missing geometry."""
     geometry = _geometry_of(system)
-    ring = Ring([e for e in geometry if e.op != "num"], positive)
+    ring = Ring(geometry, positive)
     nodes = {e: ring.node(e) for e in geometry}
     for seed in range(DRAWS):
         point = field_point([ring], seed)
