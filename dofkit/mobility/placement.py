@@ -133,7 +133,7 @@ class _RandomNumbers:
                 self._same.union(*(_key(point) for point in c.points))
 
     def random(self, dimension: int) -> NumberTuple:
-        return tuple(self._rng.randrange(1, self.p) for _ in range(dimension))
+        return tuple(self._rng.randrange(self.p) for _ in range(dimension))
 
     def vector(self, drawn: Vector | None, dimension: int) -> NumberTuple:
         return self.random(dimension)
@@ -151,10 +151,10 @@ class _RandomNumbers:
         return self._places[root]
 
     def number(self, drawn: Expr | None, by_turn: bool) -> int:
-        return self._rng.randrange(1, self.p)
+        return self._rng.randrange(self.p)
 
     def factor(self, rate: JointRate) -> int:
-        return self._rng.randrange(1, self.p)
+        return self._rng.randrange(self.p)
 
 
 _NumberSource = _ReferenceNumbers | _RandomNumbers
