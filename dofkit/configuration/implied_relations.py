@@ -175,13 +175,13 @@ def needed_along(field: Manifold, other: int) -> list[int]:
     """
     curve = field.line(random_direction(field), ORDER)
     columns = [field.columns[c] for c in field.frame.dependent]
-    slopes = curve.slopes([*field.rows, other], columns)
+    *slopes, last = curve.slopes([*field.rows, other], columns)
     p = modulus(field.sample)
-    orders = [[_sparse(row, k) for row in slopes[:-1]] for k in range(ORDER)]
+    orders = [[_sparse(row, k) for row in slopes] for k in range(ORDER)]
     turned = factored(transposed(orders[0], len(columns)), p)
     multipliers: list[list[int]] = []
     for k in range(ORDER):
-        right = [int(v.coefficient(k)) for v in slopes[-1]]
+        right = [int(v.coefficient(k)) for v in last]
         for j in range(1, k + 1):
             for row, factor in zip(orders[j], multipliers[k - j], strict=True):
                 for c, v in row.items():

@@ -114,15 +114,14 @@ def excludes_zero(ring: Ring, node: int, positive: frozenset[Expr]) -> bool:
 
 def _zero_at_points(ring: Ring, node: int, points: int = 3) -> bool | None:
     """Return whether the node is zero at ``points`` random points over GF(p); None if it has values at fewer."""
-    seen = 0
     for seed in range(TRIES):
         try:
             if values(ring, field_point([ring], seed))[node] != 0:
                 return False
         except NoValueError:
             continue
-        seen += 1
-        if seen == points:
+        points -= 1
+        if not points:
             return True
     return None
 
@@ -219,8 +218,7 @@ def _independent_arguments(ring: Ring, kind: str) -> bool:
     terms = sorted({m for row in rows for m in row.to_dict()})
     if len(rows) * len(terms) > MOST_TERMS:
         return False
-    matrix = fmpq_mat([[row.to_dict().get(m, 0) for m in terms] for row in rows])
-    return bool(matrix.rref()[1] == len(rows))
+    return bool(fmpq_mat([[row.to_dict().get(m, 0) for m in terms] for row in rows]).rank() == len(rows))
 
 
 def _root_of_more(var: Var) -> bool:

@@ -47,7 +47,7 @@ class Placement:
 def reference_placement(system: System, positive: frozenset[Expr]) -> Placement | None:
     """Return the placement at the reference configuration modulo p, with random values for missing geometry."""
     geometry = _geometry_of(system)
-    ring = Ring([e for e in geometry if e.op != "num"], positive)
+    ring = Ring(geometry, positive)
     nodes = {e: ring.node(e) for e in geometry}
     for seed in range(DRAWS):
         point = field_point([ring], seed)
@@ -131,7 +131,7 @@ class _RandomNumbers:
                 self._same.union(*(_key(point) for point in c.points))
 
     def random(self, dimension: int) -> NumberTuple:
-        return tuple(self._rng.randrange(1, self.p) for _ in range(dimension))
+        return tuple(self._rng.randrange(self.p) for _ in range(dimension))
 
     def vector(self, reference: Vector | None, dimension: int) -> NumberTuple:
         return self.random(dimension)
@@ -149,10 +149,10 @@ class _RandomNumbers:
         return self._places[root]
 
     def number(self, reference: Expr | None, by_turn: bool) -> int:
-        return self._rng.randrange(1, self.p)
+        return self._rng.randrange(self.p)
 
     def factor(self, rate: JointRate) -> int:
-        return self._rng.randrange(1, self.p)
+        return self._rng.randrange(self.p)
 
 
 _NumberSource = _ReferenceNumbers | _RandomNumbers

@@ -48,6 +48,7 @@ def test_by_parts_as_whole(name: str) -> None:
     apart = examined(system, passes=GENERIC).report
     whole = study_of(scene, ("bridges",), GENERIC).report
     assert apart.dof == dof
+    assert dofkit.derived_flag(scene) == [apart.count.coordinates - dof]
     told = "consistent dof velocity_dof instantaneous_dof singular redundant redundancies redundant_equations"
     for field in (*told.split(), "generalized_coordinates", "joint_coordinates", "warnings", "verdict", "witness"):
         assert getattr(apart, field) == getattr(whole, field), field

@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-import yaml
 from shared.known_scenes import CATALOG, EXPECTED, ROOT, SCENES, report_of, scene_of, stem, strict_report_of
+from shared.report_laws import CERTAINTY, certainty_of
 
 import dofkit
 import dofkit.base.documents
@@ -23,9 +23,6 @@ from dofkit.scene.constraints import TYPES
 from dofkit.scene.expectation import unmet
 
 BAD = ROOT / "tests/scenes/bad"
-#: The fields of each scene's report that are not proved, or not of all configurations, by how certain they are.
-CERTAINTY = yaml.safe_load((Path(__file__).parent / "certainty.yaml").read_text(encoding="utf-8"))
-SURE = ("proved", False)
 
 
 @cache
@@ -43,10 +40,7 @@ def test_the_report_holds_what_the_scene_expects(path: Path) -> None:
     assert scene.expect
     assert unmet(scene, report.model_dump(mode="json")) == []
     # What is surer than the table says needs an argument first, and what is less sure has lost its own.
-    plain = report_of(path)
-    claims = plain.verdicts | {f"{e.name}.{key}": claim for e in plain.constraints for key, claim in e.verdicts.items()}
-    weaker = {key: f"{c.verdict} {c.about}" for key, c in claims.items() if (c.verdict, c.about == "component") != SURE}
-    assert {v: sorted(k for k in weaker if weaker[k] == v) for v in weaker.values()} == CERTAINTY.get(path.stem, {})
+    assert certainty_of(report_of(path)) == CERTAINTY[path.stem]
 
 
 def test_names_are_files_and_unique() -> None:

@@ -33,14 +33,12 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.domain import DomainCondition
-from dofkit.relations.normal.pieces import UNDONE_NOTE, Finite, Normal, Pfaffian, Reduced
+from dofkit.relations.normal.pieces import Finite, Normal, Pfaffian, Reduced
 from dofkit.relations.setting import Setting
 from dofkit.system import System
 
 #: Share of the remaining time for the test whether the submitted constraints are consistent.
 POSSIBLE = 0.3
-#: Functions whose values are angles.
-ANGLES = frozenset({"asin", "acos", "atan", "atan2"})
 
 
 class Sameness(Enum):
@@ -214,8 +212,6 @@ class Equivalence:
             return Sameness.STRONGER
         if all(r.constraint.facts.half_turns for r in self.wanted):
             return Sameness.SAME
-        if _turned(self.submitted, self._answer):
-            return Sameness.UNDECIDED
         sides = bounds(self._all_wanted, self.context)
         unimplied = unsound(self.submitted, self._sound) if sides else []
         same = [loses_nothing(e, self._all_wanted, self._others, sides, self.setting) for e in unimplied]
@@ -340,10 +336,3 @@ def _differential(g: Expr) -> Normal:
     moving = sorted((s for s in g.symbols if s.args[0] == "coordinate"), key=repr)
     slopes = {str(s.args[1]): diff(g, s) for s in moving}
     return Normal(((Pfaffian({n: e for n, e in slopes.items() if not e.is_zero}, diff(g, ex.TIME)),),))
-
-
-def _turned(submitted: Sequence[Reduced], answer: Sequence[Normal]) -> bool:
-    """Return whether an angle of velocities was inverted: theta = atan(dy/dx) may be meant for every theta."""
-    written = (relation.expr for r in submitted for relation in r.constraint.relations)
-    undone = any(UNDONE_NOTE in note for n in answer for note in n.notes)
-    return undone and any(not e.functions.isdisjoint(ANGLES) for e in written)

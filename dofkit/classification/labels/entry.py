@@ -137,8 +137,7 @@ def _integrable_forms(normals: Sequence[Normal], rows: Sequence[LabelledRow]) ->
     for n in normals:
         kinds = [(len(_forms([b])), any(isinstance(p, Finite) for p in b)) for b in n.branches]
         named = list(zip(kinds, n.branches, strict=True))
-        same = {kind for kind, b in named if any(f is u for f in _forms([b]) for u in used)}
-        equal = same or {kind for kind, b in named if any(f in used for f in _forms([b]))}
+        equal = {kind for kind, b in named if any(f in used for f in _forms([b]))}
         wide = equal or {kind for kind in kinds if not kind[1]} or set(kinds)
         chosen += _forms([b for kind, b in zip(kinds, n.branches, strict=True) if kind in wide])
     return [f for k, f in enumerate(chosen) if f not in chosen[:k]]
@@ -314,6 +313,5 @@ def _alone(
         return (False, "proved") if curved else (None, "undecided")
     if by_itself is None or (forms and all(p.proved for p in proofs)):
         return True, "proved"
-    if by_itself.consistent is not True or not by_itself.labels:
-        return None, "undecided"
-    return all_of([(label.holonomic, label.verdict) for label in by_itself.labels.values()])
+    labels = by_itself.labels.values() if by_itself.consistent else ()
+    return all_of([(label.holonomic, label.verdict) for label in labels]) if labels else (None, "undecided")

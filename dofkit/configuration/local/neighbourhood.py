@@ -149,7 +149,7 @@ def holds_away(ball: Manifold, direction: Sequence[float], deep: bool) -> bool |
                     return _is_satisfied_near(here, u, DEEP_SURE if deep else SURE)
             reach /= 4
     except FAULTS:
-        return None
+        pass  # no point
     return None
 
 
@@ -165,10 +165,10 @@ def _is_satisfied_near(here: Neighbourhood, u: Vector, sure: float) -> bool | No
 
 def holds_on_critical(ball: Manifold, critical: Split, direction: Sequence[float]) -> bool:
     """Return whether the dependent relations are 0, in high precision, at a distant point of N; False without one."""
+    if len(ball.rows) > MANY:
+        return False
     try:
         here = Neighbourhood(ball)
-        if len(ball.rows) > MANY:
-            return False
         reach = FAR
         while reach > NEAR:
             symbols = _onto_critical(here, critical, direction, reach)
@@ -176,7 +176,7 @@ def holds_on_critical(ball: Manifold, critical: Split, direction: Sequence[float
                 return here.residual(symbols, ball.others) <= SURE
             reach /= 8
     except FAULTS:
-        return False
+        pass  # nowhere near
     return False
 
 

@@ -40,21 +40,18 @@ class SmoothFunction(NamedTuple):
 
         ``numbers`` converts a fraction to the type of the arguments; ``sine`` and ``half_pi`` are of this type.
         """
-        total = sum(orders)
-        total_value = numbers(Fraction(0))
+        total, terms = sum(orders), list[Any]()
         if total == 0:
-            total_value = total_value + numbers(self.start)
-            for slope, u in zip(self.slopes, args, strict=True):
-                total_value = total_value + numbers(slope) * u
+            terms = [numbers(self.start), *(numbers(slope) * u for slope, u in zip(self.slopes, args, strict=True))]
         elif total == 1:
-            total_value = total_value + numbers(self.slopes[list(orders).index(1)])
+            terms = [numbers(self.slopes[list(orders).index(1)])]
         for height, widths, phase in self.waves:
             factor, angle = height, numbers(phase) + half_pi * total
             for width, order, u in zip(widths, orders, args, strict=True):
                 factor *= width**order
                 angle = angle + numbers(width) * u
-            total_value = total_value + numbers(factor) * sine(angle)
-        return total_value
+            terms.append(numbers(factor) * sine(angle))
+        return sum(terms, numbers(Fraction(0)))
 
 
 @lru_cache(maxsize=256)

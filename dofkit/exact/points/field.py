@@ -318,7 +318,7 @@ class FieldPoint:
             n = lcm(4, 2 * self.order)
             factors = [int(q) for q, _ in fmpz(n).factor()]
             while True:
-                zeta = self.random() ** ((self.p - 1) // n)
+                zeta = self.random() ** (self.p // n)  # n divides p - 1
                 if all(zeta ** (n // q) != 1 for q in factors):
                     break
             self._zeta = zeta ** (n // (2 * self.order))  # exp(pi i / order)

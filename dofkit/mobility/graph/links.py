@@ -66,7 +66,7 @@ def _pairs(links: Iterable[Link] | Any) -> Sequence[Link]:
         for place, link in enumerate(pairs):
             if not isinstance(link, tuple | list) or len(link) != 2:
                 raise LinkageError(f"link number {place + 1} is {link!r}; a link is a pair of joints")
-    return pairs if kinds <= {tuple} else list(map(tuple, pairs))
+    return list(map(tuple, pairs))
 
 
 # Links along a line

@@ -19,7 +19,6 @@ REGION_NOTE = (
 )
 NOWHERE_NOTE = "no real configuration satisfies it, because it has no real value anywhere"
 SQUARED_NOTE = "the root was removed by squaring, with the sign of the other side as a condition"
-UNDONE_NOTE = "the arctangent of the velocities was inverted"
 QUADRATIC_NOTE = "over the real numbers the relation between velocities splits into linear ones"
 INSTANT_NOTE = "a factor that vanishes only at instants of time was taken out"
 
