@@ -1,4 +1,4 @@
-"""Write ``tests/whole/certainty.yaml`` again, and print what became of a scene's certainty: python tests/certainty.py."""
+"""Write ``tests/whole/certainty.yaml`` again, and print each scene that changed: python tests/certainty.py."""
 
 from __future__ import annotations
 
