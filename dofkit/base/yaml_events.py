@@ -47,8 +47,6 @@ _NUMBER = re.compile(r"[-+]?(?:(?P<int>[0-9]+)|(?:\.[0-9]+|[0-9]+\.?[0-9]*)(?:[e
 _OTHER_BASE = re.compile(r"0o(?P<octal>[0-7]+)|0x(?P<hex>[0-9a-fA-F]+)", re.ASCII)
 _NOT_FINITE = re.compile(r"[-+]?(?:\.inf|\.Inf|\.INF|Infinity)|\.nan|\.NaN|\.NAN|NaN")
 _NUMERIC_START = frozenset("0123456789+-.IN")
-#: In a text without quotes, a line that looks like a further entry of a list.
-_HYPHEN = re.compile(r"[\r\n] *- ")
 
 
 class UnreadableError(Exception):
@@ -201,7 +199,8 @@ class ComposedText:
             try:
                 value = plain(text)
                 start, end = event.start_mark, event.end_mark
-                if start.line < end.line and _HYPHEN.search(self._text, start.index, end.index):
+                entry = start.line < end.line and self._text.startswith("- ", start.index - 2)
+                if entry and re.search(rf"[\r\n] {{0,{start.column - 1}}}- ", self._text[start.index : end.index]):
                     hint = "write it below the '- ' of the entry before, or put the whole text in double quotes"
                     raise TextError("this text continues in a line that begins with a hyphen", hint=hint)
             except TextError as error:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -80,7 +81,7 @@ def failures_of(file: str | None) -> Iterator[None]:
     except (DofkitError, OSError) as error:
         from dofkit.interface.show.faults import complaint  # a command that succeeds needs no sentences about faults
 
-        faults = tuple(getattr(error, "faults", None) or (Fault(str(error)),))
+        faults = tuple(getattr(error, "faults", None) or (Fault(re.sub(r"^\[Errno \d+\] ", "", str(error))),))
         sys.stdout.flush()
         about = getattr(error, "file", None) or file or getattr(error, "source", None) or "assignment"
         typer.echo(complaint(about, faults, None, colours_of(sys.stderr) is not None), err=True, color=True)

@@ -146,8 +146,8 @@ def find(source: str | os.PathLike[str]) -> FoundFile:
         message = f"'{_brief(name)}' cannot be read: {reason[:1].lower()}{reason[1:]}"
         raise SceneError((Fault(message, hint="check the path and the permissions"),), name) from None
     if folder:
-        fault = Fault(f"'{name}' is a folder, not a scene", hint=f"write '{path / '*.yaml'}' for the files in it")
-        raise SceneError((fault,), name)
+        hint = f"write '{path / '*.yaml'}' for the files in it" if any(path.glob("*.yaml")) else "no scene is in it"
+        raise SceneError((Fault(f"'{name}' is a folder, not a scene", hint=hint),), name)
     raise SceneError((_missing(name, path),), name)
 
 

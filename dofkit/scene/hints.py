@@ -141,10 +141,8 @@ def meant_type(word: object, entry: Mapping[str, Any]) -> str | None:
 
 def with_hint(fault: Fault, value: Mapping[str, Any] | None = None) -> Fault:
     """Return ``fault`` with its field in the message, a hint and a reference; ``value`` is the scene's document."""
-    message, keys = (
-        re.sub(r"^Input should be (.*)", r"\1 is needed", fault.message),
-        [key for key in fault.where if isinstance(key, str)],
-    )
+    message = re.sub(r"^Input should be (.*)", r"\1 is needed", fault.message)
+    keys = [key for key in fault.where if isinstance(key, str)]
     if len(fault.where) > 2 and keys[-1] not in ("text", "name", "type") and keys[-1] not in message:
         message = f"`{keys[-1]}`: {message}"
     document = {} if value is None else value

@@ -318,11 +318,11 @@ def test_a_students_page(prepared: Prepared, tmp_path: Path) -> None:
     assert "Not final" not in bob
 
 
-def test_relations_are_formulas(prepared: Prepared, tmp_path: Path) -> None:
-    read = item("wrong", "rod", 0.0, 8.0, read_as="x_A^2 = 1 or <b>x</b> = 1")
+def test_relations_and_products_are_formulas(prepared: Prepared, tmp_path: Path) -> None:
+    read = item("wrong", "rod", 0.0, 8.0, read_as="x_A^2 = 1 or m*g*l or <b>x</b> = 1")
     pages(prepared, tmp_path, [result("ada", RIGHT, read)])
     text = (tmp_path / "students" / "ada.html").read_text(encoding="utf-8")
-    assert text.count("<math>") == 1
+    assert text.count("<math>") == 2
     assert "<msubsup>" in text or "<msup>" in text
     assert " or &lt;b&gt;x&lt;/b&gt; = 1" in text
 

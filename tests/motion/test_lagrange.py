@@ -337,6 +337,7 @@ def test_the_branch_is_that_of_the_reference() -> None:
     report = check(above, {"x": "x (g sqrt(l^2 - x^2) - xdot^2 - x^2 xdot^2/(l^2 - x^2))/l^2"})
     assert report.eliminated == {"y": "sqrt(l^2 - x^2)"}
     assert "through the reference configuration" in report.notes[0]
+    assert "where parameters are near 1" in dofkit.lagrange(above.model_copy(update={"configuration": {}})).notes[0]
 
 
 def test_several_roots_are_no_elimination() -> None:

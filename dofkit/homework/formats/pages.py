@@ -96,7 +96,7 @@ def _pieces(text: str) -> list[str]:
 
 
 def _formulas(text: str) -> list[tuple[str, str]]:
-    """Return (MathML or "", text) for the parts of a read answer; relations in the grammar of scenes have MathML."""
+    """Return (MathML or "", text) for the parts of a read answer; formulas in the grammar of scenes have MathML."""
     segments = re.split("(; | or )", plain(text))
-    formulas = [typeset(part) if re.search("[=<>]", part) else None for part in segments]
+    formulas = [typeset(part) if re.search("[=<>*^]", part) else None for part in segments]
     return [("" if latex is None else mathml(latex), part) for latex, part in zip(formulas, segments, strict=True)]

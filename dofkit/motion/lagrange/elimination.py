@@ -1,7 +1,7 @@
 """Geometric equations solved for coordinates in closed form; each solution is checked by inserting it.
 
 A relation g = 0 that is linear in a coordinate q gives q = -g(0)/g_q where g_q is not 0. A quadratic relation gives two
-branches; the one through the reference configuration is chosen, else the one of lower potential energy.
+branches; the one through the reference configuration is chosen, else the one of lower potential energy at a sample.
 """
 
 from __future__ import annotations
@@ -209,7 +209,7 @@ class Eliminator:
             distances = (_figure(_sampled(substitute(v, start) - start[q])) for v in (first, second))
             figures = [None if d is None else abs(d) for d in distances]
         if None in figures or figures[0] == figures[1]:
-            why = "the branch of lower potential energy"
+            why = "the branch of lower potential energy where parameters are near 1 and coordinates near 0"
             figures = [_figure(_sampled(substitute(self.potential, _all(name, v, solved)))) for v in (first, second)]
         if None in figures or figures[0] == figures[1]:
             why = "the other root is the other branch"

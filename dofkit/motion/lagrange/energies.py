@@ -322,7 +322,7 @@ def moving(world: World, value: object, *where: str | int) -> Expr:
 def needed(world: World, value: object, key: str, what: str) -> Expr:
     """Return a required value as `moving` does; 0, with a fault, if it is None."""
     if value is None:
-        world.fault(f"the `{key}` {what} is missing", hint="give a number or a parameter")
+        world.fault(f"the `{key}` {what} is missing", hint=f"write `{key}:` with a number or a parameter")
         return ZERO
     return moving(world, value, key)
 
