@@ -76,6 +76,7 @@ def of_reference(symbols: Iterable[Expr], reference: Mapping[Expr, Expr]) -> Wit
 
 
 def _text(value: Any) -> str:
+    """Return an exact number as a fraction, and the middle of a ball as a decimal number."""
     ball = arb(value)
     if ball.is_exact():
         mantissa, exponent = (int(n) for n in ball.man_exp())

@@ -4,17 +4,16 @@ from __future__ import annotations
 
 import random
 from collections.abc import Collection, Mapping, Sequence
-from fractions import Fraction
 from functools import partial
 
 from flint import fmpq, fmpq_mat
 
 from dofkit.base.errors import NoValueError
+from dofkit.exact.points.balls import ExactPoint
 from dofkit.exact.residues import null_vectors
-from dofkit.exact.ring.program import Scalar, Var, raising_no_value
+from dofkit.exact.ring.program import NoPointError, Scalar, Var, raising_no_value
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, expand
-from dofkit.expressions.rational_values import exact_root
 from dofkit.expressions.tree import Expr
 from dofkit.methods.as_written import (
     Decider,
@@ -47,15 +46,13 @@ class ContradictionError(ArithmeticError):
     """The linear equations have no solution."""
 
 
-class RationalPoint:
+class RationalPoint(ExactPoint):
     """Rational values of symbols; if ``free``, missing values are random, (cos, sin) on the unit circle."""
 
     def __init__(self, rng: random.Random, free: bool) -> None:
+        super().__init__({})
         self.rng, self.free = rng, free
         self.values: dict[object, Scalar] = {}
-
-    def number(self, value: Fraction) -> fmpq:
-        return fmpq(value.numerator, value.denominator)
 
     def draw(self) -> fmpq:
         return fmpq(self.rng.randrange(1, 97), self.rng.choice((3, 5, 7, 8)))
@@ -72,21 +69,17 @@ class RationalPoint:
         if var.kind in ("cos", "sin"):
             cos, sin = self._turn(args[0])
             self.values["cos", var.key], self.values["sin", var.key] = cos, sin
-        elif var.kind == "root":
-            root = exact_root(Fraction(int(args[0].p), int(args[0].q)), var.degree) if args[0] >= 0 else None
-            if root is None:
-                raise IrrationalError(IRRATIONAL)
-            self.values[key] = fmpq(root.numerator, root.denominator)
         elif var.kind == "sign":
             if args[0] == 0:
                 raise IrrationalError(KINK)
             self.values[key] = fmpq(1 if args[0] > 0 else -1)
-        elif var.kind == "symbol" or var.kind == "call" or self.free:
+        elif var.kind in ("symbol", "call") or (self.free and var.kind != "root"):
             self.values[key] = self.draw()
-        elif args and args[0] == (1 if var.kind == "log" else 0):
-            self.values[key] = fmpq(1 if var.kind == "exp" else 0)
         else:
-            raise IrrationalError(IRRATIONAL)
+            try:
+                self.values[key] = super().generator(var, args)
+            except NoPointError:
+                raise IrrationalError(IRRATIONAL) from None
 
     def _turn(self, angle: Scalar) -> tuple[fmpq, fmpq]:
         """Return (cos, sin): (1, 0) for the angle 0, a random rational point of the circle for a free angle."""

@@ -159,6 +159,7 @@ _NumberSource = _ReferenceNumbers | _RandomNumbers
 
 
 def _key(point: DrawnPoint) -> Hashable:
+    """Return the key of a point: points of one particle have one place."""
     return point.carrier if point.particle else (point.carrier, point.at)
 
 

@@ -57,12 +57,14 @@ class RowsAtReference:
         return NamedRows(named, p)
 
     def _is_plain(self, c: Connection) -> bool:
+        """Return whether a connection is an undriven joint with complete geometry, of bodies without Euler angles."""
         facts = c.facts
         plain = facts.placed and facts.joint and c.number is None and not c.driven and not facts.bars and not c.points
         complete = all(vector is not None for vector in (*c.places, *c.directions))
         return plain and complete and self._turned_by_euler.isdisjoint(c.members)
 
     def _rows(self, number: int, p: int) -> list[SparseRow] | None:
+        """Return a joint's rows, without zeros modulo p; None if there is not one for each of its relations."""
         at = self._located.get(number)
         if at is None:
             return None

@@ -104,6 +104,7 @@ def _facts_of_set(g: Geometry, members: Sequence[Connection]) -> Iterator[str]:
 
 
 def _axes(g: Geometry, members: Sequence[Connection]) -> Iterator[NamedLine]:
+    """Yield the axes of joints in space, each with the name of its joint."""
     for c in members:
         at = g.placement.located[c.constraint]
         if g.system.dimension == 3 and c.facts.axial and at.places:
@@ -111,6 +112,7 @@ def _axes(g: Geometry, members: Sequence[Connection]) -> Iterator[NamedLine]:
 
 
 def _of_axes(g: Geometry, axes: Sequence[NamedLine]) -> Iterator[str]:
+    """Yield what is special about axes: on one line, parallel, in one plane or through one point."""
     classes = _classes(axes, lambda a, b: g.parallel(a.direction, b.direction))
     alike = [c for c in classes if len(c) > 1]
     for same in alike:
@@ -127,6 +129,7 @@ def _of_axes(g: Geometry, axes: Sequence[NamedLine]) -> Iterator[str]:
 
 
 def _in_one_plane(g: Geometry, axes: Sequence[NamedLine]) -> bool:
+    """Return whether axes, not all of which are parallel, are in one plane."""
     first = axes[0]
     other = next(a for a in axes if not g.parallel(first.direction, a.direction))
     normal = cross(first.direction, other.direction)
@@ -210,6 +213,7 @@ def _coincident_hinges(g: Geometry, connections: Sequence[Connection]) -> Iterat
 
 
 def _of_bars(g: Geometry, bars: Sequence[NamedLine], members: Sequence[Connection]) -> Iterator[str]:
+    """Yield what is special about bars: parallel ones, and those through one point."""
     for same in _classes(bars, lambda a, b: g.parallel(a.direction, b.direction)):
         different = [c[0] for c in _classes(same, lambda a, b: g.on(a, b.through))]
         if len(different) > 2:

@@ -150,11 +150,13 @@ class _Basis:
 
     @staticmethod
     def _from_supports(rows: OwnedRows, tell: Supports) -> tuple[list[int], dict[int, list[int]]]:
+        """Return (independent rows, supports of the others) by the function that computes the supports."""
         supports = {i: list(support) for i, support in tell().items()}
         return [i for i in range(len(rows.owners)) if i not in supports], supports
 
     @staticmethod
     def _by_elimination(rows: OwnedRows) -> tuple[list[int], dict[int, list[int]]]:
+        """Return (independent rows, supports of the others) by elimination, finite rows first."""
         numbers = _by_kind(rows)
         result = echelon([rows.matrix[i] for i in numbers], rows.p, supports=True)
         pivots = [numbers[k] for k in result.independent]

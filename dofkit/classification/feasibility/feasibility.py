@@ -240,6 +240,7 @@ def _name(s: Expr) -> str:
 
 
 def _text(value: Expr | arb) -> str:
+    """Return an exact value as written, a ball as a decimal number."""
     if isinstance(value, Expr):
         return to_text(value)
     text = f"{float(value.mid()):.{DIGITS}f}".rstrip("0").rstrip(".")

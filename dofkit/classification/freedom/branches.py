@@ -105,6 +105,7 @@ class Outcome:
         return self._total([a.velocity_dof for a in self.answers])
 
     def _total(self, freedoms: Sequence[int | None]) -> int | None:
+        """Return the untouched coordinates plus the sum of the freedoms; None if inconsistent, or one is unknown."""
         if not self.consistent or any(p is None for p in freedoms):
             return None
         return len(self.untouched) + sum(p for p in freedoms if p is not None)

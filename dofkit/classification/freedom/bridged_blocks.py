@@ -40,6 +40,7 @@ def bridged_answer(block: Block, setting: Setting, solve: Callable[[Block, Setti
 
 
 def _is_satisfied(part: AnsweredPart) -> bool:
+    """Return whether a part is consistent with an answer about the reference."""
     return part.answer.consistent is True and part.answer.about == "reference"
 
 
@@ -125,6 +126,7 @@ def _together(block: Block, setting: Setting, answered: Sequence[AnsweredPart], 
 
 
 def _total(numbers: Sequence[int | None], free: int) -> int | None:
+    """Return ``free`` plus the sum of the numbers; None if one of them is unknown."""
     decided = [n for n in numbers if n is not None]
     return free + sum(decided) if len(decided) == len(numbers) else None
 

@@ -69,6 +69,7 @@ def _without_satisfied_conditions(block: Block) -> Block:
 
 
 def _equations(block: Block, result: Answer) -> list[Expr]:
+    """Return the geometric equations of a block, hidden ones included."""
     return [*(r.piece.expr for r in block.finite if isinstance(r.piece, Finite)), *result.hidden]
 
 
@@ -140,6 +141,7 @@ def text_of_conditions(conditions: Iterable[DomainCondition]) -> str:
 
 
 def _nowhere(block: Block, result: Answer) -> Answer:
+    """Return the inconsistent answer of a block whose conditions are satisfied nowhere on its equations."""
     conditions = text_of_conditions(block.conditions)
     why = f"as written, the equations require {conditions}, which is satisfied nowhere where they are"
     reasons = [*result.reasons, why]
@@ -147,6 +149,7 @@ def _nowhere(block: Block, result: Answer) -> Answer:
 
 
 def _undecided(block: Block, result: Answer) -> Answer:
+    """Return the undecided answer of a block for which no point within its conditions was found."""
     conditions = text_of_conditions(block.conditions)
     why = f"no configuration was found that satisfies the equations and, as they require, {conditions}"
     most = result.dof if result.verdict == "proved" and result.about != "component" else None
@@ -223,6 +226,7 @@ def at_one_point(
 
 
 def _names(block: Block) -> frozenset[Hashable]:
+    """Return the coordinates of a block and the numbers of its constraints."""
     return frozenset((*block.coordinates, *(row.constraint for row in block.rows)))
 
 

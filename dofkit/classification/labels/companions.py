@@ -187,6 +187,7 @@ def _rows(block: Block, owners: Sequence[int]) -> list[Row]:
 
 
 def _true(a: Answer, i: int) -> bool:
+    """Return whether row i of a block is labelled holonomic."""
     label = a.labels.get(i)
     return label is not None and label.holonomic is True
 

@@ -94,6 +94,7 @@ class ScaledEquations:
         return f, (j - j @ self._arms.slopes(at)) * self.scale
 
     def _gradients(self, j: Any) -> Any:
+        """Return the lengths of the rows' derivatives by the coordinates, 1 where they are 0."""
         norms = np.linalg.norm(j[:, : self.coordinates], axis=1)
         return np.where(norms > 0, norms, 1.0)
 

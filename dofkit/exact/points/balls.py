@@ -235,7 +235,7 @@ MAX_ENTRIES = 20_000
 
 
 class ExactPoint:
-    """Rational values of symbols, of functions at 0 and of roots; raises NoPointError for other values of functions."""
+    """Rational values of symbols, of functions and of roots; raises NoPointError for values that are not rational."""
 
     def __init__(self, symbols: Mapping[Expr, Fraction]) -> None:
         self.symbols = symbols
@@ -246,12 +246,11 @@ class ExactPoint:
     def generator(self, var: Var, args: Sequence[Scalar]) -> fmpq:
         if var.kind == "symbol" and var.key in self.symbols:
             return self.number(self.symbols[var.key])
-        if args and args[0] == 0 and (at_zero := value_at(var.kind, Fraction(0))) is not None:
-            return self.number(at_zero)
-        if var.kind == "root" and args[0] >= 0:
-            root = exact_root(Fraction(int(args[0].p), int(args[0].q)), var.degree)
-            if root is not None:
-                return self.number(root)
+        if args:
+            at = Fraction(int(args[0].p), int(args[0].q))
+            value = value_at(var.kind, at) if var.kind != "root" else exact_root(at, var.degree) if at >= 0 else None
+            if value is not None:
+                return self.number(value)
         raise NoPointError(f"{var.kind} has no rational value there")
 
 
