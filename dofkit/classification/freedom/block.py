@@ -220,7 +220,7 @@ def _without_points(result: Answer, points: Variety, hidden: list[Expr]) -> Answ
 
     Relations are ``hidden`` by a rank at points, so that with them nothing is proved.
     """
-    if result.about != "everywhere":
+    if points.consistent is False and result.about != "everywhere":
         return Answer(None, verdict="undecided", hidden=hidden, reasons=[*result.reasons, ONE_COMPONENT])
     if hidden:
         points = replace(points, verdict=weakest(points.verdict, "probable"), argument="time fixed")
@@ -269,9 +269,8 @@ def _points(forms: Codistribution, setting: Setting) -> Variety:
 
 def _largest(a: Answer) -> tuple[int, int, int]:
     """Return a key by which answers are compared: consistency, freedom, velocity freedom, or uncertainty."""
-    if a.consistent is False:
-        return (0, 0, VERDICTS.index(a.verdict))
-    return (1, -1 if a.dof is None else a.dof, a.velocity_dof or 0)
+    doubt = VERDICTS.index(a.verdict) if a.consistent is False else 0
+    return (int(a.consistent is not False), -1 if a.dof is None else a.dof, a.velocity_dof or doubt)
 
 
 def _with_spans(block: Block, forms: Codistribution, points: Variety, extra: list[Expr], setting: Setting) -> Answer:
