@@ -345,15 +345,11 @@ def reference_points(forms: Codistribution, reference: Mapping[Expr, Expr]) -> l
 
 
 def span_at_reference(forms: Codistribution, reference: Mapping[Expr, Expr]) -> tuple[FieldPoint, SampledSpan] | None:
-    """Return a point over GF(p) at the reference configuration and the Lie algebra there; None if there is none.
-
-    Raises NoValueError if a coefficient has no derivatives there, as a root at 0.
-    """
+    """Return a point over GF(p) at the reference and the Lie algebra there, or None; without it raises NoValueError."""
     points = reference_points(forms, reference) if "field" in forms.chart.setting.engines else None
     if not points:
         return None
-    sampled = span_at(forms, points[0], special=True)
-    if sampled is None:
+    if (sampled := span_at(forms, points[0], special=True)) is None:
         raise NoValueError
     return points[0], sampled
 
