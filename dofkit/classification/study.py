@@ -8,7 +8,7 @@ from functools import cached_property, partial
 from typing import Any, NamedTuple
 
 from dofkit.base.deadline import part, unless_late
-from dofkit.base.verdicts import OPEN, Claim, least, together
+from dofkit.base.verdicts import OPEN, VERDICTS, Claim, least, together
 from dofkit.base.wording import many, verb
 from dofkit.classification.dependence import redundancy
 from dofkit.classification.dependence.implied_constraints import Conflict, conflict
@@ -152,7 +152,10 @@ def consistent(study: Study) -> Decided:
         return Decided(None, OPEN)
     if outcome.consistent:
         return Decided(True, together(*(HOLDS if a.exists else a.claim for a in outcome.answers)))
-    return Decided(False, outcome.against)
+    if outcome.impossible:
+        return Decided(False, Claim("proved", "inequality nowhere"))
+    against = [a.claim for a in outcome.answers if a.consistent is False]
+    return Decided(False, min(against, key=lambda c: VERDICTS.index(c.verdict)))
 
 
 def conflicting(study: Study) -> Decided:

@@ -25,7 +25,7 @@ def displacement_fields(chart: Chart) -> list[AffineField]:
     """Return the fields of translations and rotations of all particles and planar bodies of a block.
 
     Empty unless every coordinate is a position x, y, z or the angle of a planar body. Empty also if relations differ by
-    region: those of a random point may be preserved where those at the configuration are not.
+    region, because a random point may lie in another one.
     """
     if any(v.kind == "sign" and chart.ring.var_expr[v.index].symbols for v in chart.ring.vars):
         return []

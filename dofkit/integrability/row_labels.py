@@ -14,6 +14,7 @@ from operator import mul
 
 from flint import arb
 
+from dofkit.base.errors import NoValueError
 from dofkit.base.verdicts import Verdict, weakest
 from dofkit.configuration.at_reference import CLEAR
 from dofkit.configuration.finite_blocks import dependent_names
@@ -344,10 +345,13 @@ def reference_points(forms: Codistribution, reference: Mapping[Expr, Expr]) -> l
 
 
 def span_at_reference(forms: Codistribution, reference: Mapping[Expr, Expr]) -> tuple[FieldPoint, SampledSpan] | None:
-    """Return a point over GF(p) at the reference configuration and the Lie algebra there; None if there is none."""
+    """Return a point over GF(p) at the reference and the Lie algebra there, or None; without it raises NoValueError."""
     points = reference_points(forms, reference) if "field" in forms.chart.setting.engines else None
-    sampled = span_at(forms, points[0], special=True) if points else None
-    return (points[0], sampled) if points and sampled else None
+    if not points:
+        return None
+    if (sampled := span_at(forms, points[0], special=True)) is None:
+        raise NoValueError
+    return points[0], sampled
 
 
 def set_at_reference(forms: Codistribution, reference: tuple[FieldPoint, SampledSpan], result: Answer) -> None:

@@ -142,13 +142,10 @@ def conflict(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome) -> 
     conflicts, but is perhaps not minimal.
     """
     sets = ConstraintSets(reduced, replace(setting, grows=False, flag=False))
-    for i in outcome.impossible:
-        if sets.inconsistent([i]):
-            return Conflict([i], MINIMAL)
     against = [(b, a) for b, a in zip(outcome.blocks, outcome.answers, strict=True) if a.consistent is False]
-    kept = sorted({row.constraint for b, _ in against[:1] for row in b.rows})
+    kept = sorted({*outcome.impossible} or {row.constraint for b, _ in against[:1] for row in b.rows})
     members = next((a.conflict for _, a in against), ())
-    plain = all(len(n.branches) == 1 for i in members for n in reduced[i].normals)
+    plain = all(len(n.branches) == 1 for i in members for n in reduced[i].normals)  # in all choices of branches
     if plain and members and set(members) <= set(kept):
         return Conflict(list(members), MINIMAL)
     if not sets.inconsistent(kept):

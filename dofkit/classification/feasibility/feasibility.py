@@ -115,13 +115,10 @@ def _judged(study: Study, numbers: Sequence[int]) -> Feasibility:
                 return result
             met |= dict.fromkeys(part.numbers, result) if result.feasible else {}
     in_parts, shared = ({i for part in parts for i in part.numbers} for parts in (alone, joined))
-    sharing = zip(study.outcome.blocks, study.outcome.answers, strict=True)
-    restricts = any(
-        may_restrict(b, a) and not (shared - met.keys()).isdisjoint(row.constraint for row in b.rows)
-        for b, a in sharing
-    )
+    pairs = zip(study.outcome.blocks, study.outcome.answers, strict=True)
+    owners = {r.constraint for block, a in pairs if may_restrict(block, a) for r in block.rows}
     others = _answers(study, set(numbers) - in_parts)
-    if restricts or not in_parts <= met.keys() or None in [a.consistent for a in others]:
+    if not in_parts | (shared & owners) <= met.keys() or None in [a.consistent for a in others]:
         return Feasibility(None, reasons=(OPEN,))
     at = {s: v for result in met.values() for s, v in result.at.items()}
     sure = weakest(*(result.verdict for result in met.values()), *(a.verdict for a in others))

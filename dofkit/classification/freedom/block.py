@@ -63,9 +63,7 @@ MEASURED = (
     "measured equations occur together with differential ones; whether these integrate was not decided "
     "within the tolerance"
 )
-ONE_COMPONENT = (
-    "no motion is possible on one component of the set that the geometric equations define; others were not examined"
-)
+ONE_COMPONENT = "no motion is possible on one component of the set of geometric equations; others were not examined"
 APART = "real configurations were found only on components other than those of the points over GF(p)"
 
 
@@ -164,10 +162,7 @@ def _mixed_answer(block: Block, setting: Setting) -> Answer:
 
 
 def _prolonged(block: Block, setting: Setting, result: Answer, relations: Sequence[Expr] = ()) -> Answer:
-    """Return the answer, of the largest branch, after adding the hidden relations that the rows imply, in rounds.
-
-    They are implied on the component of the points, to which ``about`` of the ``result`` is restricted.
-    """
+    """Return the answer, of the largest branch, after adding the hidden relations that the rows imply, in rounds."""
     extra = list(relations)
     for _ in range(MAX_ROUNDS):
         forms = codistribution(block, setting, extra)
@@ -205,16 +200,14 @@ def _prolonged(block: Block, setting: Setting, result: Answer, relations: Sequen
 
 
 def _without_points(result: Answer, points: Variety, hidden: list[Expr]) -> Answer:
-    """Return the result if no points are known; undecided if other components were not examined for hidden relations.
-
-    Relations are ``hidden`` by a rank at points, so that with them nothing is proved.
-    """
-    if result.about != "everywhere":
+    """Return the result without points; relations are ``hidden`` by a rank at points, on their component only."""
+    if points.consistent is False and result.about != "everywhere":
         return Answer(None, verdict="undecided", hidden=hidden, reasons=[*result.reasons, ONE_COMPONENT])
     if hidden:
         points = replace(points, verdict=weakest(points.verdict, "probable"), argument="time fixed")
-    result.consistent, result.verdict, result.argument = points.consistent, points.verdict, points.argument
-    return replace(result, hidden=hidden)
+    return replace(
+        result, consistent=points.consistent, verdict=points.verdict, argument=points.argument, hidden=hidden
+    )
 
 
 def _passes_reference(block: Block, hidden: Sequence[Expr], setting: Setting) -> bool:
@@ -258,9 +251,8 @@ def _points(forms: Codistribution, setting: Setting) -> Variety:
 
 def _largest(a: Answer) -> tuple[int, int, int]:
     """Return a key by which answers are compared: consistency, freedom, velocity freedom, or uncertainty."""
-    if a.consistent is False:
-        return (0, 0, VERDICTS.index(a.verdict))
-    return (1, -1 if a.dof is None else a.dof, a.velocity_dof or 0)
+    doubt = VERDICTS.index(a.verdict) if a.consistent is False else 0
+    return (int(a.consistent is not False), -1 if a.dof is None else a.dof, a.velocity_dof or doubt)
 
 
 def _with_spans(block: Block, forms: Codistribution, points: Variety, extra: list[Expr], setting: Setting) -> Answer:

@@ -9,7 +9,7 @@ from functools import partial
 from itertools import product as cartesian
 
 from dofkit.base.deadline import OUT_OF_TIME, OutOfTimeError, check, unless_late
-from dofkit.base.verdicts import OPEN, VERDICTS, Claim
+from dofkit.base.verdicts import VERDICTS
 from dofkit.classification.freedom.block import answer
 from dofkit.classification.freedom.common_point import CommonPoint, at_one_point, restricted_to_domain
 from dofkit.classification.freedom.isomorphic_blocks import AnsweredBlock, Likenesses
@@ -111,13 +111,6 @@ class Outcome:
         return len(self.untouched) + sum(p for p in freedoms if p is not None)
 
     @property
-    def against(self) -> Claim:
-        """The most certain claim that there is no motion; undecided if none is made."""
-        claims = [Claim("proved", "inequality nowhere")] if self.impossible else []
-        claims += [a.claim for a in self.answers if a.consistent is False]
-        return min(claims, key=lambda c: VERDICTS.index(c.verdict), default=OPEN)
-
-    @property
     def most(self) -> int:
         """A bound on the freedom of this choice of branches; -1 if the freedom itself is known."""
         if self.dof is not None:
@@ -136,9 +129,9 @@ class Outcome:
     @property
     def size(self) -> tuple[int, int, int]:
         """The key by which choices of branches are compared: consistency, freedom, velocity freedom, or uncertainty."""
-        if self.consistent is False:
-            return (0, 0, VERDICTS.index(self.against.verdict))
-        return (1, -1 if self.dof is None else self.dof, self.velocity_dof or 0)
+        against = [VERDICTS.index(a.claim.verdict) for a in self.answers if a.consistent is False]
+        doubt = 0 if self.impossible else min(against, default=0)
+        return (int(self.consistent is not False), -1 if self.dof is None else self.dof, self.velocity_dof or doubt)
 
 
 def _most(block: Block, a: Answer) -> int:

@@ -192,10 +192,7 @@ def at_one_point(
     kept, result = list(blocks), simultaneous(written, answers)
     if any(a.consistent is not True for a in result):
         return CommonPoint(kept, [restricted_to_domain(b, a, setting) for b, a in zip(written, result, strict=True)])
-    unplaced = {
-        ex.coordinate(n) for b, a in zip(blocks, result, strict=True) if a.witness is None for n in b.coordinates
-    }
-    point = dict.fromkeys(unplaced, arb("nan")) | _point(result, setting)
+    point = _point(blocks, result, setting)
     outside = [(i, c) for i, c in domain if not hold_strictly([c], {s: point.get(s, arb(0)) for s in c.expr.symbols})]
     if not outside:
         return CommonPoint(kept, result)
@@ -247,11 +244,13 @@ def _with_conditions(blocks: Sequence[Block], domain: Sequence[tuple[int, Domain
     return result
 
 
-def _point(answers: Sequence[Answer], setting: Setting) -> dict[Expr, arb]:
-    """Return the values of the witnesses as balls."""
+def _point(blocks: Sequence[Block], answers: Sequence[Answer], setting: Setting) -> dict[Expr, arb]:
+    """Return the values of the witnesses as balls; NaN for coordinates of blocks without one."""
+    pairs = zip(blocks, answers, strict=True)
+    unknown = {ex.coordinate(name): arb("nan") for b, a in pairs if a.witness is None for name in b.coordinates}
     texts = {s: text for a in answers for s, text in (a.witness or {}).items()}
     exact = {s: e for s, e in (setting.reference or {}).items() if s in texts and to_text(e) == texts[s]}
-    return {s: _ball(text, exact.get(s)) for s, text in texts.items()}
+    return unknown | {s: _ball(text, exact.get(s)) for s, text in texts.items()}
 
 
 def _ball(text: str, exact: Expr | None) -> arb:

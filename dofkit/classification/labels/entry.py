@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from dofkit.base.verdicts import OPEN, Claim, TraitAnswer, all_of, weakest
@@ -28,6 +28,7 @@ from dofkit.expressions.tree import TIME
 from dofkit.integrability.traits import Integrability, Traits, proved_integrability, traits_of
 from dofkit.relations.answer import GAP, Answer, HolonomyLabel
 from dofkit.relations.blocks import Block, Row
+from dofkit.relations.normal.domain import is_always_satisfied
 from dofkit.relations.normal.pieces import Clause, Finite, JointEquation, Nonlinear, Normal, Pfaffian, Reduced
 from dofkit.relations.setting import Setting
 from dofkit.report import FORMS, ConstraintEntry, FieldVerdict, Form
@@ -78,7 +79,7 @@ def entry(reduced: Reduced, evidence: Evidence, setting: Setting, consistent: bo
     labels = _labels_of(reduced, evidence, form, proofs, forms, consistent)
     own_integral = _own_integral(normals, proofs)
     integral, others = _integral_of(form, labels, own_integral, evidence, bool(consistent))
-    of_pieces = _traits_of(pieces, normals, setting)
+    of_pieces = _traits_of(pieces, reduced, setting)
     of_pieces += branches_of_time(reduced, bool(consistent), setting.positive)
     single = evidence.rows[0] if len(evidence.rows) == len(pieces) == 1 else None
     timed = timed_in_system(pieces[0], single.block, single.answer, others, setting) if single else None
@@ -111,14 +112,17 @@ def entry(reduced: Reduced, evidence: Evidence, setting: Setting, consistent: bo
     )
 
 
-def _traits_of(pieces: Sequence[Clause], normals: Sequence[Normal], setting: Setting) -> list[Traits]:
+def _traits_of(pieces: Sequence[Clause], reduced: Reduced, setting: Setting) -> list[Traits]:
     """Return the traits of the clauses of a constraint, except declared functions as factors (`declared_functions`)."""
-    generic = declared_functions(normals)
-    return [
+    generic = declared_functions(reduced.normals)
+    restricted = not all(is_always_satisfied(c, setting.positive) for c in reduced.domain())
+    outside = restricted and any(len(n.branches) > 1 for n in reduced.normals)  # some branch may have no value
+    traits = [
         Traits((True, "proved")) if _is_still(p) else traits_of(p, setting.positive, setting.engines)
         for p in pieces
         if p not in generic
     ]
+    return [replace(t, timeless=(None, "undecided")) if outside and t.timeless[0] is False else t for t in traits]
 
 
 def _is_still(piece: Clause) -> bool:

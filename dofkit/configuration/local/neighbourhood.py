@@ -17,8 +17,8 @@ from dofkit.expressions.tree import Expr
 FAR, NEAR, STEPS = 0.5, 2.0**-24, 8
 #: The least cosine between successive steps; corrections may be up to 1 - STRAIGHT of a step.
 STRAIGHT = 0.9
-#: Residuals, relative to gradients, up to `SURE` count as 0; with more than `MANY` relations, in floats, up to `ROUGH`.
-SURE, MANY, ROUGH = 2.0**-150, 60, 1e-8
+#: Residuals, relative to gradients, up to `SURE` count as 0; more than `MANY` relations have no known critical set.
+SURE, MANY = 2.0**-150, 60
 #: Bits that may be lost by cancellation: a million sizes from the origin, squared, and more.
 LOST = 90
 #: Bits, and residuals that count as 0, if the curve begins at exact coordinates.
@@ -142,8 +142,6 @@ def holds_away(ball: Manifold, direction: Sequence[float], deep: bool) -> bool |
         reach = FAR
         while reach > NEAR:
             u = _walk(here, direction, reach)
-            if u is not None and len(ball.rows) > MANY:
-                return largest(here.floats(u, ball.others)[0]) <= ROUGH
             if u is not None:
                 with ctx.workprec(DEEP if deep else ctx.prec):
                     return _is_satisfied_near(here, u, DEEP_SURE if deep else SURE)
