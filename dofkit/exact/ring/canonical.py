@@ -164,12 +164,16 @@ class Canon:
             terms.append(ex.mul(ex.num(number), *factors))
         return ex.add(*terms) if terms else ex.ZERO
 
-    def regular_expr(self, poly: Poly) -> Expr:
-        """Return `to_expr`; raises NoValueError if it has abs(u)/u for a sign, and so no value where u is 0."""
+    def regular_expr(self, poly: Poly, multiple: Poly) -> Expr:
+        """Return `to_expr`; raises NoValueError if it has abs(u)/u for a sign, and ``multiple`` has no factor u.
+
+        The expression has no value where u is 0, where the sign stands for 0 times a number.
+        """
         e = self.to_expr(poly)
-        poles = {self.ring.var_expr[v.index].args[-1] for v in self.ring.vars if v.kind == "sign"}
-        if poles and not poles.isdisjoint(ex.nodes(e)):
-            raise NoValueError("the sign of an expression that may be 0")
+        for var in self.ring.vars:
+            if var.kind == "sign" and divmod(multiple, self.quotient(var.args[0])[0])[1] != 0:
+                if self.ring.var_expr[var.index].args[-1] in ex.nodes(e):
+                    raise NoValueError("the sign of an expression that may be 0")
         return e
 
     @raising_no_value

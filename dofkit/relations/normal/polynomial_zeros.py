@@ -172,7 +172,7 @@ class PolynomialZeros:
             if multiplicity > 1:
                 notes.append(POWER_NOTE)
             alone = len(kept) == 1 and multiplicity == 1 and len(factors) == 1
-            result, said = self._factor(factor, written if alone else None)
+            result, said = self._factor(factor, numerator, written if alone else None)
             notes += said if result or len(kept) == 1 else [FACTOR_NOTE]
             branches += [b for b in result if b not in branches]
         if not kept:
@@ -196,8 +196,8 @@ class PolynomialZeros:
         generators = (self.canon.ring.var_expr[i] for i in self.canon.generators_in(factor))
         return any(not self.variables.isdisjoint(s.symbols) for s in generators)
 
-    def _factor(self, factor: Any, written: Expr | None) -> tuple[list[Conjunction], list[str]]:
-        """Return (branches, notes) of one irreducible factor; ``written`` if it is the whole expression."""
+    def _factor(self, factor: Any, numerator: Any, written: Expr | None) -> tuple[list[Conjunction], list[str]]:
+        """Return (branches, notes) of an irreducible factor of a numerator; ``written`` if it is the whole expression."""
         exponent = difference_of_exponents(self.canon, factor)
         if exponent is not None:
             result, said = self.zeros_of(exponent)
@@ -213,7 +213,7 @@ class PolynomialZeros:
             if not split:
                 return [], [EMPTY_NOTE]
             return [tuple(split)], [SQUARES_NOTE]
-        return [(written if written is not None else self.canon.regular_expr(factor),)], []
+        return [(written if written is not None else self.canon.regular_expr(factor, numerator),)], []
 
     def _monomials(self, even: list[list[int]]) -> tuple[list[Conjunction], list[str]]:
         """Return the branches on which every monomial vanishes, given for each the generators that may vanish."""
