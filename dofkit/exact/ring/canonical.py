@@ -170,10 +170,9 @@ class Canon:
         The expression has no value where u is 0, where the sign stands for 0 times a number.
         """
         e = self.to_expr(poly)
-        for var in self.ring.vars:
-            if var.kind == "sign" and divmod(multiple, self.quotient(var.args[0])[0])[1] != 0:
-                if self.ring.var_expr[var.index].args[-1] in ex.nodes(e):
-                    raise NoValueError("the sign of an expression that may be 0")
+        signs = [v for v in self.ring.vars if v.kind == "sign" and self.ring.var_expr[v.index].args[-1] in ex.nodes(e)]
+        if any(divmod(multiple, self.quotient(v.args[0])[0])[1] != 0 for v in signs):
+            raise NoValueError("the sign of an expression that may be 0")
         return e
 
     @raising_no_value

@@ -197,7 +197,7 @@ class PolynomialZeros:
         return any(not self.variables.isdisjoint(s.symbols) for s in generators)
 
     def _factor(self, factor: Any, numerator: Any, written: Expr | None) -> tuple[list[Conjunction], list[str]]:
-        """Return (branches, notes) of an irreducible factor of a numerator; ``written`` if it is the whole expression."""
+        """Return (branches, notes) of an irreducible factor of ``numerator``; ``written`` if it is all of it."""
         exponent = difference_of_exponents(self.canon, factor)
         if exponent is not None:
             result, said = self.zeros_of(exponent)
