@@ -75,7 +75,7 @@ def _integer_polynomials(
         return None
     pairs = [(i, ring.vars[i].partner) for i in kept if ring.vars[i].kind == "cos"]
     seen = {i if ring.vars[i].kind == "symbol" else _angle(ring, i) for i in kept}
-    values = _constants(ring, [i for i in used if i not in kept], random.Random("dofkit ideals"))
+    values = _constants(ring, [i for i in used if i not in kept], random.Random(f"dofkit ideals {ring.digest}"))
     place = {i: k for k, i in enumerate(kept)}
     ctx = fmpz_mpoly_ctx.get([f"u{k}" for k in range(len(kept))], Ordering.degrevlex)
     gens = ctx.gens()

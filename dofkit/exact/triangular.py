@@ -50,11 +50,11 @@ class Planner:
         self.degree = cache(self._degree)
 
     def _degree(self, node: int, unknown: Unknown) -> int:
-        """Return the degree in ``unknown`` of the numerator of a relation ``node``; 0 if it cannot be solved for it."""
+        """Return the degree in ``unknown`` of the numerator of a relation ``node``; -1 if it is not known."""
         try:
-            return 0 if self.probe is None else max(0, int(univariate(self.ring, node, unknown, self.probe).degree()))
+            return -1 if self.probe is None else max(0, int(univariate(self.ring, node, unknown, self.probe).degree()))
         except NoValueError:
-            return 0
+            return -1
 
     def plan_for(self, relations: Sequence[int]) -> Plan:
         """Return the plan for relations, which must include those of the roots (`root_relations`)."""
@@ -102,7 +102,7 @@ class Planner:
         ranked = []
         for unknown in unknowns:
             degree = self.degree(node, unknown)
-            if degree:
+            if degree > 0:
                 ranked.append((degree, _rank(self.ring, unknown), unknown))
         return min(ranked)[2] if ranked else None
 

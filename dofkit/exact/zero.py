@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from typing import Literal
 
-from flint import arb, ctx, fmpq_mat
+from flint import arb, ctx, fmpq_mat, fmpz
 
 from dofkit.base.errors import NoValueError
 from dofkit.base.verdicts import Verdict
@@ -164,8 +164,12 @@ def independent_generators(ring: Ring) -> bool:
 def _one_constant(ring: Ring) -> bool:
     """Return whether there is at most one constant other than a root: pi, or functions of one rational number.
 
-    These are transcendental [Lindemann1882]; two of them may be related (e and e^1000), or it is not known.
+    These are transcendental [Lindemann1882]; two of them may be related (e and e^1000), or it is not known. Roots are
+    those of different primes: sqrt(2) is a power of 2^(1/4), and a long number may be no prime.
     """
+    radicands = [v.key[0].args[0] for v in ring.vars if v.kind == "root" and not _root_of_more(v)]
+    if len({*radicands}) < len(radicands) or not all(fmpz(int(n)).is_probable_prime() for n in radicands):
+        return False
     constants = [v for v in ring.vars if not ring.var_expr[v.index].symbols]
     kinds = {
         ("pi", ex.PI) if v.kind == "pi" else (v.kind.replace("sin", "cos"), v.key[0])
@@ -204,17 +208,21 @@ def _of_symbol(var: Var) -> bool:
 def _independent_arguments(ring: Ring, kind: str) -> bool:
     """Return whether the arguments of one kind (exp, cos) are linearly independent over Q modulo constants [Ax1971].
 
-    That is, L and the numerators over a common denominator L are linearly independent. False if they are too large.
+    That is, L, pi L if pi occurs, and the numerators over a common denominator L are linearly independent. False if
+    they are too large, or if a root of a quotient, which is not reduced, hides their relations.
     """
     moving = [v for v in ring.vars if v.kind == kind and ring.var_expr[v.index].symbols]
     if len(moving) < 2 or all(_of_symbol(v) for v in moving):
         return True
     canon = Canon(ring)
+    if len(canon.relations) < sum(v.kind in ("sin", "root") for v in ring.vars):
+        return False
     pairs = [canon.quotient(v.args[0]) for v in moving]
     below = canon.unit
     for _, bottom in pairs:
         below = below * divided(bottom, below.gcd(bottom))
-    rows = [below, *(top * divided(below, bottom) for top, bottom in pairs)]
+    constants = [canon.unit, *(canon.gens[v.index] for v in ring.vars if v.kind == "pi")]
+    rows = [*(below * c for c in constants), *(top * divided(below, bottom) for top, bottom in pairs)]
     terms = sorted({m for row in rows for m in row.to_dict()})
     if len(rows) * len(terms) > MOST_TERMS:
         return False
@@ -278,8 +286,8 @@ def error_bits(ring: Ring, nodes: Sequence[int], size: int) -> int:
     """Return b such that a nonzero minor is 0 at a random point over GF(p) with probability < 2^-b [SchwartzZippel].
 
     The minor has ``size`` rows of the nodes' derivatives, so its degree is at most 2 ``size`` times theirs. With
-    several exponentials or angles, accidental relations of their arguments have the probability 2^-`RELATIONS`.
+    several exponentials, angles or pi, accidental relations of their arguments have the probability 2^-`RELATIONS`.
     """
     bits = PRIME - (2 * max(1, size) * max(1, degree_bound(ring, nodes))).bit_length()
-    several = sum(var.kind in ("exp", "cos") for var in ring.vars) > 1
+    several = sum(var.kind in ("exp", "cos", "pi") for var in ring.vars) > 1
     return max(1, min(bits, RELATIONS) if several else bits)

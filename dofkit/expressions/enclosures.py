@@ -63,6 +63,8 @@ def _combined(node: Expr, balls: Sequence[arb]) -> arb:
         return balls[0].sqrt() if node.args[1] == HALF else balls[0] ** balls[1]
     if node.op == "fn":
         name = node.args[0]
+        if name == "atan2" and all(ball.contains(0) for ball in balls):
+            raise ZeroDivisionError
         return abs(balls[0]) if name == "abs" else getattr(arb, name)(*balls)
     raise KeyError(node)
 

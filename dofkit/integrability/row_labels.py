@@ -142,7 +142,12 @@ def field_labels(
         )
         return
     result.identical = _depend_identically(forms_at_points, proof_of, False)
-    result.verdict = weakest(variety.verdict, _rank_verdict(forms_at_points, proof_of, result, setting))
+    sure = _rank_verdict(forms_at_points, proof_of, result, setting)
+    if sure != "proved" and forms.chart.ring.signs and forms_at_points.integrable > forms_at_points.rank_finite:
+        result.dof, result.velocity_dof, result.growth, result.verdict = None, None, None, "undecided"
+        result.reasons.append("for other signs in absolute values the rows may be less integrable")
+        return
+    result.verdict = weakest(variety.verdict, sure)
     result.argument = "Lie algebra, certified" if result.verdict == "proved" else "Lie algebra at points"
     rows = forms.rows.entries
     result.bits = error_bits(forms.chart.ring, [node for row in rows for node in row.values()], len(rows))

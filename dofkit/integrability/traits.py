@@ -148,15 +148,14 @@ def vanishes_on(
 def _is_irreducible(g: Expr, positive: frozenset[Expr]) -> bool:
     """Return whether g's numerator is proved to be irreducible; False if it is too large to be factored.
 
-    False also with roots of numbers: x^2 + sqrt(2) x (1 - t) - 2 t is a product, but not over the rationals.
+    False also with roots of numbers, as x^2 + sqrt(2) x (1 - t) - 2 t is a product, but not over the rationals, and
+    with sines and cosines: sin(x) + (1 - cos(x)) t is 2 sin(x/2) (cos(x/2) + t sin(x/2)).
     """
     canon, [(top, _)] = quotients_of([g], positive)
-    numbers = any(
-        canon.ring.vars[i].kind in ("root", "cos", "sin")
-        for i in canon.generators_in(top)
-        if not canon.ring.var_expr[i].symbols
-    )
-    return not numbers and len(canon.factors(top)) == 1
+    generators = [canon.ring.vars[i] for i in canon.generators_in(top)]
+    constants = [v for v in generators if not canon.ring.var_expr[v.index].symbols]
+    hidden = any(v.kind in ("cos", "sin") for v in generators) or any(v.kind == "root" for v in constants)
+    return not hidden and len(canon.factors(top)) == 1
 
 
 def _real_point(ring: Ring, node: int, g: Expr, positive: frozenset[Expr]) -> RealPoint | None:

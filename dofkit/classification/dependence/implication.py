@@ -54,7 +54,8 @@ RELATIONS = (Finite, Pfaffian, Nonlinear)
 #: Bound on the choices of branches, and number of random states on each.
 MAX_CHOICES, STATES = 16, 4
 #: Number of states if a root is chosen at random: all miss one half of a set that falls into two with chance 2^-40.
-PARTED_STATES = 40
+#: So many are drawn for every sign; states are not enough for more signs than `MOST_SIGNS`.
+PARTED_STATES, MOST_SIGNS = 40, 2
 #: Number of real states if a relation may be satisfied on one component of the set and not on another.
 MANY_STATES = 16
 
@@ -220,12 +221,14 @@ def _vanishes_on_states(
     if over_field and all(over_field) and not conditional and not states.chosen:
         return True
     at_real = list[bool | None]()
-    for real in states.certain(MANY_STATES if conditional or False in over_field else STATES):
+    wanted = MANY_STATES if conditional or False in over_field else STATES
+    for real in states.certain(max(wanted, PARTED_STATES * min(states.ring.signs, MOST_SIGNS))):
         if _all_vanish(states, real, written) and all(_satisfied(states, real, c) is not False for c in domain):
             at_real.append(_some_hold(states, real, branches))
         if False in at_real:
             return False
-    return True if at_real and all(at_real) and (len(at_real) > 1 or not over_field) else None
+    enough = states.ring.signs <= MOST_SIGNS and (len(at_real) > 1 or not over_field)
+    return True if enough and at_real and all(at_real) else None
 
 
 def _some_hold(states: States, point: BallPoint, branches: Sequence[ImpliedBranch]) -> bool | None:

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
-from math import factorial
+from math import comb, factorial
 from typing import Any
 
 from flint import arb, arb_poly
 
 from dofkit.base.errors import PoleError
 from dofkit.exact.residues import Residue, ResiduePolynomial, modulus, residue_polynomial
-from dofkit.exact.ring.program import Scalar, Var
+from dofkit.exact.ring.program import Scalar, TooLargeError, Var
 
 #: Bound on the number of partial derivatives in the Taylor polynomial of an unknown function.
 MAX_JET = 400
@@ -195,11 +195,12 @@ class SeriesPoint:
 
 
 def _multi_indices(n: int, total: int) -> list[tuple[int, ...]]:
-    """Return the n-tuples of orders with a sum of at most ``total``, at most `MAX_JET` of them."""
+    """Return the n-tuples of orders with a sum of at most ``total``; raises TooLargeError for more than `MAX_JET`."""
+    if comb(n + total, n) > MAX_JET:
+        raise TooLargeError
     if n == 1:
         return [(k,) for k in range(total + 1)]
-    indices = [(k, *others) for k in range(total + 1) for others in _multi_indices(n - 1, total - k)]
-    return indices[:MAX_JET]
+    return [(k, *others) for k in range(total + 1) for others in _multi_indices(n - 1, total - k)]
 
 
 def zero_poly(sample: Scalar) -> Any:

@@ -146,7 +146,16 @@ class Canon:
         return bool(self.quotient(node)[0] == 0)
 
     def to_expr(self, poly: Poly) -> Expr:
-        """Return a polynomial in the generators as an expression."""
+        """Return a polynomial in the generators as an expression, the sign of u times a multiple of u by abs(u)."""
+        for var in self.ring.vars:
+            sign = self.ring.var_expr[var.index]
+            if var.kind == "sign" and sign.op == "mul" and poly.degrees()[-1 - var.index] == 1:
+                parts = self.collected(poly, {var.index})
+                top, bottom = self.quotient(var.args[0])
+                multiple, remainder = divmod(parts.pop(((var.index, 1),)), top)
+                if remainder == 0:
+                    others = self.to_expr(parts.get((), self.unit * 0))
+                    return ex.add(self.to_expr(multiple * bottom) * sign.args[0], others)
         generators = [self.ring.var_expr[var.index] for var in reversed(self.ring.vars)]
         terms = []
         for exponents, coefficient in poly.to_dict().items():
@@ -154,6 +163,17 @@ class Canon:
             number = Fraction(int(coefficient.p), int(coefficient.q))
             terms.append(ex.mul(ex.num(number), *factors))
         return ex.add(*terms) if terms else ex.ZERO
+
+    def regular_expr(self, poly: Poly, multiple: Poly) -> Expr:
+        """Return `to_expr`; raises NoValueError if it has abs(u)/u for a sign, and ``multiple`` has no factor u.
+
+        The expression has no value where u is 0, where the sign stands for 0 times a number.
+        """
+        e = self.to_expr(poly)
+        signs = [v for v in self.ring.vars if v.kind == "sign" and self.ring.var_expr[v.index].args[-1] in ex.nodes(e)]
+        if any(divmod(multiple, self.quotient(v.args[0])[0])[1] != 0 for v in signs):
+            raise NoValueError("the sign of an expression that may be 0")
+        return e
 
     @raising_no_value
     def factors(self, poly: Poly) -> list[tuple[Poly, int]]:

@@ -92,7 +92,7 @@ def _root_of_power(ring: Instructions, radicand: Expr, degree: int) -> int:
     """Return the node of a root of base^exponent, with |base| or a sign where the exponent is even."""
     base, exponent = radicand.args[0], radicand.args[1].args[0]
     whole, fraction = divmod(exponent / degree, 1)
-    even_inside = exponent.denominator == 1 and exponent % 2 == 0 and degree % 2 == 0
+    even_inside = exponent.numerator % 2 == 0 and degree % 2 == 0
     if fraction == 0:
         power = ring.power_node(ring.node(base), int(whole))
         return ring.product(power, ring.power_node(sign(ring, base), abs(int(whole)))) if even_inside else power
@@ -197,7 +197,8 @@ def log(ring: Instructions, u: Expr) -> int:
         positive, cofactor = known_signs(ring, u)
         if positive:
             return ring.total(*(log(ring, part) for part in [*positive, *([cofactor] if cofactor != ex.ONE else [])]))
-    if u.op == "pow" and (never_negative(u.args[0], ring.positive) or u.args[1].op != "num" or u.args[1].args[0] % 2):
+    odd = u.op == "pow" and (u.args[1].op != "num" or u.args[1].args[0].numerator % 2)
+    if odd or (u.op == "pow" and never_negative(u.args[0], ring.positive)):
         return ring.product(ring.node(u.args[1]), log(ring, u.args[0]))
     if u.op == "fn" and u.args[0] == "exp":
         return ring.node(u.args[1])

@@ -221,6 +221,11 @@ class Ring(Instructions):
         bases = [(kind, self._bases.get(argument, argument)) for kind, argument in arguments]
         return len(set(bases)) < len(bases)
 
+    @property
+    def signs(self) -> int:
+        """The number of signs that vary: random points over GF(p) show some of their choices only."""
+        return sum(v.kind == "sign" and bool(self.var_expr[v.index].symbols) for v in self.vars)
+
     def _large_multiple(self, argument: Expr, size: Fraction) -> Expr:
         """Return a multiple of an argument as a new basic argument, recorded for `related`."""
         multiple = Expr("mul", (ex.num(size), argument))

@@ -182,7 +182,7 @@ def squared(e: Expr, positive: frozenset[Expr]) -> tuple[Expr, DomainCondition] 
         return None
     u, below = canon.quotient(roots[0].args[0])
     norm, sided = canon.reduce(a * a * u - b * b * below), canon.reduce(-a * b)
-    return canon.to_expr(norm), DomainCondition(canon.to_expr(sided), ">=")
+    return canon.regular_expr(norm, norm), DomainCondition(canon.regular_expr(sided, canon.unit), ">=")
 
 
 def _root_of_square(node: Expr) -> bool:

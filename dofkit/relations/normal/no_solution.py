@@ -27,7 +27,7 @@ from dofkit.expressions.calculus import substitute
 from dofkit.expressions.enclosures import interval_of
 from dofkit.expressions.tree import Expr
 from dofkit.relations.linear_relations import explicit_relations
-from dofkit.relations.normal.domain import DomainCondition, conditions_of
+from dofkit.relations.normal.domain import DomainCondition, conditions_of, is_satisfied_at
 from dofkit.relations.normal.semidefinite import never_holds
 from dofkit.relations.normal.sign_claims import SignClaim, are_contradictory
 from dofkit.relations.normal.zero_set import never_vanishes, zero_set
@@ -183,8 +183,11 @@ def holds_somewhere(e: Expr, strict: bool, positive: frozenset[Expr]) -> bool | 
         plain = _with_constant_functions(e)
     except PoleError:  # a divisor consists of derivatives of unknown functions
         plain = None
-    if plain is not None and any(_is_satisfied(plain, strict, point) for point in _points(plain, positive)):
-        return True
+    if plain is not None:
+        domain, points = conditions_of(plain, positive), _points(plain, positive)
+        satisfied = (point for point in points if _is_satisfied(plain, strict, point))
+        if any(all(is_satisfied_at(c, point, frozenset()) for c in domain) for point in satisfied):
+            return True
     if refuted([SignClaim(e, ">" if strict else ">=")], positive):
         return False
     return True if plain is not None and _holds_along_slack(plain, strict, positive) else None

@@ -9,13 +9,11 @@ from typing import Any
 
 from flint import fmpq
 
+from dofkit.exact.ideals import have_complex_points
 from dofkit.exact.ring.canonical import Canon
-from dofkit.exact.ring.program import false_without_value, values
-from dofkit.exact.ring.ring import Ring
-from dofkit.exact.triangular import TriangularSolver
 from dofkit.exact.zero import zero_and_verdict
 from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import linear_terms
+from dofkit.expressions.calculus import linear_terms, substitute
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.semidefinite import Signs, fraction, semidefinite, sum_of_even
 
@@ -174,16 +172,15 @@ class PolynomialZeros:
             if multiplicity > 1:
                 notes.append(POWER_NOTE)
             alone = len(kept) == 1 and multiplicity == 1 and len(factors) == 1
-            result, said = self._factor(factor, written if alone else None)
+            result, said = self._factor(factor, numerator, written if alone else None)
             notes += said if result or len(kept) == 1 else [FACTOR_NOTE]
             branches += [b for b in result if b not in branches]
         if not kept:
             return (), (EMPTY_NOTE,)
         return branches_of(branches, notes)
 
-    @false_without_value
     def _undefined(self, factor: Any, bottom: Any) -> bool:
-        """Return whether the denominator is 0 wherever the factor is: by a common factor, or at a random zero of it."""
+        """Return whether the denominator is proved to be 0 wherever the factor is."""
         if bottom.is_constant():
             return False
         if not factor.gcd(bottom).is_constant():
@@ -191,18 +188,16 @@ class PolynomialZeros:
         canon = self.canon
         if all(canon.ring.vars[i].kind == "symbol" for i in canon.generators_in(factor)):
             return False
-        zero, pole = canon.to_expr(factor), canon.to_expr(bottom)
-        ring = Ring([zero, pole], self.positive)
-        nodes = ring.node(zero), ring.node(pole)
-        point = TriangularSolver(ring, nodes[:1]).draw(1)
-        return point is not None and bool(values(ring, point)[nodes[1]] == 0)
+        defined = (canon.to_expr(factor), ex.coordinate("_slack") * canon.to_expr(bottom) - 1)
+        unknowns = {s: ex.coordinate(f"_{s.args[1]}") for e in defined for s in e.symbols if s.args[0] == "parameter"}
+        return have_complex_points([substitute(e, unknowns) for e in defined], frozenset()) is False
 
     def _depends(self, factor: Any) -> bool:
         generators = (self.canon.ring.var_expr[i] for i in self.canon.generators_in(factor))
         return any(not self.variables.isdisjoint(s.symbols) for s in generators)
 
-    def _factor(self, factor: Any, written: Expr | None) -> tuple[list[Conjunction], list[str]]:
-        """Return (branches, notes) of one irreducible factor; ``written`` if it is the whole expression."""
+    def _factor(self, factor: Any, numerator: Any, written: Expr | None) -> tuple[list[Conjunction], list[str]]:
+        """Return (branches, notes) of an irreducible factor of ``numerator``; ``written`` if it is all of it."""
         exponent = difference_of_exponents(self.canon, factor)
         if exponent is not None:
             result, said = self.zeros_of(exponent)
@@ -218,7 +213,7 @@ class PolynomialZeros:
             if not split:
                 return [], [EMPTY_NOTE]
             return [tuple(split)], [SQUARES_NOTE]
-        return [(written if written is not None else self.canon.to_expr(factor),)], []
+        return [(written if written is not None else self.canon.regular_expr(factor, numerator),)], []
 
     def _monomials(self, even: list[list[int]]) -> tuple[list[Conjunction], list[str]]:
         """Return the branches on which every monomial vanishes, given for each the generators that may vanish."""
