@@ -14,7 +14,7 @@ from dofkit.classification.dependence import removal
 from dofkit.classification.dependence.circuits import ROWS, OwnedRows, analyse
 from dofkit.classification.dependence.implication import IMPLIED, implication_of
 from dofkit.classification.dependence.implied_constraints import MAX_CHOICES, constraint_follows, implied
-from dofkit.classification.freedom.branches import Outcome
+from dofkit.classification.freedom.branches import Outcome, off_reference
 from dofkit.classification.freedom.preparation import algebraic, all_of, branches_at_reference
 from dofkit.exact.matrices.sparse import SparseRow, components
 from dofkit.relations.answer import IDENTITY, Answer, Redundancies, undecided_dependence
@@ -44,8 +44,11 @@ def redundancies(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome)
             blocks[i].append((block, a))
     bridged = outcome.bridged
     result += [_independent(bridged)] if bridged else []
+    missed = zip(outcome.blocks, off_reference(outcome, setting), strict=True)
+    elsewhere = {row.constraint for block, is_missed in missed if is_missed for row in block.rows}
     for numbers in _connected(reduced, outcome, bridged):
-        work = partial(_of_part, reduced, setting, blocks, numbers)
+        of_part = setting if elsewhere.isdisjoint(numbers) else replace(setting, reference=None)
+        work = partial(_of_part, reduced, of_part, blocks, numbers)
         result += unless_late(work, [undecided_dependence(numbers)])
     return [_within_domain(r, reduced, setting) for r in result]
 
