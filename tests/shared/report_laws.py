@@ -91,7 +91,8 @@ def the_whole_is_what_its_constraints_are(report: Report) -> None:
     assert report.scleronomic is (False if False in still else None if None in still else True)
     fields = [v.verdict for v in report.verdicts.values()]
     assert report.verdict == weakest(*fields, *(entry.verdict for entry in entries))
-    assert {entry.name for entry in entries if entry.circuit is not None} <= set(report.redundant or ())
+    implied = {entry.name for entry in entries if entry.circuit is not None}
+    assert implied <= {entry.name for entry in entries if not entry.independent} & {*(report.redundant or ())}
     assert {name for group in report.redundancies for name in group.members} >= set(report.redundant or ())
     unsettled = bool(report.conflicting) and report.verdicts["conflicting"].verdict == "undecided"
     assert unsettled is any("named as conflicting is needed" in line for line in report.warnings)

@@ -119,7 +119,8 @@ class _Basis:
     def _enlarge(self, sets: SufficientSets, finite: Sequence[bool]) -> None:
         """Enlarge every support until it implies its row.
 
-        If this needs rows of a later constraint, neither constraint is counted: the other row may be the implied one.
+        If this needs rows of a later constraint, neither constraint is counted: the other row may be the implied one,
+        unless this row is a differential of geometric equations.
         """
         rows_of = Counter(self.owners)
         for i, support in self.supports.items():
@@ -129,9 +130,10 @@ class _Basis:
             else:
                 single = result != support and all(rows_of[self.owners[k]] == 1 for k in (i, *support))
                 self.several |= single and sets.implication.removes_several(i, support)
-                self.supports[i] = result
-                later = {o for k in result if (o := self.owners[k]) > self.owners[i] and finite[k] == finite[i]}
+                alike = [k for k in result if finite[k] == finite[i] or result != support]
+                later = {o for k in alike if (o := self.owners[k]) > self.owners[i]}
                 self.uncounted |= {self.owners[i], *later} if later else set()
+                self.supports[i] = result
 
     def implies(self, kept: set[int], owner: int) -> bool:
         """Return whether the rows of the constraints ``kept`` imply the dependent rows of ``owner``."""

@@ -31,7 +31,7 @@ def implied(reduced: Sequence[Reduced], setting: Setting, numbers: Sequence[int]
 def _by_implication(reduced: Sequence[Reduced], setting: Setting, numbers: Sequence[int]) -> Redundancies:
     """Return the redundancies: a largest set of constraints that the others imply on all their branches, last first."""
     rows = [b for i in numbers for n in reduced[i].normals for b in n.branches]
-    exchange = len(rows) == len(numbers) and all(len(b) == 1 for b in rows)
+    exchange = len(rows) == len(numbers) and all(len(b) == 1 and isinstance(b[0], Finite) for b in rows)
     with limited(LEAVING_SECONDS):
         implied = _Implied(reduced, setting, numbers)
         dropped, undecided = largest_redundant_set(reversed(numbers), implied.in_time, exchange)

@@ -14,13 +14,13 @@ from dofkit.classification.dependence import removal
 from dofkit.classification.dependence.circuits import ROWS, OwnedRows, analyse
 from dofkit.classification.dependence.implication import IMPLIED, implication_of
 from dofkit.classification.dependence.implied_constraints import MAX_CHOICES, constraint_follows, implied
-from dofkit.classification.freedom.branches import Outcome
+from dofkit.classification.freedom.branches import Outcome, off_reference
 from dofkit.classification.freedom.preparation import algebraic, all_of, branches_at_reference
 from dofkit.exact.matrices.sparse import SparseRow, components
 from dofkit.relations.answer import IDENTITY, Answer, Redundancies, undecided_dependence
 from dofkit.relations.blocks import Block, coordinates_of
 from dofkit.relations.normal.domain import DomainCondition, is_always_satisfied
-from dofkit.relations.normal.pieces import Finite, Inequality, Nonlinear, Normal, Reduced
+from dofkit.relations.normal.pieces import Finite, Inequality, Nonlinear, Normal, Pfaffian, Piece, Reduced
 from dofkit.relations.setting import Setting
 
 #: Functions, besides algebraic ones, with which redundancy by rank is tested on all components.
@@ -44,8 +44,11 @@ def redundancies(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome)
             blocks[i].append((block, a))
     bridged = outcome.bridged
     result += [_independent(bridged)] if bridged else []
+    missed = zip(outcome.blocks, off_reference(outcome, setting), strict=True)
+    elsewhere = {row.constraint for block, is_missed in missed if is_missed for row in block.rows}
     for numbers in _connected(reduced, outcome, bridged):
-        work = partial(_of_part, reduced, setting, blocks, numbers)
+        of_part = setting if elsewhere.isdisjoint(numbers) else replace(setting, reference=None)
+        work = partial(_of_part, reduced, of_part, blocks, numbers)
         result += unless_late(work, [undecided_dependence(numbers)])
     return [_within_domain(r, reduced, setting) for r in result]
 
@@ -132,8 +135,8 @@ def _of_relations(
     for group in _joined([a for a in answered if isinstance(a, OwnedRows)]):
         undecided = undecided_dependence(o for rows in group for o in rows.owners)
         by_rank.append(unless_late(partial(analyse, group, needed), undecided))
-    redundant = [reduced[i] for r in by_rank for i in r.redundant]
-    if any(isinstance(p, DomainCondition) for r in redundant for n in r.normals for b in n.branches for p in b):
+    conditional = _has_piece(reduced, (i for r in by_rank for i in r.redundant), DomainCondition)
+    if conditional or _has_piece(reduced, (i for r in by_rank for i in r.uncounted), Pfaffian):
         return [*settled, _as_free(implied(reduced, setting, numbers), reduced, blocks)]
     is_linear = all(a.linear for _, a in blocks)
     scope = "everywhere" if is_linear else unless_late(partial(_scope, reduced, setting, numbers, by_rank), None)
@@ -142,6 +145,11 @@ def _of_relations(
     if scope is None:
         return _agreed([*settled, *(_undecided_redundancy(r) for r in by_rank)])
     return [_within(r, scope) for r in _agreed([*settled, *by_rank])]
+
+
+def _has_piece(reduced: Sequence[Reduced], numbers: Iterable[int], kind: type[Piece]) -> bool:
+    """Return whether a branch of one of some constraints has a piece of a kind."""
+    return any(isinstance(p, kind) for i in numbers for n in reduced[i].normals for b in n.branches for p in b)
 
 
 def _within(r: Redundancies, scope: About) -> Redundancies:

@@ -22,7 +22,7 @@ from flint import arb
 
 from dofkit.base.deadline import check
 from dofkit.base.errors import NoValueError
-from dofkit.classification.freedom.common_point import hold_strictly
+from dofkit.classification.freedom.common_point import hold_strictly, without_satisfied
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.sparse import components
 from dofkit.exact.points.balls import RealPoint, jacobian
@@ -134,6 +134,7 @@ def _problems(pieces: Sequence[Piece], sides: Sequence[DomainCondition]) -> list
     names = sorted(frozenset[str]().union(*map(coordinates_of, (*pieces, *sides))))
     finite = _independent([*finite, *(e for e in boundaries if not velocities_of(e))])
     others += [e for e in boundaries if velocities_of(e)]
+    conditions = without_satisfied(conditions, finite)
     places, rates = tuple(map(ex.coordinate, names)), tuple(map(ex.velocity, names))
     occurring = [*finite, *others, *(c.expr for c in conditions)]
     timed, moves = any(ex.TIME in e.symbols for e in occurring), any(map(velocities_of, occurring))

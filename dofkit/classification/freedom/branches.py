@@ -151,7 +151,7 @@ def solve(reduced: Sequence[Reduced], setting: Setting, answered: AnsweredBlocks
     Only branches through the reference configuration count, unless it does not satisfy all constraints.
     """
     best, chosen = _through_reference(reduced, setting, answered or AnsweredBlocks(setting))
-    if chosen and (best.consistent is False or any(_off_reference(best, setting))):
+    if chosen and (best.consistent is False or any(off_reference(best, setting))):
         anywhere = replace(setting, reference=None)
         best, chosen = _through_reference(reduced, anywhere, AnsweredBlocks(anywhere))
     best.answers = _about_component(_with_reference_checked(best, setting), best.blocks, chosen)
@@ -209,7 +209,7 @@ def _normals_at_reference(reduced: Sequence[Reduced], setting: Setting) -> tuple
     return normals, chosen
 
 
-def _off_reference(best: Outcome, setting: Setting) -> list[bool]:
+def off_reference(best: Outcome, setting: Setting) -> list[bool]:
     """Return whether the reference configuration does not satisfy the geometric equations, for each block."""
     if setting.reference is None or setting.tolerance is not None or best.consistent is not True:
         return [False for _ in best.blocks]
@@ -222,7 +222,7 @@ def _off_reference(best: Outcome, setting: Setting) -> list[bool]:
 
 def _with_reference_checked(best: Outcome, setting: Setting) -> list[Answer]:
     """Return the answers, about a component if the reference configuration does not satisfy all geometric equations."""
-    off = _off_reference(best, setting)
+    off = off_reference(best, setting)
     if not any(off):
         return best.answers
     scoped = [replace(a, about="component", exists=False) if a.about == "reference" else a for a in best.answers]

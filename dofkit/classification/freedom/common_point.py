@@ -46,7 +46,8 @@ def restricted_to_domain(block: Block, result: Answer, setting: Setting) -> Answ
 
     It is inconsistent if this region is empty, and undecided if that is not known or the reference is not inside.
     """
-    block = _without_satisfied_conditions(block)
+    finite = (r.piece.expr for r in block.finite if isinstance(r.piece, Finite))
+    block = replace(block, conditions=without_satisfied(block.conditions, finite))
     if not block.conditions or result.consistent is False:
         return result
     if result.consistent is None:
@@ -58,14 +59,12 @@ def restricted_to_domain(block: Block, result: Answer, setting: Setting) -> Answ
     return _at_a_point(block, result, setting)
 
 
-def _without_satisfied_conditions(block: Block) -> Block:
-    """Return the block without the conditions u >= 0 for which its linear equations imply u = 0."""
-    finite = (r.piece.expr for r in block.finite if isinstance(r.piece, Finite))
+def without_satisfied(conditions: Iterable[DomainCondition], finite: Iterable[Expr]) -> tuple[DomainCondition, ...]:
+    """Return the conditions without those u >= 0 for which linear equations among ``finite`` = 0 imply u = 0."""
     with suppress(PoleError):
         explicit = explicit_relations(finite, number_coefficients).by_others
-        conditions = (c for c in block.conditions if c.sense != ">=" or not substitute(c.expr, explicit).is_zero)
-        return replace(block, conditions=tuple(conditions))
-    return block
+        return tuple(c for c in conditions if c.sense != ">=" or not substitute(c.expr, explicit).is_zero)
+    return tuple(conditions)
 
 
 def _equations(block: Block, result: Answer) -> list[Expr]:
