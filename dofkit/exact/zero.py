@@ -242,8 +242,9 @@ def _linear_somewhere(e: Expr) -> bool:
 
 # The probability of an error at random points
 
-#: Bits of the primes, minus one; bits b of the probability 2^-b that a `Character` finds an accidental relation.
-PRIME, RELATIONS = 60, 30
+#: Bits of the smallest prime, minus one, and one more, because the denominator of a sine may double a degree; bits b of
+#: the probability 2^-b that a `Character` finds an accidental relation.
+PRIME, RELATIONS = 58, 30
 
 
 #: The degrees of a numerator and of a denominator.

@@ -133,19 +133,14 @@ def field_labels(
         )
         return
     proof_of = certificate(forms_at_points, variety)
-    if not forms_at_points.trusted and (
-        proof_of is None or proof_of[0].dimension != forms_at_points.sampled.span.dimension
-    ):
-        result.dof, result.velocity_dof, result.growth, result.verdict = None, None, None, "undecided"
-        result.reasons.append(
-            "the functions that occur may satisfy an identity on the set, and no certified interval excludes zero there"
-        )
+    agree = proof_of is not None and proof_of[0].dimension == forms_at_points.sampled.span.dimension
+    if not (forms_at_points.trusted or agree):
+        _leave_undecided(result, RELATED)
         return
     result.identical = _depend_identically(forms_at_points, proof_of, False)
     sure = _rank_verdict(forms_at_points, proof_of, result, setting)
     if sure != "proved" and forms.chart.ring.signs and forms_at_points.integrable > forms_at_points.rank_finite:
-        result.dof, result.velocity_dof, result.growth, result.verdict = None, None, None, "undecided"
-        result.reasons.append("for other signs in absolute values the rows may be less integrable")
+        _leave_undecided(result, "for other signs in absolute values the rows may be less integrable")
         return
     result.verdict = weakest(variety.verdict, sure)
     result.argument = "Lie algebra, certified" if result.verdict == "proved" else "Lie algebra at points"
@@ -156,6 +151,15 @@ def field_labels(
         result.reasons.append("the freedom differs between points; the generic value is given")
     _set_labels(forms_at_points, proof_of, result)
     result.dependent = dependent_coordinates(forms, forms_at_points.point, forms_at_points.sampled.span)
+
+
+#: Why labels are undecided where functions may be related.
+RELATED = "the functions that occur may satisfy an identity on the set, and no certified interval excludes zero there"
+
+
+def _leave_undecided(result: Answer, reason: str) -> None:
+    result.dof, result.velocity_dof, result.growth, result.verdict = None, None, None, "undecided"
+    result.reasons.append(reason)
 
 
 def _set_freedom(forms_at_points: SampledForms, result: Answer, setting: Setting) -> None:

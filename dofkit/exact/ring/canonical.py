@@ -165,10 +165,7 @@ class Canon:
         return ex.add(*terms) if terms else ex.ZERO
 
     def regular_expr(self, poly: Poly, multiple: Poly) -> Expr:
-        """Return `to_expr`; raises NoValueError if it has abs(u)/u for a sign, and ``multiple`` has no factor u.
-
-        The expression has no value where u is 0, where the sign stands for 0 times a number.
-        """
+        """Return `to_expr`; raises NoValueError if it has a pole abs(u)/u, and ``multiple`` has no factor u."""
         e = self.to_expr(poly)
         signs = [v for v in self.ring.vars if v.kind == "sign" and self.ring.var_expr[v.index].args[-1] in ex.nodes(e)]
         if any(divmod(multiple, self.quotient(v.args[0])[0])[1] != 0 for v in signs):
