@@ -137,10 +137,10 @@ def _on_hidden(
         states = States(sorted(moving), alternative.rows, hidden, setting, [*more, *written], still)
         smaller = any(a.degenerate or a.dof is None for a in answers)
         satisfied = _vanishes_on_states(states, branches, written, domain, smaller)
+        if satisfied and still and all(isinstance(r.piece, Finite) for r in alternative.rows):
+            return _on_all_components(alternative.rows, branches, setting)
     except (OutOfTimeError, ArithmeticError):
         return None
-    if satisfied and still and all(isinstance(r.piece, Finite) for r in alternative.rows):
-        return _on_all_components(alternative.rows, branches, setting)
     return satisfied if satisfied or all(a.consistent for a in answers) else None
 
 
