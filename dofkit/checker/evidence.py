@@ -4,7 +4,7 @@ The points that can be reached along fields form an immersed manifold, whose tan
 there (Hermann 1960, Nagano 1966, Sussmann 1973). Fields that are tangent to relations never leave them.
 """
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from functools import cached_property, partial
 from itertools import chain, product
 from typing import Any, NamedTuple
@@ -13,7 +13,7 @@ from flint import arb, arb_mat, ctx
 
 from dofkit.checker.point import PRECISION, CheckedPoint, evaluated, not_zero
 from dofkit.checker.relations import CheckedRelations, Consequence, total_derivative
-from dofkit.checker.trees import ONE, ZERO, Tree, along, call, derivative, linear_in, refuse, substituted, symbol
+from dofkit.checker.trees import ONE, ZERO, Tree, add, along, call, derivative, linear_in, refuse, substituted, symbol
 
 LARGEST_MINOR, LONGEST_WORD, LARGEST_FIELD, HIGHEST_ORDER = 250, 12, 100_000, 8
 Told = dict[str, Any]
@@ -321,19 +321,63 @@ def along_curve(evidence: CheckedEvidence, minor: CheckedMinor, speeds: Told, tr
     return minor.point.value_with(lefts[-1], rates)
 
 
-def isolated(evidence: CheckedEvidence, claim: Told) -> CheckedMinor:
-    """A minor whose rows leave a dimension more than there is: another relation is not 0 on all that they leave.
+def left_over(evidence: CheckedEvidence, claim: Told) -> tuple[CheckedMinor, Tree, Callable[..., Any]]:
+    """A minor, a combination of equations that is 0 besides its rows, and its derivatives along free directions."""
+    minor, weights = evidence.minor(claim["minor"]), {name: evidence.text(text) for name, text in claim["zero"].items()}
+    names, point = [*minor.rows, *weights], minor.point
+    unfit = evidence.moving or evidence.problem.world.names.functions or evidence.holds_time(names)
+    refuse(unfit or not {*names} <= {*evidence.finite}, "holonomic equations of the scene, without time")
+    refuse(any(weight.symbols for weight in weights.values()), "the weights are numbers")
+    evidence.on_set(point, names)
+    zero = add(*(weight * evidence.relation(name).tree for name, weight in weights.items()))
 
-    It has a derivative that is not 0 along a curve there, and what is analytic is 0 on a thin set only.
+    def derivative_along(order: int, *ways: dict[str, str]) -> Any:
+        speeds = {q: point.value(add(*(evidence.text(way.get(q, "0")) for way in ways))) for q in chain(*ways)}
+        bound = not speeds.keys() <= {*evidence.problem.coordinates} - {*minor.columns}
+        refuse(bound, "speeds are of free coordinates")
+        return along_curve(evidence, minor, speeds, zero, order)
+
+    return minor, zero, derivative_along
+
+
+def isolated(evidence: CheckedEvidence, claim: Told) -> CheckedMinor:
+    """A minor whose rows leave more dimensions than there are: another relation is not 0 on all that they leave.
+
+    It has a derivative that is not 0 along a curve there, and what is analytic is 0 on a thin set only. Or a
+    combination is stationary, and its second derivatives in several directions are definite (Sylvester): across these
+    it is 0 at the point alone (Morse). Fields that keep all, and fill the other directions, carry that point to all
+    that there is around; with one direction they may be left out, and then nothing is said of this.
     """
-    minor, name = evidence.minor(claim["minor"]), claim["zero"]
-    unfit = evidence.moving or evidence.problem.world.names.functions or evidence.holds_time((*minor.rows, name))
-    refuse(unfit or not {*minor.rows, name} <= {*evidence.finite}, "holonomic equations of the scene, without time")
-    evidence.on_set(minor.point, (*minor.rows, name))
-    speeds = {q: minor.point.value(evidence.text(text)) for q, text in claim["speeds"].items()}
-    refuse(not speeds.keys() <= {*evidence.problem.coordinates} - {*minor.columns}, "speeds are of free coordinates")
-    value = along_curve(evidence, minor, speeds, evidence.relation(name).tree, claim["order"])
-    refuse(not not_zero(value), "the zero on the curve is not shown to be isolated")
+    (minor, zero, along_ways), ways, names = left_over(evidence, claim), claim["speeds"], claim.get("fields", [])
+    refuse(not 0 < len(ways) <= LONGEST_WORD, "a few directions are needed")
+    if len(ways) == 1:
+        refuse(not not_zero(along_ways(claim["order"], *ways)), "the zero on the curve is not shown to be isolated")
+    else:
+        form = [[along_ways(2, a, b) - along_ways(2, a) - along_ways(2, b) for b in ways] for a in ways]
+        signed = [[entry if form[0][0] > 0 else -entry for entry in row] for row in form]
+        leading = (arb_mat([row[:k] for row in signed[:k]]).det() for k in range(1, len(ways) + 1))
+        refuse(not all(value > 0 for value in leading), "the form is not shown to be definite")
+        slopes = (minor.point.prepared(derivative(zero, q)) for q in evidence.problem.coordinates)
+        still = not evidence.is_open(zero) and all(map(evidence.ring.vanishes, slopes))
+        refuse(not still, "the combination is not stationary at the point, whatever the point chose")
+    if names or len(ways) > 1:
+        tangent(evidence, ([name] for name in names), (*minor.rows, *claim["zero"]))
+        crossed = [*({q: evidence.text(text) for q, text in way.items()} for way in ways)]
+        free = [q for q in evidence.problem.coordinates if q not in minor.columns]
+        independent(evidence, [*crossed, *(field_named(evidence, name) for name in names)], free, minor.point)
+    return minor
+
+
+def crossing(evidence: CheckedEvidence, claim: Told) -> CheckedMinor:
+    """A minor whose rows, with one relation more, are all: this takes both signs near the point, on what they leave.
+
+    So its zeros separate a manifold there, and have one dimension less at least (Hurewicz and Wallman 1941).
+    """
+    (minor, _, along_ways), (name,) = left_over(evidence, claim), claim["zero"]
+    evidence.follow(evidence.finite, {*minor.rows, name}, minor.point, "the rows and what is 0")
+    evidence.on_set(minor.point, evidence.finite)
+    first, other = (along_ways(2, way) for way in claim["speeds"])
+    refuse(not (first > 0 > other), "it is not shown to take both signs")
     return minor
 
 

@@ -6,7 +6,8 @@ import random
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from functools import partial
-from itertools import combinations
+from itertools import combinations, product
+from operator import itemgetter
 from typing import Any
 
 from flint import arb
@@ -204,44 +205,67 @@ def _gives(context: Context, name: str, q: str, most: int = 1) -> bool:
         return False
 
 
-# Evidence where rows are stationary at the main point: what is isolated along a curve, and what crosses itself.
+# Evidence where rows are stationary at the main point: what is isolated there, and what crosses itself.
 
 SIGNS = (1, -1)
-#: The engines' arguments by which it is so.
-STATIONARY = ("isolated zero of one variable", "indefinite form", "cases")
 
 
 def stationary(context: Context) -> Iterator[Told]:
-    """Yield dof near a point at which only the differential of a relation depends on others, by the rule `isolated`."""
-    standing = context.standing
-    if standing is None or context.report.verdicts["dof"].argument not in STATIONARY:
+    """Yield dof near a point at which the differential of a relation depends on others: `isolated`, `crossing`."""
+    standing, dof = context.standing, context.report.dof or 0
+    if standing is None or standing.accounted:
         return
-    for least in _motions_from(context, standing, context.report.dof or 0):
-        for most in _isolated(context, standing):
+    names = context.scenery.evidence.finite
+    fields = kept_motions(context, names, standing.point, standing.columns) if dof else {}
+    for most in _isolated(context, standing, fields):
+        for least in (*_crossing(context, standing), *_motions_from(context, standing, dof, fields)):
             yield {"rule": "squeeze", "about": context.about, "most": most, "least": least}
 
 
-def _motions_from(context: Context, standing: Standing, size: int) -> Iterator[Told]:
+def _motions_from(context: Context, standing: Standing, size: int, fields: dict[str, str]) -> Iterator[Told]:
     """Yield ``size`` motions from the point: rigid ones of all together, none, or a family."""
-    fields = kept_motions(context, context.scenery.evidence.finite, standing.point) if size else {}
     if len(fields) == size:
         orbit_of = {"fields": list(fields), "words": [[name] for name in fields], "columns": list(fields.values())}
         yield {"rule": "span", "at": standing.point.name, "rows": list(context.scenery.evidence.finite), **orbit_of}
     yield from families(context, size)
 
 
-def _isolated(context: Context, standing: Standing) -> Iterator[Told]:
-    """Yield the rule `isolated`: a derivative of a dependent relation along a free direction is not 0."""
+def _isolated(context: Context, standing: Standing, fields: dict[str, str]) -> Iterator[Told]:
+    """Yield the rule `isolated`: along what is free besides rigid motions a form is definite; or in one direction."""
+    across = [q for q in context.problem.coordinates if q not in (*standing.columns, *fields.values())]
+    filled = {"fields": list(fields)} if len(across) == 1 else {}
+    rows = {name: context.row(name, standing.point) for name in (*standing.rows, *standing.dependent)}
+    for zero in standing.dependent if len(across) > 1 else ():
+        columns = [{name: rows[name].get(q, 0.0) for name in standing.rows} for q in standing.columns]
+        terms = least_step(columns, [rows[zero].get(q, 0.0) for q in standing.columns])
+        weights = {name: number_text(-Fraction(value).limit_denominator(DENOMINATOR)) for name, value in terms.items()}
+        shown = _left_over(context, standing, zero, *({q: 1} for q in across))
+        shown["zero"] |= {name: weight for name, weight in weights.items() if weight != "0"}
+        yield {"rule": "isolated", **shown, "fields": list(fields)}
+    directions = [{q: 1} for q in across] if filled else _directions(context, standing)
+    for order, zero, way in product(range(2, HIGHEST_ORDER + 1), standing.dependent, directions):
+        if abs(_derivative_along(context, standing, zero, way, order)) > FAR:
+            yield {"rule": "isolated", **_left_over(context, standing, zero, way), "order": order, **filled}
+            return
+
+
+def _directions(context: Context, standing: Standing) -> list[dict[str, int]]:
     free = [q for q in context.problem.coordinates if q not in standing.columns]
-    directions = [{q: 1} for q in free] + [{a: 1, b: sign} for a, b in combinations(free, 2) for sign in SIGNS]
-    for order in range(2, HIGHEST_ORDER + 1):
-        for zero in standing.dependent:
-            for direction in directions:
-                if abs(_derivative_along(context, standing, zero, direction, order)) > FAR:
-                    speeds = {q: str(value) for q, value in direction.items()}
-                    rows = {"minor": context.minor(standing), "zero": zero, "speeds": speeds}
-                    yield {"rule": "isolated", **rows, "order": order}
-                    return
+    return [{q: 1} for q in free] + [{a: 1, b: sign} for a, b in combinations(free, 2) for sign in SIGNS]
+
+
+def _crossing(context: Context, standing: Standing) -> Iterator[Told]:
+    """Yield the rule `crossing`: along two directions the only dependent relation has different signs."""
+    for zero in standing.dependent if len(standing.dependent) == 1 else ():
+        pairs = [(_derivative_along(context, standing, zero, way, 2), way) for way in _directions(context, standing)]
+        (low, down), (high, up) = (extreme(pairs, key=itemgetter(0)) for extreme in (min, max))
+        if low < -FAR and high > FAR:
+            yield {"rule": "crossing", **_left_over(context, standing, zero, up, down)}
+
+
+def _left_over(context: Context, standing: Standing, zero: str, *directions: dict[str, int]) -> Told:
+    speeds = [{q: str(value) for q, value in way.items()} for way in directions]
+    return {"minor": context.minor(standing), "zero": {zero: "1"}, "speeds": speeds}
 
 
 def _derivative_along(context: Context, standing: Standing, zero: str, direction: dict[str, int], order: int) -> float:

@@ -63,14 +63,16 @@ def held_by(scenery: Scenery, names: Sequence[str]) -> frozenset[str]:
     return frozenset[str]().union(*(scenery.evidence.relation(name).tree.symbols for name in names))
 
 
-def kept_motions(context: Context, names: Sequence[str], point: FoundPoint) -> dict[str, str]:
-    """Rigid motions of what relations hold that keep these, each with a column: independent at the point."""
+def kept_motions(
+    context: Context, names: Sequence[str], point: FoundPoint, fixed: Sequence[str] = ()
+) -> dict[str, str]:
+    """Rigid motions of what relations hold that keep these, each with a column, not ``fixed``: independent there."""
     scenery, held = context.scenery, held_by(context.scenery, names)
     fields = [{q: text for q, text in motion.items() if q in held} for motion in motions(context.problem.world)]
     ids = [scenery.entry_id("fields", {"components": field}) for field in fields]
     kept = [motion for motion in ids if _is_kept(scenery, motion, names)]
     moved = [field_named(scenery.evidence, motion) for motion in kept]
-    rows = [{q: point.estimates.value(tree) for q, tree in field.items()} for field in moved]
+    rows = [{q: point.estimates.value(tree) for q, tree in field.items() if q not in fixed} for field in moved]
     return {kept[p.row]: p.column for p in echelon(rows)}
 
 

@@ -134,6 +134,7 @@ def generalized_coordinates(context: Context) -> Iterator[Told]:
     if chosen:
         moved = context.problem.world.charted(chosen)
         yield from rows_above(context, [q for q in context.problem.coordinates if q not in moved])
+        yield from (claim["most"] for claim in stationary(context) if "fields" in claim["most"])
 
 
 def independent(context: Context, entry: ConstraintEntry, field: str) -> Iterator[Told]:
