@@ -91,6 +91,18 @@ class CheckedEvidence(CheckedRelations):
                 wrong |= not self.is_zero(total_derivative(relation.tree, self.variables), point)
             refuse(wrong, f"`{relation.name}` is not satisfied at the point `{point.name}`, or not by its velocities")
 
+    def applies(self, number: int, point: CheckedPoint | None) -> bool:
+        """The same; where what must not be 0 holds velocities: near a state of the scene."""
+        moved = any(map(self.met_by, self.consequences[number].nonzero))
+        state = point is None or not moved or self.once(("state", point.name), lambda: self._is_state(point))
+        return super().applies(number, point) and state
+
+    def _is_state(self, point: CheckedPoint) -> bool:
+        """Whether all equations, and the rates of the finite ones, hold at a point with its velocities."""
+        rates = (total_derivative(self.relation(name).tree, self.variables) for name in self.finite)
+        trees = chain((self.relation(name).tree for name in self.equations), rates)
+        return all(self.is_zero(tree, point) for tree in trees)
+
     def minor(self, entry: Any, allowed: Collection[str] | None = None) -> CheckedMinor:
         """A minor, by its id or itself: rows that follow from ``allowed`` (or all relations), and are independent."""
         if isinstance(entry, str):

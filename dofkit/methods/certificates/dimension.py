@@ -15,12 +15,11 @@ from flint import arb
 from dofkit.checker.dimension_rules import HIGHEST_DEGREE, degree
 from dofkit.checker.evidence import HIGHEST_ORDER, along_curve
 from dofkit.checker.geometry import determinant, dot
-from dofkit.checker.ring import CheckedRing
 from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, operands, symbol, times
 from dofkit.methods.certificates.context import Context, Standing, Told
 from dofkit.methods.certificates.fields import backing, kept_motions, orbit
 from dofkit.methods.certificates.numerics import echelon, least_step
-from dofkit.methods.certificates.scenery import FAR, number_text, text_of
+from dofkit.methods.certificates.scenery import FAR, number_text, polynomial_text, text_of
 from dofkit.methods.certificates.steps import LARGEST_CRAMER, accounted, solving_order
 
 #: The size of a step along a motion, of what is added by chance, and the largest denominator of a coefficient.
@@ -150,23 +149,11 @@ def _gram(context: Context, forms: list[str]) -> Told | None:
         value = evidence.ring.read(determinant([[dot(row, other) for other in scaled] for row in rows]))
     except CheckError:
         return None
-    texts = [_polynomial_text(evidence.ring, part) for part in value]
+    texts = [polynomial_text(evidence.ring, part) for part in value]
     determinant_text = f"({texts[0]})/({texts[1]})"
     if None in texts or not evidence.is_nowhere_zero(evidence.text(determinant_text), True):
         return None
     return {"forms": forms, "scales": {q: text_of(tree) for q, tree in scales.items()}, "value": determinant_text}
-
-
-def _polynomial_text(ring: CheckedRing, polynomial: Any) -> str | None:
-    """Return a polynomial in symbols as a text; None where it contains anything else."""
-    names = {place: key[1] for key, place in ring.places.items() if key[0] == "symbol"}
-    terms = []
-    for exponents, coefficient in polynomial.terms():
-        powers = [(place, k) for place, k in enumerate(reversed(exponents)) if k]
-        if not {place for place, _ in powers} <= names.keys():
-            return None
-        terms.append("*".join([f"({coefficient})", *(f"{names[place]}^{k}" for place, k in powers)]))
-    return " + ".join(terms)
 
 
 def _needed(standing: Standing, names: Sequence[str]) -> list[str]:

@@ -242,7 +242,7 @@ def integral_steps(context: Context, texts: Iterable[str | None]) -> list[str]:
 def integrable_names(context: Context) -> list[str]:
     """The geometric equations, and the forms that are said to be holonomic."""
     owners = [entry.name for entry in context.report.constraints if entry.holonomic]
-    names = [name for owner in owners for name in context.scenery.owned(owner)]
+    names = [*context.scenery.hidden, *(name for owner in owners for name in context.scenery.owned(owner))]
     return sorted(names, key=context.scenery.equations.index)
 
 

@@ -118,8 +118,9 @@ def _needed(context: Context) -> Iterator[Told]:
     """For every constraint a minor of all rows of the others."""
     minors, relation = {}, context.scenery.evidence.relation
     for owner in dict.fromkeys(relation(name).owner for name in context.scenery.evidence.equations):
-        owned = context.scenery.owned(owner)
-        standing = context.accounted([name for name in context.scenery.equations if name not in owned])
+        owned, hidden = context.scenery.owned(owner), context.scenery.hidden
+        others = [n for n in context.scenery.equations if {*owned}.isdisjoint((n, *hidden.get(n, ())))]
+        standing = context.accounted(others)
         if standing is None or not standing.accounted:
             return
         minors[owner] = context.minor(standing)

@@ -6,11 +6,13 @@ from collections.abc import Collection, Iterator, Mapping
 from contextlib import suppress
 from fractions import Fraction
 from functools import cached_property
+from itertools import combinations
 from typing import Any
 
 from dofkit.checker.evidence import CheckedEvidence
 from dofkit.checker.problem import CheckedProblem as Problem
-from dofkit.checker.trees import CheckError, Effort, Tree, number, operands, power, substituted, times
+from dofkit.checker.ring import CheckedRing
+from dofkit.checker.trees import ZERO, CheckError, Effort, Tree, number, operands, power, substituted, times
 from dofkit.methods.certificates.numerics import Estimates, NoEstimateError
 
 
@@ -114,8 +116,25 @@ class Scenery:
 
     @cached_property
     def finite(self) -> tuple[str, ...]:
-        """The geometric equations, each after the roots of which it is a sum of squares."""
-        return self.owned(None, ("finite",))
+        """The geometric equations, each after the roots of which it is a sum of squares, and what forms hide."""
+        return (*self.owned(None, ("finite",)), *self.hidden)
+
+    @cached_property
+    def hidden(self) -> dict[str, tuple[str, str]]:
+        """The steps for what two forms leave that differ by a factor but in the velocity of time, with these."""
+        ring, steps = self.evidence.ring, dict[str, tuple[str, str]]()
+        for first, other in combinations(filter(self.linear, self.evidence.moving), 2):
+            form, second = self.form(first), self.form(other)
+            ratios = (ring.rational(form[q] / second[q]) for q in second if q != "t" and second[q] != ZERO)
+            ratio = next((ratio for ratio in ratios if ratio), None)
+            rest = {q: form[q] - number(Fraction(str(ratio or 0))) * second[q] for q in form}
+            if ratio is not None and all(ring.vanishes(tree) == (q != "t") for q, tree in rest.items()):
+                step, c = f"{self.label}hidden by {first} and {other}", {first: "1", other: f"{-ratio}"}
+                self.add_step({"id": step, "by": "implied", "function": text_of(rest["t"]), "h": "tdot", "c": c})
+                back = {"id": f"{self.label}{other} from others", "by": "implied", "of": other, "h": f"{ratio}"}
+                self.add_step({**back, "c": {first: "1", step: "-tdot"}})
+                steps[step] = first, other
+        return steps
 
     @cached_property
     def moving(self) -> tuple[str, ...]:
@@ -134,7 +153,7 @@ class Scenery:
 
     def roots(self, name: str) -> tuple[str, ...]:
         """The steps for the roots of a sum of squares, which are 0 where it is; none of another relation."""
-        return self.evidence.once(("roots", name), lambda: tuple(self._roots(name)))
+        return self.evidence.once(("roots", name), lambda: (*self._roots(name), *self._branches(name)))
 
     def _roots(self, name: str) -> Iterator[str]:
         for sign, others, squares in squares_of(self.evidence.relation(name).tree, frozenset()):
@@ -148,6 +167,20 @@ class Scenery:
                 back = {step: f"({sign})*({weight})*({root})" for step, (weight, root) in ids.items()}
                 if back:
                     self.add_step({"id": f"{self.label}{name} from others", "by": "implied", "of": name, "c": back})
+
+    def _branches(self, name: str) -> Iterator[str]:
+        """The step for the longest factor of a product of velocities, by which this is 0 near a state."""
+        ring = self.evidence.ring
+        constant, factors = ring.read(self.evidence.relation(name).tree).above.factor()
+        texts = [polynomial_text(ring, factor) for factor, _ in factors]
+        if self.linear(name) or len(texts) < 2 or None in texts:
+            return
+        branch, step = max(texts, key=len), f"{self.label}branch of {name}"
+        others = "*".join(f"({text})" for text in texts if text != branch)
+        self.add_step({"id": step, "by": "implied", "function": branch, "h": f"{constant}*{others}", "c": {name: "1"}})
+        back = {"id": f"{self.label}{name} from others", "by": "implied", "of": name}
+        self.add_step({**back, "c": {step: f"{constant}*{others}"}})
+        yield step
 
     def linear(self, name: str) -> bool:
         """Whether a relation is a linear form in the velocities; False where that is not known."""
@@ -211,6 +244,18 @@ def squares_of(tree: Tree, plain: frozenset[str]) -> Iterator[tuple[int, list[Tr
         squares = [square for term in terms if term not in others and (square := _square(term))]
         if len(others) + len(squares) == len(terms):
             yield sign, others, squares
+
+
+def polynomial_text(ring: CheckedRing, polynomial: Any) -> str | None:
+    """Return a polynomial in symbols as a text; None where it contains anything else."""
+    names = {place: key[1] for key, place in ring.places.items() if key[0] == "symbol"}
+    terms = []
+    for exponents, coefficient in polynomial.terms():
+        powers = [(place, k) for place, k in enumerate(reversed(exponents)) if k]
+        if not {place for place, _ in powers} <= names.keys():
+            return None
+        terms.append("*".join([f"({coefficient})", *(f"{names[place]}^{k}" for place, k in powers)]))
+    return " + ".join(terms)
 
 
 def _square(term: Tree) -> list[str] | None:
