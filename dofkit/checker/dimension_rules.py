@@ -7,7 +7,8 @@ from typing import Any
 
 from flint import fmpq_mat
 
-from dofkit.checker.evidence import MOST, CheckedEvidence, CheckedMinor, Told, crossing, curvature, field_named, independent, span
+from dofkit.checker.curves import MOST, crossing, curvature
+from dofkit.checker.evidence import CheckedEvidence, CheckedMinor, Told, field_named, independent, span
 from dofkit.checker.geometry import determinant, dot
 from dofkit.checker.point import CheckedPoint, not_zero
 from dofkit.checker.relations import total_derivative

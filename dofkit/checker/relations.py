@@ -16,7 +16,7 @@ from dofkit.checker.grammar import KnownNames, parse
 from dofkit.checker.point import CheckedPoint, evaluated, not_zero
 from dofkit.checker.problem import CheckedProblem, CheckedRelation
 from dofkit.checker.ring import CheckedRing
-from dofkit.checker.trees import ONE, CheckError, Effort, Tree, add, along, keeps_values, put_in, refuse, substituted, symbol
+from dofkit.checker.trees import CheckError, Effort, Tree, add, along, keeps_values, put_in, refuse, substituted, symbol
 
 #: What a certificate of another form, or a hostile one, may raise.
 FAULTS = (CheckError, KeyError, TypeError, ValueError, AttributeError, IndexError, ArithmeticError, RecursionError)
@@ -135,8 +135,8 @@ class CheckedRelations:
         """h g = sum c_i r_i: g is 0 where all r_i are and h is not; what has the rate g keeps its value.
 
         ``g`` is a relation, or a new function. Where geometric equations give coordinates, and these are put in, the
-        two sides need to be the same only then. Integrals: along every motion near a point where h is not 0. If ``h`` holds
-        velocities (but that of time, which is 1), a velocity relation follows near a state where h is not 0. With
+        two sides need to be the same only then. Integrals: along every motion near a point where h is not 0. If ``h``
+        holds velocities, a velocity relation follows near a state where h is not 0. The rate of time is 1. With
         ``sos``: h g^2 + sum w_j a_j^2 = sum c_i r_i, where h and w are positive, as -c_i are for inequalities r_i >= 0:
         then all terms are 0 (Krivine 1964, Stengle 1974).
         """
@@ -152,16 +152,17 @@ class CheckedRelations:
         refuse(unfit, "an inequality or integral to start from")
         plus = all(self.is_nowhere_zero(tree, True) for tree in (*signs, *([h] if real else [])))
         refuse(not plus, "no sum of squares, or times what is not positive")
-        unmoved = {"tdot"}.issuperset(self.met_by(h)) or (self.met_by(tree) and not real)
-        refuse(not unmoved or (leaf and self.met_by(tree)), "the factor or integral holds velocities")
+        still = real or not self.met_by(tree)
+        refuse((leaf and not still) or (still and self.met_by(h)), "the factor or integral holds velocities")
         change = total_derivative(tree, self.variables) if leaf else tree**2 if real else tree
         total = add(h * change, *(weight * root**2 for weight, root in squares), *(-c * of.tree for c, of in pairs))
         for name, q in substitutions:
             source, (slope, total) = self.relation(name), put_in(total, q, self.relation(name).tree)
             gives = source.kind == "finite" and not source.leaf and self.is_nowhere_zero(slope)
             refuse(not gives, f"`{name}` does not give `{q}`")
+        total = substituted(total, {"tdot": self.text("1")})
         refuse(not self.ring.vanishes(total), "the cofactors: the two sides are not the same")
-        needs = () if self.is_nowhere_zero(substituted(h, {"tdot": ONE})) else (h,)
+        needs = () if self.is_nowhere_zero(h) else (h,)
         defined = (h, *cofactors, *chain(*squares), *([tree] if new or substitutions else []))
         used = *step["c"], *(name for name, _ in substitutions)
         return tree if new else None, Consequence(step["id" if new else "of"], used, needs, defined)

@@ -173,5 +173,11 @@ class Context:
 def states_of(context: Context) -> tuple[list[str], list[str]]:
     """The relations that hold of a configuration with its velocities, and the symbols of both."""
     symbols = [*context.problem.coordinates, *context.problem.world.generic]
-    rates = rates_of(context.scenery, context.scenery.finite)
-    return [*context.scenery.equations, *rates], [*symbols, *(f"{q}dot" for q in context.problem.coordinates)]
+    rates, steps, label = (
+        rates_of(context.scenery, context.scenery.finite),
+        context.scenery.steps,
+        context.scenery.label,
+    )
+    names = (*context.scenery.finite, *rates, *context.scenery.moving)
+    kept = [n for n in names if context.scenery.linear(n) or f"{label}{n} from others" not in steps]
+    return kept, [*symbols, *(f"{q}dot" for q in context.problem.coordinates)]

@@ -8,12 +8,11 @@ from fractions import Fraction
 from functools import partial
 from itertools import combinations, product
 from operator import itemgetter
-from typing import Any
 
 from flint import arb
 
+from dofkit.checker.curves import HIGHEST_ORDER, along_curve
 from dofkit.checker.dimension_rules import HIGHEST_DEGREE, degree
-from dofkit.checker.evidence import HIGHEST_ORDER, along_curve
 from dofkit.checker.geometry import determinant, dot
 from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, operands, symbol, times
 from dofkit.methods.certificates.context import Context, Standing, Told
@@ -147,11 +146,10 @@ def _gram(context: Context, forms: list[str]) -> Told | None:
     scaled = [[scales.get(q, ONE) * slope for q, slope in zip(coordinates, row, strict=True)] for row in rows]
     try:
         value = evidence.ring.read(determinant([[dot(row, other) for other in scaled] for row in rows]))
+        determinant_text = "/".join(f"({polynomial_text(evidence.ring, part)})" for part in value)
     except CheckError:
         return None
-    texts = [polynomial_text(evidence.ring, part) for part in value]
-    determinant_text = f"({texts[0]})/({texts[1]})"
-    if None in texts or not evidence.is_nowhere_zero(evidence.text(determinant_text), True):
+    if not evidence.is_nowhere_zero(evidence.text(determinant_text), True):
         return None
     return {"forms": forms, "scales": {q: text_of(tree) for q, tree in scales.items()}, "value": determinant_text}
 

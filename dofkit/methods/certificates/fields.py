@@ -155,7 +155,7 @@ def words_of(context: Context, standing: Standing, most: int) -> Words | None:
 def reach(context: Context) -> int:
     """How many directions all words of the scene's fields span at most, as far as it is claimed."""
     whole = len(context.problem.coordinates) if context.report.dof is None else context.report.dof
-    return whole + context.scenery.evidence.timed
+    return whole + context.scenery.evidence.holds_time(context.scenery.equations)
 
 
 def _grown(context: Context, standing: Standing, fields: list[str], most: int) -> Words:

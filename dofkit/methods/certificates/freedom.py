@@ -118,8 +118,8 @@ def _needed(context: Context) -> Iterator[Told]:
     """For every constraint a minor of all rows of the others."""
     minors, relation = {}, context.scenery.evidence.relation
     for owner in dict.fromkeys(relation(name).owner for name in context.scenery.evidence.equations):
-        owned, hidden = context.scenery.owned(owner), context.scenery.hidden
-        others = [n for n in context.scenery.equations if {*owned}.isdisjoint((n, *hidden.get(n, ())))]
+        owned, shared = {*context.scenery.owned(owner)}, context.scenery.shared
+        others = [n for n in context.scenery.equations if owned.isdisjoint((n, *shared.get(n, ())))]
         standing = context.accounted(others)
         if standing is None or not standing.accounted:
             return
@@ -143,7 +143,8 @@ def independent(context: Context, entry: ConstraintEntry, field: str) -> Iterato
     if entry.form == "inequality":
         yield {"rule": "inequality"}
         return
-    order, equations = context.scenery.equations, context.scenery.owned(entry.name)
+    scenery, equations = context.scenery, context.scenery.owned(entry.name)
+    order = (*scenery.finite, *(name for name in scenery.moving if name not in scenery.shared))
     last = max((k for k, name in enumerate(order) if name in equations), default=-1)
     upto = context.accounted(order[: last + 1])
     if upto is not None and (backed := backing(context, upto)) is not None:

@@ -65,10 +65,10 @@ def holonomic(context: Context, entry: ConstraintEntry, field: str) -> Iterator[
 def _reached(context: Context, owner: str, alone: bool) -> Iterator[Told]:
     """Yield a word of brackets that a form of the constraint does not allow."""
     evidence = context.scenery.evidence
-    standing = context.standing_of(context.scenery.owned(owner)) if alone else context.standing
+    owned = [name for name in context.scenery.owned(owner) if not (alone and name in context.scenery.shared)]
+    standing = context.standing_of(owned) if alone else context.standing
     if standing is None or not (alone or standing.accounted):
         return
-    owned = context.scenery.owned(owner)
     yield from (claim for claim in curvatures(context, standing) if claim["pairs"] in owned)
     most = len(context.problem.coordinates) + context.scenery.timed if alone else reach(context)
     words = words_of(context, standing, most)

@@ -32,7 +32,7 @@ class FoundPoint:
     @cached_property
     def estimates(self) -> Estimates:
         """Values in floats at the point, at rest where it has no velocities."""
-        return Estimates({**{f"{q}dot": 0.0 for q in self.floats}, "tdot": 1.0, **self.floats})
+        return Estimates({**{f"{q}dot": 0.0 for q in self.floats}, **self.floats})
 
     def entry(self) -> dict[str, Any]:
         """The point as a certificate writes it."""

@@ -11,8 +11,24 @@ from typing import Any
 
 from dofkit.checker.evidence import CheckedEvidence
 from dofkit.checker.problem import CheckedProblem as Problem
-from dofkit.checker.ring import CheckedRing
-from dofkit.checker.trees import ZERO, CheckError, Effort, Tree, number, operands, power, substituted, times
+from dofkit.checker.ring import CheckedRing, Quotient
+from dofkit.checker.trees import (
+    HALF,
+    ZERO,
+    CheckError,
+    Effort,
+    Tree,
+    derivative,
+    in_velocities,
+    number,
+    operands,
+    power,
+    put_in,
+    refuse,
+    substituted,
+    symbol,
+    times,
+)
 from dofkit.methods.certificates.numerics import Estimates, NoEstimateError
 
 
@@ -61,7 +77,7 @@ def _applied(tree: Tree) -> str:
 
 # The checker's reading of a scene, with choices made for what it does not determine.
 
-HALF, EVEN = number(Fraction(1, 2)), range(2, 20, 2)
+EVEN = range(2, 20, 2)
 #: What is farther from 0 than this, in floats, is not 0.
 FAR = 1e-7
 #: Units of the checker's work that looking for the evidence of one scene may cost.
@@ -80,6 +96,8 @@ class Scenery:
         self._view = dict(lists)
         self.evidence = CheckedEvidence(problem, self._view, self.effort)
         self.steps: set[str] = set()
+        #: Steps that rest on several constraints, and the relations that these are.
+        self.shared: dict[str, tuple[str, ...]] = {}
 
     def entry_id(self, part: str, entry: dict[str, Any]) -> str:
         """The id of a minor, field or cover, written into the certificate where it is new."""
@@ -120,9 +138,9 @@ class Scenery:
         return (*self.owned(None, ("finite",)), *self.hidden)
 
     @cached_property
-    def hidden(self) -> dict[str, tuple[str, str]]:
-        """The steps for what two forms leave that differ by a factor but in the velocity of time, with these."""
-        ring, steps = self.evidence.ring, dict[str, tuple[str, str]]()
+    def hidden(self) -> tuple[str, ...]:
+        """The steps for what two forms leave that differ by a factor but in what stands with dt,"""
+        ring, steps = self.evidence.ring, list[str]()
         for first, other in combinations(filter(self.linear, self.evidence.moving), 2):
             form, second = self.form(first), self.form(other)
             ratios = (ring.rational(form[q] / second[q]) for q in second if q != "t" and second[q] != ZERO)
@@ -130,11 +148,12 @@ class Scenery:
             rest = {q: form[q] - number(Fraction(str(ratio or 0))) * second[q] for q in form}
             if ratio is not None and all(ring.vanishes(tree) == (q != "t") for q, tree in rest.items()):
                 step, c = f"{self.label}hidden by {first} and {other}", {first: "1", other: f"{-ratio}"}
-                self.add_step({"id": step, "by": "implied", "function": text_of(rest["t"]), "h": "tdot", "c": c})
+                self.add_step({"id": step, "by": "implied", "function": text_of(rest["t"]), "c": c})
                 back = {"id": f"{self.label}{other} from others", "by": "implied", "of": other, "h": f"{ratio}"}
-                self.add_step({**back, "c": {first: "1", step: "-tdot"}})
-                steps[step] = first, other
-        return steps
+                self.add_step({**back, "c": {first: "1", step: "-1"}})
+                self.shared[step] = first, other
+                steps.append(step)
+        return tuple(steps)
 
     @cached_property
     def moving(self) -> tuple[str, ...]:
@@ -143,8 +162,8 @@ class Scenery:
 
     @property
     def equations(self) -> tuple[str, ...]:
-        """All geometric equations, then those of velocities: the order in which independent ones are counted."""
-        return (*self.finite, *self.moving)
+        """All geometric equations, then those of velocities, the linear ones first."""
+        return (*self.finite, *sorted(self.moving, key=lambda name: not self.linear(name)))
 
     def owned(self, owner: str | None, kinds: Collection[str] = ("finite", "velocity")) -> tuple[str, ...]:
         """The equations of a constraint, or of all, each after its roots."""
@@ -169,18 +188,52 @@ class Scenery:
                     self.add_step({"id": f"{self.label}{name} from others", "by": "implied", "of": name, "c": back})
 
     def _branches(self, name: str) -> Iterator[str]:
-        """The step for the longest factor of a product of velocities, by which this is 0 near a state."""
-        ring = self.evidence.ring
-        constant, factors = ring.read(self.evidence.relation(name).tree).above.factor()
-        texts = [polynomial_text(ring, factor) for factor, _ in factors]
-        if self.linear(name) or len(texts) < 2 or None in texts:
+        """Steps for a relation that is not linear in velocities: it follows from forms, or is a factor near a state.
+
+        The factor is the longest of what is left where forms are put in.
+        """
+        if self.linear(name) or self.evidence.relation(name).kind != "velocity":
             return
-        branch, step = max(texts, key=len), f"{self.label}branch of {name}"
-        others = "*".join(f"({text})" for text in texts if text != branch)
-        self.add_step({"id": step, "by": "implied", "function": branch, "h": f"{constant}*{others}", "c": {name: "1"}})
-        back = {"id": f"{self.label}{name} from others", "by": "implied", "of": name}
-        self.add_step({**back, "c": {step: f"{constant}*{others}"}})
-        yield step
+        with suppress(CheckError):
+            tree, c = self._with_forms(name)
+            ring, back = self.evidence.ring, {"id": f"{self.label}{name} from others", "by": "implied", "of": name}
+            above, below = ring.read(tree)
+            if above == 0:
+                self.add_step({**back, "c": {source: text_of(factor) for source, factor in c.items()}})
+                return
+            constant, factors = above.factor()
+            texts = [polynomial_text(ring, factor) for factor, often in factors for _ in range(often)]
+            branch, step = max(texts, key=len), f"{self.label}branch of {name}"
+            texts.remove(branch)
+            if self.evidence.met_by(self.evidence.text("*".join(f"({text})" for text in ("1", *texts)))):
+                others = "*".join(f"({text})" for text in (f"{constant}", *texts))
+                others += f"/({polynomial_text(ring, below)})"
+                less = {source: f"-({text_of(factor)})" for source, factor in c.items()}
+                form = text_of(in_velocities(self.evidence.text(branch), self.problem.coordinates))
+                self.add_step({"id": step, "by": "implied", "function": form, "h": others, "c": {name: "1", **less}})
+                self.add_step({**back, "c": {step: others, **{source: text_of(f) for source, f in c.items()}}})
+                of_rates = f"{self.label}rate of "
+                self.shared |= {step: (name, *(source.removeprefix(of_rates) for source in c))} if c else {}
+                yield step
+
+    def _with_forms(self, name: str) -> tuple[Tree, dict[str, Tree]]:
+        """What is left of a relation where others give velocities that no further one holds, and their cofactors."""
+        tree, c = self.evidence.relation(name).tree, dict[str, Tree]()
+        rates = [f"{self.label}rate of {finite}" for finite in self.evidence.finite]
+        for step, finite in zip(rates, self.evidence.finite, strict=True):
+            if step not in self.steps:
+                self.add_step({"id": step, "by": "rate", "of": finite})
+        forms = {source: self.evidence.relation(source).tree for source in (*rates, *self.evidence.moving)}
+        for source in filter(self.linear, forms):
+            others = frozenset().union(*(form.symbols for other, form in forms.items() if other not in (source, name)))
+            velocity = max(self.evidence.velocities & forms[source].symbols - others - {"tdot"}, default="")
+            first = derivative(tree, velocity)
+            if velocity and velocity not in derivative(derivative(first, velocity), velocity).symbols:
+                slope, value = put_in(symbol(velocity), velocity, forms[source])
+                curve = HALF * derivative(first, velocity) * forms[source] / slope
+                c[source] = (substituted(first, {velocity: value}) + curve) / slope
+                tree = substituted(tree, {velocity: value})
+        return tree, c
 
     def linear(self, name: str) -> bool:
         """Whether a relation is a linear form in the velocities; False where that is not known."""
@@ -246,16 +299,25 @@ def squares_of(tree: Tree, plain: frozenset[str]) -> Iterator[tuple[int, list[Tr
             yield sign, others, squares
 
 
-def polynomial_text(ring: CheckedRing, polynomial: Any) -> str | None:
-    """Return a polynomial in symbols as a text; None where it contains anything else."""
-    names = {place: key[1] for key, place in ring.places.items() if key[0] == "symbol"}
-    terms = []
-    for exponents, coefficient in polynomial.terms():
-        powers = [(place, k) for place, k in enumerate(reversed(exponents)) if k]
-        if not {place for place, _ in powers} <= names.keys():
-            return None
-        terms.append("*".join([f"({coefficient})", *(f"{names[place]}^{k}" for place, k in powers)]))
-    return " + ".join(terms)
+def polynomial_text(ring: CheckedRing, polynomial: Any) -> str:
+    """Return a polynomial in symbols, sines and cosines as a text; `CheckError` where it contains anything else."""
+    return _terms_text(ring, ring.key(Quotient(polynomial, ring.unit))[0])
+
+
+def _terms_text(ring: CheckedRing, terms: Any) -> str:
+    keys, last = {place: key for key, place in ring.places.items()}, len(ring.generators) - 1
+    written = []
+    for powers, p, q in terms:
+        factors = [f"({p})/({q})"]
+        for index, often in powers:
+            head, what, *parts = keys[last - index]
+            refuse(head not in ("symbol", "pi", "sin", "cos"), "a function has no text")
+            if head in ("sin", "cos"):
+                above, below = (_terms_text(ring, part) for part in what)
+                what = f"{head}(({above})/(({below})*{parts[0]}))"
+            factors.append(f"({what or 'pi'})^{often}")
+        written.append("*".join(factors))
+    return " + ".join(written) or "0"
 
 
 def _square(term: Tree) -> list[str] | None:
