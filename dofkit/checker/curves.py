@@ -135,3 +135,9 @@ def finite_minor(evidence: CheckedEvidence, claim: Told) -> CheckedMinor:
 
 #: What shows how many freedoms there are at most: as many as coordinates less rows, or one less.
 MOST = {"minor": finite_minor, "frobenius": involutive, "isolated": isolated}
+#: What shows how many there are at least: a minor, and how many more than coordinates less rows.
+LEAST: dict[str, Callable[[CheckedEvidence, Told], tuple[CheckedMinor, int]]] = {
+    "regular": lambda evidence, least: (evidence.accounts(evidence.minor(least["minor"]), evidence.equations), 0),
+    "crossing": lambda evidence, least: (crossing(evidence, least), -1),
+    "curved": lambda evidence, least: (curvature(evidence, least, evidence.equations), 1),
+}

@@ -7,7 +7,7 @@ from typing import Any
 
 from flint import fmpq_mat
 
-from dofkit.checker.curves import MOST, crossing, curvature
+from dofkit.checker.curves import LEAST, MOST
 from dofkit.checker.evidence import CheckedEvidence, CheckedMinor, Told, field_named, independent, span
 from dofkit.checker.geometry import determinant, dot
 from dofkit.checker.point import CheckedPoint, not_zero
@@ -26,17 +26,10 @@ def bounds(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     above = size - len(minor.rows) - (len(most["speeds"]) if most["rule"] == "isolated" else 0)
     if least["rule"] == "span":
         point, lower = span(evidence, {"minor": most["minor"], **least}, 1 if path == "/velocity_dof" else 12)
-    elif least["rule"] in ("crossing", "curved"):
-        flat = least["rule"] == "crossing"
-        refuse(flat and path != "/dof", "what crosses has a dof")
-        other = crossing(evidence, least) if flat else curvature(evidence, least, evidence.equations)
-        point, lower = other.point, size - len(other.rows) + (-1 if flat else path == "/dof")
     else:
-        rows = least["minor"]["rows"] if least["rule"] == "family" else None
-        other = evidence.accounts(evidence.minor(least["minor"], rows), evidence.equations)
-        for row in map(evidence.relation, rows or ()):
-            refuse(row.kind != "finite" or (not row.owner and evidence.is_open(row.tree)), "it is no family of poses")
-        point, lower = other.point, size - len(other.rows)
+        other, more = LEAST[least["rule"]](evidence, least)
+        refuse(more and path != "/dof", "a bound of dof")
+        point, lower = other.point, size - len(other.rows) + more
     refuse(point is not minor.point or above != lower, f"{lower} at least and {above} at most, or of two points")
     verified[f"{path} at"] = evidence.is_about(claim["about"], point)
     return lower
@@ -238,15 +231,13 @@ def generalized_coordinates(evidence: CheckedEvidence, claim: Told, verified: To
     is around, they are independent in these coordinates.
     """
     minor, world, names = MOST[claim["rule"]](evidence, claim), evidence.problem.world, names_told(claim)
-    moved, rank = world.charted(names), len(minor.rows)
-    if claim["rule"] == "isolated":
+    moved, rank, fields = world.charted(names), len(minor.rows), claim["rule"] == "isolated"
+    if fields:
         rank += len(claim["speeds"])
         independent(evidence, [field_named(evidence, name) for name in claim["fields"]], moved, minor.point)
-        whole = len(moved) + rank == len(evidence.problem.coordinates)
-    else:
-        whole = sorted((*minor.columns, *moved)) == sorted(evidence.problem.coordinates)
+    whole = fields or sorted((*minor.columns, *moved)) == sorted(evidence.problem.coordinates)
     whole &= world.names.coordinates.union(*world.angles.values()).issuperset(names)
-    refuse(not whole, "the columns of the minor are not all the other coordinates, or they are not as many as fields")
+    refuse(not whole, "the columns of the minor are not all the other coordinates")
     refuse(verified_rank(evidence, minor.point, verified) != rank, "their number is not a verified dof")
     evidence.on_set(minor.point, evidence.finite)
     return names

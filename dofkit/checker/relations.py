@@ -115,7 +115,6 @@ class CheckedRelations:
 
     def _take_steps(self) -> None:
         makers = {"rate": self._rate, "implied": self._implied, "integral": self._implied}
-        makers["assumed"] = lambda step: (self.text(step["function"]), None)
         for step in self.entries["relations"]:
             name, by = step["id"], step.get("by")
             try:

@@ -1,8 +1,7 @@
-"""Evidence for dimensions: families of configurations, the whole set, and points at which rows are stationary."""
+"""Evidence for dimensions: the whole set, and points at which rows are stationary."""
 
 from __future__ import annotations
 
-import random
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from functools import partial
@@ -17,75 +16,12 @@ from dofkit.checker.geometry import determinant, dot
 from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, operands, symbol, times
 from dofkit.methods.certificates.context import Context, Standing, Told
 from dofkit.methods.certificates.fields import backing, kept_motions, orbit
-from dofkit.methods.certificates.numerics import echelon, least_step
+from dofkit.methods.certificates.numerics import least_step
 from dofkit.methods.certificates.scenery import FAR, number_text, polynomial_text, text_of
-from dofkit.methods.certificates.steps import LARGEST_CRAMER, accounted, solving_order
+from dofkit.methods.certificates.steps import LARGEST_CRAMER, solving_order
 
-#: The size of a step along a motion, of what is added by chance, and the largest denominator of a coefficient.
-STEP, NOISE, DENOMINATOR = 0.25, 0.05, 60
-#: Scenes are followed up to this product of the size of their relations and of the number of their coordinates.
-MOST_FOLLOWED = 6000
-Samples = list[dict[str, float]]
-
-
-def families(context: Context, size: int) -> Iterator[Told]:
-    """The rule `family` with so many freedoms, for a motion through the main point."""
-    point, scenery = context.point, context.scenery
-    size_of_all = sum(relation.tree.size for relation in context.problem.relations) * len(context.problem.coordinates)
-    if point is None or scenery.moving or size_of_all > MOST_FOLLOWED:
-        return
-    assumed = []
-    for i, text in enumerate(_linear_relations(context, _samples(context))):
-        step = f"{scenery.label}family {i}"
-        if step not in scenery.steps:
-            scenery.add_step({"id": step, "by": "assumed", "function": text})
-        assumed.append(step)
-    standing = context.standing_of([*assumed, *scenery.finite])
-    if standing is None or len(standing.rows) != len(context.problem.coordinates) - size:
-        return
-    others = [name for name in standing.dependent if name not in assumed]
-    if all(accounted(scenery, name, standing.rows, point, "family") for name in others):
-        yield {"rule": "family", "minor": {"at": point.name, "rows": standing.rows, "columns": standing.columns}}
-
-
-def _samples(context: Context) -> Samples:
-    """Configurations along a motion that leaves the main point: as many as span its linear hull."""
-    drawn, samples = random.Random(0), Samples()
-    coordinates = context.problem.coordinates
-    now = before = dict(context.point.floats) if context.point is not None else {}
-    for place in range(len(coordinates) + 4):
-        far = max((abs(now[q] - before[q]) for q in coordinates), default=0.0)
-        noise = NOISE if place else STEP
-        moved = {
-            q: now[q] + (now[q] - before[q]) * STEP / (far or 1.0) + noise * drawn.uniform(-1, 1) for q in coordinates
-        }
-        reached = context.search.approached({**now, **moved}, context.scenery.equations, set(coordinates))
-        if reached is not None:
-            samples.append(reached)
-            before, now = now, reached
-    return samples
-
-
-def _linear_relations(context: Context, samples: Samples) -> Iterator[str]:
-    """Texts that are 0 at the main point and at all samples, linear with rational coefficients, each in few terms."""
-    point, coordinates = context.point, context.problem.coordinates
-    if point is None or not samples:
-        return
-    rows = [{q: sample[q] - point.floats[q] for q in coordinates} for sample in samples]
-    pivots = echelon(rows)
-    columns = [p.column for p in pivots]
-    for q in coordinates:
-        if q in columns:
-            continue
-        terms = least_step([{c: rows[p.row][c] for c in columns} for p in pivots], [rows[p.row][q] for p in pivots])
-        short = {p: Fraction(value).limit_denominator(DENOMINATOR) for p, value in terms.items()}
-        if all(abs(float(short[p]) - value) < 1e-6 for p, value in terms.items()):
-            coefficients = [(q, Fraction(1)), *((p, -value) for p, value in short.items() if value)]
-            yield " + ".join(f"({number_text(c)})*{_from(point.values[p], p)}" for p, c in coefficients)
-
-
-def _from(value: str, q: str) -> str:
-    return q if value == "0" else f"({q} - ({value}))"
+#: The largest denominator of a weight.
+DENOMINATOR = 60
 
 
 # Evidence that no part of the set is larger: graphs, single relations, relations with symbols of their own.
@@ -208,11 +144,10 @@ def stationary(context: Context) -> Iterator[Told]:
 
 
 def _motions_from(context: Context, standing: Standing, size: int, fields: dict[str, str]) -> Iterator[Told]:
-    """Yield ``size`` motions from the point: rigid ones of all together, none, or a family."""
+    """Yield ``size`` motions from the point: rigid ones of all together, or none."""
     if len(fields) == size:
         orbit_of = {"fields": list(fields), "words": [[name] for name in fields], "columns": list(fields.values())}
         yield {"rule": "span", "at": standing.point.name, "rows": list(context.scenery.evidence.finite), **orbit_of}
-    yield from families(context, size)
 
 
 def _isolated(context: Context, standing: Standing, fields: dict[str, str]) -> Iterator[Told]:

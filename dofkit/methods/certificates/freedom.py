@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from dofkit.methods.certificates.context import Context, Told, states_of
-from dofkit.methods.certificates.dimension import everywhere, families, stationary, velocities_everywhere
+from dofkit.methods.certificates.dimension import everywhere, stationary, velocities_everywhere
 from dofkit.methods.certificates.emptiness import refutations
 from dofkit.methods.certificates.fields import backing, integral_steps, orbit, rows_above
 from dofkit.methods.certificates.points import FoundPoint
@@ -62,11 +62,6 @@ def _near(context: Context) -> Iterator[Told]:
         return
     yield from _regular(context)
     yield from stationary(context)
-    standing = context.standing
-    if standing is not None and standing.dependent:
-        most = {"rule": "minor", "minor": context.minor(standing)}
-        for least in families(context, len(context.problem.coordinates) - len(standing.rows)):
-            yield {"rule": "squeeze", "most": most, "least": least, "about": context.about}
 
 
 def velocity_dof(context: Context) -> Iterator[Told]:
