@@ -129,12 +129,14 @@ def _gives(context: Context, name: str, q: str, most: int = 1) -> bool:
 # Evidence where rows are stationary at the main point: what is isolated there, and what crosses itself.
 
 SIGNS = (1, -1)
+#: The engines' arguments by which it is so.
+STATIONARY = ("isolated zero of one variable", "indefinite form", "definite form", "definite combination", "cases")
 
 
 def stationary(context: Context) -> Iterator[Told]:
     """Yield dof near a point at which the differential of a relation depends on others: `isolated`, `crossing`."""
     standing, dof = context.standing, context.report.dof or 0
-    if standing is None or standing.accounted:
+    if standing is None or context.report.verdicts["dof"].argument not in STATIONARY:
         return
     names = context.scenery.evidence.finite
     fields = kept_motions(context, names, standing.point, standing.columns) if dof else {}
