@@ -139,21 +139,8 @@ class Scenery:
 
     @cached_property
     def hidden(self) -> tuple[str, ...]:
-        """The steps for what two forms leave that differ by a factor but in what stands with dt,"""
-        ring, steps = self.evidence.ring, list[str]()
-        for first, other in combinations(filter(self.linear, self.evidence.moving), 2):
-            form, second = self.form(first), self.form(other)
-            ratios = (ring.rational(form[q] / second[q]) for q in second if q != "t" and second[q] != ZERO)
-            ratio = next((ratio for ratio in ratios if ratio), None)
-            rest = {q: form[q] - number(Fraction(str(ratio or 0))) * second[q] for q in form}
-            if ratio is not None and all(ring.vanishes(tree) == (q != "t") for q, tree in rest.items()):
-                step, c = f"{self.label}hidden by {first} and {other}", {first: "1", other: f"{-ratio}"}
-                self.add_step({"id": step, "by": "implied", "function": text_of(rest["t"]), "c": c})
-                back = {"id": f"{self.label}{other} from others", "by": "implied", "of": other, "h": f"{ratio}"}
-                self.add_step({**back, "c": {first: "1", step: "-1"}})
-                self.shared[step] = first, other
-                steps.append(step)
-        return tuple(steps)
+        """The steps for what two forms leave that differ by a factor but in what stands with dt."""
+        return tuple(hidden(self))
 
     @cached_property
     def moving(self) -> tuple[str, ...]:
@@ -172,7 +159,7 @@ class Scenery:
 
     def roots(self, name: str) -> tuple[str, ...]:
         """The steps for the roots of a sum of squares, which are 0 where it is; none of another relation."""
-        return self.evidence.once(("roots", name), lambda: (*self._roots(name), *self._branches(name)))
+        return self.evidence.once(("roots", name), lambda: (*self._roots(name),) or (*branches(self, name),))
 
     def _roots(self, name: str) -> Iterator[str]:
         for sign, others, squares in squares_of(self.evidence.relation(name).tree, frozenset()):
@@ -186,54 +173,6 @@ class Scenery:
                 back = {step: f"({sign})*({weight})*({root})" for step, (weight, root) in ids.items()}
                 if back:
                     self.add_step({"id": f"{self.label}{name} from others", "by": "implied", "of": name, "c": back})
-
-    def _branches(self, name: str) -> Iterator[str]:
-        """Steps for a relation that is not linear in velocities: it follows from forms, or is a factor near a state.
-
-        The factor is the longest of what is left where forms are put in.
-        """
-        if self.linear(name) or self.evidence.relation(name).kind != "velocity":
-            return
-        with suppress(CheckError):
-            tree, c = self._with_forms(name)
-            ring, back = self.evidence.ring, {"id": f"{self.label}{name} from others", "by": "implied", "of": name}
-            above, below = ring.read(tree)
-            if above == 0:
-                self.add_step({**back, "c": {source: text_of(factor) for source, factor in c.items()}})
-                return
-            constant, factors = above.factor()
-            texts = [polynomial_text(ring, factor) for factor, often in factors for _ in range(often)]
-            branch, step = max(texts, key=len), f"{self.label}branch of {name}"
-            texts.remove(branch)
-            if self.evidence.met_by(self.evidence.text("*".join(f"({text})" for text in ("1", *texts)))):
-                others = "*".join(f"({text})" for text in (f"{constant}", *texts))
-                others += f"/({polynomial_text(ring, below)})"
-                less = {source: f"-({text_of(factor)})" for source, factor in c.items()}
-                form = text_of(in_velocities(self.evidence.text(branch), self.problem.coordinates))
-                self.add_step({"id": step, "by": "implied", "function": form, "h": others, "c": {name: "1", **less}})
-                self.add_step({**back, "c": {step: others, **{source: text_of(f) for source, f in c.items()}}})
-                of_rates = f"{self.label}rate of "
-                self.shared |= {step: (name, *(source.removeprefix(of_rates) for source in c))} if c else {}
-                yield step
-
-    def _with_forms(self, name: str) -> tuple[Tree, dict[str, Tree]]:
-        """What is left of a relation where others give velocities that no further one holds, and their cofactors."""
-        tree, c = self.evidence.relation(name).tree, dict[str, Tree]()
-        rates = [f"{self.label}rate of {finite}" for finite in self.evidence.finite]
-        for step, finite in zip(rates, self.evidence.finite, strict=True):
-            if step not in self.steps:
-                self.add_step({"id": step, "by": "rate", "of": finite})
-        forms = {source: self.evidence.relation(source).tree for source in (*rates, *self.evidence.moving)}
-        for source in filter(self.linear, forms):
-            others = frozenset().union(*(form.symbols for other, form in forms.items() if other not in (source, name)))
-            velocity = max(self.evidence.velocities & forms[source].symbols - others - {"tdot"}, default="")
-            first = derivative(tree, velocity)
-            if velocity and velocity not in derivative(derivative(first, velocity), velocity).symbols:
-                slope, value = put_in(symbol(velocity), velocity, forms[source])
-                curve = HALF * derivative(first, velocity) * forms[source] / slope
-                c[source] = (substituted(first, {velocity: value}) + curve) / slope
-                tree = substituted(tree, {velocity: value})
-        return tree, c
 
     def linear(self, name: str) -> bool:
         """Whether a relation is a linear form in the velocities; False where that is not known."""
@@ -286,6 +225,73 @@ class Scenery:
             raise CheckError(self.evidence.faults[step["id"]])
         self.entries["relations"].append(step)
         self.steps.add(step["id"])
+
+
+def hidden(scenery: Scenery) -> Iterator[str]:
+    """Steps for what two forms leave that differ by a factor but in what stands with dt."""
+    ring = scenery.evidence.ring
+    for first, other in combinations(filter(scenery.linear, scenery.evidence.moving), 2):
+        form, second = scenery.form(first), scenery.form(other)
+        ratios = (ring.rational(form[q] / second[q]) for q in second if q != "t" and second[q] != ZERO)
+        ratio = next((ratio for ratio in ratios if ratio), None)
+        rest = {q: form[q] - number(Fraction(str(ratio or 0))) * second[q] for q in form}
+        if ratio is not None and all(ring.vanishes(tree) == (q != "t") for q, tree in rest.items()):
+            step, c = f"{scenery.label}hidden by {first} and {other}", {first: "1", other: f"{-ratio}"}
+            scenery.add_step({"id": step, "by": "implied", "function": text_of(rest["t"]), "c": c})
+            back = {"id": f"{scenery.label}{other} from others", "by": "implied", "of": other, "h": f"{ratio}"}
+            scenery.add_step({**back, "c": {first: "1", step: "-1"}})
+            scenery.shared[step] = first, other
+            yield step
+
+
+def branches(scenery: Scenery, name: str) -> Iterator[str]:
+    """Steps for a relation that is not linear in velocities: it follows from forms, or is a factor near a state.
+
+    The factor is the longest of what is left where forms are put in.
+    """
+    if scenery.linear(name) or scenery.evidence.relation(name).kind != "velocity":
+        return
+    with suppress(CheckError):
+        tree, c = with_forms(scenery, name)
+        ring, back = scenery.evidence.ring, {"id": f"{scenery.label}{name} from others", "by": "implied", "of": name}
+        above, below = ring.read(tree)
+        if above == 0:
+            scenery.add_step({**back, "c": {source: text_of(factor) for source, factor in c.items()}})
+            return
+        constant, factors = above.factor()
+        texts = [polynomial_text(ring, factor) for factor, often in factors for _ in range(often)]
+        branch, step = max(texts, key=len), f"{scenery.label}branch of {name}"
+        texts.remove(branch)
+        if scenery.evidence.met_by(scenery.evidence.text("*".join(f"({text})" for text in ("1", *texts)))):
+            others = "*".join(f"({text})" for text in (f"{constant}", *texts))
+            others += f"/({polynomial_text(ring, below)})"
+            less = {source: f"-({text_of(factor)})" for source, factor in c.items()}
+            form = text_of(in_velocities(scenery.evidence.text(branch), scenery.problem.coordinates))
+            scenery.add_step({"id": step, "by": "implied", "function": form, "h": others, "c": {name: "1", **less}})
+            scenery.add_step({**back, "c": {step: others, **{source: text_of(f) for source, f in c.items()}}})
+            of_rates = f"{scenery.label}rate of "
+            scenery.shared |= {step: (name, *(source.removeprefix(of_rates) for source in c))} if c else {}
+            yield step
+
+
+def with_forms(scenery: Scenery, name: str) -> tuple[Tree, dict[str, Tree]]:
+    """What is left of a relation where others give velocities that no further one holds, and their cofactors."""
+    tree, c = scenery.evidence.relation(name).tree, dict[str, Tree]()
+    rates = [f"{scenery.label}rate of {finite}" for finite in scenery.evidence.finite]
+    for step, finite in zip(rates, scenery.evidence.finite, strict=True):
+        if step not in scenery.steps:
+            scenery.add_step({"id": step, "by": "rate", "of": finite})
+    forms = {source: scenery.evidence.relation(source).tree for source in (*rates, *scenery.evidence.moving)}
+    for source in filter(scenery.linear, forms):
+        others = frozenset().union(*(form.symbols for other, form in forms.items() if other not in (source, name)))
+        velocity = max(scenery.evidence.velocities & forms[source].symbols - others - {"tdot"}, default="")
+        first = derivative(tree, velocity)
+        if velocity and velocity not in derivative(derivative(first, velocity), velocity).symbols:
+            slope, value = put_in(symbol(velocity), velocity, forms[source])
+            curve = HALF * derivative(first, velocity) * forms[source] / slope
+            c[source] = (substituted(first, {velocity: value}) + curve) / slope
+            tree = substituted(tree, {velocity: value})
+    return tree, c
 
 
 def squares_of(tree: Tree, plain: frozenset[str]) -> Iterator[tuple[int, list[Tree], list[list[str]]]]:
