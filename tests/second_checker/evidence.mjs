@@ -307,6 +307,7 @@ export class Evidence {
     refuse(!radius || radius.sign <= 0 || new Set(columns).size < columns.length, "a box has a radius");
     refuse(columns.some((q) => !centres.get(q)), "a box has centres");
     const rows = given.rows.map((id) => this.relation(id, null, true));
+    rows.forEach((r) => r.step && r.step.by !== "rate" && this.identity(r.step));
     const middle = { ...point, balls: new Map(point.balls), done: new Map() };
     for (const q of columns) {
       middle.balls.set(q, Interval.of(centres.get(q)));
