@@ -149,16 +149,23 @@ def time_dependent(evidence: CheckedEvidence, claim: Told, verified: Told) -> bo
 def integral(evidence: CheckedEvidence, claim: Told, verified: Told) -> object:
     """The constraint says that a function keeps its value, as a step does: its rate implies it.
 
-    The constraint and geometric equations imply the step.
+    The constraint and geometric equations imply the step. Where it takes further integrals: a minor of these, of
+    geometric equations and a relation of the constraint shows that they do not do alone.
     """
     point, function = evidence.point(claim["at"]), evidence.text(told_integral(evidence, claim["value"]))
     moves = any(not_zero(point.value(derivative(function, v))) for v in evidence.variables)
     refuse(evidence.met_by(function) or not moves, "the integral may be constant near the point")
     evidence.identity(evidence.relation(claim["step"]).tree, function, "the integral of the step")
-    whole = constraint_relations(evidence, claim)
+    others, whole = [*claim.get("integrals", [])], constraint_relations(evidence, claim)
     refuse(set(whole) <= set(evidence.finite), "a holonomic equation has no integral")
-    evidence.follow([claim["step"]], {*evidence.finite, *whole}, point, "the constraint")
-    integrable(evidence, {**claim, "integrals": [claim["step"]]}, verified)
+    if not others:
+        evidence.follow([claim["step"]], {*evidence.finite, *whole}, point, "the constraint")
+    else:
+        minor = evidence.minor(claim["minor"], {*others, *evidence.finite, *whole})
+        integrals = set(minor.rows).difference(whole)
+        refuse(minor.point is not point or len(integrals) == len(minor.rows), "the minor is not of the constraint")
+        evidence.follow({*others, *evidence.finite}, integrals, point, "the rows of the minor")
+    integrable(evidence, {**claim, "integrals": [claim["step"], *others]}, verified)
     return claim["value"]
 
 

@@ -11,6 +11,7 @@ from dofkit.methods.certificates.context import Context, Told
 from dofkit.methods.certificates.fields import (
     curvatures,
     integrable_names,
+    integral_steps,
     involutive_rows,
     pairing,
     reach,
@@ -22,10 +23,10 @@ from dofkit.methods.certificates.steps import combined, combined_integral, funct
 from dofkit.report import ConstraintEntry
 
 
-def follows(context: Context, name: str, step: str, alone: bool) -> bool:
-    """Whether a form follows, by a step that stands up, from an integral, and geometric equations if not ``alone``."""
-    scenery, sources = context.scenery, [step, *(() if alone else context.scenery.finite)]
-    implied = {"id": f"{scenery.label}{name} from {step}{' alone' * alone}", "by": "implied", "of": name}
+def follows(context: Context, name: str, steps: list[str], alone: bool) -> bool:
+    """Whether a form follows, by a step that stands up, from integrals, and geometric equations if not ``alone``."""
+    scenery, sources = context.scenery, [*steps, *(() if alone else context.scenery.finite)]
+    implied = {"id": f"{scenery.label}{name} from {' and '.join(steps)}{' alone' * alone}", "by": "implied", "of": name}
     if implied["id"] in scenery.steps or context.point is None:
         return implied["id"] in scenery.steps
     return combined(scenery, context.point, implied, scenery.form(name), rates_of(scenery, sources))
@@ -79,10 +80,16 @@ def integral(context: Context, entry: ConstraintEntry, field: str) -> Iterator[T
     if len(names) != 1 or context.point is None or not function:
         return
     claim = {"rule": "integral", "at": context.point.name}
-    for form in (names[0], ""):
-        step = combined_integral(context.scenery, context.point, function, form)
-        if step and follows(context, names[0], step, alone=form != ""):
-            yield {**claim, "step": step}
+    step = combined_integral(context.scenery, context.point, function, names[0])
+    if step and follows(context, names[0], [step], alone=True):
+        yield {**claim, "step": step}
+    if (step := combined_integral(context.scenery, context.point, function)) is None:
+        return
+    texts = (other.integral for other in context.report.constraints)
+    others = [other for other in integral_steps(context, texts) if other != step]
+    standing = context.standing_of([*context.scenery.finite, *others, names[0]])
+    if standing and names[0] in standing.rows and follows(context, names[0], [step, *others], alone=False):
+        yield {**claim, "step": step, "integrals": others, "minor": context.minor(standing)}
 
 
 def exact(context: Context, entry: ConstraintEntry, field: str) -> Iterator[Told]:
