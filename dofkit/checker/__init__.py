@@ -15,7 +15,7 @@ Mechanisms, in the order of checking
     2. `relations` are those of the scene and those that steps of the certificate derive from them by identities in
        the `ring` of normal forms.
     3. `evidence` has what a certificate puts forward: points (`point`, with values in balls), minors of rows that hold
-       there, velocity fields.
+       there, velocity fields; `curves` what is isolated, crosses or is curved at a point.
     4. `dimension_rules`, `label_rules` and `motion` are the rules: one function for each kind of claim, which checks
        its hypotheses.
     5. `verification` reads the certificate with care, bounded in work, and asks the rules. The format is described in

@@ -7,7 +7,8 @@ from typing import Any
 
 from flint import fmpq_mat
 
-from dofkit.checker.evidence import MOST, CheckedEvidence, CheckedMinor, Told, curvature, span
+from dofkit.checker.curves import LEAST, MOST
+from dofkit.checker.evidence import CheckedEvidence, CheckedMinor, Told, field_named, independent, span
 from dofkit.checker.geometry import determinant, dot
 from dofkit.checker.point import CheckedPoint, not_zero
 from dofkit.checker.relations import total_derivative
@@ -22,18 +23,13 @@ def bounds(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     most, least = claim.get("most", {**claim, "rule": "minor"}), claim.get("least", {**claim, "rule": "regular"})
     refuse(path != "/dof" and most["rule"] != "minor", "an upper bound of velocities is `minor`")
     minor = MOST[most["rule"]](evidence, most) if path == "/dof" else evidence.minor(most["minor"])
-    above = size - len(minor.rows) - (most["rule"] == "isolated")
+    above = size - len(minor.rows) - (len(most["speeds"]) if most["rule"] == "isolated" else 0)
     if least["rule"] == "span":
         point, lower = span(evidence, {"minor": most["minor"], **least}, 1 if path == "/velocity_dof" else 12)
-    elif least["rule"] == "curved":
-        other = curvature(evidence, least, evidence.equations)
-        point, lower = other.point, size - len(other.rows) + (path == "/dof")
     else:
-        rows = least["minor"]["rows"] if least["rule"] == "family" else None
-        other = evidence.accounts(evidence.minor(least["minor"], rows), evidence.equations)
-        for row in map(evidence.relation, rows or ()):
-            refuse(row.kind != "finite" or (not row.owner and evidence.is_open(row.tree)), "it is no family of poses")
-        point, lower = other.point, size - len(other.rows)
+        other, more = LEAST[least["rule"]](evidence, least)
+        refuse(more and path != "/dof", "a bound of dof")
+        point, lower = other.point, size - len(other.rows) + more
     refuse(point is not minor.point or above != lower, f"{lower} at least and {above} at most, or of two points")
     verified[f"{path} at"] = evidence.is_about(claim["about"], point)
     return lower
@@ -231,13 +227,18 @@ def verified_rank(evidence: CheckedEvidence, point: CheckedPoint, verified: Told
 def generalized_coordinates(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[str]:
     """All other coordinates are functions of these near the point, whose number is dof there.
 
-    Angles of a body with Cayley parameters stand for these.
+    Angles of a body with Cayley parameters stand for these. Where fields carry an ``isolated`` point to all that there
+    is around, they are independent in these coordinates.
     """
     minor, world, names = MOST[claim["rule"]](evidence, claim), evidence.problem.world, names_told(claim)
-    whole = sorted((*minor.columns, *world.charted(names))) == sorted(evidence.problem.coordinates)
+    moved, rank, fields = world.charted(names), len(minor.rows), claim["rule"] == "isolated"
+    if fields:
+        rank += len(claim["speeds"])
+        independent(evidence, [field_named(evidence, name) for name in claim["fields"]], moved, minor.point)
+    whole = fields or sorted((*minor.columns, *moved)) == sorted(evidence.problem.coordinates)
     whole &= world.names.coordinates.union(*world.angles.values()).issuperset(names)
     refuse(not whole, "the columns of the minor are not all the other coordinates")
-    refuse(verified_rank(evidence, minor.point, verified) != len(minor.rows), "their number is not a verified dof")
+    refuse(verified_rank(evidence, minor.point, verified) != rank, "their number is not a verified dof")
     evidence.on_set(minor.point, evidence.finite)
     return names
 

@@ -9,13 +9,11 @@ from functools import cached_property, partial
 from itertools import chain, product
 from typing import Any, NamedTuple
 
-from flint import arb, arb_mat, ctx
-
-from dofkit.checker.point import PRECISION, CheckedPoint, evaluated, not_zero
+from dofkit.checker.point import CheckedPoint, evaluated, not_zero
 from dofkit.checker.relations import CheckedRelations, Consequence, total_derivative
 from dofkit.checker.trees import ONE, ZERO, Tree, along, call, derivative, linear_in, refuse, substituted, symbol
 
-LARGEST_MINOR, LONGEST_WORD, LARGEST_FIELD, HIGHEST_ORDER = 250, 12, 100_000, 8
+LARGEST_MINOR, LONGEST_WORD, LARGEST_FIELD = 250, 12, 100_000
 Told = dict[str, Any]
 VelocityField = dict[str, Tree]
 
@@ -90,6 +88,21 @@ class CheckedEvidence(CheckedRelations):
             if states and relation.kind == "finite":
                 wrong |= not self.is_zero(total_derivative(relation.tree, self.variables), point)
             refuse(wrong, f"`{relation.name}` is not satisfied at the point `{point.name}`, or not by its velocities")
+
+    def applies(self, number: int, point: CheckedPoint | None) -> bool:
+        """The same; where what must not be 0 holds velocities, near a state that meets all equations and the rates."""
+        fits = super().applies(number, point)
+        if not fits or point is None or not any(map(self.met_by, self.consequences[number].nonzero)):
+            return fits
+        return self.once(("state", point.name), lambda: self._is_state(point))
+
+    def _is_state(self, point: CheckedPoint) -> bool:
+        rates = (total_derivative(self.relation(name).tree, self.variables) for name in self.finite)
+        met = {*point.rows, *(name for name in self.equations if self.holds(name, point))}
+        moves = all(self.is_zero(rate, point) for rate in rates)
+        # what follows near the state is not used to show that it is one
+        self.seen["state", point.name] = False
+        return moves and self.closure(met, point).issuperset(self.equations)
 
     def minor(self, entry: Any, allowed: Collection[str] | None = None) -> CheckedMinor:
         """A minor, by its id or itself: rows that follow from ``allowed`` (or all relations), and are independent."""
@@ -297,74 +310,3 @@ def take_cover(evidence: CheckedEvidence, name: Any) -> list[str]:
     refuse(not once or total != len(minor.rows), "each holonomic equation once, and the rank of the minor are needed")
     evidence.consequences += (Consequence(row, minor.rows, at=minor.point.name) for row in {*rows} - {*minor.rows})
     return rows
-
-
-def along_curve(evidence: CheckedEvidence, minor: CheckedMinor, speeds: Told, tree: Tree, order: int) -> Any:
-    """The derivative of a tree of some order along a curve through the minor's point on which its rows stay 0.
-
-    Coordinates in ``speeds`` have these, and no acceleration; those of the columns follow; all others rest. Of g(q) = 0
-    the k-th derivative is J q^(k) and a rest without q^(k), by which q^(k) is found.
-    """
-    refuse(type(order) is not int or not 1 <= order <= HIGHEST_ORDER, "the order of a derivative is small")
-    lefts, moved = [*(evidence.relation(row).tree for row in minor.rows), tree], [*minor.columns, *speeds]
-    names, rates = list(moved), dict[str, Any]()
-    with ctx.workprec(PRECISION):
-        slopes = [[minor.point.value(evidence.slope(row, column)) for column in minor.columns] for row in minor.rows]
-        for k in range(1, order + 1):
-            evidence.effort.spend(10 * sum(equation.size for equation in lefts))
-            lefts = [along({name: symbol(name + "'") for name in names}, equation) for equation in lefts]
-            names += [q + "'" * k for q in moved]
-            rates |= {q + "'" * k: speeds.get(q, arb(0)) if k == 1 else arb(0) for q in moved}
-            remainder = arb_mat([[minor.point.value_with(equation, rates)] for equation in lefts[:-1]])
-            solution = arb_mat(slopes).solve(remainder) if minor.rows else remainder
-            rates |= {q + "'" * k: -solution[i, 0] for i, q in enumerate(minor.columns)}
-    return minor.point.value_with(lefts[-1], rates)
-
-
-def isolated(evidence: CheckedEvidence, claim: Told) -> CheckedMinor:
-    """A minor whose rows leave a dimension more than there is: another relation is not 0 on all that they leave.
-
-    It has a derivative that is not 0 along a curve there, and what is analytic is 0 on a thin set only.
-    """
-    minor, name = evidence.minor(claim["minor"]), claim["zero"]
-    unfit = evidence.moving or evidence.problem.world.names.functions or evidence.holds_time((*minor.rows, name))
-    refuse(unfit or not {*minor.rows, name} <= {*evidence.finite}, "holonomic equations of the scene, without time")
-    evidence.on_set(minor.point, (*minor.rows, name))
-    speeds = {q: minor.point.value(evidence.text(text)) for q, text in claim["speeds"].items()}
-    refuse(not speeds.keys() <= {*evidence.problem.coordinates} - {*minor.columns}, "speeds are of free coordinates")
-    value = along_curve(evidence, minor, speeds, evidence.relation(name).tree, claim["order"])
-    refuse(not not_zero(value), "the zero on the curve is not shown to be isolated")
-    return minor
-
-
-def curvature(evidence: CheckedEvidence, claim: Told, allowed: Collection[str]) -> CheckedMinor:
-    """Rows that account for relations at a state, of which one is curved along a velocity that all of them allow.
-
-    Near the state the velocities that are allowed are a manifold with the rows' kernel for tangent space. A second
-    derivative of a row along it that is not 0 shows that the manifold is no plane: its vectors span a dimension more at
-    least, and motions reach all of that.
-    """
-    minor, name = evidence.accounts(evidence.minor(claim["minor"], allowed), allowed), claim["pairs"]
-    value = minor.point.value
-    speeds = {q: value(evidence.text(text)) for q, text in claim["speeds"].items() if q not in (*minor.columns, "t")}
-    refuse(name not in minor.rows, "what is curved is a row")
-    with ctx.workprec(PRECISION):
-        slopes = [[value(evidence.slope(row, column)) for column in minor.columns] for row in minor.rows]
-        pushed = [[sum((value(evidence.slope(row, q)) * v for q, v in speeds.items()), arb(0))] for row in minor.rows]
-        solution = arb_mat(slopes).solve(arb_mat(pushed))
-        speeds |= {q: -solution[i, 0] for i, q in enumerate(minor.columns)}
-        second = {(a, b): value(derivative(evidence.slope(name, a), f"{b}dot")) for a, b in product(speeds, repeat=2)}
-        curve = sum((slope * speeds[a] * speeds[b] for (a, b), slope in second.items()), arb(0))
-        refuse(not not_zero(curve), "it may not be curved")
-    return minor
-
-
-def finite_minor(evidence: CheckedEvidence, claim: Told) -> CheckedMinor:
-    """A minor of geometric equations and integrals."""
-    minor = evidence.minor(claim["minor"])
-    refuse(any(evidence.relation(row).kind != "finite" for row in minor.rows), "a row of velocities reduces no dof")
-    return minor
-
-
-#: What shows how many freedoms there are at most: as many as coordinates less rows, or one less.
-MOST = {"minor": finite_minor, "frobenius": involutive, "isolated": isolated}

@@ -4,8 +4,9 @@ from collections.abc import Sequence
 from itertools import combinations
 from typing import Any
 
+from dofkit.checker.curves import curvature
 from dofkit.checker.dimension_rules import names_told, verified_rank
-from dofkit.checker.evidence import CheckedEvidence, Told, admissible, curvature, involutive, of_word, on_row
+from dofkit.checker.evidence import CheckedEvidence, Told, admissible, involutive, of_word, on_row
 from dofkit.checker.point import CheckedPoint, not_zero
 from dofkit.checker.trees import ONE, ZERO, Tree, add, derivative, homogeneous_degree, refuse, substituted, symbol
 
@@ -59,7 +60,8 @@ def bracket(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
     point = curvature(evidence, claim, allowed).point if curves else admissible(evidence, claim, allowed)[0]
     if claim["field"] != "holonomic_alone":
         evidence.is_about("here", point)
-    evidence.follow([name], constraint_relations(evidence, claim), point, "the constraint")
+    finite = {*allowed}.intersection(evidence.finite)
+    evidence.follow([name], finite.union(constraint_relations(evidence, claim)), point, "the constraint")
     refuse(evidence.relation(name).kind != "velocity", "what the bracket pairs with holds no velocity")
     if not curves:
         value = point.value(on_row(evidence, name, of_word(evidence, claim["word"], claim["fields"])))
@@ -131,9 +133,9 @@ def time_dependent(evidence: CheckedEvidence, claim: Told, verified: Told) -> bo
             a, b = (evidence.slope(name, v) for v in claim["pair"])
             turned = a * derivative(b, "t") - b * derivative(a, "t")
     else:
-        if checked.kind == "finite":
+        if checked.kind != "inequality":
             evidence.on_set(point, names)
-        held = checked.kind == "finite" or evidence.holds(name, point)
+        held = checked.kind != "inequality" or evidence.holds(name, point)
         refuse((catastatic and checked.kind != "velocity") or not held, "it holds no velocities, or is not 0 there")
         slopes = {v: derivative(checked.tree, v) for v in sorted(checked.tree.symbols - evidence.chosen - {"t"})}
         if catastatic:

@@ -16,7 +16,7 @@ from dofkit.checker.grammar import KnownNames, parse
 from dofkit.checker.point import CheckedPoint, evaluated, not_zero
 from dofkit.checker.problem import CheckedProblem, CheckedRelation
 from dofkit.checker.ring import CheckedRing
-from dofkit.checker.trees import CheckError, Effort, Tree, add, along, keeps_values, put_in, refuse, symbol
+from dofkit.checker.trees import CheckError, Effort, Tree, add, along, keeps_values, put_in, refuse, substituted, symbol
 
 #: What a certificate of another form, or a hostile one, may raise.
 FAULTS = (CheckError, KeyError, TypeError, ValueError, AttributeError, IndexError, ArithmeticError, RecursionError)
@@ -115,7 +115,6 @@ class CheckedRelations:
 
     def _take_steps(self) -> None:
         makers = {"rate": self._rate, "implied": self._implied, "integral": self._implied}
-        makers["assumed"] = lambda step: (self.text(step["function"]), None)
         for step in self.entries["relations"]:
             name, by = step["id"], step.get("by")
             try:
@@ -135,7 +134,8 @@ class CheckedRelations:
         """h g = sum c_i r_i: g is 0 where all r_i are and h is not; what has the rate g keeps its value.
 
         ``g`` is a relation, or a new function. Where geometric equations give coordinates, and these are put in, the
-        two sides need to be the same only then. Integrals: along every motion near a point where h is not 0. With
+        two sides need to be the same only then. Integrals: along every motion near a point where h is not 0. If ``h``
+        holds velocities, a velocity relation follows near a state where h is not 0. The rate of time is 1. With
         ``sos``: h g^2 + sum w_j a_j^2 = sum c_i r_i, where h and w are positive, as -c_i are for inequalities r_i >= 0:
         then all terms are 0 (Krivine 1964, Stengle 1974).
         """
@@ -151,13 +151,15 @@ class CheckedRelations:
         refuse(unfit, "an inequality or integral to start from")
         plus = all(self.is_nowhere_zero(tree, True) for tree in (*signs, *([h] if real else [])))
         refuse(not plus, "no sum of squares, or times what is not positive")
-        refuse(self.met_by(h) or (leaf and self.met_by(tree)), "the factor or integral holds velocities")
+        still = real or not self.met_by(tree)
+        refuse((leaf and not still) or (still and self.met_by(h)), "the factor or integral holds velocities")
         change = total_derivative(tree, self.variables) if leaf else tree**2 if real else tree
         total = add(h * change, *(weight * root**2 for weight, root in squares), *(-c * of.tree for c, of in pairs))
         for name, q in substitutions:
             source, (slope, total) = self.relation(name), put_in(total, q, self.relation(name).tree)
             gives = source.kind == "finite" and not source.leaf and self.is_nowhere_zero(slope)
             refuse(not gives, f"`{name}` does not give `{q}`")
+        total = substituted(total, {"tdot": self.text("1")})
         refuse(not self.ring.vanishes(total), "the cofactors: the two sides are not the same")
         needs = () if self.is_nowhere_zero(h) else (h,)
         defined = (h, *cofactors, *chain(*squares), *([tree] if new or substitutions else []))
@@ -214,10 +216,11 @@ class CheckedRelations:
 
         def evaluate() -> bool:
             try:
-                values = [point.value_with(tree, wide) for tree in (*consequence.nonzero, *consequence.defined)]
+                values = [point.value(tree) for tree in consequence.nonzero]
+                smooth = all(point.value_with(tree, wide).is_finite() for tree in consequence.defined)
             except CheckError:
                 return False
-            return consequence.at in (None, point.name) and all(map(not_zero, values[: len(consequence.nonzero)]))
+            return smooth and consequence.at in (None, point.name) and all(map(not_zero, values))
 
         return self.once(("met", number, point.name), evaluate)
 

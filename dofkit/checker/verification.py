@@ -32,7 +32,7 @@ TABLE: tuple[tuple[str, str, Rule], ...] = (
     ("/instantaneous_dof", "rank", numbers.instantaneous), ("/redundant", "cofactors", numbers.redundant),
     ("independent", "independent", numbers.independence), ("independent", "inequality", labels.by_kind),
     ("/integrable_part", "integrals", labels.integrable_part), ("/growth_vector", "span", numbers.growth),
-    ("/generalized_coordinates", "minor, frobenius", numbers.generalized_coordinates),
+    ("/generalized_coordinates", "minor, frobenius, isolated", numbers.generalized_coordinates),
     ("holonomic, holonomic_alone", "finite, inequality", labels.by_kind),
     ("holonomic, holonomic_alone", "integral, frobenius", labels.integrable),
     ("holonomic, holonomic_alone", "bracket, curved", labels.bracket),

@@ -231,7 +231,7 @@ def redundancies(study: Study) -> Decided:
         Redundancy(nullity=nullity, members=[names[i] for i in members])
         for nullity, members in redundancy.merged(dependent)
     ]
-    is_decided = redundant(study).value is not None
+    is_decided = redundant(study).value is not None and (groups or not study.redundant_equations)
     return decided(study, groups, _of_dependence(study, bool(groups)) if is_decided else OPEN)
 
 

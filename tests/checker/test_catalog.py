@@ -58,14 +58,6 @@ def _uncovered(path: Path) -> set[str]:
     return {claim for claim, (_, names) in UNCOVERED.items() if path.stem in names.split()}
 
 
-def test_a_number_that_is_probable_is_shown_by_a_family() -> None:
-    """Three parallel cranks of one length move as one, and their relations depend on each other."""
-    (path,) = (one for one in {*CATALOG, *OURS} if one.stem == "parallelogram-three-cranks")
-    report = strict_report_of(path)
-    (claim,) = (one for one in (report.certificate or {})["claims"] if one["path"] == "/dof")
-    assert (report.verdicts["dof"].verdict, claim["value"], claim["least"]["rule"]) == ("probable", 1, "family")
-
-
 @pytest.mark.parametrize("path", few("proofs", CATALOG, 3), ids=stem)
 def test_what_is_proved_of_the_catalog_verifies(path: Path) -> None:
     _, uncovered = _shown(path)

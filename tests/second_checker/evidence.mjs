@@ -143,20 +143,20 @@ export class Evidence {
       refuse(!(step.put ?? []).every((pair) => Array.isArray(pair) && pair.length === 2), "put is a list of pairs");
       const puts = (step.put ?? []).map(([id, q]) => [this.relation(id, step), q]);
       const h = this.text(step.h ?? "1");
-      refuse(h.hasAny(this.scene.rates), "h holds no velocities");
       const positive = [...sided, ...squares.map(([w]) => w), ...(real ? [h] : [])];
       refuse(!positive.every((tree) => nowhereZero(tree, this.scene.signs, true)), "no sum of squares");
       refuse(real && step.by !== "implied", "only what is implied is a square");
       let target;
       if (step.by === "integral") {
         target = this.rateOf(this.relation(step.id));
+        refuse(h.hasAny(this.scene.rates), "h holds velocities");
       } else {
         refuse(step.by !== "implied", `there is no step by ${step.by}`);
         refuse(step.of !== undefined && step.function !== undefined, "a step is of a relation, or has a function");
         const goal = step.of === undefined ? this.relation(step.id) : this.relation(step.of, step);
         const finite = goal.kind === "finite";
-        if (finite && c.some(([r]) => r.kind === "velocity")) throw new NotCovered("a finite relation from velocities");
         refuse(finite && c.some(([, text]) => text.hasAny(this.scene.rates)), "a cofactor holds velocities");
+        refuse((finite || real) && h.hasAny(this.scene.rates), "h holds velocities");
         target = real ? pow(goal.tree, 2) : goal.tree;
       }
       const left = add(mul(h, target), ...squares.map(([w, a]) => mul(w, pow(a, 2))));
@@ -170,6 +170,7 @@ export class Evidence {
       [...c.map(([r]) => r), ...puts.map(([r]) => r), ...(step.of ? [this.relation(step.of)] : [])].forEach((r) => {
         if (r.step && r.step !== step && ["implied", "integral"].includes(r.step.by)) this.identity(r.step);
       });
+      difference = substitute(difference, new Map([["tdot", number(1)]]));
       refuse(!isZero(difference), `the identity of ${step.id} is not one`);
       return { from: [...c.map(([r]) => r.id), ...puts.map(([r]) => r.id)], h, texts: [...c.map(([, t]) => t), ...squares.flat()] };
     });
@@ -237,12 +238,28 @@ export class Evidence {
       const { h, texts } = this.identity(step);
       if (point === null) return this.constantNotZero(h) && texts.every((text) => isTotal(text));
       if (!this.at(h, point).nonzero) return false;
+      if (h.hasAny(this.scene.rates) && !this.isState(point)) return false;
       texts.forEach((text) => this.at(text, point, true));
       return true;
     } catch (error) {
       if (error instanceof Refused) return false;
       throw error;
     }
+  }
+
+  /** Whether all equations, and the rates of the finite ones, hold at the velocities of a point. What follows near a
+   *  state is not used for this. */
+  isState(point) {
+    const key = `state ${point.id}`;
+    if (!this.memo.has(key)) {
+      this.memo.set(key, { value: false });
+      const met = this.relations.filter((r) => this.zeroAtOrNot(r.tree, point)).map((r) => r.id);
+      const known = this.closure([...this.held(point), ...met], point);
+      const zero = (tree) => this.zeroAtOrNot(tree, point) || point.rows.some((id) => isZero(sub(this.relation(id).tree, tree)));
+      const value = this.relations.every((r) => known.has(r.id) && (r.kind === "velocity" || zero(this.rateOf(r))));
+      this.memo.set(key, { value });
+    }
+    return this.memo.get(key).value;
   }
 
   // -- points ----------------------------------------------------------------------------------------
@@ -290,6 +307,7 @@ export class Evidence {
     refuse(!radius || radius.sign <= 0 || new Set(columns).size < columns.length, "a box has a radius");
     refuse(columns.some((q) => !centres.get(q)), "a box has centres");
     const rows = given.rows.map((id) => this.relation(id, null, true));
+    rows.forEach((r) => r.step && r.step.by !== "rate" && this.identity(r.step));
     const middle = { ...point, balls: new Map(point.balls), done: new Map() };
     for (const q of columns) {
       middle.balls.set(q, Interval.of(centres.get(q)));

@@ -517,6 +517,7 @@ export class Rules {
     refuse(value.length !== dof.value || new Set(value).size < value.length, "as many coordinates as dof are needed");
     if (claim.rule === "minor") refuse(minor.rows.some((r) => r.kind !== "finite"), "all rows are finite or integrals");
     else if (claim.rule === "frobenius") this.frobenius(claim, minor);
+    else if (claim.rule === "isolated") uncovered("what is isolated");
     else refuse(true, "another rule");
     const standsFor = new Map();
     for (const [body, [phi, theta, psi]] of this.s.angles) {
@@ -640,7 +641,8 @@ export class Rules {
     } else if (rule === "bracket") {
       refuse(claim.value, "the rule proves false");
       const pairs = this.e.relation(claim.pairs);
-      const follows = this.e.closure(ids(equations), this.e.point(claim.at)).has(pairs.id);
+      const given = [...equations, ...(alone ? [] : relations.filter((r) => r.kind === "finite"))];
+      const follows = this.e.closure(ids(given), this.e.point(claim.at)).has(pairs.id);
       refuse(pairs.kind !== "velocity" || !follows, "pairs is a velocity relation that follows from the constraint");
       const columns = list(claim.fields).length;
       refuse(!columns, "fields are needed");

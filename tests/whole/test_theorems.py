@@ -12,7 +12,7 @@ from functools import cache
 
 from shared.sources import PACKAGE, SOURCES, one_process, tree_of
 
-from dofkit.checker.dimension_rules import MOST
+from dofkit.checker.curves import LEAST, MOST
 from dofkit.checker.verification import RULES
 
 pytestmark = one_process
@@ -74,7 +74,7 @@ def test_rows_name_the_rules_of_certificates_that_rest_on_them() -> None:
         rule for *_, text, _ in rows().values() for told in IN_CERTIFICATES.findall(text) for rule in told.split("`")
     }
     named -= {"", ", "}
-    known = {rule for _, rule in RULES} | set(MOST) | {"span", "regular", "family"}
+    known = {rule for _, rule in RULES} | set(MOST) | set(LEAST) | {"span"}
     assert named <= known
     assert known - named == {
         *("squeeze", "count", "rank", "conflict", "integrals"),  # by bounds, by counting, by arithmetic, by other rules

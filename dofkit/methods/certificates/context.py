@@ -117,7 +117,8 @@ class Context:
 
     def _is_fit(self, point: FoundPoint) -> bool:
         """Whether the checker accepts a point for claims, where velocities and integrals are as the report tells."""
-        texts = (entry.integral.rpartition("=")[0].strip() for entry in self.report.constraints if entry.integral)
+        integrals = (entry.integral or "" for entry in self.report.constraints)
+        texts = (text.rpartition("=")[0].strip() for text in integrals if text.count("=") == 1)
         free = self.report.velocity_dof if self.scenery.moving else None
         with suppress(CheckError, NoEstimateError):
             self.scenery.evidence.is_about("here", self.scenery.evidence.point(self.add_point(point)))
@@ -172,6 +173,8 @@ class Context:
 
 def states_of(context: Context) -> tuple[list[str], list[str]]:
     """The relations that hold of a configuration with its velocities, and the symbols of both."""
-    symbols = [*context.problem.coordinates, *context.problem.world.generic]
-    rates = rates_of(context.scenery, context.scenery.finite)
-    return [*context.scenery.equations, *rates], [*symbols, *(f"{q}dot" for q in context.problem.coordinates)]
+    scenery, symbols = context.scenery, [*context.problem.coordinates, *context.problem.world.generic]
+    follows = {name for name in scenery.moving if f"{scenery.label}{name} from others" in scenery.steps}
+    names = [name for name in scenery.equations if scenery.linear(name) or name not in follows]
+    rates = rates_of(scenery, scenery.finite)
+    return [*names, *rates], [*symbols, *(f"{q}dot" for q in context.problem.coordinates)]

@@ -1,92 +1,27 @@
-"""Evidence for dimensions: families of configurations, the whole set, and points at which rows are stationary."""
+"""Evidence for dimensions: the whole set, and points at which rows are stationary."""
 
 from __future__ import annotations
 
-import random
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from functools import partial
-from itertools import combinations
-from typing import Any
+from itertools import combinations, product
+from operator import itemgetter
 
 from flint import arb
 
+from dofkit.checker.curves import HIGHEST_ORDER, along_curve
 from dofkit.checker.dimension_rules import HIGHEST_DEGREE, degree
-from dofkit.checker.evidence import HIGHEST_ORDER, along_curve
 from dofkit.checker.geometry import determinant, dot
-from dofkit.checker.ring import CheckedRing
 from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, operands, symbol, times
 from dofkit.methods.certificates.context import Context, Standing, Told
 from dofkit.methods.certificates.fields import backing, kept_motions, orbit
-from dofkit.methods.certificates.numerics import echelon, least_step
-from dofkit.methods.certificates.scenery import FAR, number_text, text_of
-from dofkit.methods.certificates.steps import LARGEST_CRAMER, accounted, solving_order
+from dofkit.methods.certificates.numerics import least_step
+from dofkit.methods.certificates.scenery import FAR, number_text, polynomial_text, text_of
+from dofkit.methods.certificates.steps import LARGEST_CRAMER, solving_order
 
-#: The size of a step along a motion, of what is added by chance, and the largest denominator of a coefficient.
-STEP, NOISE, DENOMINATOR = 0.25, 0.05, 60
-#: Scenes are followed up to this product of the size of their relations and of the number of their coordinates.
-MOST_FOLLOWED = 6000
-Samples = list[dict[str, float]]
-
-
-def families(context: Context, size: int) -> Iterator[Told]:
-    """The rule `family` with so many freedoms, for a motion through the main point."""
-    point, scenery = context.point, context.scenery
-    size_of_all = sum(relation.tree.size for relation in context.problem.relations) * len(context.problem.coordinates)
-    if point is None or scenery.moving or size_of_all > MOST_FOLLOWED:
-        return
-    assumed = []
-    for i, text in enumerate(_linear_relations(context, _samples(context))):
-        step = f"{scenery.label}family {i}"
-        if step not in scenery.steps:
-            scenery.add_step({"id": step, "by": "assumed", "function": text})
-        assumed.append(step)
-    standing = context.standing_of([*assumed, *scenery.finite])
-    if standing is None or len(standing.rows) != len(context.problem.coordinates) - size:
-        return
-    others = [name for name in standing.dependent if name not in assumed]
-    if all(accounted(scenery, name, standing.rows, point, "family") for name in others):
-        yield {"rule": "family", "minor": {"at": point.name, "rows": standing.rows, "columns": standing.columns}}
-
-
-def _samples(context: Context) -> Samples:
-    """Configurations along a motion that leaves the main point: as many as span its linear hull."""
-    drawn, samples = random.Random(0), Samples()
-    coordinates = context.problem.coordinates
-    now = before = dict(context.point.floats) if context.point is not None else {}
-    for place in range(len(coordinates) + 4):
-        far = max((abs(now[q] - before[q]) for q in coordinates), default=0.0)
-        noise = NOISE if place else STEP
-        moved = {
-            q: now[q] + (now[q] - before[q]) * STEP / (far or 1.0) + noise * drawn.uniform(-1, 1) for q in coordinates
-        }
-        reached = context.search.approached({**now, **moved}, context.scenery.equations, set(coordinates))
-        if reached is not None:
-            samples.append(reached)
-            before, now = now, reached
-    return samples
-
-
-def _linear_relations(context: Context, samples: Samples) -> Iterator[str]:
-    """Texts that are 0 at the main point and at all samples, linear with rational coefficients, each in few terms."""
-    point, coordinates = context.point, context.problem.coordinates
-    if point is None or not samples:
-        return
-    rows = [{q: sample[q] - point.floats[q] for q in coordinates} for sample in samples]
-    pivots = echelon(rows)
-    columns = [p.column for p in pivots]
-    for q in coordinates:
-        if q in columns:
-            continue
-        terms = least_step([{c: rows[p.row][c] for c in columns} for p in pivots], [rows[p.row][q] for p in pivots])
-        short = {p: Fraction(value).limit_denominator(DENOMINATOR) for p, value in terms.items()}
-        if all(abs(float(short[p]) - value) < 1e-6 for p, value in terms.items()):
-            coefficients = [(q, Fraction(1)), *((p, -value) for p, value in short.items() if value)]
-            yield " + ".join(f"({number_text(c)})*{_from(point.values[p], p)}" for p, c in coefficients)
-
-
-def _from(value: str, q: str) -> str:
-    return q if value == "0" else f"({q} - ({value}))"
+#: The largest denominator of a weight.
+DENOMINATOR = 60
 
 
 # Evidence that no part of the set is larger: graphs, single relations, relations with symbols of their own.
@@ -147,25 +82,12 @@ def _gram(context: Context, forms: list[str]) -> Told | None:
     scaled = [[scales.get(q, ONE) * slope for q, slope in zip(coordinates, row, strict=True)] for row in rows]
     try:
         value = evidence.ring.read(determinant([[dot(row, other) for other in scaled] for row in rows]))
+        determinant_text = "/".join(f"({polynomial_text(evidence.ring, part)})" for part in value)
     except CheckError:
         return None
-    texts = [_polynomial_text(evidence.ring, part) for part in value]
-    determinant_text = f"({texts[0]})/({texts[1]})"
-    if None in texts or not evidence.is_nowhere_zero(evidence.text(determinant_text), True):
+    if not evidence.is_nowhere_zero(evidence.text(determinant_text), True):
         return None
     return {"forms": forms, "scales": {q: text_of(tree) for q, tree in scales.items()}, "value": determinant_text}
-
-
-def _polynomial_text(ring: CheckedRing, polynomial: Any) -> str | None:
-    """Return a polynomial in symbols as a text; None where it contains anything else."""
-    names = {place: key[1] for key, place in ring.places.items() if key[0] == "symbol"}
-    terms = []
-    for exponents, coefficient in polynomial.terms():
-        powers = [(place, k) for place, k in enumerate(reversed(exponents)) if k]
-        if not {place for place, _ in powers} <= names.keys():
-            return None
-        terms.append("*".join([f"({coefficient})", *(f"{names[place]}^{k}" for place, k in powers)]))
-    return " + ".join(terms)
 
 
 def _needed(standing: Standing, names: Sequence[str]) -> list[str]:
@@ -204,44 +126,68 @@ def _gives(context: Context, name: str, q: str, most: int = 1) -> bool:
         return False
 
 
-# Evidence where rows are stationary at the main point: what is isolated along a curve, and what crosses itself.
+# Evidence where rows are stationary at the main point: what is isolated there, and what crosses itself.
 
 SIGNS = (1, -1)
 #: The engines' arguments by which it is so.
-STATIONARY = ("isolated zero of one variable", "indefinite form", "cases")
+STATIONARY = ("isolated zero of one variable", "indefinite form", "definite form", "definite combination", "cases")
 
 
 def stationary(context: Context) -> Iterator[Told]:
-    """Yield dof near a point at which only the differential of a relation depends on others, by the rule `isolated`."""
-    standing = context.standing
+    """Yield dof near a point at which the differential of a relation depends on others: `isolated`, `crossing`."""
+    standing, dof = context.standing, context.report.dof or 0
     if standing is None or context.report.verdicts["dof"].argument not in STATIONARY:
         return
-    for least in _motions_from(context, standing, context.report.dof or 0):
-        for most in _isolated(context, standing):
+    names = context.scenery.evidence.finite
+    fields = kept_motions(context, names, standing.point, standing.columns) if dof else {}
+    for most in _isolated(context, standing, fields):
+        for least in (*_crossing(context, standing), *_motions_from(context, standing, dof, fields)):
             yield {"rule": "squeeze", "about": context.about, "most": most, "least": least}
 
 
-def _motions_from(context: Context, standing: Standing, size: int) -> Iterator[Told]:
-    """Yield ``size`` motions from the point: rigid ones of all together, none, or a family."""
-    fields = kept_motions(context, context.scenery.evidence.finite, standing.point) if size else {}
+def _motions_from(context: Context, standing: Standing, size: int, fields: dict[str, str]) -> Iterator[Told]:
+    """Yield ``size`` motions from the point: rigid ones of all together, or none."""
     if len(fields) == size:
         orbit_of = {"fields": list(fields), "words": [[name] for name in fields], "columns": list(fields.values())}
         yield {"rule": "span", "at": standing.point.name, "rows": list(context.scenery.evidence.finite), **orbit_of}
-    yield from families(context, size)
 
 
-def _isolated(context: Context, standing: Standing) -> Iterator[Told]:
-    """Yield the rule `isolated`: a derivative of a dependent relation along a free direction is not 0."""
+def _isolated(context: Context, standing: Standing, fields: dict[str, str]) -> Iterator[Told]:
+    """Yield the rule `isolated`: along what is free besides rigid motions a form is definite; or in one direction."""
+    across = [q for q in context.problem.coordinates if q not in (*standing.columns, *fields.values())]
+    filled = {"fields": list(fields)} if len(across) == 1 else {}
+    rows = {name: context.row(name, standing.point) for name in (*standing.rows, *standing.dependent)}
+    for zero in standing.dependent if len(across) > 1 else ():
+        columns = [{name: rows[name].get(q, 0.0) for name in standing.rows} for q in standing.columns]
+        terms = least_step(columns, [rows[zero].get(q, 0.0) for q in standing.columns])
+        weights = {name: number_text(-Fraction(value).limit_denominator(DENOMINATOR)) for name, value in terms.items()}
+        shown = _left_over(context, standing, zero, *({q: 1} for q in across))
+        shown["zero"] |= {name: weight for name, weight in weights.items() if weight != "0"}
+        yield {"rule": "isolated", **shown, "fields": list(fields)}
+    directions = [{q: 1} for q in across] if filled else _directions(context, standing)
+    for order, zero, way in product(range(2, HIGHEST_ORDER + 1), standing.dependent, directions):
+        if abs(_derivative_along(context, standing, zero, way, order)) > FAR:
+            yield {"rule": "isolated", **_left_over(context, standing, zero, way), "order": order, **filled}
+            return
+
+
+def _directions(context: Context, standing: Standing) -> list[dict[str, int]]:
     free = [q for q in context.problem.coordinates if q not in standing.columns]
-    directions = [{q: 1} for q in free] + [{a: 1, b: sign} for a, b in combinations(free, 2) for sign in SIGNS]
-    for order in range(2, HIGHEST_ORDER + 1):
-        for zero in standing.dependent:
-            for direction in directions:
-                if abs(_derivative_along(context, standing, zero, direction, order)) > FAR:
-                    speeds = {q: str(value) for q, value in direction.items()}
-                    rows = {"minor": context.minor(standing), "zero": zero, "speeds": speeds}
-                    yield {"rule": "isolated", **rows, "order": order}
-                    return
+    return [{q: 1} for q in free] + [{a: 1, b: sign} for a, b in combinations(free, 2) for sign in SIGNS]
+
+
+def _crossing(context: Context, standing: Standing) -> Iterator[Told]:
+    """Yield the rule `crossing`: along two directions the only dependent relation has different signs."""
+    for zero in standing.dependent if len(standing.dependent) == 1 else ():
+        pairs = [(_derivative_along(context, standing, zero, way, 2), way) for way in _directions(context, standing)]
+        (low, down), (high, up) = (extreme(pairs, key=itemgetter(0)) for extreme in (min, max))
+        if low < -FAR and high > FAR:
+            yield {"rule": "crossing", **_left_over(context, standing, zero, up, down)}
+
+
+def _left_over(context: Context, standing: Standing, zero: str, *directions: dict[str, int]) -> Told:
+    speeds = [{q: str(value) for q, value in way.items()} for way in directions]
+    return {"minor": context.minor(standing), "zero": {zero: "1"}, "speeds": speeds}
 
 
 def _derivative_along(context: Context, standing: Standing, zero: str, direction: dict[str, int], order: int) -> float:

@@ -63,14 +63,16 @@ def held_by(scenery: Scenery, names: Sequence[str]) -> frozenset[str]:
     return frozenset[str]().union(*(scenery.evidence.relation(name).tree.symbols for name in names))
 
 
-def kept_motions(context: Context, names: Sequence[str], point: FoundPoint) -> dict[str, str]:
-    """Rigid motions of what relations hold that keep these, each with a column: independent at the point."""
+def kept_motions(
+    context: Context, names: Sequence[str], point: FoundPoint, fixed: Sequence[str] = ()
+) -> dict[str, str]:
+    """Rigid motions of what relations hold that keep these, each with a column, not ``fixed``: independent there."""
     scenery, held = context.scenery, held_by(context.scenery, names)
     fields = [{q: text for q, text in motion.items() if q in held} for motion in motions(context.problem.world)]
     ids = [scenery.entry_id("fields", {"components": field}) for field in fields]
     kept = [motion for motion in ids if _is_kept(scenery, motion, names)]
     moved = [field_named(scenery.evidence, motion) for motion in kept]
-    rows = [{q: point.estimates.value(tree) for q, tree in field.items()} for field in moved]
+    rows = [{q: point.estimates.value(tree) for q, tree in field.items() if q not in fixed} for field in moved]
     return {kept[p.row]: p.column for p in echelon(rows)}
 
 
@@ -153,7 +155,7 @@ def words_of(context: Context, standing: Standing, most: int) -> Words | None:
 def reach(context: Context) -> int:
     """How many directions all words of the scene's fields span at most, as far as it is claimed."""
     whole = len(context.problem.coordinates) if context.report.dof is None else context.report.dof
-    return whole + context.scenery.evidence.timed
+    return whole + context.scenery.evidence.holds_time(context.scenery.equations)
 
 
 def _grown(context: Context, standing: Standing, fields: list[str], most: int) -> Words:
@@ -240,7 +242,7 @@ def integral_steps(context: Context, texts: Iterable[str | None]) -> list[str]:
 def integrable_names(context: Context) -> list[str]:
     """The geometric equations, and the forms that are said to be holonomic."""
     owners = [entry.name for entry in context.report.constraints if entry.holonomic]
-    names = [name for owner in owners for name in context.scenery.owned(owner)]
+    names = [*context.scenery.hidden, *(name for owner in owners for name in context.scenery.owned(owner))]
     return sorted(names, key=context.scenery.equations.index)
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from dofkit.methods.certificates.context import Context, Told, states_of
-from dofkit.methods.certificates.dimension import everywhere, families, stationary, velocities_everywhere
+from dofkit.methods.certificates.dimension import everywhere, stationary, velocities_everywhere
 from dofkit.methods.certificates.emptiness import refutations
 from dofkit.methods.certificates.fields import backing, integral_steps, orbit, rows_above
 from dofkit.methods.certificates.points import FoundPoint
@@ -62,11 +62,6 @@ def _near(context: Context) -> Iterator[Told]:
         return
     yield from _regular(context)
     yield from stationary(context)
-    standing = context.standing
-    if standing is not None and standing.dependent:
-        most = {"rule": "minor", "minor": context.minor(standing)}
-        for least in families(context, len(context.problem.coordinates) - len(standing.rows)):
-            yield {"rule": "squeeze", "most": most, "least": least, "about": context.about}
 
 
 def velocity_dof(context: Context) -> Iterator[Told]:
@@ -118,8 +113,9 @@ def _needed(context: Context) -> Iterator[Told]:
     """For every constraint a minor of all rows of the others."""
     minors, relation = {}, context.scenery.evidence.relation
     for owner in dict.fromkeys(relation(name).owner for name in context.scenery.evidence.equations):
-        owned = context.scenery.owned(owner)
-        standing = context.accounted([name for name in context.scenery.equations if name not in owned])
+        owned, shared = {*context.scenery.owned(owner)}, context.scenery.shared
+        others = [n for n in context.scenery.equations if owned.isdisjoint((n, *shared.get(n, ())))]
+        standing = context.accounted(others)
         if standing is None or not standing.accounted:
             return
         minors[owner] = context.minor(standing)
@@ -134,6 +130,7 @@ def generalized_coordinates(context: Context) -> Iterator[Told]:
     if chosen:
         moved = context.problem.world.charted(chosen)
         yield from rows_above(context, [q for q in context.problem.coordinates if q not in moved])
+        yield from (claim["most"] for claim in stationary(context) if "fields" in claim["most"])
 
 
 def independent(context: Context, entry: ConstraintEntry, field: str) -> Iterator[Told]:
@@ -141,7 +138,8 @@ def independent(context: Context, entry: ConstraintEntry, field: str) -> Iterato
     if entry.form == "inequality":
         yield {"rule": "inequality"}
         return
-    order, equations = context.scenery.equations, context.scenery.owned(entry.name)
+    scenery, equations = context.scenery, context.scenery.owned(entry.name)
+    order = (*scenery.finite, *(name for name in scenery.moving if name not in scenery.shared))
     last = max((k for k, name in enumerate(order) if name in equations), default=-1)
     upto = context.accounted(order[: last + 1])
     if upto is not None and (backed := backing(context, upto)) is not None:

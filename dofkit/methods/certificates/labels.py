@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from itertools import combinations, product
 
 from dofkit.checker.label_rules import exterior_part
@@ -23,24 +23,13 @@ from dofkit.methods.certificates.steps import combined, combined_integral, funct
 from dofkit.report import ConstraintEntry
 
 
-def add_step_from_integrals(context: Context, name: str, steps: Sequence[str], alone: bool = False) -> bool:
-    """Add the step by which integrals imply a form, and geometric equations if not ``alone``; return whether."""
-    step = f"{context.scenery.label}{name} from {' and '.join(steps) if alone else 'integrals'}"
-    if step in context.scenery.steps:
-        return True
-    sources = [*steps, *(() if alone else context.scenery.finite)]
-    if context.point is None:
-        return False
-    rates = rates_of(context.scenery, sources)
-    implied = {"id": step, "by": "implied", "of": name}
-    return combined(context.scenery, context.point, implied, context.scenery.form(name), rates)
-
-
-def integral_alone(context: Context, entry: ConstraintEntry, name: str) -> str | None:
-    """Return the step of the integral that is claimed of a form, where each implies the other on its own."""
-    function, form = function_in(entry.integral), context.scenery.form(name)
-    step = combined_integral(context.scenery, context.point, function, name) if function and form else None
-    return step if step and add_step_from_integrals(context, name, [step], alone=True) else None
+def follows(context: Context, name: str, steps: list[str], alone: bool) -> bool:
+    """Whether a form follows, by a step that stands up, from integrals, and geometric equations if not ``alone``."""
+    scenery, sources = context.scenery, [*steps, *(() if alone else context.scenery.finite)]
+    implied = {"id": f"{scenery.label}{name} from {' and '.join(steps)}{' alone' * alone}", "by": "implied", "of": name}
+    if implied["id"] in scenery.steps or context.point is None:
+        return implied["id"] in scenery.steps
+    return combined(scenery, context.point, implied, scenery.form(name), rates_of(scenery, sources))
 
 
 # Evidence for the labels of one constraint.
@@ -65,10 +54,10 @@ def holonomic(context: Context, entry: ConstraintEntry, field: str) -> Iterator[
 def _reached(context: Context, owner: str, alone: bool) -> Iterator[Told]:
     """Yield a word of brackets that a form of the constraint does not allow."""
     evidence = context.scenery.evidence
-    standing = context.standing_of(context.scenery.owned(owner)) if alone else context.standing
+    owned = [name for name in context.scenery.owned(owner) if not (alone and name in context.scenery.shared)]
+    standing = context.standing_of(owned) if alone else context.standing
     if standing is None or not (alone or standing.accounted):
         return
-    owned = context.scenery.owned(owner)
     yield from (claim for claim in curvatures(context, standing) if claim["pairs"] in owned)
     most = len(context.problem.coordinates) + context.scenery.timed if alone else reach(context)
     words = words_of(context, standing, most)
@@ -91,15 +80,15 @@ def integral(context: Context, entry: ConstraintEntry, field: str) -> Iterator[T
     if len(names) != 1 or context.point is None or not function:
         return
     claim = {"rule": "integral", "at": context.point.name}
-    if alone := integral_alone(context, entry, names[0]):
-        yield {**claim, "step": alone}
+    step = combined_integral(context.scenery, context.point, function, names[0])
+    if step and follows(context, names[0], [step], alone=True):
+        yield {**claim, "step": step}
     if (step := combined_integral(context.scenery, context.point, function)) is None:
         return
     texts = (other.integral for other in context.report.constraints)
     others = [other for other in integral_steps(context, texts) if other != step]
     standing = context.standing_of([*context.scenery.finite, *others, names[0]])
-    implied = add_step_from_integrals(context, names[0], [step, *others])
-    if implied and standing is not None and names[0] in standing.rows:
+    if standing and names[0] in standing.rows and follows(context, names[0], [step, *others], alone=False):
         yield {**claim, "step": step, "integrals": others, "minor": context.minor(standing)}
 
 

@@ -73,7 +73,7 @@ class Estimates:
     """Values and gradients of trees at one point."""
 
     def __init__(self, values: Mapping[str, float]) -> None:
-        self.values = values
+        self.values = {"tdot": 1.0, **values}
         self._done: dict[int, tuple[Tree, float]] = {}
 
     def value(self, tree: Tree) -> float:

@@ -32,7 +32,7 @@ class FoundPoint:
     @cached_property
     def estimates(self) -> Estimates:
         """Values in floats at the point, at rest where it has no velocities."""
-        return Estimates({**{f"{q}dot": 0.0 for q in self.floats}, "tdot": 1.0, **self.floats})
+        return Estimates({**{f"{q}dot": 0.0 for q in self.floats}, **self.floats})
 
     def entry(self) -> dict[str, Any]:
         """The point as a certificate writes it."""
@@ -105,7 +105,7 @@ class PointSearch:
     def touching(self, name: str) -> Iterator[FoundPoint]:
         """Points at which a relation is 0, an inequality too, whatever the others say."""
         checked = self.scenery.evidence.relation(name)
-        names = [name] if checked.kind == "inequality" else self.scenery.finite
+        names = [name] if checked.kind == "inequality" else self.scenery.evidence.finite
         return self.points(names, self.problem.coordinates, 50)
 
     def _start(self, attempt: int, unknowns: Sequence[str]) -> dict[str, Fraction]:

@@ -6,11 +6,29 @@ from collections.abc import Collection, Iterator, Mapping
 from contextlib import suppress
 from fractions import Fraction
 from functools import cached_property
+from itertools import combinations
 from typing import Any
 
 from dofkit.checker.evidence import CheckedEvidence
 from dofkit.checker.problem import CheckedProblem as Problem
-from dofkit.checker.trees import CheckError, Effort, Tree, number, operands, power, substituted, times
+from dofkit.checker.ring import CheckedRing, Quotient
+from dofkit.checker.trees import (
+    HALF,
+    ZERO,
+    CheckError,
+    Effort,
+    Tree,
+    derivative,
+    in_velocities,
+    number,
+    operands,
+    power,
+    put_in,
+    refuse,
+    substituted,
+    symbol,
+    times,
+)
 from dofkit.methods.certificates.numerics import Estimates, NoEstimateError
 
 
@@ -59,7 +77,7 @@ def _applied(tree: Tree) -> str:
 
 # The checker's reading of a scene, with choices made for what it does not determine.
 
-HALF, EVEN = number(Fraction(1, 2)), range(2, 20, 2)
+EVEN = range(2, 20, 2)
 #: What is farther from 0 than this, in floats, is not 0.
 FAR = 1e-7
 #: Units of the checker's work that looking for the evidence of one scene may cost.
@@ -78,6 +96,8 @@ class Scenery:
         self._view = dict(lists)
         self.evidence = CheckedEvidence(problem, self._view, self.effort)
         self.steps: set[str] = set()
+        #: Steps that rest on several constraints, and the relations that these are.
+        self.shared: dict[str, tuple[str, ...]] = {}
 
     def entry_id(self, part: str, entry: dict[str, Any]) -> str:
         """The id of a minor, field or cover, written into the certificate where it is new."""
@@ -114,8 +134,13 @@ class Scenery:
 
     @cached_property
     def finite(self) -> tuple[str, ...]:
-        """The geometric equations, each after the roots of which it is a sum of squares."""
-        return self.owned(None, ("finite",))
+        """The geometric equations, each after the roots of which it is a sum of squares, and what forms hide."""
+        return (*self.owned(None, ("finite",)), *self.hidden)
+
+    @cached_property
+    def hidden(self) -> tuple[str, ...]:
+        """The steps for what two forms leave that differ by a factor but in what stands with dt."""
+        return tuple(hidden(self))
 
     @cached_property
     def moving(self) -> tuple[str, ...]:
@@ -124,8 +149,8 @@ class Scenery:
 
     @property
     def equations(self) -> tuple[str, ...]:
-        """All geometric equations, then those of velocities: the order in which independent ones are counted."""
-        return (*self.finite, *self.moving)
+        """All geometric equations, then those of velocities, the linear ones first."""
+        return (*self.finite, *sorted(self.moving, key=lambda name: not self.linear(name)))
 
     def owned(self, owner: str | None, kinds: Collection[str] = ("finite", "velocity")) -> tuple[str, ...]:
         """The equations of a constraint, or of all, each after its roots."""
@@ -134,7 +159,7 @@ class Scenery:
 
     def roots(self, name: str) -> tuple[str, ...]:
         """The steps for the roots of a sum of squares, which are 0 where it is; none of another relation."""
-        return self.evidence.once(("roots", name), lambda: tuple(self._roots(name)))
+        return self.evidence.once(("roots", name), lambda: (*self._roots(name),) or (*branches(self, name),))
 
     def _roots(self, name: str) -> Iterator[str]:
         for sign, others, squares in squares_of(self.evidence.relation(name).tree, frozenset()):
@@ -202,6 +227,73 @@ class Scenery:
         self.steps.add(step["id"])
 
 
+def hidden(scenery: Scenery) -> Iterator[str]:
+    """Steps for what two forms leave that differ by a factor but in what stands with dt."""
+    ring = scenery.evidence.ring
+    for first, other in combinations(filter(scenery.linear, scenery.evidence.moving), 2):
+        form, second = scenery.form(first), scenery.form(other)
+        ratios = (ring.rational(form[q] / second[q]) for q in second if q != "t" and second[q] != ZERO)
+        ratio = next((ratio for ratio in ratios if ratio), None)
+        rest = {q: form[q] - number(Fraction(str(ratio or 0))) * second[q] for q in form}
+        if ratio is not None and all(ring.vanishes(tree) == (q != "t") for q, tree in rest.items()):
+            step, c = f"{scenery.label}hidden by {first} and {other}", {first: "1", other: f"{-ratio}"}
+            scenery.add_step({"id": step, "by": "implied", "function": text_of(rest["t"]), "c": c})
+            back = {"id": f"{scenery.label}{other} from others", "by": "implied", "of": other, "h": f"{ratio}"}
+            scenery.add_step({**back, "c": {first: "1", step: "-1"}})
+            scenery.shared[step] = first, other
+            yield step
+
+
+def branches(scenery: Scenery, name: str) -> Iterator[str]:
+    """Steps for a relation that is not linear in velocities: it follows from forms, or is a factor near a state.
+
+    The factor is the longest of what is left where forms are put in.
+    """
+    if scenery.linear(name) or scenery.evidence.relation(name).kind != "velocity":
+        return
+    with suppress(CheckError):
+        tree, c = with_forms(scenery, name)
+        ring, back = scenery.evidence.ring, {"id": f"{scenery.label}{name} from others", "by": "implied", "of": name}
+        above, below = ring.read(tree)
+        if above == 0:
+            scenery.add_step({**back, "c": {source: text_of(factor) for source, factor in c.items()}})
+            return
+        constant, factors = above.factor()
+        texts = [polynomial_text(ring, factor) for factor, often in factors for _ in range(often)]
+        branch, step = max(texts, key=len), f"{scenery.label}branch of {name}"
+        texts.remove(branch)
+        if scenery.evidence.met_by(scenery.evidence.text("*".join(f"({text})" for text in ("1", *texts)))):
+            others = "*".join(f"({text})" for text in (f"{constant}", *texts))
+            others += f"/({polynomial_text(ring, below)})"
+            less = {source: f"-({text_of(factor)})" for source, factor in c.items()}
+            form = text_of(in_velocities(scenery.evidence.text(branch), scenery.problem.coordinates))
+            scenery.add_step({"id": step, "by": "implied", "function": form, "h": others, "c": {name: "1", **less}})
+            scenery.add_step({**back, "c": {step: others, **{source: text_of(f) for source, f in c.items()}}})
+            of_rates = f"{scenery.label}rate of "
+            scenery.shared |= {step: (name, *(source.removeprefix(of_rates) for source in c))} if c else {}
+            yield step
+
+
+def with_forms(scenery: Scenery, name: str) -> tuple[Tree, dict[str, Tree]]:
+    """What is left of a relation where others give velocities that no further one holds, and their cofactors."""
+    tree, c = scenery.evidence.relation(name).tree, dict[str, Tree]()
+    rates = [f"{scenery.label}rate of {finite}" for finite in scenery.evidence.finite]
+    for step, finite in zip(rates, scenery.evidence.finite, strict=True):
+        if step not in scenery.steps:
+            scenery.add_step({"id": step, "by": "rate", "of": finite})
+    forms = {source: scenery.evidence.relation(source).tree for source in (*rates, *scenery.evidence.moving)}
+    for source in filter(scenery.linear, forms):
+        others = frozenset().union(*(form.symbols for other, form in forms.items() if other not in (source, name)))
+        velocity = max(scenery.evidence.velocities & forms[source].symbols - others - {"tdot"}, default="")
+        first = derivative(tree, velocity)
+        if velocity and velocity not in derivative(derivative(first, velocity), velocity).symbols:
+            slope, value = put_in(symbol(velocity), velocity, forms[source])
+            curve = HALF * derivative(first, velocity) * forms[source] / slope
+            c[source] = (substituted(first, {velocity: value}) + curve) / slope
+            tree = substituted(tree, {velocity: value})
+    return tree, c
+
+
 def squares_of(tree: Tree, plain: frozenset[str]) -> Iterator[tuple[int, list[Tree], list[list[str]]]]:
     """Yield a sign by which a tree is a sum of terms in ``plain`` symbols and of squares: a coefficient and a root."""
     *factors, whole = operands(tree, "product")
@@ -211,6 +303,27 @@ def squares_of(tree: Tree, plain: frozenset[str]) -> Iterator[tuple[int, list[Tr
         squares = [square for term in terms if term not in others and (square := _square(term))]
         if len(others) + len(squares) == len(terms):
             yield sign, others, squares
+
+
+def polynomial_text(ring: CheckedRing, polynomial: Any) -> str:
+    """Return a polynomial in symbols, sines and cosines as a text; `CheckError` where it contains anything else."""
+    return _terms_text(ring, ring.key(Quotient(polynomial, ring.unit))[0])
+
+
+def _terms_text(ring: CheckedRing, terms: Any) -> str:
+    keys, last = {place: key for key, place in ring.places.items()}, len(ring.generators) - 1
+    written = []
+    for powers, p, q in terms:
+        factors = [f"({p})/({q})"]
+        for index, often in powers:
+            head, what, *parts = keys[last - index]
+            refuse(head not in ("symbol", "pi", "sin", "cos"), "a function has no text")
+            if head in ("sin", "cos"):
+                above, below = (_terms_text(ring, part) for part in what)
+                what = f"{head}(({above})/(({below})*{parts[0]}))"
+            factors.append(f"({what or 'pi'})^{often}")
+        written.append("*".join(factors))
+    return " + ".join(written) or "0"
 
 
 def _square(term: Tree) -> list[str] | None:
