@@ -56,7 +56,6 @@ def test_every_reduction_says_what_it_leaves_out_and_has_scenes() -> None:
     assert set(SCENES) == set(FREEDOM)
 
 
-@pytest.mark.sweep
 @pytest.mark.parametrize("name", SCENES)
 def test_what_a_reduction_leaves_out_changes_no_answer(name: str) -> None:
     scene, n, reduction = SCENES[name]
