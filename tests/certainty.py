@@ -1,4 +1,4 @@
-"""Write ``tests/whole/certainty.yaml`` again, and print each scene that changed: python tests/certainty.py."""
+"""Write the record of certainty again, and print what changed: python tests/certainty.py."""
 
 from __future__ import annotations
 

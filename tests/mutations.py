@@ -94,6 +94,16 @@ SAME: Mapping[tuple[str, str, str], str] = {
         "return None, True",
     ): "nothing asks how sure a number is that is not known",
     (
+        "dofkit/exact/matrices/sparse.py",
+        "while 2 * b * b > p:",
+        "while 2 * b * b >= p:",
+    ): "a prime that is not 2 is no even number",
+    (
+        "dofkit/configuration/measured/equations.py",
+        "if np.all(spectrum > self.noise) or np.all(spectrum < -self.noise):",
+        "if np.all(spectrum >= self.noise) or np.all(spectrum < -self.noise):",
+    ): "a floating point number meets no other exactly",
+    (
         "dofkit/exact/ring/canonical.py",
         "if len(poly) > MAX_TERMS:",
         "if len(poly) >= MAX_TERMS:",

@@ -7,12 +7,14 @@ import random
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
 from shared.known_scenes import EVERY, report_of, scene_of, stem
 
 import dofkit
+from dofkit.classification.freedom import branches
 from dofkit.classification.labels import companions
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, in_velocities
@@ -239,3 +241,10 @@ def test_what_integrates_only_together_is_proved(names: str, texts: list[str], d
     assert {report.verdicts[key].verdict for key in ("dof", "velocity_dof", "holonomic", "redundant")} == {"proved"}
     assert [entry.holonomic for entry in report.constraints] == [dof == velocity_dof] * 2
     assert {entry.verdicts["holonomic"].verdict for entry in report.constraints} == {"proved"}
+
+
+def test_the_answer_of_the_system_is_used_again_for_a_label(monkeypatch: pytest.MonkeyPatch) -> None:
+    analysed = Mock(wraps=branches.in_time)
+    monkeypatch.setattr(branches, "in_time", analysed)
+    dofkit.classify({"coordinates": ["x", "y"], "constraints": ["x dy + y dx = 0"]})
+    analysed.assert_called_once()

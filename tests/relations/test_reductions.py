@@ -43,7 +43,6 @@ FREEDOM: Mapping[str, Callable[[int], int]] = {
 }
 
 
-@pytest.mark.sweep
 @pytest.mark.parametrize("name", SCENES)
 def test_what_a_reduction_leaves_out_changes_no_answer(name: str) -> None:
     scene, n, reduction = SCENES[name]

@@ -385,7 +385,6 @@ def test_a_long_flag_is_followed_to_its_end() -> None:
     assert report.growth_vector == list(range(2, 54))
 
 
-@pytest.mark.sweep
 @pytest.mark.parametrize("size", ["1/3", "3"])
 def test_a_form_that_is_zero_but_for_rounding_is_no_form(size: str) -> None:
     """Sarrus's linkage with both chains stretched, any size: alpha = beta and alpha = -beta cross."""

@@ -167,9 +167,10 @@ def _labels_of(
     rows = evidence.rows
     undecided = [t.label.reason for t in rows if t.label and t.label.holonomic is None and t.label.reason]
     late = [why for t in rows if t.answer.late for why in t.answer.reasons]
-    of_reduced = (t.label.reason for t in rows if t.reduced and t.label and t.label.holonomic is False)
+    with_others = [t.label.reason for t in rows if t.label and t.label.holonomic is False and t.label.reason]
     sures = (sure, sure_own)
-    return EntryLabels(in_system, alone, sures, next(iter(late + undecided), ""), bool(rows), next(of_reduced, ""))
+    first, reduced_by = (next(iter(texts), "") for texts in (late + undecided, with_others))
+    return EntryLabels(in_system, alone, sures, first, bool(rows), reduced_by)
 
 
 def _of_every_form(labels: EntryLabels, rows: Sequence[LabelledRow], normals: Sequence[Normal]) -> EntryLabels:
