@@ -16,15 +16,10 @@ SURE = ("proved", False)
 
 
 def certainty_of(report: Report) -> dict[str, list[str]]:
-    """Return the fields that are not proved, or of one component only, by how certain they are; arguments; texts."""
+    """Return the fields that are not proved, or of one component only, by how certain they are."""
     claims = report.verdicts | {f"{e.name}.{key}": c for e in report.constraints for key, c in e.verdicts.items()}
     weaker = {key: f"{c.verdict} {c.about}" for key, c in claims.items() if (c.verdict, c.about == "component") != SURE}
-    fields = {v: sorted(key for key in weaker if weaker[key] == v) for v in sorted(weaker.values())}
-    texts = [*report.warnings, report.count.errs, report.generic.differs if report.generic else None]
-    cases = [f"{case.where}: {case.what}" for case in report.special_cases]
-    arguments = sorted({c.argument for c in claims.values() if c.argument})
-    said = [re.sub(r"\d\.\de[+-]\d+", "...", text) for text in [*texts, *cases] if text]  # gaps are the machine's
-    return fields | {"arguments": arguments, "texts": said}
+    return {v: sorted(key for key in weaker if weaker[key] == v) for v in weaker.values()}
 
 
 def agrees_with_itself(report: Report) -> None:

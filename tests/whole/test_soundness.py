@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 import yaml
-from shared.report_laws import CERTAINTY, agrees_with_itself, certainty_of
+from shared.report_laws import agrees_with_itself
 
 import dofkit
 from dofkit.exact.points.field import prime_for
@@ -33,7 +33,6 @@ def test_right(row: dict[str, Any]) -> None:
     undecided = {key: None for key in row.get("open", ()) if answers[key] is None}
     scene = dofkit.load(row["scene"]).model_copy(update={"expect": row["truth"] | undecided})
     assert unmet(scene, answers) == []
-    assert certainty_of(report) == CERTAINTY[row["case"]]
     if report.verdict != "undecided":
         agrees_with_itself(report)
 
