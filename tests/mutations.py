@@ -94,7 +94,7 @@ SAME: Mapping[tuple[str, str, str], str] = {
         "return None, True",
     ): "nothing asks how sure a number is that is not known",
     (
-        "dofkit/exact/matrices/sparse.py",
+        "dofkit/exact/matrices/rational.py",
         "while 2 * b * b > p:",
         "while 2 * b * b >= p:",
     ): "a prime that is not 2 is no even number",

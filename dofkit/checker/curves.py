@@ -54,13 +54,16 @@ def left_over(evidence: CheckedEvidence, claim: Told) -> tuple[CheckedMinor, Tre
     evidence.on_set(point, names)
     zero = add(*(weight * evidence.relation(name).tree for name, weight in weights.items()))
 
-    def derivative_along(order: int, *ways: dict[str, str]) -> Any:
-        speeds = {q: point.value(add(*(evidence.text(way.get(q, "0")) for way in ways))) for q in chain(*ways)}
+    def derivative_of(order: int, *directions: dict[str, str]) -> Any:
+        speeds = {
+            q: point.value(add(*(evidence.text(direction.get(q, "0")) for direction in directions)))
+            for q in chain(*directions)
+        }
         bound = not speeds.keys() <= {*evidence.problem.coordinates} - {*minor.columns}
         refuse(bound, "speeds are of free coordinates")
         return along_curve(evidence, minor, speeds, zero, order)
 
-    return minor, zero, derivative_along
+    return minor, zero, derivative_of
 
 
 def isolated(evidence: CheckedEvidence, claim: Told) -> CheckedMinor:
@@ -71,21 +74,22 @@ def isolated(evidence: CheckedEvidence, claim: Told) -> CheckedMinor:
     it is 0 at the point alone (Morse). Fields that keep all, and fill the other directions, carry that point to all
     that there is around; with one direction they may be left out, and then nothing is said of this.
     """
-    (minor, zero, along_ways), ways, names = left_over(evidence, claim), claim["speeds"], claim.get("fields", [])
-    refuse(not 0 < len(ways) <= LONGEST_WORD, "a few directions are needed")
-    if len(ways) == 1:
-        refuse(not not_zero(along_ways(claim["order"], *ways)), "the zero on the curve is not shown to be isolated")
+    (minor, zero, rate), names = left_over(evidence, claim), claim.get("fields", [])
+    directions = claim["speeds"]
+    refuse(not 0 < len(directions) <= LONGEST_WORD, "a few directions are needed")
+    if len(directions) == 1:
+        refuse(not not_zero(rate(claim["order"], *directions)), "the zero on the curve is not shown to be isolated")
     else:
-        form = [[along_ways(2, a, b) - along_ways(2, a) - along_ways(2, b) for b in ways] for a in ways]
+        form = [[rate(2, a, b) - rate(2, a) - rate(2, b) for b in directions] for a in directions]
         signed = [[entry if form[0][0] > 0 else -entry for entry in row] for row in form]
-        leading = (arb_mat([row[:k] for row in signed[:k]]).det() for k in range(1, len(ways) + 1))
+        leading = (arb_mat([row[:k] for row in signed[:k]]).det() for k in range(1, len(directions) + 1))
         refuse(not all(value > 0 for value in leading), "the form is not shown to be definite")
         slopes = (minor.point.prepared(derivative(zero, q)) for q in evidence.problem.coordinates)
         still = not evidence.is_open(zero) and all(map(evidence.ring.vanishes, slopes))
         refuse(not still, "the combination is not stationary at the point, whatever the point chose")
-    if names or len(ways) > 1:
+    if names or len(directions) > 1:
         tangent(evidence, ([name] for name in names), (*minor.rows, *claim["zero"]))
-        crossed = [*({q: evidence.text(text) for q, text in way.items()} for way in ways)]
+        crossed = [*({q: evidence.text(text) for q, text in direction.items()} for direction in directions)]
         free = [q for q in evidence.problem.coordinates if q not in minor.columns]
         independent(evidence, [*crossed, *(field_named(evidence, name) for name in names)], free, minor.point)
     return minor
@@ -96,10 +100,10 @@ def crossing(evidence: CheckedEvidence, claim: Told) -> CheckedMinor:
 
     So its zeros separate a manifold there, and have one dimension less at least (Hurewicz and Wallman 1941).
     """
-    (minor, _, along_ways), (name,) = left_over(evidence, claim), claim["zero"]
+    (minor, _, derivative_of), (name,) = left_over(evidence, claim), claim["zero"]
     evidence.follow(evidence.finite, {*minor.rows, name}, minor.point, "the rows and what is 0")
     evidence.on_set(minor.point, evidence.finite)
-    first, other = (along_ways(2, way) for way in claim["speeds"])
+    first, other = (derivative_of(2, direction) for direction in claim["speeds"])
     refuse(not (first > 0 > other), "it is not shown to take both signs")
     return minor
 

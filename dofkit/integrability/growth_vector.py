@@ -208,9 +208,9 @@ def spanning_curves(
     curves: list[tuple[AdmissibleCurve, Variation]] = []
     rounds_without_gain = 0
     dimensions: tuple[int, ...] = ()
-    known = [] if span.flow is None else [span.flow]
+    flows_before = [] if span.flow is None else [span.flow]
     for _ in range(MAX_CURVES):
-        flow = known.pop() if known else AdmissibleCurve(rows, frame, base)
+        flow = flows_before.pop() if flows_before else AdmissibleCurve(rows, frame, base)
         flow.follow(span.dimensions.index(full) + 2)
         curves.append((flow, variation(flow)))
         before, dimensions = dimensions, _dimensions([f for f, _ in curves], full)

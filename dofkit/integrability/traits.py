@@ -119,6 +119,8 @@ def vanishes_on(
     derivative by one of these symbols, because at singular points the slope is 0 in any case. True only if g is
     irreducible and analytic, since the random point lies on one factor, and on one branch of every root and sign.
     """
+    if _is_multiple(slope, g, positive):
+        return True, "proved"
     identical, sure = zero_and_verdict(slope, positive, engines)
     if identical:
         return (True, sure) if is_analytic(g, [ex.TIME], positive) else (None, "undecided")
@@ -142,6 +144,13 @@ def vanishes_on(
     if real is not None and nonzero and real.certified:
         return False, "proved"
     return (False, "numeric") if point is not None and nonzero else (None, "undecided")
+
+
+@false_without_value
+def _is_multiple(slope: Expr, g: Expr, positive: frozenset[Expr]) -> bool:
+    """Return whether the numerator of ``slope`` is a multiple of that of ``g``."""
+    _, [(top, _), (other, _)] = quotients_of([slope, g], positive)
+    return bool(other != 0 and top != 0 and divmod(top, other)[1] == 0)
 
 
 @false_without_value

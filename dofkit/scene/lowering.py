@@ -304,8 +304,8 @@ def _reference(surveyed: Survey, pose: Pose) -> tuple[Pose | None, Pose | None, 
     placed = surveyed.placed or drawing.configuration
     missing = unplaced(drawing, surveyed.placed, pose, touched()) if placed else ()
     listed = ", ".join(missing[:8]) + (", ..." if len(missing) > 8 else "")
-    what = "positions of {} are" if len(missing) > 1 else "position of {} is"
-    message = f"There is no reference configuration: the {what.format(listed)} not given."
+    position, verb = ("positions", "are") if len(missing) > 1 else ("position", "is")
+    message = f"There is no reference configuration: the {position} of {listed} {verb} not given."
     return None, None, [message] if missing else []
 
 

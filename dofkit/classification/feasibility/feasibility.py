@@ -114,7 +114,7 @@ def _judged(study: Study, numbers: Sequence[int]) -> Feasibility:
             if result.feasible is False:
                 return result
             met |= dict.fromkeys(part.numbers, result) if result.feasible else {}
-    in_parts, shared = ({i for part in parts for i in part.numbers} for parts in (alone, joined))
+    in_parts, shared = ({i for part in some for i in part.numbers} for some in (alone, joined))
     pairs = zip(study.outcome.blocks, study.outcome.answers, strict=True)
     owners = {r.constraint for block, a in pairs if may_restrict(block, a) for r in block.rows}
     others = _answers(study, set(numbers) - in_parts)

@@ -75,7 +75,7 @@ class Companionship:
         return None if others.finite or a.hidden or advances else True
 
     def modulo(self, constraint: int, block: Block, a: Answer) -> Others:
-        """Return the geometric equation that follows from a non-holonomic constraint together with all the others.
+        """Return the geometric equation that is implied by a non-holonomic constraint together with all the others.
 
         Empty if none is known. ``a``: the answer of the block.
         """

@@ -150,11 +150,11 @@ class Canon:
         for var in self.ring.vars:
             sign = self.ring.var_expr[var.index]
             if var.kind == "sign" and sign.op == "mul" and poly.degrees()[-1 - var.index] == 1:
-                parts = self.collected(poly, {var.index})
+                coefficients = self.collected(poly, {var.index})
                 top, bottom = self.quotient(var.args[0])
-                multiple, remainder = divmod(parts.pop(((var.index, 1),)), top)
+                multiple, remainder = divmod(coefficients.pop(((var.index, 1),)), top)
                 if remainder == 0:
-                    others = self.to_expr(parts.get((), self.unit * 0))
+                    others = self.to_expr(coefficients.get((), self.unit * 0))
                     return ex.add(self.to_expr(multiple * bottom) * sign.args[0], others)
         generators = [self.ring.var_expr[var.index] for var in reversed(self.ring.vars)]
         terms = []

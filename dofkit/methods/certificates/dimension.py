@@ -161,13 +161,13 @@ def _isolated(context: Context, standing: Standing, fields: dict[str, str]) -> I
         columns = [{name: rows[name].get(q, 0.0) for name in standing.rows} for q in standing.columns]
         terms = least_step(columns, [rows[zero].get(q, 0.0) for q in standing.columns])
         weights = {name: number_text(-Fraction(value).limit_denominator(DENOMINATOR)) for name, value in terms.items()}
-        shown = _left_over(context, standing, zero, *({q: 1} for q in across))
-        shown["zero"] |= {name: weight for name, weight in weights.items() if weight != "0"}
-        yield {"rule": "isolated", **shown, "fields": list(fields)}
+        evidence_of = _left_over(context, standing, zero, *({q: 1} for q in across))
+        evidence_of["zero"] |= {name: weight for name, weight in weights.items() if weight != "0"}
+        yield {"rule": "isolated", **evidence_of, "fields": list(fields)}
     directions = [{q: 1} for q in across] if filled else _directions(context, standing)
-    for order, zero, way in product(range(2, HIGHEST_ORDER + 1), standing.dependent, directions):
-        if abs(_derivative_along(context, standing, zero, way, order)) > FAR:
-            yield {"rule": "isolated", **_left_over(context, standing, zero, way), "order": order, **filled}
+    for order, zero, direction in product(range(2, HIGHEST_ORDER + 1), standing.dependent, directions):
+        if abs(_derivative_along(context, standing, zero, direction, order)) > FAR:
+            yield {"rule": "isolated", **_left_over(context, standing, zero, direction), "order": order, **filled}
             return
 
 
@@ -179,14 +179,14 @@ def _directions(context: Context, standing: Standing) -> list[dict[str, int]]:
 def _crossing(context: Context, standing: Standing) -> Iterator[Told]:
     """Yield the rule `crossing`: along two directions the only dependent relation has different signs."""
     for zero in standing.dependent if len(standing.dependent) == 1 else ():
-        pairs = [(_derivative_along(context, standing, zero, way, 2), way) for way in _directions(context, standing)]
+        pairs = [(_derivative_along(context, standing, zero, v, 2), v) for v in _directions(context, standing)]
         (low, down), (high, up) = (extreme(pairs, key=itemgetter(0)) for extreme in (min, max))
         if low < -FAR and high > FAR:
             yield {"rule": "crossing", **_left_over(context, standing, zero, up, down)}
 
 
 def _left_over(context: Context, standing: Standing, zero: str, *directions: dict[str, int]) -> Told:
-    speeds = [{q: str(value) for q, value in way.items()} for way in directions]
+    speeds = [{q: str(value) for q, value in direction.items()} for direction in directions]
     return {"minor": context.minor(standing), "zero": {zero: "1"}, "speeds": speeds}
 
 

@@ -234,10 +234,10 @@ def hidden(scenery: Scenery) -> Iterator[str]:
         form, second = scenery.form(first), scenery.form(other)
         ratios = (ring.rational(form[q] / second[q]) for q in second if q != "t" and second[q] != ZERO)
         ratio = next((ratio for ratio in ratios if ratio), None)
-        rest = {q: form[q] - number(Fraction(str(ratio or 0))) * second[q] for q in form}
-        if ratio is not None and all(ring.vanishes(tree) == (q != "t") for q, tree in rest.items()):
+        difference = {q: form[q] - number(Fraction(str(ratio or 0))) * second[q] for q in form}
+        if ratio is not None and all(ring.vanishes(tree) == (q != "t") for q, tree in difference.items()):
             step, c = f"{scenery.label}hidden by {first} and {other}", {first: "1", other: f"{-ratio}"}
-            scenery.add_step({"id": step, "by": "implied", "function": text_of(rest["t"]), "c": c})
+            scenery.add_step({"id": step, "by": "implied", "function": text_of(difference["t"]), "c": c})
             back = {"id": f"{scenery.label}{other} from others", "by": "implied", "of": other, "h": f"{ratio}"}
             scenery.add_step({**back, "c": {first: "1", step: "-1"}})
             scenery.shared[step] = first, other
@@ -245,7 +245,7 @@ def hidden(scenery: Scenery) -> Iterator[str]:
 
 
 def branches(scenery: Scenery, name: str) -> Iterator[str]:
-    """Steps for a relation that is not linear in velocities: it follows from forms, or is a factor near a state.
+    """Steps for a relation that is not linear in velocities: it is implied by forms, or is a factor near a state.
 
     The factor is the longest of what is left where forms are put in.
     """
@@ -316,11 +316,11 @@ def _terms_text(ring: CheckedRing, terms: Any) -> str:
     for powers, p, q in terms:
         factors = [f"({p})/({q})"]
         for index, often in powers:
-            head, what, *parts = keys[last - index]
+            head, what, *orders = keys[last - index]
             refuse(head not in ("symbol", "pi", "sin", "cos"), "a function has no text")
             if head in ("sin", "cos"):
                 above, below = (_terms_text(ring, part) for part in what)
-                what = f"{head}(({above})/(({below})*{parts[0]}))"
+                what = f"{head}(({above})/(({below})*{orders[0]}))"
             factors.append(f"({what or 'pi'})^{often}")
         written.append("*".join(factors))
     return " + ".join(written) or "0"
