@@ -30,8 +30,8 @@ if TYPE_CHECKING:
     from dofkit.homework.assignment import load_assignment
     from dofkit.homework.grading import grade
     from dofkit.methods.ask import ask
-    from dofkit.methods.certificates.verifying import verify
     from dofkit.methods.classify import classify, derived_flag
+    from dofkit.methods.verify import verify
     from dofkit.mobility.graph.linkage import Linkage, linkage, redundant_links
     from dofkit.motion.configurations import configurations
     from dofkit.motion.lagrange.equations import lagrange
@@ -54,8 +54,8 @@ _MODULES = {
     "homework.assignment": ["load_assignment"],
     "homework.grading": ["grade"],
     "methods.ask": ["ask"],
-    "methods.certificates.verifying": ["verify"],
     "methods.classify": ["classify", "derived_flag"],
+    "methods.verify": ["verify"],
     "mobility.graph.linkage": ["Linkage", "linkage", "redundant_links"],
     "motion.lagrange.equations": ["lagrange"],
     "motion.configurations": ["configurations"],

@@ -205,9 +205,7 @@ class Worker:
         return JobOutcome(value, "overrun" if late else "died", f"the worker process {reason}"), False
 
     def _message(self, seconds: float) -> tuple[str, Json] | None:
-        """Return the next (kind, content); None if the process has ended, which the thread that reads shows by a line
-        without end. Raises TimeoutError after ``seconds``.
-        """
+        """Return the next (kind, content); None if the process has ended. Raises TimeoutError after ``seconds``."""
         try:
             line = self._lines.get(timeout=min(seconds, threading.TIMEOUT_MAX))
         except Empty:

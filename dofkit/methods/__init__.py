@@ -22,5 +22,5 @@ The methods without engines
     general position. `exact` (rational numbers) and `numeric` (singular values) work at points; `symbolic` uses SymPy
     directly. `as_written` reads the equations for these, and computes ranks and Frobenius' test at points.
 
-`certificates` searches for the evidence that `dofkit.checker` rechecks.
+`certificates` searches for the evidence that `dofkit.checker` rechecks; `verify` has it rechecked.
 """

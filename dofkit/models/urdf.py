@@ -79,10 +79,7 @@ class _UrdfScene:
     names: dict[str, str] = field(default_factory=dict)
 
     def document(self, tolerance: float) -> ModelDocument:
-        """Return the scene, with its entries in the order of the tree.
-
-        A link without mass at the end of a fixed joint is left out, and is its parent; at the root it is the ground.
-        """
+        """Return the scene, in the order of the tree, without massless links at the ends of fixed joints."""
         robot, poses = self.robot, self.poses
         parents = {joint.parent for joint in robot.joints} | {end for loop in robot.loops for end, _ in loop.ends}
         markers = []

@@ -171,10 +171,7 @@ def curve(arrangement: Arrangement, exprs: Sequence[Expr], symbols: Sequence[Exp
 
 
 def profile(stage: StagedScene, number: int, connection: Connection) -> Iterator[Shape]:
-    """Yield the profile of a cam, which moves with the second member of the constraint.
-
-    It consists of the places of the follower at which the relation is satisfied: an area if the line is closed.
-    """
+    """Yield the profile of a cam on the second member: where the follower's point can be; an area if it is closed."""
     relations = stage.system.constraints[number].relations
     vertex = next(stage.vertices(connection), None)
     if not relations or vertex is None:

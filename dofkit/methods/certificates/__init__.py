@@ -19,5 +19,5 @@ From a report to a certificate
     4. `lowering` says in each verdict whether it is checked, and makes a claim undecided whose evidence gives another
        value.
 
-`motion_evidence` writes certificates of equations of motion; `verifying` is the public `dofkit.verify`.
+`motion_evidence` writes certificates of equations of motion.
 """
