@@ -207,7 +207,7 @@ def timed_in_system(
     for g in (*finite, *answer.hidden):
         still, result = vanishes_on(g, piece.dt, setting.positive)
         if still:
-            return False, result
+            return False, result if g in finite else weakest(result, answer.verdict)
     return others.timed, sure
 
 
