@@ -5,8 +5,8 @@ with the engines that made the claims, and imports nothing of dofkit outside thi
 a second time here, on purpose.
 
 Types
-    `Verification` is the result: claims that hold, claims that fail, and what is not covered. `CheckError` refuses
-    what is not in order.
+    `Verification` is the result: claims that hold, claims that fail, and what is not covered. A `Told` is a mapping as
+    the certificate has it. `refuse(wrong, why)` raises `CheckError` if ``wrong``.
 
 Mechanisms, in the order of checking
     1. `problem` reads the scene's document: coordinates, scalar relations with their owners, and the reference.
@@ -16,8 +16,8 @@ Mechanisms, in the order of checking
        the `ring` of normal forms.
     3. `evidence` has what a certificate puts forward: points (`point`, with values in balls), minors of rows that hold
        there, velocity fields; `curves` what is isolated, crosses or is curved at a point.
-    4. `dimension_rules`, `label_rules` and `motion` are the rules: one function for each kind of claim, which checks
-       its hypotheses.
+    4. `dimension_rules`, `label_rules` and `motion` are the rules: one function for each kind of claim, which returns
+       the value that it proves, and raises `CheckError` where a hypothesis fails.
     5. `verification` reads the certificate with care, bounded in work, and asks the rules. The format is described in
        ``FORMAT.md``.
 """

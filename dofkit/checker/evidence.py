@@ -285,14 +285,14 @@ def involutive(evidence: CheckedEvidence, claim: Told, allowed: Collection[str] 
 
 
 def take_cover(evidence: CheckedEvidence, name: Any) -> list[str]:
-    """Blocks of rows, each with fields that keep it: near a minor's point its rows give all (constant rank theorem).
+    """Check a cover, and return its rows: near a minor's point they follow from the minor's (constant rank theorem).
 
-    The fields are tangent identically, so a block has rank at most its variables less its fields, and the minor shows
-    that the sum is reached.
+    The fields of a block are tangent to it identically, so that its rank is at most its variables less its fields; the
+    minor shows that the sum is reached. A row with t, or a number that the point chose, may hold by this choice alone.
     """
     cover, total = evidence.named("covers", name), 0
     minor, rows = evidence.minor(cover["minor"]), [row for block in cover["blocks"] for row in block["rows"]]
-    once = len(rows) == len(set(rows)) and set(minor.rows) <= set(rows) <= set(evidence.finite)
+    each_row_once = len(rows) == len(set(rows)) and set(minor.rows) <= set(rows) <= set(evidence.finite)
     for row in rows:
         tree = evidence.relation(row).tree
         chosen = "t" in tree.symbols or (evidence.is_open(tree) and not evidence.own_symbol(row))
@@ -307,6 +307,9 @@ def take_cover(evidence: CheckedEvidence, name: Any) -> list[str]:
         tangent(evidence, ([name] for name in block["fields"]), block["rows"])
         independent(evidence, fields, block["columns"], minor.point)
         total += min(len(variables) - len(fields), len(block["rows"]))
-    refuse(not once or total != len(minor.rows), "each holonomic equation once, and the rank of the minor are needed")
+    refuse(
+        not each_row_once or total != len(minor.rows),
+        "each holonomic equation once, and the rank of the minor are needed",
+    )
     evidence.consequences += (Consequence(row, minor.rows, at=minor.point.name) for row in {*rows} - {*minor.rows})
     return rows

@@ -51,10 +51,10 @@ def integrable(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
 
 
 def bracket(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
-    """A direction that motions through the point reach, and that a form of the constraint forbids.
+    """Return False, not holonomic: motions through the point reach a direction that a form of the constraint forbids.
 
-    A consequence of geometric equations holds for all directions in which the orbit of the fields extends. Or one is
-    ``curved`` along what is allowed: integrals that imply it leave a plane of velocities, on which it is 0.
+    A consequence of geometric equations holds for all directions in which the orbit of the fields extends. Or the
+    relation is ``curved`` on the velocities that are allowed: where integrals imply it, these are a plane.
     """
     name, allowed, curves = claim["pairs"], _setting(evidence, claim), claim["rule"] == "curved"
     point = curvature(evidence, claim, allowed).point if curves else admissible(evidence, claim, allowed)[0]
@@ -96,19 +96,19 @@ def exterior_part(form: Form, i: str, j: str) -> Tree:
 
 
 def timeless(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
-    """Neither t nor dt occurs, and what is not linear in velocities is homogeneous.
+    """Return True: neither t nor dt occurs (catastatic: no dt), and what is not linear in velocities is homogeneous.
 
-    One relation that was verified not to integrate is scleronomic where t does not occur.
+    Of a single relation that was verified not to be holonomic, only t must not occur.
     """
     catastatic = claim["field"] == "catastatic"
     names = constraint_relations(evidence, claim, EQUATIONS if catastatic else EVERY)
-    ones = [evidence.relation(name) for name in names]
-    refuse(catastatic and all(checked.kind != "velocity" for checked in ones), "there is no form")
-    apart = not catastatic and len(names) == 1 and verified.get(f"holonomic {claim['owner']}") is False
-    for checked in ones:
+    relations = [evidence.relation(name) for name in names]
+    refuse(catastatic and all(checked.kind != "velocity" for checked in relations), "there is no form")
+    nonholonomic = not catastatic and len(names) == 1 and verified.get(f"holonomic {claim['owner']}") is False
+    for checked in relations:
         mixed = homogeneous_degree(checked.tree, evidence.velocities) is None and not evidence.is_linear(checked.name)
-        refuse(mixed and not apart, f"`{checked.name}` is no form, or not homogeneous in velocities")
-        for name in ["tdot"] if catastatic else ["t"] if apart else ["t", "tdot"]:
+        refuse(mixed and not nonholonomic, f"`{checked.name}` is no form, or not homogeneous in velocities")
+        for name in ["tdot"] if catastatic else ["t"] if nonholonomic else ["t", "tdot"]:
             evidence.identity(derivative(checked.tree, name), ZERO, f"the derivative of `{checked.name}` by {name}")
     return True
 

@@ -126,7 +126,7 @@ FIELDS = ("coordinates", "lagrangian", "momenta", "forces", "equations", "constr
 def motion(evidence: CheckedEvidence, claim: Told, verified: Told) -> Told:
     """Lagrange's equations where the eliminated coordinates are functions of those kept, up to factors that are not 0.
 
-    Let M be where they are and the given constraints hold. By `_leaves` M is all that the relations allow near a point,
+    Let M be where they are and the given constraints hold: as is checked, all that the relations allow near a point,
     and what does no work on it are multiples of these constraints (of those nonlinear in velocities: of their slopes
     by these). So d/dt dL/dqdot - dL/dq + dD/dqdot less all pushes are such multiples, L and D put in [Lagrange1788].
     """
@@ -147,7 +147,7 @@ def motion(evidence: CheckedEvidence, claim: Told, verified: Told) -> Told:
     dependent = [tree for tree in places.values() if evidence.met_by(tree) or not tree.symbols.isdisjoint(put)]
     refuse(dependent, "a coordinate is eliminated by such, or by velocities")
     limits = {name: read(text) for name, text in zip(names, claimed["constraints"], strict=True)}
-    _leaves(evidence, claim, put, places, limits)
+    _check_elimination(evidence, claim, put, places, limits)
     lagrangian, lost = (substituted(tree, put) for tree in (energies.lagrangian, energies.dissipation))
     pushes = [(substituted(force, put), substituted(place, put)) for force, place in energies.pushes]
     whole = read(claimed["lagrangian"])
@@ -168,8 +168,8 @@ def motion(evidence: CheckedEvidence, claim: Told, verified: Told) -> Told:
     return {name: fields.get(name, claimed[name]) for name in FIELDS}
 
 
-def _leaves(evidence: CheckedEvidence, claim: Told, put: Told, places: Told, limits: Told) -> None:
-    """`CheckError` unless the set of the claim is all that the relations of the scene allow near a point.
+def _check_elimination(evidence: CheckedEvidence, claim: Told, put: Told, places: Told, limits: Told) -> None:
+    """Raise `CheckError` unless the set of the claim is all that the relations of the scene allow near a point.
 
     ``places``: what each eliminated coordinate is; ``put``: the same with its rates, to be put in; ``limits``: the
     constraints that remain, by name. With ``put`` every relation is a combination of the remaining constraints, so the

@@ -325,9 +325,9 @@ def homogeneous_degree(tree: Tree, names: Collection[str]) -> Fraction | None:
 
 
 def in_velocities(tree: Tree, coordinates: Collection[str]) -> Tree:
-    """A relation in velocities, without ``dt``: over the power of it in which the relation is homogeneous.
+    """Return a relation divided by the power of ``dt`` in which it is homogeneous: dq becomes qdot dt.
 
-    What is linear in velocities becomes a form, its terms without one times ``tdot``.
+    If it is linear in velocities, its terms without a velocity are multiplied by ``tdot``: it is a form.
     """
     degree = homogeneous_degree(tree, ["dt"])
     refuse(degree is None, "differentials and finite terms are added together")

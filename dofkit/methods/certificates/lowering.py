@@ -22,10 +22,10 @@ _OPEN: Mapping[str, Any] = {"redundancies": [], "conflicting": [], "infeasible":
 
 def document_of_scene(scene: Scene) -> dict[str, Any]:
     """The document of a scene as the checker reads it."""
-    return scene_of_checker(scene).document
+    return scene_for_checker(scene).document
 
 
-def scene_of_checker(scene: Scene) -> PlainScene:
+def scene_for_checker(scene: Scene) -> PlainScene:
     """A scene in standard words; a text that the checker's grammar does not read stands in plain notation."""
     cached: dict[int, tuple[Names, KnownNames]] = {}
 
@@ -47,7 +47,7 @@ def with_certificate(scene: Scene, report: Report, strict: bool = False) -> Repo
     A claim whose evidence gives another value is undecided, with a warning. If ``strict``, what is proved without
     evidence is probable, and a number is about the points for which it is shown.
     """
-    document, readings = scene_of_checker(scene)
+    document, readings = scene_for_checker(scene)
     making = Certifying(document, report, readings)
     certificate = making.written()
     confirmed = {claim["path"]: claim.get("about") for claim in certificate["claims"]}

@@ -11,7 +11,7 @@ from dofkit.checker.problem import CheckedProblem as Problem
 from dofkit.checker.trees import ONE, Tree, along, number, substituted, symbol
 from dofkit.methods.certificates.certificate import HINDRANCES, Certifying, without_spare_parts
 from dofkit.methods.certificates.context import Context, Told
-from dofkit.methods.certificates.lowering import scene_of_checker
+from dofkit.methods.certificates.lowering import scene_for_checker
 from dofkit.methods.certificates.numerics import Estimates
 from dofkit.methods.certificates.points import FoundPoint
 from dofkit.methods.certificates.scenery import number_text, text_of
@@ -26,7 +26,7 @@ MOST_POINTS = 4
 def certificate_of_motion(scene: Scene, motion: Mapping[str, Any], report: Report) -> dict[str, Any]:
     """Return the certificate of the equations of motion on a ``report``; "uncovered" if no evidence was found."""
     fields = {name: motion[name] for name in FIELDS}
-    document, readings = scene_of_checker(scene)
+    document, readings = scene_for_checker(scene)
     making = Certifying(document, report, readings)
     claim = making.confirmed(PATH, fields, lambda context: MotionEvidence(context, fields).claims(), True)
     making.certificate |= {"claims": [claim]} if claim else {"uncovered": [PATH]}

@@ -95,7 +95,7 @@ class PointSearch:
                     yield point
 
     def meeting(self, inequalities: Sequence[str], names: Sequence[str], unknowns: Sequence[str]) -> FoundPoint | None:
-        """Return a point at which inequalities hold, and the relations ``names``."""
+        """Return a point that satisfies the relations ``names`` and all inequalities strictly; None without success."""
         trees = [self.scenery.tree(name) for name in inequalities]
         for point in self.points(names, unknowns, 100, AFAR + 6):
             if all(self.scenery.estimated(tree, point.estimates) > NEAR for tree in trees):

@@ -257,7 +257,7 @@ def _placed(scenery: Scenery, row: Components, order: Order) -> Components:
 def cofactors(
     scenery: Scenery, point: FoundPoint, target: Components, rows: dict[str, Components]
 ) -> tuple[Tree, dict[str, Tree]] | None:
-    """h and c_i with h target = sum c_i row_i in as many columns as there are rows; None where a few do not do."""
+    """Return h and c_i with h target = sum c_i row_i in as many columns as there are rows; None for too many rows."""
     try:
         chosen, columns = _chosen(scenery, point, target, rows)
     except NoEstimateError:
