@@ -21,7 +21,7 @@ from dofkit.report import Report
 HOME = Path(dofkit.methods.__file__).parent
 #: Modules of the package that are no method.
 SHARED = {
-    "__init__", "as_written", "ask", "classify", "single_method", "table",
+    "__init__", "as_written", "ask", "classify", "single_method", "table", "verify",
 }  # fmt: skip
 RIVALS: tuple[MethodName, ...] = tuple(m for m in METHODS if m not in ENGINES)
 #: Rivals that are quick enough for every scene.

@@ -141,7 +141,7 @@ BAD = {
     "unknown name": (b"coordinates: [theta]\nconstraints:\n- thta = 1\n", 3, 3, "thta"),
     "unknown name in quotes": (b'coordinates: [theta]\nconstraints:\n- "1 = thta"\n', 3, 8, "thta"),
     "unknown name after an escape": (b'coordinates: [theta]\nconstraints:\n- "\\u0031 = thta"\n', 3, 13, "thta"),
-    "unknown name in a field": (b"coordinates: [q]\nconstraints:\n- {type: equation, text: 'q = qq'}\n", 3, 31, "qq"),
+    "unknown name in a field": (b"coordinates: [q]\nconstraints:\n- {type: equation, text: 'q = rr'}\n", 3, 31, "rr"),
     "a hyphen too far to the right": (b"coordinates: [x]\nconstraints:\n- x = 1\n - x = 2\n", 3, 3, "hyphen"),
     "a key that is no coordinate": (b"coordinates: [x]\nconfiguration: {x: 1, y: 2}\n", 2, 23, "'y'"),
     "unknown name in JSON": (b'{"coordinates": ["theta"],\n"constraints": ["theta = thta"]}', 2, 26, "thta"),
