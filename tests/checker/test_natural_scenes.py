@@ -9,6 +9,7 @@ import pytest
 import yaml
 from checker.test_second_checker import needs_node, second
 from shared.known_scenes import spread, verdicts_of
+from shared.report_laws import agrees_with_itself
 
 import dofkit
 from dofkit.checker import verify
@@ -20,9 +21,15 @@ LEAST = 0.99
 
 
 def checked(line: str) -> list[bool]:
-    """Whether each proved field of a scene is checked; the certificate verifies, alone and with its scene."""
+    """Whether each proved field of a scene is checked; the certificate verifies, alone and with its scene.
+
+    The checker contradicts nothing, and the fields of the report fit together.
+    """
     (written,) = yaml.safe_load(line)
     report = dofkit.classify(written, certificate=True)
+    assert not any("a second program" in warning for warning in report.warnings)
+    if report.verdict != "undecided":
+        agrees_with_itself(report)
     certificate = json.loads(json.dumps(report.certificate))
     for verification in (verify(None, certificate), dofkit.verify(written, certificate)):
         assert verification.claims == verification.verified > 0
@@ -30,7 +37,7 @@ def checked(line: str) -> list[bool]:
     return [bool(told.checked) for _, _, told in verdicts_of(report) if told.verdict == "proved"]
 
 
-@pytest.mark.parametrize("line", spread(SCENES, 12), ids=lambda line: f"line-{LINES.index(line) + 1}")
+@pytest.mark.parametrize("line", spread(SCENES, 3), ids=lambda line: f"line-{LINES.index(line) + 1}")
 def test_a_scene_as_people_write_it_has_evidence(line: str) -> None:
     assert sum(checked(line)) > 0
 
