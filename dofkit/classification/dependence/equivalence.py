@@ -130,8 +130,7 @@ class Equivalence:
     def result(self) -> Compared:
         """Return how the submitted constraints compare with the wanted ones, and which of these they imply.
 
-        A submitted constraint is sound if the wanted ones imply it, a wanted one is met if the sound ones imply it;
-        None is undecided.
+        Submitted ones are sound if the wanted ones imply them, wanted ones are met if the sound ones do; None: open.
         """
         if any(r.inequalities for r in (*self.wanted, *self.submitted)):
             return self._unilateral()
@@ -304,7 +303,8 @@ class Equivalence:
         extra = [k for k in range(len(submitted)) if not any(row[k] for row in table)]
         if all(met):
             return Compared(Sameness.STRONGER if extra else Sameness.SAME, met)
-        return Compared(Sameness.DIFFERENT if extra else Sameness.WEAKER, met)
+        apart = Sameness.DIFFERENT if len(asked) + len(submitted) == 2 else Sameness.UNDECIDED  # abs(x) <= 1 is several
+        return Compared(apart if extra else Sameness.WEAKER, met)
 
 
 def _moved(normal: Normal) -> set[str]:
