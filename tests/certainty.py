@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from pathlib import Path
 from types import SimpleNamespace
+from unittest.mock import patch
 
 import yaml
 from shared.known_scenes import EXPECTED, report_of
@@ -16,9 +17,9 @@ TABLE = Path(__file__).parent / "whole" / "certainty.yaml"
 
 
 def main() -> None:
-    deadline.time = SimpleNamespace(monotonic=time.process_time, thread_time=time.thread_time)  # type: ignore[assignment]
     paths: list[Path] = [getattr(case, "values", [case])[0] for case in EXPECTED]
-    certainties = {path.stem: certainty_of(report_of(path)) for path in sorted(paths, key=lambda p: p.stem)}
+    with patch.object(deadline, "time", SimpleNamespace(monotonic=time.process_time, thread_time=time.thread_time)):
+        certainties = {path.stem: certainty_of(report_of(path)) for path in sorted(paths, key=lambda p: p.stem)}
     record = {name: certainty for name, certainty in certainties.items() if certainty}
     for name in sorted(record.keys() | CERTAINTY.keys()):
         if record.get(name) != CERTAINTY.get(name):

@@ -301,10 +301,10 @@ class Equivalence:
         result = {q: True in row for q, row in zip(asked, table, strict=True)}
         met = tuple(all(result[q] for q in r.inequalities) for r in self.wanted)
         extra = [k for k in range(len(submitted)) if not any(row[k] for row in table)]
-        if all(met):
-            return Compared(Sameness.STRONGER if extra else Sameness.SAME, met)
-        apart = Sameness.DIFFERENT if len(asked) + len(submitted) == 2 else Sameness.UNDECIDED  # abs(x) <= 1 is several
-        return Compared(apart if extra else Sameness.WEAKER, met)
+        if all(met) and not extra:
+            return Compared(Sameness.SAME, met)
+        # several may be one by one others, and the same together: 0 <= x^2 <= 1 is x^2 <= 1
+        return Compared(Sameness.DIFFERENT if len(asked) + len(submitted) == 2 else Sameness.UNDECIDED, met)
 
 
 def _moved(normal: Normal) -> set[str]:
