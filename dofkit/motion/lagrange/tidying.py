@@ -141,7 +141,7 @@ def _factored(canon: Canon, top: Poly, bottom: Poly) -> Expr:
 
 
 def _factored_product(canon: Canon, poly: Poly) -> Expr:
-    content, factors = poly.factor()[0], canon.factors(poly)
+    factors, content = canon.factors(poly), poly.factor()[0]
     number = ex.num(Fraction(int(content.p), int(content.q)))
     powers = [ex.power(canon.to_expr(f), ex.num(k)) for f, k in factors]
     if number != ex.ONE and len(powers) == 1 and powers[0].op == "add":

@@ -90,7 +90,7 @@ def weak_sign(canon: Canon, signs: Signs, poly: Any) -> int:
     sign_of_all = _sign_of_terms(signs, poly)
     if sign_of_all or poly.is_constant():
         return sign_of_all
-    sign = 1 if poly.factor()[0] > 0 else -1
+    sign = 1 if poly.leading_coefficient() > 0 else -1  # that of every factor is positive
     for factor, multiplicity in canon.factors(poly):
         sign *= _sign_of_terms(signs, factor) ** multiplicity if multiplicity % 2 else 1
     return sign
@@ -120,15 +120,10 @@ def never_holds(e: Expr, strict: bool, positive: frozenset[Expr]) -> bool:
     signs = Signs(canon, positive)
     even = sum_of_even(top, signs)
     if even is None and strict:
-        return _never_positive(canon, signs, top)
+        return weak_sign(canon, signs, top) == -1
     if even is None or _some_positive(top):
         return False
     return strict or any(not zeros for zeros in even)
-
-
-@false_without_value
-def _never_positive(canon: Canon, signs: Signs, poly: Any) -> bool:
-    return weak_sign(canon, signs, poly) == -1
 
 
 def _some_positive(poly: Any) -> bool:
