@@ -12,6 +12,7 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from functools import lru_cache
 from itertools import combinations, islice
+from math import prod
 from typing import Any
 
 from dofkit.base.deadline import OutOfTimeError, check
@@ -36,6 +37,8 @@ from dofkit.relations.normal.zero_set import never_vanishes, zero_set
 MAX_CLAIMS = 40
 #: Bounds of resultants: terms and degrees of a pair of polynomials, number of pairs; rounds (resultants of resultants).
 MAX_RESULTANT_TERMS, MAX_RESULTANT_DEGREE, MAX_PAIRS, ROUNDS = 40, 8, 60, 2
+#: Bound on the products of terms in a resultant, or else on the monomials that it may have.
+MAX_PRODUCTS = 10**6
 
 
 def no_solution(relations: Sequence[Expr], positive: frozenset[Expr], conditions: Sequence[Expr] = ()) -> bool:
@@ -157,8 +160,11 @@ def _resultants(polynomials: list[Poly]) -> list[Poly]:
     for a, b in islice(combinations(polynomials, 2), MAX_PAIRS):
         if len(a) + len(b) > MAX_RESULTANT_TERMS:
             continue
-        for i, (j, k) in enumerate(zip(a.degrees(), b.degrees(), strict=True)):
-            if j and k and j + k <= MAX_RESULTANT_DEGREE:
+        degrees = [(int(j), int(k)) for j, k in zip(a.degrees(), b.degrees(), strict=True)]
+        for i, (j, k) in enumerate(degrees):
+            monomials = prod(k * p + j * q + 1 for p, q in (*degrees[:i], *degrees[i + 1 :]))
+            short = min(monomials, len(a) ** k * len(b) ** j) <= MAX_PRODUCTS
+            if j and k and j + k <= MAX_RESULTANT_DEGREE and short:
                 eliminated = a.resultant(b, i)
                 if eliminated != 0 and len(eliminated) <= MAX_RESULTANT_TERMS and eliminated not in result:
                     result.append(eliminated)
