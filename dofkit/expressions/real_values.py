@@ -48,7 +48,8 @@ def _check_power(base: Expr, value: Fraction) -> None:
         if base.is_zero and value < 0:
             raise TextError("this divides by zero", hint="check the denominator")
         if base.args[0] < 0 and value.denominator != 1:
-            raise TextError("a negative number has no real root", hint="write a real number")
+            hint = "an even root is not real; write an odd one as `-(8^(1/3))`"
+            raise TextError("a root of a negative number is not read", hint=hint)
     elif abs(value) > 1 and _degree(base, {}) * abs(value) > MAX_EXPONENT:
         message = f"these nested powers multiply to more than {MAX_EXPONENT}"
         raise TextError(message, hint="choose smaller exponents")
