@@ -17,9 +17,11 @@ from dofkit.classification.dependence.implied_constraints import MAX_CHOICES, co
 from dofkit.classification.freedom.branches import Outcome, off_reference
 from dofkit.classification.freedom.preparation import algebraic, all_of, branches_at_reference
 from dofkit.exact.matrices.sparse import SparseRow, components
+from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import IDENTITY, Answer, Redundancies, undecided_dependence
-from dofkit.relations.blocks import Block, coordinates_of
-from dofkit.relations.normal.domain import DomainCondition, is_always_satisfied
+from dofkit.relations.blocks import Block, coordinates_of, expressions_of
+from dofkit.relations.normal.domain import DomainCondition, conditions_of, is_always_satisfied
+from dofkit.relations.normal.no_solution import hold_nowhere
 from dofkit.relations.normal.pieces import Finite, Inequality, Nonlinear, Normal, Pfaffian, Piece, Reduced
 from dofkit.relations.setting import Setting
 
@@ -54,12 +56,28 @@ def redundancies(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome)
 
 
 def _within_domain(r: Redundancies, reduced: Sequence[Reduced], setting: Setting) -> Redundancies:
-    """Return ``r``, about a component only if a redundant constraint as written has no value at some points."""
+    """Return ``r``, about a component only if a redundant constraint as written has no value at some points.
+
+    Undecided if a dependent one is not redundant, but may be so where all of them have a value.
+    """
+    dependent = {i for i, k in r.independent.items() if k < reduced[i].equations} - {*r.redundant, *r.undecided}
+    if dependent and any(_loses_domain(reduced[i], setting.positive) for i in r.independent):
+        return undecided_dependence(r.independent)
     required = {c for i in r.redundant for c in reduced[i].domain() if not is_always_satisfied(c, setting.positive)}
     if not required:  # of many parts, each would look at all constraints otherwise
         return r
     by_others = {c for i, other in enumerate(reduced) if i not in r.redundant for c in other.domain()}
     return r if required <= by_others else _within(r, "component")
+
+
+def _loses_domain(r: Reduced, positive: frozenset[Expr]) -> bool:
+    """Return whether the equations as written may have no value where those analysed do, as x^2/x = y at x = 0."""
+    written = [c for c in r.domain() if not is_always_satisfied(c, positive)]
+    pieces = [p for n in r.normals for b in n.branches for p in b] if written else []
+    kept = [c for p in pieces for e in expressions_of(p) for c in conditions_of(e, positive)]
+    kept += [p for p in pieces if isinstance(p, DomainCondition)]
+    outside = (([c.expr], kept) if c.sense == "!=" else ([], [*kept, DomainCondition(-c.expr, ">")]) for c in written)
+    return not all(hold_nowhere(*claims, positive) for claims in outside)
 
 
 def _is_region(r: Reduced) -> bool:
