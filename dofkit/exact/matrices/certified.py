@@ -124,19 +124,14 @@ def _pivot(row: Sequence[arb]) -> int:
     return best
 
 
-def _scale(row: Sequence[arb]) -> arb:
-    """Return the size of a row's largest entry; 1 for a row of zeros."""
-    largest = max((v.abs_lower() for v in row), default=arb(0))
-    return arb(1) if largest == 0 else largest
-
-
 def _largest(row: Sequence[arb]) -> arb:
     return max((v.abs_upper() for v in row), default=arb(0))
 
 
 def _relative_size(size: arb, row: Sequence[arb]) -> float:
     """Return a size divided by the row's largest entry; as balls, because both may be too large for floats."""
-    return float(size / _scale(row))
+    largest = max((v.abs_lower() for v in row), default=arb(0))
+    return float(size if largest == 0 else size / largest)
 
 
 def _pivot_gap(sizes: Sequence[float], largest_residual: float) -> float:

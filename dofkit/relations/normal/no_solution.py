@@ -18,7 +18,7 @@ from typing import Any
 from dofkit.base.deadline import OutOfTimeError, check
 from dofkit.base.errors import NoValueError, PoleError
 from dofkit.exact.points.real_search import RealSearch
-from dofkit.exact.ring.canonical import Canon, quotients_of
+from dofkit.exact.ring.canonical import quotients_of
 from dofkit.exact.ring.program import false_without_value, values
 from dofkit.exact.ring.radicals import known_signs
 from dofkit.exact.ring.ring import Ring
@@ -146,12 +146,9 @@ def _some_resultant_never_vanishes(relations: Sequence[Expr], positive: frozense
     polynomials = numerators
     for _ in range(ROUNDS):
         polynomials = _resultants(polynomials)
-    return any(_without_hidden_numbers(canon, p) and never_vanishes(canon.to_expr(p), positive) for p in polynomials)
-
-
-def _without_hidden_numbers(canon: Canon, p: Poly) -> bool:
-    """Return whether no generator in ``p`` is a constant; constants may be related, so that p is 0 unnoticed."""
-    return all(canon.ring.var_expr[i].symbols for i in canon.generators_in(p))
+    numbers = {v.index for v in canon.ring.vars if not canon.ring.var_expr[v.index].symbols}  # they may be related
+    plain = [p for p in polynomials if numbers.isdisjoint(canon.generators_in(p))]
+    return any(never_vanishes(canon.to_expr(p), positive) for p in plain)
 
 
 def _resultants(polynomials: list[Poly]) -> list[Poly]:

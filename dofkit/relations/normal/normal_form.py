@@ -8,7 +8,7 @@ Differentials are written dq = qdot dt: a relation homogeneous of degree k in (d
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
 from itertools import product as cartesian
 from math import gcd, isqrt, lcm, prod
@@ -99,7 +99,7 @@ def _completed(
     square = _Square(canon.to_expr(linear), canon.to_expr(radicand), canon.to_expr(single), sign)
     factors = [canon.to_expr(remaining), canon.to_expr(under)]
     slopes = [diff(square.root, v) for v in velocities]
-    if any(_has(u, velocities) for u in (square.radicand, *factors, *slopes)):
+    if any(not u.symbols.isdisjoint(velocities) for u in (square.radicand, *factors, *slopes)):
         return None
     nowhere = (never_vanishes(u, positive) if _varying(u) else not is_proved_zero(u, positive) for u in factors)
     return square if all(nowhere) else None  # parameters are generic
@@ -124,10 +124,6 @@ def _branches(square: _Square, positive: frozenset[Expr]) -> list[Conjunction] |
         return None
     factors = [root, *([radicand] if _varying(radicand) else [])]
     return [(*zeros, linear) for factor in factors for zeros in zero_set(factor, positive, _varying(factor))[0]]
-
-
-def _has(e: Expr, symbols: Collection[Expr]) -> bool:
-    return not e.symbols.isdisjoint(symbols)
 
 
 def _varying(e: Expr) -> frozenset[Expr]:

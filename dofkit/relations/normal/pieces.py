@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -174,16 +174,11 @@ def _form_shape(form: Pfaffian) -> PieceShape:
     """Return the shape of a form: equal for forms that are equal up to names."""
     places: dict[str, int] = {}
     key: list[Hashable] = [type(form).__name__]
-    for name, e in _coefficients(form):
+    for name, e in (*form.coefficients.items(), (None, form.dt)):
         shape = shape_of(e)
         place = -1 if name is None else places.setdefault(name, len(places))
         key.append((place, shape.skeleton, tuple(places.setdefault(n, len(places)) for n in shape.names)))
     return PieceShape(tuple(key), tuple(places))
-
-
-def _coefficients(form: Pfaffian) -> Iterator[tuple[str | None, Expr]]:
-    yield from form.coefficients.items()
-    yield None, form.dt
 
 
 def in_names(normal: Normal, renaming: Renaming) -> Normal:

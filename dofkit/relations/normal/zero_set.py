@@ -105,8 +105,9 @@ class _WrittenZeros:
 
     def _even_sum(self, e: Expr) -> Zeros | None:
         """Return the zeros of a sum all of whose terms are written as >= 0, or all as <= 0; None for other sums."""
-        signs = {sign_as_written(term, self.positive) for term in e.args}
-        if len(signs) != 1 or None in signs:
+        terms = [ex.number_and_rest(term) for term in e.args]
+        one_sign = len({number > 0 for number, _ in terms}) == 1
+        if not (one_sign and all(never_negative(factors, self.positive) for _, factors in terms)):
             return None
         return self._together([self.of(term) for term in e.args])
 
@@ -119,12 +120,6 @@ class _WrittenZeros:
     def _polynomial(self, e: Expr) -> Zeros:
         canon, [quotient] = quotients_of([e], self.positive)
         return PolynomialZeros(canon, self.positive, self.variables, self.of).of(*quotient, e)
-
-
-def sign_as_written(term: Expr, positive: frozenset[Expr]) -> int | None:
-    """Return 1 if the factors of a term show that it is >= 0, -1 if <= 0, otherwise None."""
-    number, factors = ex.number_and_rest(term)
-    return None if not never_negative(factors, positive) else 1 if number > 0 else -1
 
 
 def _is_denominator(factor: Expr) -> bool:
