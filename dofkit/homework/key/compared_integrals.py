@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from dofkit.classification.dependence.equivalence import Leaves, is_integral, leaves
+from dofkit.classification.equivalence import Leaves, is_integral, leaves
 from dofkit.expressions.text import Comparison
 from dofkit.expressions.tree import parameter
 from dofkit.homework.answers.relations import AnswerReading
