@@ -145,7 +145,7 @@ class Equivalence:
             result = _compared(self._regions({}), *relations)
             same_set = result.sameness is Sameness.SAME and bool(self._all_wanted)
             return Compared(self._regularity()) if same_set else result
-        if same_up_to_numbers(submitted, wanted, self.setting.positive):
+        if same_up_to_numbers(submitted, wanted):
             return Compared(Sameness.SAME, tuple(True for _ in wanted))
         sound = self._sound
         kept = [g for g, s in zip(self._answer, sound, strict=True) if s is True]

@@ -1,7 +1,6 @@
 """Comparisons of submitted constraints with wanted ones: multiples, gradients on the same set, roots.
 
-Two equations are equivalent if one is a number times the other. This is tested only for polynomials in coordinates,
-parameters, sines, cosines and exponentials: a root or a quotient may have no value where its multiple has one.
+Two equations are equivalent if one is, term by term, a number times the other.
 a sqrt(P) + b = 0 is the branch a b <= 0 of b^2 = a^2 P, and equivalent to it if other constraints imply a b <= 0.
 """
 
@@ -15,14 +14,13 @@ from itertools import product as cartesian
 from flint import arb
 
 from dofkit.base.errors import NoValueError
+from dofkit.classification.freedom.preparation import scaled
 from dofkit.configuration.search import find
 from dofkit.configuration.variety import field_jacobian
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.sparse import rank_of_rows
 from dofkit.exact.points.balls import jacobian
-from dofkit.exact.ring.canonical import quotients_of
-from dofkit.exact.ring.program import POW, false_without_value, none_without_value, values
-from dofkit.exact.ring.ring import Ring
+from dofkit.exact.ring.program import none_without_value, values
 from dofkit.exact.zero import is_proved_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, in_velocities, replace_nodes, substitute
@@ -36,68 +34,23 @@ from dofkit.relations.setting import Setting
 from dofkit.relations.velocity_reductions import eliminated
 from dofkit.system import Relation
 
-#: Generators of a ring that have a value everywhere.
-_ENTIRE = frozenset({"symbol", "cos", "sin", "exp", "pi"})
 
-
-def same_up_to_numbers(submitted: Collection[Reduced], wanted: Collection[Reduced], positive: frozenset[Expr]) -> bool:
+def same_up_to_numbers(submitted: Collection[Reduced], wanted: Collection[Reduced]) -> bool:
     """Return whether every submitted equation, as written, is a number times a wanted one, and every wanted one occurs.
 
     True proves that the sets are equivalent and equally regular; False: not proved.
     """
     if _as_written(submitted) == _as_written(wanted):
         return True
-    wanted_terms = [_terms(n) for r in wanted for n in r.normals]
-    submitted_terms = [terms for r in submitted for terms in _written(r)]
-    if not submitted_terms or [] in wanted_terms or [] in submitted_terms:
-        return False
-    table = [[_proportional(terms, other, positive) for other in wanted_terms] for terms in submitted_terms]
-    return all(map(any, table)) and all(any(row[k] for row in table) for k in range(len(wanted_terms)))
+    keys, wanted_keys = ({scaled(n) for r in some for n in r.normals} for some in (submitted, wanted))
+    unchanged = not any(n.notes for r in submitted for n in r.normals)
+    return unchanged and keys == wanted_keys
 
 
 def _as_written(constraints: Iterable[Reduced]) -> set[tuple[frozenset[Expr], frozenset[Requirement]]]:
     """Return the equations e = 0 as ({e, -e}, conditions for a value of e)."""
     relations = (e for r in constraints for e in r.constraint.relations)
     return {(frozenset((e.expr, -e.expr)), frozenset(e.domain)) for e in relations}
-
-
-def _entire(ring: Ring) -> bool:
-    """Return whether all nodes of a ring have a value everywhere."""
-    kinds = {var.kind for var in ring.vars}
-    return kinds <= _ENTIRE and not any(op == POW and p[1] < 0 for op, p in ring.code)
-
-
-def _written(r: Reduced) -> list[list[tuple[str, Expr]]]:
-    """Return `_terms` of each equation of a constraint; [[]] if any equation was changed by its normal form."""
-    if len(r.normals) != len(r.constraint.relations) or any(n.notes for n in r.normals):
-        return [[]]
-    return [_terms(n) for n in r.normals]
-
-
-def _terms(normal: Normal) -> list[tuple[str, Expr]]:
-    """Return [("", g)] for g = 0, the (coordinate, coefficient) pairs of a form; [] for branches and conditions."""
-    if len(normal.branches) != 1 or len(normal.branches[0]) != 1:
-        return []
-    (piece,) = normal.branches[0]
-    if isinstance(piece, Finite):
-        return [("", piece.expr)]
-    if type(piece) is Pfaffian:
-        return [*sorted(piece.coefficients.items()), ("dt", piece.dt)]
-    return []
-
-
-@false_without_value
-def _proportional(a: Sequence[tuple[str, Expr]], b: Sequence[tuple[str, Expr]], positive: frozenset[Expr]) -> bool:
-    """Return whether a_i = c b_i identically for one number c other than 0; proved in the canonical ring."""
-    first, second = dict(a), dict(b)
-    names = sorted(first.keys() | second.keys())
-    canon, quotients = quotients_of([form.get(name, ZERO) for name in names for form in (first, second)], positive)
-    tops = [top for top, _ in quotients]
-    result = list(zip(tops[::2], tops[1::2], strict=True))
-    if not _entire(canon.ring) or any((x == 0) != (y == 0) for x, y in result):
-        return False
-    leading = [(x.leading_coefficient(), y.leading_coefficient()) for x, y in result if x != 0]
-    return all(x * d == y * c for x, y in result for c, d in leading[:1])
 
 
 #: Bound on the choices of branches on which gradients are compared.
