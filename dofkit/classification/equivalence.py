@@ -93,15 +93,6 @@ def compare(
         return _comparison(system, asked, answer, constants, engines).result()
 
 
-def is_integral(system: System, asked: Sequence[int], answer: Sequence[int]) -> bool | None:
-    """Return whether the constraints ``answer`` are geometric equations to which those numbered ``asked`` integrate.
-
-    Their differentials must be equivalent to the forms in the presence of the others. None if undecided.
-    """
-    with precise_for(system.longest):
-        return _comparison(system, asked, answer, frozenset()).integrates()
-
-
 def leaves(system: System, asked: Sequence[int], answer: Sequence[int], constants: frozenset[str]) -> Leaves:
     """Return whether the equations ``answer`` describe leaves of the forms ``asked``: integral manifolds of full size.
 
@@ -250,14 +241,14 @@ class Equivalence:
 
     def _integrated(self) -> Sameness | None:
         """Return with or without a constant the wanted forms are integrated, or undecided; None if they are not."""
-        integrates = self.integrates()
+        integrates = self._integrates()
         if not integrates:
             return None if integrates is False else Sameness.UNDECIDED
         new = [g for g, sound in zip(_finite(self._answer), self._sound, strict=True) if not sound]
         constants_in = [{s for s in g.symbols if s.args[1] in self.constants} for g in new]
         return Sameness.INTEGRATED if all(constants_in) else Sameness.WITHOUT_CONSTANT
 
-    def integrates(self) -> bool | None:
+    def _integrates(self) -> bool | None:
         """Return whether the submitted relations are geometric and their differentials equivalent to the wanted forms.
 
         Wanted geometric equations have to be implied by the submitted ones. None if undecided.

@@ -40,17 +40,13 @@ _TURNING = frozenset({"sin", "cos", "tan"})
 _UNNAMED = re.compile(r"\b_[A-Z]\d+\b")
 
 
-def with_answer(key: Key, read: Read) -> tuple[System, range]:
-    """Return (system of the scene with an answer, numbers of the answer's constraints in it).
-
-    Raises TextError if the equations are invalid in the scene.
-    """
+def lowered(scene: Scene) -> System:
+    """Return the system of a scene with an answer. Raises TextError if the answer's equations are invalid in it."""
     try:
-        system = lower(with_equations(key.scene, read, ANSWER)).in_coordinates
+        return lower(scene)
     except SceneError as error:
         fault = error.faults[0]
         raise TextError(fault.message, fault.column or 1, fault.hint) from None
-    return system, range(len(key.scene.constraints), len(system.constraints))
 
 
 @dataclass(frozen=True)
@@ -182,7 +178,8 @@ class EquationComparison:
         return partly(Fraction(free - yours, free - system), text, code, why=count)
 
     def _compared(self, read: Read) -> Compared:
-        system, answer = with_answer(self.key, read)
+        system = lowered(with_equations(self.key.scene, read, ANSWER)).in_coordinates
+        answer = range(len(self.key.scene.constraints), len(system.constraints))
         return compare(system, system.numbers_of(*self.names), answer, read.constants)
 
     def _in_part(self, comparison: Compared, read: Read, text: str, code: str) -> Judgement:
