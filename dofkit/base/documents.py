@@ -129,7 +129,7 @@ def _offset_of_column(source: str, column: int) -> int:
     if source[:1] in ("|", ">"):
         return 0
     if source[:1] not in ('"', "'"):
-        return column - 1 if "\n" not in source[:column] else 0
+        return column - 1 if "\n" not in source[: column - 1] else 0
     at = 1
     for _ in range(column - 1):
         if source[:1] == "'":

@@ -14,7 +14,6 @@ Mechanisms, in the order in which a report is filled
     2. `dependence`: circuits and redundant constraints, by the rank of rows if dependence is a deficiency of this rank
        [Whitney1935], otherwise by testing implication at random states and by removing constraints; conflicts of an
        inconsistent system. `minimal_sets` has the search for minimal and for largest redundant sets.
-       `equivalence` compares a student's answer with the constraints that it should state.
     3. `labels`: holonomic (on its own, and in the system) [HermannNagano], scleronomic, catastatic, with the sentence
        that gives the reason.
     4. `generalized_coordinates`, chosen such that the columns of the other coordinates are independent;
@@ -25,6 +24,7 @@ Mechanisms, in the order in which a report is filled
        dependent up to rounding.
     7. `special`: loci on which a rank drops or curvature vanishes, and branches of another dimension.
 
-`arguments` lists the arguments with their hypotheses and theorems; `passes` withholds fields that contradict each
-other; `undecided` makes a report when time has run out.
+`equivalence` compares a student's answer with the constraints that it should state. `arguments` lists the arguments
+with their hypotheses and theorems; `passes` withholds fields that contradict each other; `undecided` makes a report
+when time has run out.
 """

@@ -90,10 +90,10 @@ def _read(e: Expr) -> Expr | Pfaffian | str:
     return "nonlinear" if form is None else form
 
 
-def labelled(written: Written, holonomic: Mapping[int, bool]) -> dict[str, bool]:
-    """Return {name: label}: True for geometric equations, False for ``others``, from ``holonomic`` for forms."""
-    names = [c.name for c in written.system.constraints]
-    return {name: holonomic.get(i, True) and i not in written.others for i, name in enumerate(names)}
+def labelled(written: Written, passing: Sequence[bool]) -> dict[str, bool]:
+    """Return {name: label}: False for ``others`` and for constraints with a form that does not pass, else True."""
+    failing = {i for (i, _), passes in zip(written.forms, passing, strict=True) if not passes} | {*written.others}
+    return {c.name: i not in failing for i, c in enumerate(written.system.constraints)}
 
 
 Matrix = list[list[Scalar]]
@@ -207,10 +207,7 @@ def freedom(sampled: SampledPoints, numbers: Decider) -> int:
 def labels(samples: SampledPoints, numbers: Decider) -> dict[str, bool]:
     """Return {name: whether the constraint is taken to be holonomic}."""
     del numbers
-    holonomic: dict[int, bool] = {}
-    for (i, _), passes in zip(samples.rows.forms, samples.passing, strict=True):
-        holonomic[i] = holonomic.get(i, True) and passes
-    return labelled(samples.rows.written, holonomic)
+    return labelled(samples.rows.written, samples.passing)
 
 
 def droppable(sampled: SampledPoints, numbers: Decider) -> list[str]:

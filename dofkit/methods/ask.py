@@ -15,8 +15,8 @@ from dofkit.base.deadline import DEFAULT_SECONDS, OUT_OF_TIME, OutOfTimeError, l
 from dofkit.base.errors import ArgumentError
 from dofkit.base.verdicts import weakest
 from dofkit.base.wording import description_of, require_one_of, seconds_of
-from dofkit.classification.dependence.equivalence import Sameness, compare
 from dofkit.classification.dependence.redundancy import all_needed, redundancies
+from dofkit.classification.equivalence import Sameness, compare
 from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.freedom.preparation import prepared
 from dofkit.classification.labels.entries import labels_in_system

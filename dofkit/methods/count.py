@@ -31,13 +31,9 @@ def dof(scene: Scene | System) -> Reply:
 def integrability(scene: Scene | System) -> Reply:
     """Return {name: label}: a form is called holonomic if it is closed (mixed partials agree), else not."""
     written = as_written(scene)
-    closed: dict[int, bool] = {}
-    verdicts = []
-    for i, form in written.forms:
-        is_closed, verdict = exact(form, written.positive)
-        closed[i] = closed.get(i, True) and bool(is_closed)
-        verdicts += [verdict] if is_closed else []
-    return Reply(labelled(written, closed), verdict=weakest(*verdicts))  # [PoincareLemma]
+    answers = [exact(form, written.positive) for _, form in written.forms]
+    sure = weakest(*(verdict for is_closed, verdict in answers if is_closed))
+    return Reply(labelled(written, [bool(is_closed) for is_closed, _ in answers]), verdict=sure)  # [PoincareLemma]
 
 
 def redundancy(scene: Scene | System) -> Reply:

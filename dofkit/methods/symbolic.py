@@ -118,10 +118,7 @@ def _freedom(symbols: Symbols, passes: Sequence[bool]) -> int:
 def integrability(scene: Scene | System) -> Reply:
     """Return {name: label}, by wedge products."""
     symbols = Symbols(as_written(scene))
-    labels: dict[int, bool] = {}
-    for (i, _), passes in zip(symbols.forms, passing(symbols), strict=True):
-        labels[i] = labels.get(i, True) and passes
-    return Reply(labelled(symbols.written, labels))
+    return Reply(labelled(symbols.written, passing(symbols)))
 
 
 def redundancy(scene: Scene | System) -> Reply:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from itertools import combinations, pairwise
+from textwrap import wrap
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -56,13 +57,7 @@ def width_of(text: str, size: float) -> float:
 def wrapped(text: str, size: float, width: float) -> list[str]:
     """Return a text as lines that fit into a width."""
     most = max(12, int(width / (WIDE * size * 0.92)))
-    lines: list[str] = []
-    for word in text.split():
-        if lines and len(lines[-1]) + 1 + len(word) <= most:
-            lines[-1] += f" {word}"
-        else:
-            lines.append(word)
-    return lines
+    return wrap(" ".join(text.split()), most, break_long_words=False, break_on_hyphens=False)
 
 
 # Views

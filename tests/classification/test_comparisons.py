@@ -10,7 +10,7 @@ import pytest
 
 import dofkit
 from dofkit.base.documents import read_document
-from dofkit.classification.dependence.equivalence import compare, leaves
+from dofkit.classification.equivalence import compare, leaves
 from dofkit.scene.lowering import lower
 
 TABLES = read_document((Path(__file__).parent / "comparisons.yaml").read_bytes(), "comparisons").value

@@ -147,6 +147,7 @@ BAD = {
     "unknown name in JSON": (b'{"coordinates": ["theta"],\n"constraints": ["theta = thta"]}', 2, 26, "thta"),
     "unknown name after CRLF": (b"coordinates: [theta]\r\nconstraints:\r\n- 1 = thta\r\n", 3, 7, "thta"),
     "unknown name after a BOM": (b"\xef\xbb\xbfcoordinates: [q]\nconstraints: [1 = thta]\n", 2, 19, "thta"),
+    "nothing after an operator": (b"coordinates: [x]\nconstraints:\n- x >= 0 +\n", 3, 11, "missing after `+`"),
     "unknown body": (b"dimension: 2\nbodies: [crank]\nconstraints:\n- {type: fixed, body: crnk}\n", 4, 23, "crnk"),
     "number as a name": (b"coordinates: [1]\n", 1, 15, "text is needed"),
     "mapping as a list": (b"coordinates: {x: y}\n", 1, 14, "list is needed"),

@@ -1,8 +1,8 @@
-"""Dependence: which constraints are implied by others, which conflict, and are two sets of equations equivalent?
+"""Dependence: which constraints are implied by others, and which conflict?
 
 Types
     `Redundancies` (from `relations`): independent equations, a maximal redundant set, groups and circuits, by the
-    numbers of the constraints. `Sameness` (`equivalence`): how a student's answer compares with the wanted constraints.
+    numbers of the constraints.
 
 Mechanisms, in the order in which they are tried (`redundancy` is the driver)
     1. If each block removes as much freedom as it has equations, none is redundant.
@@ -15,6 +15,6 @@ Mechanisms, in the order in which they are tried (`redundancy` is the driver)
        allow, on all branches (`implication`, [SchwartzZippel]), and on components that random states miss
        [Rabinowitsch1929]. The module also finds minimal conflicts.
 
-`equivalence` tests implications in both directions; `comparison` compares multiples, inequalities and gradients.
+`comparison` compares multiples and gradients for `equivalence`, which tests implications in both directions.
 Result: `Redundancies`, with the points for which they are valid.
 """

@@ -12,4 +12,5 @@ Mechanisms, in the order in which they are tried (`feasibility` is the driver)
     3. `relations.normal.no_solution`: products of inequalities, and resultants of equations.
 
 If a proof succeeds, constraints are left out one by one until every remaining one is needed.
+`regions` proves that inequalities of one side imply those of another, or finds a point that they do not share.
 """

@@ -68,13 +68,18 @@ def feasibility(study: Study) -> Feasibility:
         members, claim = study.dependence.conflicting
         reasons = (NOT_MINIMAL.format(names="all of them"),) if claim.verdict != "proved" else ()
         return Feasibility(False, tuple(members), verdict=answer, reasons=reasons)
+    result = judged(study)
+    return result if result.feasible is not False else _minimal(study, result)
+
+
+def judged(study: Study) -> Feasibility:
+    """Return the feasibility of the inequalities of a consistent system; an infeasible set need not be minimal."""
     if study.setting.engines != BOTH:
         return Feasibility(None)
     repeated = copies(study.reduced)
     numbers = [i for i, r in enumerate(study.reduced) if i not in repeated and (r.normals or r.inequalities)]
     with limited(SECONDS):
-        result = unless_late(partial(_judged, study, numbers), Feasibility(None, reasons=(OPEN,)))
-    return result if result.feasible is not False else _minimal(study, result)
+        return unless_late(partial(_judged, study, numbers), Feasibility(None, reasons=(OPEN,)))
 
 
 def _minimal(study: Study, feasibility: Feasibility) -> Feasibility:

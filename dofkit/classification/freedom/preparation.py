@@ -244,7 +244,7 @@ def copies(reduced: Sequence[Reduced]) -> dict[int, int]:
     seen: dict[Hashable, int] = {}
     result = {}
     for i in sorted(i for numbers in alike.values() if len(numbers) > 1 for i in numbers):
-        keys = Counter(frozenset(frozenset(map(_scaled, b)) for b in normal.branches) for normal in reduced[i].normals)
+        keys = Counter(map(scaled, reduced[i].normals))
         original = seen.setdefault(frozenset(keys.items()), i)
         if original != i:
             result[i] = original
@@ -260,6 +260,11 @@ def _is_not_compared(normal: Normal) -> bool:
     """Return whether a relation is not compared: it is satisfied always or never, or is a joint's equation."""
     branches = normal.branches
     return branches in ((), ((),)) or any(isinstance(p, JointEquation) for p in branches[0])
+
+
+def scaled(normal: Normal) -> Hashable:
+    """Return a key that is equal for normal forms that are multiples of each other, piece by piece."""
+    return frozenset(frozenset(map(_scaled, branch)) for branch in normal.branches)
 
 
 def _scaled(piece: Piece) -> Hashable:

@@ -15,7 +15,7 @@ from dofkit.base.errors import DofkitError
 from dofkit.base.wording import format_of_path, is_folder_path
 from dofkit.homework.answers.roster import Roster
 from dofkit.homework.assignment import Prepared
-from dofkit.homework.formats.wording import FileNames, plain
+from dofkit.homework.formats.wording import FileNames, plain, shortened
 from dofkit.homework.result import Result, json_line
 
 #: Where results are written: the path of ``--out``, or a stream such as standard output.
@@ -116,9 +116,7 @@ def cell(content: str) -> str:
     >>> cell("=cmd|'/C calc'!A0"), cell("-2"), cell("-2+3"), cell("Ada")
     ("'=cmd|'/C calc'!A0", '-2', "'-2+3", 'Ada')
     """
-    printable = plain(content)
-    if len(printable) > MOST_CHARACTERS:
-        printable = printable[: MOST_CHARACTERS - 3] + "..."
+    printable = shortened(plain(content), MOST_CHARACTERS)
     return f"'{printable}" if _FORMULA.match(printable) and not _NUMBER.fullmatch(printable) else printable
 
 

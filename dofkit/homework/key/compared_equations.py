@@ -9,7 +9,7 @@ from fractions import Fraction
 from functools import cached_property
 
 from dofkit.base.errors import SceneError, TextError
-from dofkit.classification.dependence.equivalence import Compared, Sameness, compare
+from dofkit.classification.equivalence import Compared, Sameness, compare
 from dofkit.expressions import tree as ex
 from dofkit.expressions.text import Comparison, parse_relations, to_text
 from dofkit.expressions.tree import Expr
@@ -18,7 +18,6 @@ from dofkit.homework.judgement import HALF, NOTHING, JudgedReading, Judgement, n
 from dofkit.homework.key.counterexamples import counterexample
 from dofkit.homework.key.key import Key
 from dofkit.homework.key.own_names import renamed, without_own
-from dofkit.homework.key.regions import Condition, compared_regions, conditions
 from dofkit.homework.sentences import Said, meanings, say
 from dofkit.methods.classify import classify
 from dofkit.scene.added_equations import Read, with_equations
@@ -34,22 +33,20 @@ _RIGHT = frozenset({Sameness.SAME, Sameness.INTEGRATED})
 ANSWER = "the answer"
 _ALLOWS = "Your equation allows {point}, which the constraint forbids."
 _FORBIDS = "Your equation forbids {point}, which the constraint allows."
+_INEQUALITY_ALLOWS = "Your inequality allows {point}, which the constraint forbids."
+_INEQUALITY_FORBIDS = "Your inequality forbids {point}, which the constraint allows."
 _TURNING = frozenset({"sin", "cos", "tan"})
 #: The generated name of the square of a length without a name, in equations of a scene.
 _UNNAMED = re.compile(r"\b_[A-Z]\d+\b")
 
 
-def with_answer(key: Key, read: Read) -> tuple[System, range]:
-    """Return (system of the scene with an answer, numbers of the answer's constraints in it).
-
-    Raises TextError if the equations are invalid in the scene.
-    """
+def lowered(scene: Scene) -> System:
+    """Return the system of a scene with an answer. Raises TextError if the answer's equations are invalid in it."""
     try:
-        system = lower(with_equations(key.scene, read, ANSWER)).in_coordinates
+        return lower(scene)
     except SceneError as error:
         fault = error.faults[0]
         raise TextError(fault.message, fault.column or 1, fault.hint) from None
-    return system, range(len(key.scene.constraints), len(system.constraints))
 
 
 @dataclass(frozen=True)
@@ -117,12 +114,7 @@ class EquationComparison:
         if any(s.args[0] == "acceleration" for s in reading.symbols):
             return needs_review(reading.text, "it contains accelerations.")
         verdict = self._verdict(reading.read(), text or reading.text)
-        if verdict.status == "right":
-            return verdict
-        region = self._region(reading)
-        if region is not None or verdict.share != NOTHING:
-            return region or verdict
-        return self._with_counterexample(verdict, reading)
+        return self._with_counterexample(verdict, reading) if verdict.share == NOTHING else verdict
 
     def _with_counterexample(self, verdict: Judgement, reading: AnswerReading) -> Judgement:
         """Return a judgement with a state, if one is found, that only the answer or only the constraints allow."""
@@ -142,38 +134,22 @@ class EquationComparison:
         system = self.key.system
         return [r for i in system.numbers_of(*self.names) for r in system.constraints[i].relations]
 
-    def _region(self, reading: AnswerReading) -> Judgement | None:
-        """Return the judgement of inequalities, compared as regions, or None if there are equations."""
-        answer = conditions(reading.relations)
-        if answer is None or any(r.sense == "=" for r in self._asked):
-            return None
-        wanted = [Condition(r.expr, r.sense == ">") for r in self._asked]
-        comparison = compared_regions(self._others, wanted, answer)
-        if not comparison.beyond and not comparison.lacking:
-            same = None not in (comparison.beyond, comparison.lacking)
-            return right(reading.text) if same else needs_review(reading.text, _UNDECIDED)
-        allows = "Your inequality allows {point}, which the constraint forbids."
-        forbids = "Your inequality forbids {point}, which the constraint allows."
-        hint = say(allows if comparison.beyond else forbids, point=comparison.point) if comparison.point else ""
-        closed = [[Condition(c.e, False) for c in part] for part in (wanted, answer)]
-        if not comparison.point and {c.strict for c in wanted} != {c.strict for c in answer}:
-            without = compared_regions(self._others, *closed)
-            if without.beyond is False and without.lacking is False:
-                return needs_review(reading.text, "it differs from the constraint on the boundary only.")
-        both = comparison.beyond and comparison.lacking
-        sameness = Sameness.DIFFERENT if both else Sameness.WEAKER if comparison.beyond else Sameness.STRONGER
-        return wrong(reading.text, sameness.value, why=hint)
-
     def _verdict(self, read: Read, text: str) -> Judgement:
         comparison = self.key.once((self.names, read.texts, read.constants), lambda: self._compared(read))
         if comparison.sameness is Sameness.UNDECIDED:
             return needs_review(text, _UNDECIDED)
+        if comparison.sameness is Sameness.BOUNDARY:
+            return needs_review(text, "it differs from the constraint on the boundary only.")
         code = comparison.sameness.value
         if comparison.sameness in _RIGHT:
             return right(text, meanings().get(code, ""))
         if comparison.sameness in _HALVES:
             return partly(HALF, text, code)
-        return self._in_part(comparison, read, text, code)
+        judgement = self._in_part(comparison, read, text, code)
+        point = counterexample(self._others, (), (), [q.expr for q in comparison.system]) if comparison.system else ""
+        stronger = comparison.sameness is Sameness.STRONGER
+        sentence = _INEQUALITY_FORBIDS if stronger else _INEQUALITY_ALLOWS
+        return replace(judgement, said=(say(sentence, point=point),)) if point else judgement
 
     @cached_property
     def _others(self) -> Scene:
@@ -202,7 +178,8 @@ class EquationComparison:
         return partly(Fraction(free - yours, free - system), text, code, why=count)
 
     def _compared(self, read: Read) -> Compared:
-        system, answer = with_answer(self.key, read)
+        system = lowered(with_equations(self.key.scene, read, ANSWER)).in_coordinates
+        answer = range(len(self.key.scene.constraints), len(system.constraints))
         return compare(system, system.numbers_of(*self.names), answer, read.constants)
 
     def _in_part(self, comparison: Compared, read: Read, text: str, code: str) -> Judgement:

@@ -8,17 +8,16 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from dofkit.classification.dependence.equivalence import Leaves, is_integral, leaves
+from dofkit.classification.equivalence import Leaves, leaves
 from dofkit.expressions.text import Comparison
 from dofkit.expressions.tree import parameter
 from dofkit.homework.answers.relations import AnswerReading
 from dofkit.homework.judgement import Judgement, needs_review, right, wrong
-from dofkit.homework.key.compared_equations import ANSWER, with_answer
+from dofkit.homework.key.compared_equations import ANSWER, lowered
 from dofkit.homework.key.key import Key
 from dofkit.homework.key.own_names import without_own
 from dofkit.scene.added_equations import Read, with_equations
 from dofkit.scene.constraints.base import Equation
-from dofkit.scene.lowering import lower
 from dofkit.scene.scene import Scene
 
 #: Names of the constant of an expression without `=`: `x y` is read as x y = C.
@@ -53,9 +52,6 @@ def _judgement(reading: AnswerReading, key: Key, name: str) -> Judgement:
     if read.moving:
         return wrong(read.text, "NOT_INTEGRATED")
     remark = "" if read.constants else _LEFT_OUT
-    system, answer = with_answer(key, read)
-    if is_integral(system, system.numbers_of(name), answer):
-        return right(read.text, remark)
     family = _leaves(key, read, name)
     if family is Leaves.ALL or (family is Leaves.ONE and not read.constants):
         return right(read.text, remark)
@@ -79,7 +75,7 @@ def _with_constants(reading: AnswerReading, key: Key) -> Read:
 
 def _leaves(key: Key, read: Read, name: str) -> Leaves:
     """Return on which curves or surfaces of the answer's family the constraint is satisfied."""
-    system, before = lower(_with_still(key.scene, read)), len(key.scene.constraints)
+    system, before = lowered(_with_still(key.scene, read)), len(key.scene.constraints)
     return leaves(system, system.numbers_of(name), range(before, before + len(read.texts)), read.constants)
 
 

@@ -13,15 +13,13 @@ from enum import Enum
 from functools import cached_property
 from typing import NamedTuple
 
-from dofkit.base.errors import NoValueError
 from dofkit.exact.matrices.sparse import rank_of
 from dofkit.exact.residues import residue_matrix
-from dofkit.exact.ring.program import raising_no_value
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero import independent_generators
 from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import diff, substitute
-from dofkit.expressions.tree import ONE, ZERO, Expr
+from dofkit.expressions.calculus import diff, in_velocities, substitute
+from dofkit.expressions.tree import ZERO, Expr
 from dofkit.homework.key.right_motion import POINTS, RightMotion, is_zero, points
 from dofkit.motion.lagrange.elimination import by_time
 
@@ -72,6 +70,8 @@ def _spanned(forces: Sequence[Expr], motion: RightMotion) -> bool | None:
 
 def _accelerations(rows: Sequence[Sequence[int]], p: int) -> list[int] | None:
     """Return accelerations that satisfy rows (coefficients, constant term) modulo p, or None if there are none."""
+    if not rows:
+        return []
     n = len(rows[0]) - 1
     solution = [pow(3, 7 + i, p) for i in range(n)]
     reduced, rank = residue_matrix([list(row) for row in rows], p).rref()
@@ -119,7 +119,7 @@ class AnsweredMotion:
         linear_rows = []
         unknown = [*self.columns, *self.multipliers]
         for e in self.equations:
-            e = self.motion.on_constraints(self.motion.in_kept(in_time(e)))
+            e = self.motion.on_constraints(self.motion.in_kept(in_velocities(e)[0]))
             row = linear(e, unknown)
             if row is None:
                 return None
@@ -189,9 +189,8 @@ def _at_points(
     constraints = len(motion.rows)
     for p, at in points(ring, motion.relations):
         rows = [[int(at[i]) for i in row] for row in right]
-        try:
-            solution = _solve(rows, p)
-        except NoValueError:
+        solution = _accelerations(rows, p)
+        if solution is None or rank_of([row[:-1] for row in rows], p) < len(rows):
             continue
         answer_rows = [[int(at[i]) for i in row] for row in nodes]
         inserted = [[*row[n:-1], (row[-1] + _dot(row[:n], solution[:n])) % p] for row in answer_rows]
@@ -207,17 +206,6 @@ def _dot(a: Sequence[int], b: Sequence[int]) -> int:
     return sum(x * y for x, y in zip(a, b, strict=True))
 
 
-@raising_no_value
-def _solve(rows: list[list[int]], p: int) -> list[int]:
-    """Return the solution of rows (coefficients, constant term) modulo p."""
-    if not rows:
-        return []
-    matrix = residue_matrix([row[:-1] for row in rows], p)
-    column = residue_matrix([[-row[-1] % p] for row in rows], p)
-    solution = matrix.solve(column)
-    return [int(solution[i, 0]) for i in range(len(rows))]
-
-
 def _consistent(rows: list[list[int]], p: int) -> list[bool]:
     """Return for each row (multipliers, constant) whether it is consistent with the consistent rows before it."""
     kept: list[list[int]] = []
@@ -229,12 +217,6 @@ def _consistent(rows: list[list[int]], p: int) -> list[bool]:
         if holds:
             kept = tried
     return verdicts
-
-
-def in_time(e: Expr) -> Expr:
-    """Return an expression with differentials replaced by velocities, and dt by 1."""
-    rates = {s: ex.velocity(str(s.args[1])) for s in e.symbols if s.args[0] == "differential"}
-    return substitute(e, {**rates, **{s: ONE for s in e.symbols if s.args[0] == "dt"}})
 
 
 def linear(e: Expr, unknown: Sequence[Expr]) -> list[Expr] | None:

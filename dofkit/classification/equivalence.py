@@ -2,12 +2,13 @@
 
 With O the other constraints, F the wanted and G the submitted ones: they are equivalent if O and F imply G, and O and G
 imply F. Otherwise `Sameness` distinguishes: the same set, but irregular (the gradient vanishes on it), one branch,
-weaker, stronger, different, empty, differentiated, integrated with or without its constant.
+weaker, stronger, different, empty, differentiated, integrated with or without its constant, different on the boundary
+of a region only.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
 from functools import cached_property
@@ -18,13 +19,12 @@ from dofkit.base.deadline import part, unless_late
 from dofkit.classification.dependence.comparison import (
     MAX_BRANCHES,
     Regularity,
-    bounds,
-    loses_nothing,
-    same_side,
+    by_root,
     same_up_to_numbers,
     unsound,
 )
 from dofkit.classification.dependence.implication import follows
+from dofkit.classification.feasibility.regions import Regions
 from dofkit.classification.freedom.branches import Outcome, solve
 from dofkit.classification.freedom.preparation import all_of, prepared
 from dofkit.exact.points.balls import precise_for
@@ -32,10 +32,9 @@ from dofkit.exact.zero import BOTH, Engines
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
-from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.pieces import Finite, Normal, Pfaffian, Reduced
 from dofkit.relations.setting import Setting
-from dofkit.system import System
+from dofkit.system import Relation, System
 
 #: Share of the remaining time for the test whether the submitted constraints are consistent.
 POSSIBLE = 0.3
@@ -54,6 +53,7 @@ class Sameness(Enum):
     STRONGER = "STRONGER"
     DIFFERENT = "DIFFERENT"
     EMPTY = "EMPTY"
+    BOUNDARY = "BOUNDARY"
     UNDECIDED = "UNDECIDED"
 
 
@@ -68,10 +68,14 @@ class Leaves(Enum):
 
 @dataclass(frozen=True)
 class Compared:
-    """The result of `compare`; ``met``: for each wanted constraint, whether the right submitted equations imply it."""
+    """The result of `compare`; ``met``: for each wanted constraint, whether the right submitted equations imply it.
+
+    ``system``: if only one of two sides with inequalities allows some point, inequalities that such points satisfy.
+    """
 
     sameness: Sameness
     met: tuple[bool, ...] = ()
+    system: tuple[Relation, ...] = ()
 
 
 def compare(
@@ -89,15 +93,6 @@ def compare(
         return _comparison(system, asked, answer, constants, engines).result()
 
 
-def is_integral(system: System, asked: Sequence[int], answer: Sequence[int]) -> bool | None:
-    """Return whether the constraints ``answer`` are geometric equations to which those numbered ``asked`` integrate.
-
-    Their differentials must be equivalent to the forms in the presence of the others. None if undecided.
-    """
-    with precise_for(system.longest):
-        return _comparison(system, asked, answer, frozenset()).integrates()
-
-
 def leaves(system: System, asked: Sequence[int], answer: Sequence[int], constants: frozenset[str]) -> Leaves:
     """Return whether the equations ``answer`` describe leaves of the forms ``asked``: integral manifolds of full size.
 
@@ -111,19 +106,22 @@ def _comparison(
     system: System, asked: Sequence[int], answer: Sequence[int], constants: frozenset[str], engines: Engines = BOTH
 ) -> Equivalence:
     reduced, setting = prepared(system)
-    others = [r for i, r in enumerate(reduced) if i not in {*asked, *answer}]
-    relations = [reduced[i] for i in asked], [reduced[i] for i in answer], others
-    return Equivalence(system, replace(setting, engines=engines), *relations, constants)
+    wanted, submitted = ({i: reduced[i] for i in some} for some in (asked, answer))
+    context = [Reduced(r.constraint, (), ()) if i in wanted or i in submitted else r for i, r in enumerate(reduced)]
+    return Equivalence(system, replace(setting, engines=engines), wanted, submitted, context, constants)
 
 
 @dataclass(frozen=True)
 class Equivalence:
-    """The ``submitted`` constraints and the ``wanted`` ones, in the ``context`` of all others."""
+    """The ``submitted`` constraints and the ``wanted`` ones, by number, in the ``context`` of all others.
+
+    The context has a constraint without relations in the place of each of these, so that it keeps the numbers.
+    """
 
     system: System
     setting: Setting
-    wanted: Sequence[Reduced]
-    submitted: Sequence[Reduced]
+    wanted: Mapping[int, Reduced]
+    submitted: Mapping[int, Reduced]
     context: Sequence[Reduced]
     constants: frozenset[str]
 
@@ -132,13 +130,17 @@ class Equivalence:
 
         Submitted ones are sound if the wanted ones imply them, wanted ones are met if the sound ones do; None: open.
         """
-        if any(r.inequalities for r in (*self.wanted, *self.submitted)):
-            return self._unilateral()
-        if same_up_to_numbers(self.submitted, self.wanted, self.setting.positive):
-            return Compared(Sameness.SAME, tuple(True for _ in self.wanted))
+        submitted, wanted = self.submitted.values(), self.wanted.values()
+        if any(r.inequalities for r in (*wanted, *submitted)):
+            relations = ([q for r in some for q in r.constraint.relations] for some in (wanted, submitted))
+            result = _compared(self._regions({}), *relations)
+            same_set = result.sameness is Sameness.SAME and bool(self._all_wanted)
+            return Compared(self._regularity()) if same_set else result
+        if same_up_to_numbers(submitted, wanted):
+            return Compared(Sameness.SAME, tuple(True for _ in wanted))
         sound = self._sound
         kept = [g for g, s in zip(self._answer, sound, strict=True) if s is True]
-        met = [self._follow(r.normals, kept) for r in self.wanted]
+        met = [self._follow(r.normals, kept) for r in wanted]
         if None in sound or None in met:
             # The submitted constraints may be inconsistent even if the implications are undecided.
             return Compared(Sameness.UNDECIDED) if self._possible else self._empty
@@ -164,11 +166,11 @@ class Equivalence:
 
     @cached_property
     def _answer(self) -> list[Normal]:
-        return _normals(self.submitted)
+        return _normals(self.submitted.values())
 
     @cached_property
     def _all_wanted(self) -> list[Normal]:
-        return _normals(self.wanted)
+        return _normals(self.wanted.values())
 
     @cached_property
     def _others(self) -> list[Normal]:
@@ -193,9 +195,12 @@ class Equivalence:
         with part(POSSIBLE):
             return unless_late(lambda: self._with(self.submitted).consistent is not False, True)
 
-    def _with(self, constraints: Sequence[Reduced]) -> Outcome:
+    def _with(self, constraints: Mapping[int, Reduced]) -> Outcome:
         """Return the outcome of the context with some constraints."""
-        return solve([*self.context, *constraints], self.setting)
+        return solve(self._context_with(constraints), self.setting)
+
+    def _context_with(self, constraints: Mapping[int, Reduced]) -> list[Reduced]:
+        return [constraints.get(i, r) for i, r in enumerate(self.context)]
 
     def _too_strong(self) -> Sameness:
         """Return how the submitted constraints compare with the wanted ones, given that they imply these and more."""
@@ -209,12 +214,21 @@ class Equivalence:
             return Sameness.UNDECIDED
         if (submitted.dof, submitted.velocity_dof) != (wanted.dof, wanted.velocity_dof):
             return Sameness.STRONGER
-        if all(r.constraint.facts.half_turns for r in self.wanted):
+        if all(r.constraint.facts.half_turns for r in self.wanted.values()):
             return Sameness.SAME
-        sides = bounds(self._all_wanted, self.context)
-        unimplied = unsound(self.submitted, self._sound) if sides else []
-        same = [loses_nothing(e, self._all_wanted, self._others, sides, self.setting) for e in unimplied]
-        return Sameness.BRANCH if not sides else Sameness.SAME if same and all(same) else Sameness.UNDECIDED
+        if not _is_bounded(self._all_wanted, self.context):
+            return Sameness.BRANCH
+        unimplied = unsound(self.submitted.values(), self._sound)
+        return Sameness.SAME if unimplied and all(map(self._loses_nothing, unimplied)) else Sameness.UNDECIDED
+
+    def _loses_nothing(self, e: Expr) -> bool:
+        """Return whether e = a sqrt(P) + b = 0 is implied, because the inequalities of the context exclude a b > 0.
+
+        False: not proved.
+        """
+        squared, allowed = by_root(e)
+        implied = self._follow(squared, self._all_wanted) if squared else False
+        return implied is True and self._regions(self.wanted).difference([], allowed).exists is False
 
     # differentials
 
@@ -227,14 +241,14 @@ class Equivalence:
 
     def _integrated(self) -> Sameness | None:
         """Return with or without a constant the wanted forms are integrated, or undecided; None if they are not."""
-        integrates = self.integrates()
+        integrates = self._integrates()
         if not integrates:
             return None if integrates is False else Sameness.UNDECIDED
         new = [g for g, sound in zip(_finite(self._answer), self._sound, strict=True) if not sound]
         constants_in = [{s for s in g.symbols if s.args[1] in self.constants} for g in new]
         return Sameness.INTEGRATED if all(constants_in) else Sameness.WITHOUT_CONSTANT
 
-    def integrates(self) -> bool | None:
+    def _integrates(self) -> bool | None:
         """Return whether the submitted relations are geometric and their differentials equivalent to the wanted forms.
 
         Wanted geometric equations have to be implied by the submitted ones. None if undecided.
@@ -281,30 +295,36 @@ class Equivalence:
     def _regularity(self) -> Sameness:
         """Return SAME, IRREGULAR or UNDECIDED for the same set, by the ranks of the gradients on every branch."""
         names = [c.name for c in self.system.coordinates]
-        result = Regularity(self._others, self.wanted, self.submitted, self.setting, names).irregular()
+        wanted, submitted = self.wanted.values(), self.submitted.values()
+        result = Regularity(self._others, wanted, submitted, self.setting, names).irregular()
         return Sameness.UNDECIDED if result is None else Sameness.IRREGULAR if result else Sameness.SAME
 
-    # inequalities
+    def _regions(self, more: Mapping[int, Reduced]) -> Regions:
+        """Return the regions of relations in the context with more constraints."""
+        return Regions(self.system, self._context_with(more), replace(self.setting, engines=BOTH))
 
-    def _unilateral(self) -> Compared:
-        """Return the comparison if there are inequalities: equivalent ones have the same side of the same boundary."""
-        if equations := [*self._answer, *self._all_wanted]:
-            region = any(b and all(isinstance(p, DomainCondition) for p in b) for n in equations for b in n.branches)
-            if region:  # abs(x) = x is x >= 0
-                return Compared(Sameness.UNDECIDED)
-            return Compared(Sameness.DIFFERENT, tuple(False for _ in self.wanted))
-        submitted = [q for r in self.submitted for q in r.inequalities]
-        asked = [q for r in self.wanted for q in r.inequalities]
-        table = [[same_side(a, g, self._others, self.setting) for g in submitted] for a in asked]
-        if any(True not in row and None in row for row in table):
-            return Compared(Sameness.UNDECIDED)
-        result = {q: True in row for q, row in zip(asked, table, strict=True)}
-        met = tuple(all(result[q] for q in r.inequalities) for r in self.wanted)
-        extra = [k for k in range(len(submitted)) if not any(row[k] for row in table)]
-        if all(met) and not extra:
-            return Compared(Sameness.SAME, met)
-        # several may be one by one others, and the same together: 0 <= x^2 <= 1 is x^2 <= 1
-        return Compared(Sameness.DIFFERENT if len(asked) + len(submitted) == 2 else Sameness.UNDECIDED, met)
+
+def _compared(regions: Regions, asked: Sequence[Relation], answer: Sequence[Relation]) -> Compared:
+    """Return the comparison of the regions that relations, with inequalities among them, describe."""
+    beyond, lacking = regions.difference(answer, asked), regions.difference(asked, answer)
+    if not beyond.exists and not lacking.exists:
+        return Compared(Sameness.UNDECIDED if None in (beyond.exists, lacking.exists) else Sameness.SAME)
+    if any(q.sense == "=" for q in (*asked, *answer)):
+        return Compared(Sameness.DIFFERENT)
+    if {q.sense for q in asked} != {q.sense for q in answer}:
+        closed = ([q._replace(sense=">=") for q in some] for some in (asked, answer))
+        if _compared(regions, *closed).sameness is Sameness.SAME:
+            return Compared(Sameness.BOUNDARY)
+    if beyond.exists:
+        return Compared(Sameness.DIFFERENT if lacking.exists else Sameness.WEAKER, system=beyond.system)
+    return Compared(Sameness.STRONGER, system=lacking.system)
+
+
+def _is_bounded(wanted: Sequence[Normal], context: Sequence[Reduced]) -> bool:
+    """Return whether inequalities of the context mention a coordinate of the wanted geometric equations."""
+    symbols = {s for n in wanted for p in n.pieces if isinstance(p, Finite) for s in p.expr.symbols}
+    moving = {s for s in symbols if s.args[0] == "coordinate"}
+    return any(moving & q.expr.symbols for r in context for q in r.inequalities)
 
 
 def _moved(normal: Normal) -> set[str]:
@@ -319,7 +339,7 @@ def _branches_of(normals: Sequence[Normal]) -> list[list[Normal]]:
     return chosen if len(chosen) > 1 else []
 
 
-def _normals(constraints: Sequence[Reduced]) -> list[Normal]:
+def _normals(constraints: Iterable[Reduced]) -> list[Normal]:
     return [n for r in constraints for n in r.normals]
 
 
