@@ -188,8 +188,8 @@ def integrable_part(evidence: CheckedEvidence, claim: Told, verified: Told) -> T
 def told_integral(evidence: CheckedEvidence, text: Any) -> str:
     """The function of an integral that is stated with a constant of a name of its own."""
     function, _, constant = str(text).rpartition("=")
-    taken = {*evidence.variables, *evidence.velocities, *evidence.chosen, *evidence.problem.world.names.functions}
-    refuse(not constant.strip().isidentifier() or constant.strip() in taken, "an integral ends with `= C`")
+    free = constant.strip().isidentifier() and not evidence.is_taken(constant.strip())
+    refuse(not free, "an integral ends with `= C`")
     return function.strip()
 
 

@@ -71,6 +71,11 @@ export class Rules {
     return this.place(point);
   }
 
+  /** Refuses a point that does not satisfy all finite relations. */
+  meets(point) {
+    this.e.relations.filter((r) => r.kind === "finite").forEach((r) => this.e.needHolds(r, point));
+  }
+
   /** Refuses where /dof was verified at another point. */
   sameplace(dof, point) {
     const place = this.place(point);
@@ -307,6 +312,8 @@ export class Rules {
       return refuse(true, `${r.id} does not give ${q}`);
     });
     const graph = steps.every((often) => often === 1) && !generic.length;
+    // a relation that is linear in what it gives has a solution for all values of the others: the graph is one part
+    const joined = !graph || order.every(([r, q]) => r.kind !== "finite" || !derivative(r.tree, q).has(q));
     refuse(alone.length && !(graph && lone.every((r) => r === alone[0])), "what is alone is beside a graph");
     const nothingElse = graph && !alone.length && !forms.length && minor;
     refuse(order.some(([, q]) => q === "t") && !nothingElse, "t is given beside others");
@@ -314,6 +321,7 @@ export class Rules {
     refuse((lone.length || kind === "velocity_dof") && !proper, "velocity relations need a graph");
     if (!graph || alone.length) {
       refuse(!minor, "a minor is needed");
+      refuse(!joined, "the graph may have several parts");
       if (!placed.every((r) => this.total(r.tree))) uncovered("a relation whose analyticity is not told by its form");
     }
     for (const [r, g] of generic) {
@@ -331,6 +339,7 @@ export class Rules {
       }
       rank = minor.rows.length;
     } else {
+      refuse(!joined, "the graph may be empty");
       if (!placed.every((r) => this.total(r.tree))) uncovered("relations that may have no value");
     }
     if (kind === "dof" && forms.length) {
@@ -339,6 +348,7 @@ export class Rules {
       refuse(most[1] !== least[1], "the bounds are at two points");
       refuse(most[0] !== claim.value || least[0] !== claim.value, "the bounds are others");
       const finite = this.e.n - rank + lone.length;
+      refuse(claim.value !== finite && !joined, "another part may be larger");
       if (claim.value !== finite && !(complete && proper && placed.every((r) => this.total(r.tree)))) uncovered("another part may be larger");
       return { place: this.place(most[1]) };
     }
@@ -458,6 +468,7 @@ export class Rules {
         this.sameplace(dof, other.point);
         const others = this.e.relations.filter((r) => r.owner !== name);
         this.e.account(other, others, claim.covers);
+        this.meets(other.point);
         apart &&= same(ids(other.rows).sort(), ids(others).sort());
         refuse(this.e.n - dof.value <= other.rows.length, "without one, the others are as large");
       }
@@ -557,8 +568,7 @@ export class Rules {
   /** Whether `function = C` writes the function of a step. */
   isConstant(text, relation) {
     const match = /^([^]*)=\s*([A-Za-z_][A-Za-z0-9_]*)\s*$/.exec(text);
-    const taken = match && (this.s.evidenceNames.values.has(match[2]) || this.s.coordinates.includes(match[2]) || this.s.rates.has(match[2]) || this.s.functions.has(match[2]) || match[2] === "t");
-    return Boolean(match) && !taken && isZero(sub(this.e.text(match[1].trim()), relation.tree));
+    return Boolean(match) && !this.s.isTaken(match[2]) && isZero(sub(this.e.text(match[1].trim()), relation.tree));
   }
 
   growth(claim) {
@@ -736,6 +746,7 @@ export class Rules {
     refuse(!equations.length, "it has no equations");
     const minor = this.e.minor(claim.minor);
     this.place(minor.point);
+    this.meets(minor.point);
     const order = [...this.e.relations].sort((x, y) => (x.kind === "velocity") - (y.kind === "velocity") || x.place - y.place);
     let added = 0;
     for (const kind of ["finite", "velocity"]) {
