@@ -98,9 +98,11 @@ def exterior_part(form: Form, i: str, j: str) -> Tree:
 def timeless(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
     """Return True: neither t nor dt occurs (catastatic: no dt), and what is not linear in velocities is homogeneous.
 
-    Of a single relation that was verified not to be holonomic, only t must not occur.
+    Of a single relation that was verified not to be holonomic, only t must not occur. All are divided by a ``factor``
+    that is nowhere 0, if one is given.
     """
-    catastatic = claim["field"] == "catastatic"
+    catastatic, factor = claim["field"] == "catastatic", evidence.text(claim.get("factor", "1"))
+    refuse(not evidence.is_nowhere_zero(factor) or evidence.met_by(factor), "the factor may be 0, or holds velocities")
     names = constraint_relations(evidence, claim, EQUATIONS if catastatic else EVERY)
     relations = [evidence.relation(name) for name in names]
     refuse(catastatic and all(checked.kind != "velocity" for checked in relations), "there is no form")
@@ -109,7 +111,9 @@ def timeless(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
         mixed = homogeneous_degree(checked.tree, evidence.velocities) is None and not evidence.is_linear(checked.name)
         refuse(mixed and not nonholonomic, f"`{checked.name}` is no form, or not homogeneous in velocities")
         for name in ["tdot"] if catastatic else ["t"] if nonholonomic else ["t", "tdot"]:
-            evidence.identity(derivative(checked.tree, name), ZERO, f"the derivative of `{checked.name}` by {name}")
+            evidence.identity(
+                derivative(checked.tree / factor, name), ZERO, f"the derivative of `{checked.name}` by {name}"
+            )
     return True
 
 

@@ -676,10 +676,12 @@ export class Rules {
       const ones = field === "catastatic" ? equations : own;
       const alone = field === "scleronomic" && own.length === 1 && this.verified.get(`/constraints/${escaped(name)}/holonomic`);
       if (alone?.uncovered) uncovered("a label of the constraint");
+      const factor = this.e.text(claim.factor ?? "1");
+      refuse(!nowhereZero(factor, this.s.signs) || factor.hasAny(this.s.rates), "the factor may be 0, or holds velocities");
       const names = field === "catastatic" ? ["tdot"] : alone?.value === false ? ["t"] : ["t", "tdot"];
       for (const r of ones) {
         if (r.kind === "velocity" && !this.e.form(r)) uncovered("velocities that are not linear");
-        refuse(names.some((t) => !isZero(derivative(r.tree, t))), "time occurs");
+        refuse(names.some((t) => !isZero(derivative(mul(r.tree, tr.inverse(factor)), t))), "time occurs");
       }
       return {};
     }

@@ -18,7 +18,7 @@ from dofkit.methods.certificates.fields import (
     words_of,
 )
 from dofkit.methods.certificates.points import FoundPoint
-from dofkit.methods.certificates.scenery import FAR
+from dofkit.methods.certificates.scenery import FAR, exponentials
 from dofkit.methods.certificates.steps import combined, combined_integral, function_in, rates_of
 from dofkit.report import ConstraintEntry
 
@@ -109,10 +109,13 @@ def exact(context: Context, entry: ConstraintEntry, field: str) -> Iterator[Told
 
 def time_evidence(context: Context, entry: ConstraintEntry, field: str) -> Iterator[Told]:
     """Yield evidence that time does not occur, or of a point at which it matters."""
+    names = context.scenery.evidence.owned(entry.name, ("finite", "velocity", "inequality"))
     if getattr(entry, field):
         yield {"rule": "timeless"}
+        trees = [context.scenery.evidence.relation(name).tree for name in names]
+        yield from ({"rule": "timeless", "factor": text} for tree in trees for text in exponentials(tree))
         return
-    for name in context.scenery.evidence.owned(entry.name, ("finite", "velocity", "inequality")):
+    for name in names:
         for place in _time_dependence(context, name, field):
             yield {"rule": "time-dependent", "relation": name, **place}
 
