@@ -128,26 +128,32 @@ def time_dependent(evidence: CheckedEvidence, claim: Told, verified: Told) -> bo
     names, checked = constraint_relations(evidence, claim, EVERY), evidence.relation(claim["relation"])
     plain = len(names) == 1 or all(evidence.relation(other).kind == "finite" for other in names)
     refuse(name not in names or not plain, "one relation of the constraint is needed, or finite ones")
-    turned = derivative(checked.tree, "t")
     if checked.kind == "velocity" and evidence.is_linear(name):
-        turned = evidence.slope(name, "t")
         integrates = verified.get(f"holonomic_alone {claim['owner']}") is True
         refuse(not catastatic and "pair" not in claim and not integrates, "it is not shown to integrate")
-        if not catastatic and "pair" in claim:
-            a, b = (evidence.slope(name, v) for v in claim["pair"])
-            turned = a * derivative(b, "t") - b * derivative(a, "t")
     else:
         if checked.kind != "inequality":
             evidence.on_set(point, names)
         held = checked.kind != "inequality" or evidence.holds(name, point)
         refuse((catastatic and checked.kind != "velocity") or not held, "it holds no velocities, or is not 0 there")
         slopes = {v: derivative(checked.tree, v) for v in sorted(checked.tree.symbols - evidence.chosen - {"t"})}
-        if catastatic:
-            turned = add(*(symbol(v) * slopes[v] for v in slopes if v in evidence.velocities))
         stationary = not any(not_zero(point.value(slope)) for slope in slopes.values())
         refuse(stationary and checked.kind != "inequality", "the relation may be stationary at the point")
-    refuse(not not_zero(point.value(turned)), "time may not enter at the point")
+    refuse(not not_zero(point.value(change(evidence, claim))), "time may not enter at the point")
     return False
+
+
+def change(evidence: CheckedEvidence, claim: Told) -> Tree:
+    """What is not 0 where time enters a relation, or the quotient of a pair of components of a form."""
+    checked, catastatic = evidence.relation(claim["relation"]), claim["field"] == "catastatic"
+    if checked.kind == "velocity" and evidence.is_linear(checked.name):
+        if catastatic or "pair" not in claim:
+            return evidence.slope(checked.name, "t")
+        a, b = (evidence.slope(checked.name, v) for v in claim["pair"])
+        return a * derivative(b, "t") - b * derivative(a, "t")
+    if catastatic:
+        return add(*(symbol(v) * derivative(checked.tree, v) for v in evidence.met_by(checked.tree)))
+    return derivative(checked.tree, "t")
 
 
 def integral(evidence: CheckedEvidence, claim: Told, verified: Told) -> object:
