@@ -162,7 +162,8 @@ def integral(evidence: CheckedEvidence, claim: Told, verified: Told) -> object:
     The constraint and geometric equations imply the step. Where it takes further integrals: a minor of these, of
     geometric equations and a relation of the constraint shows that they do not do alone.
     """
-    point, function = evidence.point(claim["at"]), evidence.text(told_integral(evidence, claim["value"]))
+    point = evidence.point(claim["at"])
+    function = told_integral(evidence, claim["value"], point)
     moves = any(not_zero(point.value(derivative(function, v))) for v in evidence.variables)
     refuse(evidence.met_by(function) or not moves, "the integral may be constant near the point")
     evidence.identity(evidence.relation(claim["step"]).tree, function, "the integral of the step")
@@ -189,18 +190,20 @@ def integrable_part(evidence: CheckedEvidence, claim: Told, verified: Told) -> T
     whole = set(steps) <= set(minor.rows) <= {*steps, *evidence.finite} and len(minor.rows) == part["rank"]
     refuse(verified_rank(evidence, minor.point, verified) != part["rank"] or not whole, "the minor is not of the basis")
     for text, name in zip(part["basis"], steps, strict=True):
-        function, checked = told_integral(evidence, text), evidence.relation(name)
+        function, checked = told_integral(evidence, text, minor.point), evidence.relation(name)
         refuse(not checked.leaf, "a relation of the basis is an integral")
-        evidence.identity(evidence.text(function), checked.tree, "a relation of the basis as claimed")
+        evidence.identity(function, checked.tree, "a relation of the basis as claimed")
     return part
 
 
-def told_integral(evidence: CheckedEvidence, text: Any) -> str:
-    """The function of an integral that is stated with a constant of a name of its own."""
-    function, _, constant = str(text).rpartition("=")
+def told_integral(evidence: CheckedEvidence, text: Any, point: CheckedPoint) -> Tree:
+    """The function, with a value at a point, of an integral that is stated with a constant of a name of its own."""
+    stated, _, constant = str(text).rpartition("=")
     free = constant.strip().isidentifier() and not evidence.is_taken(constant.strip())
     refuse(not free, "an integral ends with `= C`")
-    return function.strip()
+    function = evidence.text(stated.strip())
+    point.value(function)
+    return function
 
 
 def consistent(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
@@ -237,7 +240,9 @@ def refuted(evidence: CheckedEvidence, refutation: Told, verified: Told, names: 
     """Return False, the value of `consistent`: by a step, what is nowhere 0 would be 0 where all relations hold."""
     names = [checked.name for checked in evidence.problem.relations] if names is None else names
     evidence.follow([refutation["step"]], names, None, "the relations")
-    consequence = substituted(evidence.relation(refutation["step"]).tree, {"tdot": ONE})
+    checked = evidence.relation(refutation["step"])
+    refuse(checked.leaf or checked.kind == "inequality", "an inequality or integral says nothing of 0")
+    consequence = substituted(checked.tree, {"tdot": ONE})
     refuse(not evidence.is_nowhere_zero(consequence), "what would be 0 may be so")
     return False
 

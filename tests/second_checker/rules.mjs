@@ -219,6 +219,7 @@ export class Rules {
     refuse(claim.rule !== "nullstellensatz", "another rule");
     refuse(!this.e.closure(ids(relations), null).has(claim.step), "the step does not follow");
     if (relations.some((r) => r.kind !== "inequality" && !isTotal(r.tree))) uncovered("relations that may have no value somewhere");
+    refuse(this.e.relation(claim.step).leaf, "an integral is not 0");
     const tree = substitute(this.e.relation(claim.step).tree, new Map([["tdot", number(1)]]));
     refuse(!nowhereZero(tree, this.s.signs), "what follows may be 0");
     return {};
@@ -560,14 +561,15 @@ export class Rules {
     const leaves = minor.rows.filter((r) => r.leaf);
     refuse(basis.length !== leaves.length || !same(ids(leaves).sort(), [...list(claim.steps)].sort()), "the basis is another one");
     basis.forEach((text, i) => {
-      refuse(!this.isConstant(text, this.e.relation(claim.steps[i])), "a text of the basis is another function");
+      refuse(!this.isConstant(text, this.e.relation(claim.steps[i]), minor.point), "a text of the basis is another function");
     });
     return {};
   }
 
-  /** Whether `function = C` writes the function of a step. */
-  isConstant(text, relation) {
+  /** Whether `function = C` writes the function of a step, with a value at a point. */
+  isConstant(text, relation, point) {
     const match = /^([^]*)=\s*([A-Za-z_][A-Za-z0-9_]*)\s*$/.exec(text);
+    if (match) this.e.at(this.e.text(match[1].trim()), point);
     return Boolean(match) && !this.s.isTaken(match[2]) && isZero(sub(this.e.text(match[1].trim()), relation.tree));
   }
 
@@ -783,7 +785,7 @@ export class Rules {
     refuse(!equations.some((r) => r.kind === "velocity"), "a finite relation has no integral");
     const before = [...equations, ...this.e.relations.filter((r) => r.kind === "finite")];
     refuse(!this.e.closure(ids(before), point).has(step.id), "the integral does not follow from the constraint");
-    refuse(!this.isConstant(claim.value, step), "the value is another function");
+    refuse(!this.isConstant(claim.value, step, point), "the value is another function");
     if (equations.length !== 1) {
       const forms = equations.filter((r) => r.kind === "velocity");
       if (forms.length !== 1) uncovered("an integral of several forms");
