@@ -85,7 +85,8 @@ def isolated(evidence: CheckedEvidence, claim: Told) -> CheckedMinor:
         leading = (arb_mat([row[:k] for row in signed[:k]]).det() for k in range(1, len(directions) + 1))
         refuse(not all(value > 0 for value in leading), "the form is not shown to be definite")
         slopes = (minor.point.prepared(derivative(zero, q)) for q in evidence.problem.coordinates)
-        still = not evidence.is_open(zero) and all(map(evidence.ring.vanishes, slopes))
+        chosen = any(evidence.is_open(evidence.relation(name).tree) for name in (*minor.rows, *claim["zero"]))
+        still = not chosen and all(map(evidence.ring.vanishes, slopes))
         refuse(not still, "the combination is not stationary at the point, whatever the point chose")
     if names or len(directions) > 1:
         tangent(evidence, ([name] for name in names), (*minor.rows, *claim["zero"]))

@@ -143,6 +143,7 @@ def independence(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     """
     minor, order = evidence.minor(claim["minor"]), evidence.equations
     evidence.is_about("here", minor.point)
+    evidence.on_set(minor.point, evidence.finite)
     equations_of_owner = [rows for kind in ("finite", "velocity") if (rows := evidence.owned(claim["owner"], {kind}))]
     refuse(not equations_of_owner, "the constraint has no equations")
     added = 0
@@ -169,6 +170,7 @@ def redundant(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[st
         for name in order:
             others = every.difference(evidence.owned(name))
             minor = evidence.accounts(evidence.minor(claim["without"][name]), others)
+            evidence.on_set(minor.point, evidence.finite)
             whole &= others == {*minor.rows}
             refuse(
                 verified_rank(evidence, minor.point, verified, number) <= len(minor.rows), f"`{name}` may be dropped"
@@ -301,7 +303,10 @@ def everywhere(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
         refuse(not evidence.own_symbol(name, [letter]), f"`{letter}` is not the own symbol of `{name}`")
     refuse(alone and not (graph and forms in ([], alone)), "what stands alone stands beside a graph, and no form")
     smooth = all(_is_analytic(evidence, name, name in alone or not graph) for name in names)
-    refuse((not graph or alone or rank < len(names) or not minor) and not smooth, "a relation is not analytic")
+    # a coordinate that is given by a linear relation is so for all values of the others: the graph is connected
+    finite = [(name, q) for name, q in order if evidence.relation(name).kind == "finite"]
+    smooth &= not graph or all(q not in evidence.slope(name, q).symbols for name, q in finite)
+    refuse((not graph or alone or rank < len(names) or not minor) and not smooth, "it may not be one analytic part")
     timed = any(q == "t" for _, q in order) and (not graph or alone or evidence.moving or not minor)
     refuse(timed or (not minor and (alone or not graph)), "t is given beside others, or a point is needed")
     graph &= alone in ([], forms)

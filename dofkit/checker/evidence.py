@@ -80,7 +80,8 @@ class CheckedEvidence(CheckedRelations):
         wanted = [self.relation(name) for name in names if not self.relation(name).leaf]
         states |= not all(self.is_linear(relation.name) for relation in wanted)
         met = {relation.name for relation in wanted if states or relation.kind == "finite"}
-        self.follow(met, {*point.rows, *(name for name in met if self.holds(name, point))}, point, "what holds")
+        held = self.closure({*point.rows, *(name for name in met if self.holds(name, point))}, point, rates=False)
+        refuse(met - held, f"`{min(met - held, default='')}` is not shown to follow from what holds")
         for relation in wanted:
             for velocity in self.met_by(relation.tree):
                 point.value(self.slope(relation.name, velocity[:-3]))
@@ -102,7 +103,7 @@ class CheckedEvidence(CheckedRelations):
         moves = all(self.is_zero(rate, point) for rate in rates)
         # what follows near the state is not used to show that it is one
         self.seen["state", point.name] = False
-        return moves and self.closure(met, point).issuperset(self.equations)
+        return moves and self.closure(met, point, rates=False).issuperset(self.equations)
 
     def minor(self, entry: Any, allowed: Collection[str] | None = None) -> CheckedMinor:
         """A minor, by its id or itself: rows that follow from ``allowed`` (or all relations), and are independent."""

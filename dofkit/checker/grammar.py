@@ -104,12 +104,10 @@ class KnownNames:
         return None
 
     def meaning(self, word: str) -> Lexeme:
-        """What a word means."""
+        """What a word means; a lexeme of kind ``""`` if nothing."""
         refuse(len(word) > LONGEST_NAME, f"a name of {len(word)} letters is too long")
         plain = spelled_out(word)
-        lexeme = self.words.get(plain) or self.moved(plain) or (_E if plain == "E" else Lexeme(""))
-        refuse(not lexeme.kind, f"`{word}` is not declared")
-        return lexeme
+        return self.words.get(plain) or self.moved(plain) or (_E if plain == "E" else Lexeme(""))
 
 
 def tokens_of(text: object, names: KnownNames) -> list[Lexeme]:
@@ -120,7 +118,9 @@ def tokens_of(text: object, names: KnownNames) -> list[Lexeme]:
         kind = str(match.lastgroup)
         word, touching = match[kind], not match[1]
         if kind == "word":
-            tokens.append(names.meaning(word)._replace(touching=touching))
+            lexeme = names.meaning(word)._replace(touching=touching)
+            refuse(not lexeme.kind, f"`{word}` is not declared")
+            tokens.append(lexeme)
         elif kind == "number":
             refuse(any(names.words.get(c, _E) != _E for c in "eE" if c in word), f"`{word}` may be a power of ten")
             tokens.append(Lexeme(kind, number(Fraction(word)), word, touching))

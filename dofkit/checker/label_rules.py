@@ -98,9 +98,11 @@ def exterior_part(form: Form, i: str, j: str) -> Tree:
 def timeless(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
     """Return True: neither t nor dt occurs (catastatic: no dt), and what is not linear in velocities is homogeneous.
 
-    Of a single relation that was verified not to be holonomic, only t must not occur.
+    Of a single relation that was verified not to be holonomic, only t must not occur. All are divided by a ``factor``
+    that is nowhere 0, if one is given.
     """
-    catastatic = claim["field"] == "catastatic"
+    catastatic, factor = claim["field"] == "catastatic", evidence.text(claim.get("factor", "1"))
+    refuse(not evidence.is_nowhere_zero(factor) or evidence.met_by(factor), "the factor may be 0, or holds velocities")
     names = constraint_relations(evidence, claim, EQUATIONS if catastatic else EVERY)
     relations = [evidence.relation(name) for name in names]
     refuse(catastatic and all(checked.kind != "velocity" for checked in relations), "there is no form")
@@ -109,7 +111,9 @@ def timeless(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
         mixed = homogeneous_degree(checked.tree, evidence.velocities) is None and not evidence.is_linear(checked.name)
         refuse(mixed and not nonholonomic, f"`{checked.name}` is no form, or not homogeneous in velocities")
         for name in ["tdot"] if catastatic else ["t"] if nonholonomic else ["t", "tdot"]:
-            evidence.identity(derivative(checked.tree, name), ZERO, f"the derivative of `{checked.name}` by {name}")
+            evidence.identity(
+                derivative(checked.tree / factor, name), ZERO, f"the derivative of `{checked.name}` by {name}"
+            )
     return True
 
 
@@ -124,26 +128,32 @@ def time_dependent(evidence: CheckedEvidence, claim: Told, verified: Told) -> bo
     names, checked = constraint_relations(evidence, claim, EVERY), evidence.relation(claim["relation"])
     plain = len(names) == 1 or all(evidence.relation(other).kind == "finite" for other in names)
     refuse(name not in names or not plain, "one relation of the constraint is needed, or finite ones")
-    turned = derivative(checked.tree, "t")
     if checked.kind == "velocity" and evidence.is_linear(name):
-        turned = evidence.slope(name, "t")
         integrates = verified.get(f"holonomic_alone {claim['owner']}") is True
         refuse(not catastatic and "pair" not in claim and not integrates, "it is not shown to integrate")
-        if not catastatic and "pair" in claim:
-            a, b = (evidence.slope(name, v) for v in claim["pair"])
-            turned = a * derivative(b, "t") - b * derivative(a, "t")
     else:
         if checked.kind != "inequality":
             evidence.on_set(point, names)
         held = checked.kind != "inequality" or evidence.holds(name, point)
         refuse((catastatic and checked.kind != "velocity") or not held, "it holds no velocities, or is not 0 there")
         slopes = {v: derivative(checked.tree, v) for v in sorted(checked.tree.symbols - evidence.chosen - {"t"})}
-        if catastatic:
-            turned = add(*(symbol(v) * slopes[v] for v in slopes if v in evidence.velocities))
         stationary = not any(not_zero(point.value(slope)) for slope in slopes.values())
         refuse(stationary and checked.kind != "inequality", "the relation may be stationary at the point")
-    refuse(not not_zero(point.value(turned)), "time may not enter at the point")
+    refuse(not not_zero(point.value(change(evidence, claim))), "time may not enter at the point")
     return False
+
+
+def change(evidence: CheckedEvidence, claim: Told) -> Tree:
+    """What is not 0 where time enters a relation, or the quotient of a pair of components of a form."""
+    checked, catastatic = evidence.relation(claim["relation"]), claim["field"] == "catastatic"
+    if checked.kind == "velocity" and evidence.is_linear(checked.name):
+        if catastatic or "pair" not in claim:
+            return evidence.slope(checked.name, "t")
+        a, b = (evidence.slope(checked.name, v) for v in claim["pair"])
+        return a * derivative(b, "t") - b * derivative(a, "t")
+    if catastatic:
+        return add(*(symbol(v) * derivative(checked.tree, v) for v in evidence.met_by(checked.tree)))
+    return derivative(checked.tree, "t")
 
 
 def integral(evidence: CheckedEvidence, claim: Told, verified: Told) -> object:
@@ -152,7 +162,8 @@ def integral(evidence: CheckedEvidence, claim: Told, verified: Told) -> object:
     The constraint and geometric equations imply the step. Where it takes further integrals: a minor of these, of
     geometric equations and a relation of the constraint shows that they do not do alone.
     """
-    point, function = evidence.point(claim["at"]), evidence.text(told_integral(evidence, claim["value"]))
+    point = evidence.point(claim["at"])
+    function = told_integral(evidence, claim["value"], point)
     moves = any(not_zero(point.value(derivative(function, v))) for v in evidence.variables)
     refuse(evidence.met_by(function) or not moves, "the integral may be constant near the point")
     evidence.identity(evidence.relation(claim["step"]).tree, function, "the integral of the step")
@@ -179,18 +190,20 @@ def integrable_part(evidence: CheckedEvidence, claim: Told, verified: Told) -> T
     whole = set(steps) <= set(minor.rows) <= {*steps, *evidence.finite} and len(minor.rows) == part["rank"]
     refuse(verified_rank(evidence, minor.point, verified) != part["rank"] or not whole, "the minor is not of the basis")
     for text, name in zip(part["basis"], steps, strict=True):
-        function, checked = told_integral(evidence, text), evidence.relation(name)
+        function, checked = told_integral(evidence, text, minor.point), evidence.relation(name)
         refuse(not checked.leaf, "a relation of the basis is an integral")
-        evidence.identity(evidence.text(function), checked.tree, "a relation of the basis as claimed")
+        evidence.identity(function, checked.tree, "a relation of the basis as claimed")
     return part
 
 
-def told_integral(evidence: CheckedEvidence, text: Any) -> str:
-    """The function of an integral that is stated with a constant of a name of its own."""
-    function, _, constant = str(text).rpartition("=")
-    taken = {*evidence.variables, *evidence.velocities, *evidence.chosen, *evidence.problem.world.names.functions}
-    refuse(not constant.strip().isidentifier() or constant.strip() in taken, "an integral ends with `= C`")
-    return function.strip()
+def told_integral(evidence: CheckedEvidence, text: Any, point: CheckedPoint) -> Tree:
+    """The function, with a value at a point, of an integral that is stated with a constant of a name of its own."""
+    stated, _, constant = str(text).rpartition("=")
+    free = constant.strip().isidentifier() and not evidence.is_taken(constant.strip())
+    refuse(not free, "an integral ends with `= C`")
+    function = evidence.text(stated.strip())
+    point.value(function)
+    return function
 
 
 def consistent(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
@@ -227,7 +240,9 @@ def refuted(evidence: CheckedEvidence, refutation: Told, verified: Told, names: 
     """Return False, the value of `consistent`: by a step, what is nowhere 0 would be 0 where all relations hold."""
     names = [checked.name for checked in evidence.problem.relations] if names is None else names
     evidence.follow([refutation["step"]], names, None, "the relations")
-    consequence = substituted(evidence.relation(refutation["step"]).tree, {"tdot": ONE})
+    checked = evidence.relation(refutation["step"])
+    refuse(checked.leaf or checked.kind == "inequality", "an inequality or integral says nothing of 0")
+    consequence = substituted(checked.tree, {"tdot": ONE})
     refuse(not evidence.is_nowhere_zero(consequence), "what would be 0 may be so")
     return False
 

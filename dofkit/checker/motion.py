@@ -133,9 +133,9 @@ def motion(evidence: CheckedEvidence, claim: Told, verified: Told) -> Told:
     claimed, problem = claim["value"], evidence.problem
     energies, kept, names = CheckedEnergies(problem), claimed["coordinates"], claimed["multipliers"]
     extra = [*names, *claim.get("constants", {}), *(f"{q}ddot" for q in kept)]
-    taken = {*evidence.variables, *evidence.velocities, *evidence.chosen, *problem.world.names.words, "E"}
     refuse(claim.get("cayley"), "a body turns by its angles here")
-    refuse(len({*extra} - taken) < len(extra), "a multiplier, a constant or an acceleration has the name of another")
+    twice = len({*extra}) < len(extra) or any(map(evidence.is_taken, extra))
+    refuse(twice, "a multiplier, a constant or an acceleration has the name of another")
     every = sorted([*kept, *claimed["eliminated"]])
     refuse(every != sorted(problem.coordinates), "each coordinate is kept or eliminated")
 

@@ -27,7 +27,7 @@ Looked = TypeVar("Looked")
 class Consequence(NamedTuple):
     """``target`` holds where all ``sources`` do, where the ``nonzero`` are not 0 and the ``defined`` have a value.
 
-    Near the point ``at`` only, where one is named.
+    Near the point ``at`` only, where one is named. A rate is 0 along motions, and not at every state of a point.
     """
 
     target: str
@@ -35,6 +35,7 @@ class Consequence(NamedTuple):
     nonzero: tuple[Tree, ...] = ()
     defined: tuple[Tree, ...] = ()
     at: str | None = None
+    is_rate: bool = False
 
 
 def total_derivative(tree: Tree, names: Sequence[str]) -> Tree:
@@ -82,6 +83,10 @@ class CheckedRelations:
     def _known_names(self, extra: Iterable[str] = ()) -> KnownNames:
         values = {name: symbol(name) for name in (*sorted(self.chosen), "tdot", *extra)}
         return KnownNames(frozenset(self.problem.coordinates), values, self.problem.world.names.functions)
+
+    def is_taken(self, name: str) -> bool:
+        """Whether a name means something in texts of the scene or of a certificate."""
+        return any(names.meaning(name).kind for names in (self.names, self.problem.world.names))
 
     def identity(self, first: Tree, second: Tree, what: str) -> None:
         """`CheckError` unless two trees are the same in the ring."""
@@ -162,7 +167,7 @@ class CheckedRelations:
         total = substituted(total, {"tdot": self.text("1")})
         refuse(not self.ring.vanishes(total), "the cofactors: the two sides are not the same")
         needs = () if self.is_nowhere_zero(h) else (h,)
-        defined = (h, *cofactors, *chain(*squares), *([tree] if new or substitutions else []))
+        defined = (h, *cofactors, *chain(*squares), *([tree] if new or substitutions or real else []))
         used = *step["c"], *(name for name, _ in substitutions)
         return tree if new else None, Consequence(step["id" if new else "of"], used, needs, defined)
 
@@ -170,7 +175,9 @@ class CheckedRelations:
         """What is constantly 0, or keeps its value, has the derivative 0."""
         of = self.relation(step["of"])
         refuse(of.kind != "finite", "only a holonomic equation has a rate")
-        return total_derivative(of.tree, self.variables), Consequence(step["id"], (of.name,), (), (of.tree,))
+        return total_derivative(of.tree, self.variables), Consequence(
+            step["id"], (of.name,), (), (of.tree,), is_rate=True
+        )
 
     def owned(self, owner: str | None, kinds: Collection[str] = ("finite", "velocity")) -> tuple[str, ...]:
         """The relations of a constraint, or of all."""
@@ -187,13 +194,17 @@ class CheckedRelations:
             raise CheckError(self.faults.get(str(name).partition(".")[0], f"no relation `{str(name)[:60]}`"))
         return self.by_name[name]
 
-    def closure(self, start: Iterable[str], point: CheckedPoint | None) -> set[str]:
-        """All that holds near a point (or, without one, everywhere) where ``start`` does, by the steps."""
+    def closure(self, start: Iterable[str], point: CheckedPoint | None, rates: bool = True) -> set[str]:
+        """All that holds near a point (or, without one, everywhere) where ``start`` does, by the steps.
+
+        Without ``rates``: at a state alone.
+        """
         implied, size = set(start), -1
         while len(implied) > size:
             size = len(implied)
             for i, consequence in enumerate(self.consequences):
                 leads_on = consequence.target not in implied and implied.issuperset(consequence.sources)
+                leads_on &= rates or not consequence.is_rate
                 if leads_on and self.applies(i, point):
                     implied.add(consequence.target)
             self.effort.spend(len(self.consequences) + 1)

@@ -146,14 +146,14 @@ export class Evidence {
       const positive = [...sided, ...squares.map(([w]) => w), ...(real ? [h] : [])];
       refuse(!positive.every((tree) => nowhereZero(tree, this.scene.signs, true)), "no sum of squares");
       refuse(real && step.by !== "implied", "only what is implied is a square");
-      let target;
+      let target, goal;
       if (step.by === "integral") {
         target = this.rateOf(this.relation(step.id));
         refuse(h.hasAny(this.scene.rates), "h holds velocities");
       } else {
         refuse(step.by !== "implied", `there is no step by ${step.by}`);
         refuse(step.of !== undefined && step.function !== undefined, "a step is of a relation, or has a function");
-        const goal = step.of === undefined ? this.relation(step.id) : this.relation(step.of, step);
+        goal = step.of === undefined ? this.relation(step.id) : this.relation(step.of, step);
         const finite = goal.kind === "finite";
         refuse(finite && c.some(([, text]) => text.hasAny(this.scene.rates)), "a cofactor holds velocities");
         refuse((finite || real) && h.hasAny(this.scene.rates), "h holds velocities");
@@ -172,7 +172,7 @@ export class Evidence {
       });
       difference = substitute(difference, new Map([["tdot", number(1)]]));
       refuse(!isZero(difference), `the identity of ${step.id} is not one`);
-      return { from: [...c.map(([r]) => r.id), ...puts.map(([r]) => r.id)], h, texts: [...c.map(([, t]) => t), ...squares.flat()] };
+      return { from: [...c.map(([r]) => r.id), ...puts.map(([r]) => r.id)], h, texts: [...c.map(([, t]) => t), ...squares.flat(), ...(real ? [goal.tree] : [])] };
     });
   }
 
@@ -204,14 +204,15 @@ export class Evidence {
     return nowhereZero(mul(...names.map((s, i) => pow(symbol(s), powers[i]))), this.scene.signs) && !isZero(tree);
   }
 
-  /** The ids of all relations that follow, near a point, from some; `covers` of the claim are added. */
-  closure(ids, point, covers = []) {
+  /** The ids of all relations that follow, near a point, from some; `covers` of the claim are added. Without `rates`:
+   *  at a state alone. */
+  closure(ids, point, covers = [], rates = true) {
     const found = new Set(ids);
     for (let grown = true; grown; ) {
       grown = false;
       for (const step of this.order) {
         const goal = step.by === "implied" && step.of !== undefined ? step.of : step.id;
-        if (found.has(goal) || step.by === "assumed") continue;
+        if (found.has(goal) || step.by === "assumed" || (step.by === "rate" && !rates)) continue;
         if (this.usable(step, found, point)) {
           found.add(goal);
           grown = true;
@@ -254,7 +255,7 @@ export class Evidence {
     if (!this.memo.has(key)) {
       this.memo.set(key, { value: false });
       const met = this.relations.filter((r) => this.zeroAtOrNot(r.tree, point)).map((r) => r.id);
-      const known = this.closure([...this.held(point), ...met], point);
+      const known = this.closure([...this.held(point), ...met], point, [], false);
       const zero = (tree) => this.zeroAtOrNot(tree, point) || point.rows.some((id) => isZero(sub(this.relation(id).tree, tree)));
       const value = this.relations.every((r) => known.has(r.id) && (r.kind === "velocity" || zero(this.rateOf(r))));
       this.memo.set(key, { value });
@@ -360,7 +361,7 @@ export class Evidence {
       if (ball.nonzero) return false;
       if (point.rows.includes(relation.id)) return true;
       if (this.zeroAt(relation.tree, point)) return true;
-      return this.closure(this.held(point), point).has(relation.id);
+      return this.closure(this.held(point), point, [], false).has(relation.id);
     });
   }
 
@@ -421,7 +422,7 @@ export class Evidence {
     const asked = relations.filter((r) => !r.leaf);
     if (asked.every((r) => this.form(r))) return;
     const met = asked.filter((r) => r.kind === "velocity" && this.zeroAt(r.tree, point)).map((r) => r.id);
-    const known = this.closure([...this.held(point), ...met], point);
+    const known = this.closure([...this.held(point), ...met], point, [], false);
     for (const r of asked) {
       const tree = r.kind === "finite" ? this.rateOf(r) : r.tree;
       const row = point.rows.some((id) => isZero(sub(this.relation(id).tree, tree)));

@@ -71,6 +71,11 @@ export class Rules {
     return this.place(point);
   }
 
+  /** Refuses a point that does not satisfy all finite relations. */
+  meets(point) {
+    this.e.relations.filter((r) => r.kind === "finite").forEach((r) => this.e.needHolds(r, point));
+  }
+
   /** Refuses where /dof was verified at another point. */
   sameplace(dof, point) {
     const place = this.place(point);
@@ -214,6 +219,7 @@ export class Rules {
     refuse(claim.rule !== "nullstellensatz", "another rule");
     refuse(!this.e.closure(ids(relations), null).has(claim.step), "the step does not follow");
     if (relations.some((r) => r.kind !== "inequality" && !isTotal(r.tree))) uncovered("relations that may have no value somewhere");
+    refuse(this.e.relation(claim.step).leaf, "an integral is not 0");
     const tree = substitute(this.e.relation(claim.step).tree, new Map([["tdot", number(1)]]));
     refuse(!nowhereZero(tree, this.s.signs), "what follows may be 0");
     return {};
@@ -307,6 +313,8 @@ export class Rules {
       return refuse(true, `${r.id} does not give ${q}`);
     });
     const graph = steps.every((often) => often === 1) && !generic.length;
+    // a relation that is linear in what it gives has a solution for all values of the others: the graph is one part
+    const joined = !graph || order.every(([r, q]) => r.kind !== "finite" || !derivative(r.tree, q).has(q));
     refuse(alone.length && !(graph && lone.every((r) => r === alone[0])), "what is alone is beside a graph");
     const nothingElse = graph && !alone.length && !forms.length && minor;
     refuse(order.some(([, q]) => q === "t") && !nothingElse, "t is given beside others");
@@ -314,6 +322,7 @@ export class Rules {
     refuse((lone.length || kind === "velocity_dof") && !proper, "velocity relations need a graph");
     if (!graph || alone.length) {
       refuse(!minor, "a minor is needed");
+      refuse(!joined, "the graph may have several parts");
       if (!placed.every((r) => this.total(r.tree))) uncovered("a relation whose analyticity is not told by its form");
     }
     for (const [r, g] of generic) {
@@ -331,6 +340,7 @@ export class Rules {
       }
       rank = minor.rows.length;
     } else {
+      refuse(!joined, "the graph may be empty");
       if (!placed.every((r) => this.total(r.tree))) uncovered("relations that may have no value");
     }
     if (kind === "dof" && forms.length) {
@@ -339,6 +349,7 @@ export class Rules {
       refuse(most[1] !== least[1], "the bounds are at two points");
       refuse(most[0] !== claim.value || least[0] !== claim.value, "the bounds are others");
       const finite = this.e.n - rank + lone.length;
+      refuse(claim.value !== finite && !joined, "another part may be larger");
       if (claim.value !== finite && !(complete && proper && placed.every((r) => this.total(r.tree)))) uncovered("another part may be larger");
       return { place: this.place(most[1]) };
     }
@@ -458,6 +469,7 @@ export class Rules {
         this.sameplace(dof, other.point);
         const others = this.e.relations.filter((r) => r.owner !== name);
         this.e.account(other, others, claim.covers);
+        this.meets(other.point);
         apart &&= same(ids(other.rows).sort(), ids(others).sort());
         refuse(this.e.n - dof.value <= other.rows.length, "without one, the others are as large");
       }
@@ -549,16 +561,16 @@ export class Rules {
     const leaves = minor.rows.filter((r) => r.leaf);
     refuse(basis.length !== leaves.length || !same(ids(leaves).sort(), [...list(claim.steps)].sort()), "the basis is another one");
     basis.forEach((text, i) => {
-      refuse(!this.isConstant(text, this.e.relation(claim.steps[i])), "a text of the basis is another function");
+      refuse(!this.isConstant(text, this.e.relation(claim.steps[i]), minor.point), "a text of the basis is another function");
     });
     return {};
   }
 
-  /** Whether `function = C` writes the function of a step. */
-  isConstant(text, relation) {
+  /** Whether `function = C` writes the function of a step, with a value at a point. */
+  isConstant(text, relation, point) {
     const match = /^([^]*)=\s*([A-Za-z_][A-Za-z0-9_]*)\s*$/.exec(text);
-    const taken = match && (this.s.evidenceNames.values.has(match[2]) || this.s.coordinates.includes(match[2]) || this.s.rates.has(match[2]) || this.s.functions.has(match[2]) || match[2] === "t");
-    return Boolean(match) && !taken && isZero(sub(this.e.text(match[1].trim()), relation.tree));
+    if (match) this.e.at(this.e.text(match[1].trim()), point);
+    return Boolean(match) && !this.s.isTaken(match[2]) && isZero(sub(this.e.text(match[1].trim()), relation.tree));
   }
 
   growth(claim) {
@@ -666,10 +678,12 @@ export class Rules {
       const ones = field === "catastatic" ? equations : own;
       const alone = field === "scleronomic" && own.length === 1 && this.verified.get(`/constraints/${escaped(name)}/holonomic`);
       if (alone?.uncovered) uncovered("a label of the constraint");
+      const factor = this.e.text(claim.factor ?? "1");
+      refuse(!nowhereZero(factor, this.s.signs) || factor.hasAny(this.s.rates), "the factor may be 0, or holds velocities");
       const names = field === "catastatic" ? ["tdot"] : alone?.value === false ? ["t"] : ["t", "tdot"];
       for (const r of ones) {
         if (r.kind === "velocity" && !this.e.form(r)) uncovered("velocities that are not linear");
-        refuse(names.some((t) => !isZero(derivative(r.tree, t))), "time occurs");
+        refuse(names.some((t) => !isZero(derivative(mul(r.tree, tr.inverse(factor)), t))), "time occurs");
       }
       return {};
     }
@@ -736,6 +750,7 @@ export class Rules {
     refuse(!equations.length, "it has no equations");
     const minor = this.e.minor(claim.minor);
     this.place(minor.point);
+    this.meets(minor.point);
     const order = [...this.e.relations].sort((x, y) => (x.kind === "velocity") - (y.kind === "velocity") || x.place - y.place);
     let added = 0;
     for (const kind of ["finite", "velocity"]) {
@@ -770,7 +785,7 @@ export class Rules {
     refuse(!equations.some((r) => r.kind === "velocity"), "a finite relation has no integral");
     const before = [...equations, ...this.e.relations.filter((r) => r.kind === "finite")];
     refuse(!this.e.closure(ids(before), point).has(step.id), "the integral does not follow from the constraint");
-    refuse(!this.isConstant(claim.value, step), "the value is another function");
+    refuse(!this.isConstant(claim.value, step, point), "the value is another function");
     if (equations.length !== 1) {
       const forms = equations.filter((r) => r.kind === "velocity");
       if (forms.length !== 1) uncovered("an integral of several forms");

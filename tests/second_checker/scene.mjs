@@ -247,6 +247,12 @@ export class Scene {
     );
   }
 
+  /** Whether a name means something in texts of the scene or of a certificate. */
+  isTaken(name) {
+    const word = spelledOut(name);
+    return word === "E" || [this.names, this.evidenceNames].some((names) => names.words.has(word) || names.moved(word));
+  }
+
   expression(value, allowed = [], names = this.names ?? new Names(new Set(), this.values)) {
     const found = parse(typeof value === "bigint" ? String(value) : value, names);
     const bad = [...found.symbols].find((s) => !this.signs.has(s) && !allowed.includes(s));

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import combinations, product
 
-from dofkit.checker.label_rules import exterior_part
-from dofkit.checker.trees import ZERO, Tree, add, derivative, symbol
+from dofkit.checker.label_rules import change, exterior_part
+from dofkit.checker.trees import ZERO
 from dofkit.methods.certificates.context import Context, Told
 from dofkit.methods.certificates.fields import (
     curvatures,
@@ -18,7 +18,7 @@ from dofkit.methods.certificates.fields import (
     words_of,
 )
 from dofkit.methods.certificates.points import FoundPoint
-from dofkit.methods.certificates.scenery import FAR
+from dofkit.methods.certificates.scenery import FAR, exponentials
 from dofkit.methods.certificates.steps import combined, combined_integral, function_in, rates_of
 from dofkit.report import ConstraintEntry
 
@@ -109,30 +109,20 @@ def exact(context: Context, entry: ConstraintEntry, field: str) -> Iterator[Told
 
 def time_evidence(context: Context, entry: ConstraintEntry, field: str) -> Iterator[Told]:
     """Yield evidence that time does not occur, or of a point at which it matters."""
+    names = context.scenery.evidence.owned(entry.name, ("finite", "velocity", "inequality"))
     if getattr(entry, field):
         yield {"rule": "timeless"}
+        trees = [context.scenery.evidence.relation(name).tree for name in names]
+        yield from ({"rule": "timeless", "factor": text} for tree in trees for text in exponentials(tree))
         return
-    for name in context.scenery.evidence.owned(entry.name, ("finite", "velocity", "inequality")):
-        for place in _time_dependence(context, name, field):
-            yield {"rule": "time-dependent", "relation": name, **place}
-
-
-def _time_dependence(context: Context, name: str, field: str) -> Iterator[Told]:
-    """Yield points at which time is in a relation, or in the quotient of two components of a form."""
-    scenery, tree, form = context.scenery, context.scenery.tree(name), context.scenery.form(name)
-    turned = form["t"] if form else derivative(tree, "t")
-    velocities = [v for v in scenery.evidence.velocities if v in tree.symbols]
-    if field == "catastatic" and not form and velocities:
-        turned = add(*(symbol(v) * derivative(tree, v) for v in velocities))
-    changes: list[tuple[Tree, Told]] = [(turned, {})]
-    for (a, first), (b, other) in combinations(form.items(), 2) if field == "scleronomic" else ():
-        turn = first * derivative(other, "t") - other * derivative(first, "t")
-        changes.append((turn, {"pair": [a, b]}))
-    changes = [change for change in changes if change[0] != ZERO]
-    for point in _points_of(context, name) if changes else ():
-        for change, pair in changes:
-            if point is not None and scenery.differs(change, point.estimates):
-                yield {"at": context.add_point(point), **pair}
+    for name in names:
+        pairs = combinations(context.scenery.form(name), 2) if field == "scleronomic" else ()
+        claims: list[Told] = [{"relation": name}, *({"relation": name, "pair": list(pair)} for pair in pairs)]
+        trees = [change(context.scenery.evidence, {**claim, "field": field}) for claim in claims]
+        for point in filter(None, _points_of(context, name) if any(tree != ZERO for tree in trees) else ()):
+            for claim, tree in zip(claims, trees, strict=True):
+                if context.scenery.differs(tree, point.estimates):
+                    yield {"rule": "time-dependent", "at": context.add_point(point), **claim}
 
 
 def _points_of(context: Context, name: str) -> Iterator[FoundPoint | None]:

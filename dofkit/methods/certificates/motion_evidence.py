@@ -14,7 +14,7 @@ from dofkit.methods.certificates.context import Context, Told
 from dofkit.methods.certificates.lowering import scene_for_checker
 from dofkit.methods.certificates.numerics import Estimates
 from dofkit.methods.certificates.points import FoundPoint
-from dofkit.methods.certificates.scenery import number_text, text_of
+from dofkit.methods.certificates.scenery import exponentials, number_text, text_of
 from dofkit.report import Report
 from dofkit.scene.scene import Scene
 
@@ -71,7 +71,7 @@ class MotionEvidence:
     def factors(self) -> Iterator[Told]:
         """Yield no factors, then for each exponential in the Lagrangian the claim that it divides every equation."""
         yield {}
-        for power_of_e in sorted(_exponentials(self.read(self.motion["lagrangian"]))):
+        for power_of_e in exponentials(self.read(self.motion["lagrangian"])):
             yield {"factors": dict.fromkeys(self.motion["coordinates"], power_of_e)}
 
     def cofactors(self) -> dict[str, dict[str, str]]:
@@ -110,8 +110,3 @@ class MotionEvidence:
         except HINDRANCES:
             return None
         return FoundPoint(texts, floats)
-
-
-def _exponentials(tree: Tree) -> set[str]:
-    below = set[str]().union(*map(_exponentials, tree.below))
-    return below | {text_of(tree)} if tree.head == "exp" else below

@@ -58,6 +58,12 @@ def text_of(tree: Tree) -> str:
     return f"{head}({', '.join(text_of(part) for part in tree.below)})"
 
 
+def exponentials(tree: Tree) -> list[str]:
+    """The texts of all exponentials in a tree, in order."""
+    below = set[str]().union(*map(exponentials, tree.below))
+    return sorted(below | {text_of(tree)} if tree.head == "exp" else below)
+
+
 def _factor(tree: Tree) -> str:
     text = text_of(tree)
     return f"({text})" if "/" in text or tree.head == "product" else text
