@@ -51,7 +51,7 @@ def _agrees(scene: Scene, key: str, wanted: Any, value: Any) -> bool:
     if key in _SETS and isinstance(wanted, Sequence):
         return sorted(map(str, wanted)) == sorted(map(str, value))
     if isinstance(wanted, Mapping):
-        return isinstance(value, Mapping) and all(value.get(part) == number for part, number in wanted.items())
+        return isinstance(value, Mapping) and all(_agrees(scene, k, v, value.get(k)) for k, v in wanted.items())
     if key == "redundancies" and isinstance(wanted, Sequence):
         return _groups(wanted) == _groups(value) and _members(wanted) <= _members(value)
     if key == "forces" and isinstance(wanted, Sequence):
