@@ -28,7 +28,7 @@ from dofkit.configuration.local import conclusions, criteria
 from dofkit.configuration.local.germ import Germ
 from dofkit.configuration.local.manifold import LocalDimension, Manifold
 from dofkit.configuration.rigid_motions import rigid_fields, rigid_motions_real
-from dofkit.configuration.variety import chart_of_rows, field_jacobian, point_at, pose_point, smaller
+from dofkit.configuration.variety import chart_of_rows, field_jacobian, is_parametric, point_at, pose_point, smaller
 from dofkit.exact.matrices.certified import ball_part, dependencies
 from dofkit.exact.matrices.sparse import (
     Echelon,
@@ -52,8 +52,11 @@ from dofkit.relations.blocks import Chart
 
 #: The least ratio of two pivots between which the rank is certain.
 CLEAR = 1e3
+#: Number of values of each parameter without a given one for which signs are compared; they are up to 2^+-`WIDEST`.
+DRAWS, WIDEST = 12, 8
 #: Sizes of random displacements from the reference in `near_reference`.
 NEAR = (2**-6, 2**-10, 2**-16, 2**-24)
+RIGID = f"the dependent part is rigid: {conclusions.WHOLE}"
 EXPLICIT = "each equation determines one coordinate in terms of others, so the set is a graph"
 
 
@@ -119,8 +122,8 @@ def _by_field(chart: Chart, pose: Mapping[Expr, Expr]) -> AtReference | None:
         local, spared = _with_fewer(chart, pose, point, fields)
         looked = FollowedClasses(coordinates=n - spared, spared=spared)
         return AtReference(n - rank_q, local, matrix, point.p, rank, rigid, looked=looked)
-    ball = ball_point(chart, pose) if rank < len(matrix) and "balls" in chart.setting.engines else None
-    local = _at_fixed_time(criteria.local_at(chart, point, ball, rigid), timed)
+    balls = ball_points(chart, pose) if rank < len(matrix) else []
+    local = _at_fixed_time(criteria.local_at(chart, point, balls, rigid), timed)
     return AtReference(n - rank_q, local, matrix, point.p, rank, rigid)
 
 
@@ -143,8 +146,7 @@ def _with_fewer(
         return LocalDimension(free, "proved", EXPLICIT, argument="graph"), spared
     kept = [i for i, s in enumerate(chart.symbols) if s in small.symbols]
     rigid = rank_of([[field[i] for i in kept] for field in fields], point.p)
-    ball = ball_point(small, pose) if "balls" in chart.setting.engines else None
-    local = criteria.local_at(small, here, ball, rigid, asked=asked)
+    local = criteria.local_at(small, here, ball_points(small, pose), rigid, asked=asked)
     return replace(local, dimension=None if local.dimension is None else local.dimension + free), spared
 
 
@@ -171,18 +173,13 @@ def _by_classes(
         if local is None:
             return None
         dimensions.append(local)
-        followed += 0 if local.reason == _rigid() else class_chart.coordinates - spared
+        followed += 0 if local.reason == RIGID else class_chart.coordinates - spared
         more += spared
     reasons = dict.fromkeys(local.reason for local in dimensions)
     looked_at = {row for part in classes for row in part.rows}
     weak = max(dimensions, key=lambda local: VERDICTS.index(local.verdict))
     local = LocalDimension(dimension, weak.verdict, "; ".join(reasons), argument=weak.argument)
     return local, FollowedClasses(len(matrix) - len(looked_at), followed, more)
-
-
-def _rigid() -> str:
-    """Return the reason for a rigid class."""
-    return f"the dependent part is rigid: {conclusions.WHOLE}"
 
 
 def _of_class(chart: Chart, pose: Mapping[Expr, Expr], rank: int) -> tuple[LocalDimension | None, int]:
@@ -197,7 +194,7 @@ def _of_class(chart: Chart, pose: Mapping[Expr, Expr], rank: int) -> tuple[Local
     fields = rigid_fields(chart, point)
     rigid = rank_of(fields, point.p)
     if corank == rigid:
-        return LocalDimension(corank, "proved", _rigid(), argument="rigid to first order"), 0
+        return LocalDimension(corank, "proved", RIGID, argument="rigid to first order"), 0
     local, spared = _with_fewer(chart, pose, point, fields, criteria.OF_MANIFOLDS)
     return (local if local.dimension == corank else None), spared
 
@@ -211,21 +208,22 @@ def _at_fixed_time(local: LocalDimension, timed: int) -> LocalDimension:
 
 def _by_balls(chart: Chart, pose: Mapping[Expr, Expr]) -> AtReference | None:
     """Return `at_reference` by balls only; a value whose tiny ball contains 0 counts as 0."""
-    ball = ball_point(chart, pose)
-    matrix = None if ball is None else ball_matrix(chart, ball, True)
-    if ball is None or matrix is None:
+    balls = ball_points(chart, pose)
+    matrix = ball_matrix(chart, balls[0], True) if balls else None
+    if matrix is None:
         return None
     n, columns = chart.coordinates, len(chart.columns)
     timed = columns - n
     part = ball_part(matrix)
     rank = part.rank
-    rigid = rigid_motions_real(chart, ball)
+    rigid = rigid_motions_real(chart, balls[0])
     of_q = ball_part([row[:n] for row in matrix])
     local = LocalDimension(None, "undecided", gap_in_words(part.gap, "pivot"))
     if part.gap > CLEAR:
         frame = Pivots(tuple(part.rows), tuple(part.columns), tuple(c for c in range(columns) if c not in part.columns))
-        manifold = Manifold(chart.ring, chart.nodes, chart.columns, frame, ball, chart.scales)
-        local = _at_fixed_time(criteria.local_dimension(Germ(None, manifold, rigid, chart.time)), timed)
+        manifolds = (Manifold(chart.ring, chart.nodes, chart.columns, frame, b, chart.scales) for b in balls)
+        germs = (Germ(None, manifold, rigid, chart.time) for manifold in manifolds)
+        local = _at_fixed_time(criteria.local_dimension(next(germs), criteria.CRITERIA, germs), timed)
     pattern = sparse(dependencies(matrix, part))
     names = tuple(of_q.columns) if rank == of_q.rank else ()
     return AtReference(n - of_q.rank, local, pattern, 2, rank, rigid, names)  # the pattern is modulo 2
@@ -244,18 +242,31 @@ def ball_matrix(chart: Chart, ball: BallPoint, exact: bool) -> list[list[arb]] |
 
 
 @none_without_value
-def ball_point(chart: Chart, pose: Mapping[Expr, Expr]) -> BallPoint | None:
-    """Return a pose as a point of balls, with random values of the other symbols; None if a value is undefined."""
-    rng, symbols = random.Random("dofkit reference"), dict[Expr, Any]()
+def ball_point(chart: Chart, pose: Mapping[Expr, Expr], draw: int = 0) -> BallPoint | None:
+    """Return a pose as a point of balls, with random values of the other symbols; None if a value is undefined.
+
+    From ``draw`` 1 on the values are of very different sizes, and negative ones too, unless they are declared positive.
+    """
+    rng, symbols = random.Random(f"dofkit reference {draw}"), dict[Expr, Any]()
     with ctx.workprec(precision()):
         keys = [var.key for var in chart.ring.vars if var.kind == "symbol"]
-        symbols |= {s: arb(rng.randrange(257, 1023)) / 512 for s in keys if pose.get(s) is None}
+        for s in (s for s in keys if pose.get(s) is None):
+            symbols[s] = arb(rng.randrange(257, 1023)) / 512
+            if draw:
+                symbols[s] *= arb(2) ** rng.randint(-WIDEST, WIDEST)
+                symbols[s] *= 1 if s in chart.setting.positive else rng.choice((-1, 1))
         for s in (s for s in keys if s not in symbols):
             ring = Ring([pose[s]])
             node = ring.node(pose[s])
             constants = {v.key: symbols.get(v.key, arb(3) / 4) for v in ring.vars if v.kind == "symbol"}
             symbols[s] = values(ring, BallPoint(constants))[node]
-    return BallPoint(symbols)
+    return BallPoint(symbols, draw)
+
+
+def ball_points(chart: Chart, pose: Mapping[Expr, Expr]) -> list[BallPoint]:
+    """Return a pose as points of balls: one, or `DRAWS` if there are other symbols or unknown functions; or none."""
+    draws = range(DRAWS if is_parametric(chart, pose) else 1) if "balls" in chart.setting.engines else ()
+    return [ball for draw in draws if (ball := ball_point(chart, pose, draw)) is not None]
 
 
 def float_point(chart: Chart, pose: Mapping[Expr, Expr]) -> dict[Expr, float] | None:

@@ -115,11 +115,8 @@ def _local_answer(chart: Chart, reference: Mapping[Expr, Expr]) -> Answer | None
     result.argument, result.bits = local_answer.local.argument, error_bits(chart.ring, chart.nodes, len(chart.columns))
     result.method = "rank over GF(p) at the given configuration"
     result.instantaneous, result.looked = local_answer.instantaneous, local_answer.looked
-    result.matrix, result.modulus, result.first_order_sure = (
-        local_answer.matrix,
-        local_answer.modulus,
-        local_answer.sure,
-    )
+    result.matrix, result.modulus = local_answer.matrix, local_answer.modulus
+    result.first_order_sure = local_answer.sure
     result.exists = chart.time is None and vanish_exactly(chart.ring, chart.nodes, rational_values(reference))
     if local_answer.dependent is None:
         result.dependent = dependent_names(local_answer.matrix, chart, local_answer.modulus)

@@ -19,7 +19,14 @@ from dofkit.configuration.local import criteria
 from dofkit.configuration.local.germ import Germ
 from dofkit.configuration.local.manifold import LocalDimension, Manifold
 from dofkit.configuration.rigid_motions import rigid_motions_real
-from dofkit.configuration.variety import Variety, field_jacobian, generators_of, has_same_signs, time_is_free
+from dofkit.configuration.variety import (
+    Variety,
+    field_jacobian,
+    generators_of,
+    has_same_signs,
+    is_parametric,
+    time_is_free,
+)
 from dofkit.exact.matrices.certified import independent_part
 from dofkit.exact.matrices.dense import length
 from dofkit.exact.matrices.sparse import Pivots, rank_of_rows
@@ -54,7 +61,7 @@ def variety_at(chart: Chart, samples: list[FieldPoint], seed: int, core: Sequenc
     argument: ArgumentKey | None = "regular point"
     reasons: list[str] = []
     if rank < len(chart.nodes):
-        local = criteria.local_at(chart, samples[0], None, 0, special=False)
+        local = criteria.local_at(chart, samples[0], (), 0, special=False)
         if local.dimension is None or local.confined or local.dimension < columns - rank:
             exact = None if local.confined else local.dimension
             dimension = None if exact is None else exact - timed
@@ -206,7 +213,7 @@ def numeric_local(chart: Chart, real: RealPoint) -> LocalDimension | None:
 
 @raising_no_value
 def _dimension_near(chart: Chart, real: RealPoint) -> LocalDimension | None:
-    """Return the local dimension at the singular point near ``real``, in high precision."""
+    """Return the local dimension at the singular point near ``real``, in high precision; None if parameters decide."""
     point = _converge(chart, real)
     if point is None:
         return None
@@ -222,7 +229,9 @@ def _dimension_near(chart: Chart, real: RealPoint) -> LocalDimension | None:
     free = tuple(i for i in range(len(chart.columns)) if i not in set(dependent))
     frame = Pivots(tuple(rows), dependent, free)
     manifold = Manifold(chart.ring, chart.nodes, chart.columns, frame, point, chart.scales)
-    return criteria.local_dimension(Germ(None, manifold, rigid_motions_real(chart, point), chart.time))
+    local = criteria.local_dimension(Germ(None, manifold, rigid_motions_real(chart, point), chart.time))
+    of_signs = local.argument in {criterion.key for criterion in criteria.OF_SIGNS}
+    return None if of_signs and is_parametric(chart, (*chart.unknowns, ex.TIME)) else local
 
 
 def _converge(chart: Chart, real: RealPoint) -> BallPoint | None:

@@ -29,9 +29,8 @@ from dofkit.configuration.measured.dimension import measured_freedom
 from dofkit.configuration.rigid_motions import rigid_motions
 from dofkit.configuration.variety import chart_of_rows, field_jacobian, point_at, pose_point, smaller
 from dofkit.exact.matrices.dense import length
-from dofkit.exact.matrices.sparse import Pivots, SparseRow, factored, sparse_frame, transposed
+from dofkit.exact.matrices.sparse import SparseRow, factored, sparse_frame, transposed
 from dofkit.exact.points.balls import FloatPoint, jacobian
-from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.points.series import Series
 from dofkit.exact.residues import modulus
@@ -77,7 +76,10 @@ class ImpliedRelations:
         if point is None or "field" not in subchart.setting.engines or self.chart.setting.tolerance is not None:
             return list(others)
         try:
-            frame = pivots_among(subchart, point, [k for k, i in enumerate(numbers) if i != row])
+            rows = [k for k, i in enumerate(numbers) if i != row]
+            matrix = field_jacobian(subchart, point, [subchart.nodes[k] for k in rows])
+            frame = sparse_frame(matrix, len(subchart.columns), point.p)
+            frame = replace(frame, rows=tuple(rows[k] for k in frame.rows))
             field = Manifold(subchart.ring, subchart.nodes, subchart.columns, frame, point)
             return [numbers[k] for k in needed_along(field, subchart.nodes[numbers.index(row)])]
         except (ArithmeticError, NoValueError):
@@ -144,13 +146,6 @@ def _on_manifold(chart: Chart, pose: Mapping[Expr, Expr], rank: int, afar: bool)
     rigid = rigid_motions(small, point)
     ball = ball_point(small, pose) if afar and "balls" in chart.setting.engines else None
     return vanish_near(small, point, ball, rigid, rank - eliminated)
-
-
-def pivots_among(chart: Chart, point: FieldPoint, rows: Sequence[int]) -> Pivots:
-    """Return the pivots of some rows, with their numbers in the chart; the rows are independent at the point."""
-    matrix = field_jacobian(chart, point, [chart.nodes[r] for r in rows])
-    frame = sparse_frame(matrix, len(chart.columns), point.p)
-    return replace(frame, rows=tuple(rows[r] for r in frame.rows))
 
 
 @none_without_value

@@ -52,8 +52,7 @@ def displacement_fields(chart: Chart) -> list[AffineField]:
 
 def rigid_motions(chart: Chart, point: FieldPoint) -> int:
     """Return the dimension, at the point, of the rigid motions of the system that preserve all relations."""
-    vectors = rigid_fields(chart, point)
-    return rank_of(vectors, point.p) if vectors else 0
+    return rank_of(rigid_fields(chart, point), point.p)
 
 
 def rigid_fields(chart: Chart, point: FieldPoint) -> list[list[Any]]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from hashlib import sha256
@@ -110,6 +110,11 @@ BRANCHED = ("root", "asin", "atan", "atan2")
 def is_unconstrained(chart: Chart) -> bool:
     """Return whether there is no relation, and no generator with several branches."""
     return not chart.nodes and all(v.kind != "sign" and v.kind not in BRANCHED for v in chart.ring.vars)
+
+
+def is_parametric(chart: Chart, given: Collection[Expr]) -> bool:
+    """Return whether symbols that are not ``given`` or unknown functions occur, on whose values signs may depend."""
+    return any(v.kind == "call" or (v.kind == "symbol" and v.key not in given) for v in chart.ring.vars)
 
 
 def all_configurations(chart: Chart, seed: int = 0) -> Variety:

@@ -176,10 +176,8 @@ class AdmissibleCurve:
 
     def velocities(self) -> list[Series]:
         """Return q' along the curve, one series for each column."""
-        n = len(self.path)
-        order = self.order
-        numbers = [[c[k + 1] * self.base.number(k + 1) for k in range(order)] for c in self.path]
-        return [Series(self.numbers.polynomial(numbers[i]), order) for i in range(n)]
+        numbers = ([c[k + 1] * self.base.number(k + 1) for k in range(self.order)] for c in self.path)
+        return [Series(self.numbers.polynomial(coefficients), self.order) for coefficients in numbers]
 
     def _linearise(self) -> None:
         """Set ``slope`` and ``frames``, S and B in the dependent columns: A_d S = -d(A X), A_d B = -A_f."""

@@ -25,7 +25,7 @@ from dofkit.exact.zero import is_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.relations.answer import Answer, HolonomyLabel
-from dofkit.relations.blocks import Block, Row
+from dofkit.relations.blocks import Block
 from dofkit.relations.normal.normal_form import velocities_of
 from dofkit.relations.setting import Setting
 
@@ -89,28 +89,20 @@ def set_velocity_freedom(block: Block, setting: Setting, result: Answer) -> None
             result.labels = dict.fromkeys(result.labels, HolonomyLabel(True, result.verdict, "line"))
 
 
-def _rows_at_reference(block: Block, setting: Setting, result: Answer) -> tuple[Row, ...] | None:
-    """Return the relations between velocities at the reference; None if it does not satisfy the geometric equations."""
-    configuration = {**(setting.reference or {}), ex.TIME: ex.ZERO}
-    relations = [e for kind in state_relations(block.rows, result.hidden) for e in kind]
-    if any(not is_zero(substitute(g, configuration), setting.positive) for g in relations if not velocities_of(g)):
-        return None
-    return rows_at(relations, configuration)
-
-
 @false_without_value
 def _moves_at_reference(block: Block, setting: Setting, result: Answer, by_velocity: int) -> bool:
     """Return whether real velocities at the reference configuration have the generic rank ``by_velocity``.
 
     True if there is no reference or it is not on the set. Example: xdot^2 + ydot^2 = z zdot^2 can move only if z > 0.
     """
-    if setting.reference is None:
+    configuration = {**(setting.reference or {}), ex.TIME: ex.ZERO}
+    relations = [e for kind in state_relations(block.rows, result.hidden) for e in kind]
+    finite = (substitute(g, configuration) for g in relations if not velocities_of(g))
+    if setting.reference is None or any(not is_zero(g, setting.positive) for g in finite):
         return True
-    rows = _rows_at_reference(block, setting, result)
-    if not rows:
-        return rows is None
+    rows = rows_at(relations, configuration)
     states = States(block.coordinates, rows, (), replace(setting, reference=None))
-    return any(states.ranks(point)[1] == by_velocity for point in states.certain(SEEDS))
+    return bool(rows) and any(states.ranks(point)[1] == by_velocity for point in states.certain(SEEDS))
 
 
 def _real(states: States, point: FieldPoint | None, result: Answer) -> RealPoint | None:

@@ -37,13 +37,10 @@ from dofkit.relations.velocity_reductions import RewrittenRow
 #: Random velocities of the Lie algebra used at a point, and the number of states at which a reduction is checked.
 VECTORS, CHECKED = 3, 2
 
-
 NOT_EQUIVALENT = (
     "a velocity was eliminated by dividing by a term that vanishes on the geometric equations: "
     "the remaining nonlinear constraint was not decided"
 )
-
-
 NO_VELOCITY = "no velocities were found at which it could be compared"
 
 

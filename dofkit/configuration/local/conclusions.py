@@ -22,7 +22,7 @@ form is definite; the cone of an indefinite form is in no hyperplane dt = 0.
 from __future__ import annotations
 
 from dofkit.configuration.local.branches import largest_branch
-from dofkit.configuration.local.germ import CRITICAL_ORDER, LONG_ORDER, Conclusion, Germ, time_moves
+from dofkit.configuration.local.germ import CRITICAL_ORDER, LONG_ORDER, Conclusion, Germ, ahead, time_moves
 from dofkit.configuration.local.neighbourhood import holds_on_critical
 from dofkit.configuration.local.quadratic_cone import definite_combination
 
@@ -173,7 +173,9 @@ def branch_followed(germ: Germ) -> Conclusion | None:
 
 def _vanishes_on_critical(germ: Germ) -> bool:
     """Return whether the dependent relations are 0 on N at a distance from the point."""
-    return germ.ball is not None and holds_on_critical(germ.ball, germ.critical, germ.ahead())
+    if germ.ball is None:
+        return False
+    return holds_on_critical(germ.ball, germ.critical, ahead(germ.ball, len(germ.critical.free)))
 
 
 def _has_one_form(germ: Germ) -> bool:

@@ -6,7 +6,7 @@ The first row whose function returns a conclusion decides. A new criterion needs
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import NamedTuple
 
 from flint import ctx
@@ -28,6 +28,9 @@ UNDECIDED = LocalDimension(
 )
 WITHOUT_VALUE = LocalDimension(
     None, "undecided", "the equations could not be evaluated along a curve through this configuration"
+)
+OTHERWISE = LocalDimension(
+    None, "undecided", "the equations are dependent here and the dimension depends on the values of the parameters"
 )
 
 
@@ -59,30 +62,38 @@ CRITERIA: tuple[Criterion, ...] = (
 )
 #: The criteria that conclude that the set is a manifold, or that this is undecided.
 OF_MANIFOLDS = CRITERIA[:4]
+#: The criteria that use signs, which may differ for other values of parameters.
+OF_SIGNS = CRITERIA[5:]
 
 
 # The local dimension by the table
 
 
-def local_dimension(germ: Germ, asked: Sequence[Criterion] = CRITERIA) -> LocalDimension:
+def local_dimension(germ: Germ, asked: Sequence[Criterion] = CRITERIA, others: Iterable[Germ] = ()) -> LocalDimension:
     """Return the local dimension by the first of the criteria ``asked`` that decides; undecided if none does.
 
     At an approximate point, with balls only, a value whose tiny ball contains 0 counts as 0; the verdict is "numeric".
+    ``others``: germs for other values of parameters, for which a criterion that uses signs must conclude the same; then
+    it is "probable".
     """
     with ctx.workprec(max(ctx.prec, precision())):
         try:
-            return _decision(germ, asked)
+            return _decision(germ, asked, others)
         except NoValueError:
             return WITHOUT_VALUE
 
 
 @raising_no_value
-def _decision(germ: Germ, asked: Sequence[Criterion]) -> LocalDimension:
+def _decision(germ: Germ, asked: Sequence[Criterion], others: Iterable[Germ]) -> LocalDimension:
     """Return the local dimension by the first criterion that concludes, or `UNDECIDED`."""
     for criterion in asked:
         conclusion = criterion.decide(germ)
         if conclusion is not None:
-            verdict = weakest(criterion.verdict, conclusion.verdict, "proved" if germ.exact else "numeric")
+            elsewhere = [criterion.decide(other) for other in others] if criterion in OF_SIGNS else []
+            if any(c is None or c.dimension != conclusion.dimension for c in elsewhere):
+                return OTHERWISE
+            best: Verdict = "probable" if elsewhere else "proved"
+            verdict = weakest(criterion.verdict, conclusion.verdict, best if germ.exact else "numeric")
             return LocalDimension(conclusion.dimension, verdict, conclusion.reason, conclusion.confined, criterion.key)
     return UNDECIDED
 
@@ -90,7 +101,7 @@ def _decision(germ: Germ, asked: Sequence[Criterion]) -> LocalDimension:
 def local_at(
     chart: Chart,
     point: FieldPoint,
-    ball: BallPoint | None,
+    balls: Sequence[BallPoint],
     rigid: int,
     special: bool = True,
     asked: Sequence[Criterion] = CRITERIA,
@@ -98,14 +109,15 @@ def local_at(
     """Return the local dimension at a point of the variety; time counts if it is a column.
 
     The point may be ``special``, not random: relations that are 0 along a curve to a high order are then evaluated at a
-    distance too, if balls may be used.
+    distance too, if balls may be used. ``balls``: the point with one value of each parameter, or with several.
     """
     distance = special and "balls" in chart.setting.engines
     try:
-        germ = Germ(*_manifolds(chart, frame_at(chart, point), point, ball), rigid, chart.time, distance)
+        frame = frame_at(chart, point)
+        germs = (Germ(*_manifolds(chart, frame, point, b), rigid, chart.time, distance) for b in balls or (None,))
+        return local_dimension(next(germs), asked, germs)
     except NoValueError:
         return WITHOUT_VALUE
-    return local_dimension(germ, asked)
 
 
 def _manifolds(

@@ -110,7 +110,7 @@ class Germ:
         """
         if self.afar is None:
             return None if self.distance else True
-        return holds_away(self.afar, _ahead(self.afar, self.m), self.exact)
+        return holds_away(self.afar, ahead(self.afar, self.m), self.exact)
 
     @cached_property
     def signs(self) -> list[Form]:
@@ -162,11 +162,6 @@ class Germ:
             leading_signs |= set() if value.contains(0) else {1 if value > 0 else -1}
         return leading_signs
 
-    def ahead(self) -> list[float]:
-        """Return a random direction of N for points at a distance."""
-        assert self.ball is not None
-        return _ahead(self.ball, len(self.critical.free))
-
 
 def random_direction(manifold: Manifold) -> Sequence[Scalar]:
     """Return a random direction of the manifold's free columns, in numbers of its type."""
@@ -181,7 +176,7 @@ def time_moves(manifold: Manifold, time: int, order: int) -> bool:
     return any(not vanishes(path.coefficient(k)) for k in range(1, order))
 
 
-def _ahead(ball: Manifold, count: int) -> list[float]:
+def ahead(ball: Manifold, count: int) -> list[float]:
     """Return ``count`` random numbers of either sign, of sizes between 1/2 and 1."""
     return [ball.base.rng.choice((-1, 1)) * ball.base.rng.randrange(128, 256) / 256 for _ in range(count)]
 

@@ -14,7 +14,7 @@ from dofkit.base.verdicts import ArgumentKey, Verdict
 from dofkit.exact.matrices.sparse import Pivots, Reduction, factored
 from dofkit.exact.points.frames import field_frame, solve
 from dofkit.exact.points.series import Series, SeriesPoint, monomial, zero_poly
-from dofkit.exact.residues import Residue, ResidueMatrix, modulus, residue, residue_matrix
+from dofkit.exact.residues import Residue, modulus, residue
 from dofkit.exact.ring.program import Scalar, gradient, raising_no_value, values
 from dofkit.exact.ring.ring import Ring
 
@@ -86,16 +86,9 @@ class Manifold:
     @cached_property
     def _inverse(self) -> Any:
         """The inverse matrix (or elimination) of the independent rows in the dependent columns, at the point."""
-        at = values(self.ring, self.base)
-        unit = self.sample + 1
-        if isinstance(self.sample, Residue):
-            place = {self.columns[c]: k for k, c in enumerate(self.frame.dependent)}
-            slopes = (gradient(self.ring, at, self.base, [(node, unit)]) for node in self.rows)
-            sparse_rows = [{place[c]: int(v) for c, v in g.items() if c in place and v != 0} for g in slopes]
-            return factored(sparse_rows, modulus(self.sample))
-        rows = []
+        at, rows = values(self.ring, self.base), []
         for node in self.rows:
-            g = gradient(self.ring, at, self.base, [(node, unit)])
+            g = gradient(self.ring, at, self.base, [(node, self.sample + 1)])
             rows.append([g.get(self.columns[c], self.sample) for c in self.frame.dependent])
         return inverse(rows)
 
@@ -176,11 +169,11 @@ class Manifold:
 
 @raising_no_value
 def inverse(rows: list[list[Scalar]]) -> Any:
-    """Return the inverse of a square matrix over GF(p) or balls; raises PoleError."""
+    """Return the inverse of a square matrix of balls, or its elimination over GF(p); raises PoleError."""
     if not rows:
         return None
     if isinstance(rows[0][0], Residue):
-        return residue_matrix([[int(v) for v in row] for row in rows], modulus(rows[0][0])).inv()
+        return factored([{c: int(v) for c, v in enumerate(row) if v != 0} for row in rows], modulus(rows[0][0]))
     return arb_mat(rows).inv()
 
 
@@ -188,11 +181,7 @@ def product(matrix: Any, vector: Sequence[Scalar]) -> list[Scalar]:
     """Return the product of an inverse (a matrix, or the elimination of its inverse) with a vector."""
     if isinstance(matrix, Reduction):
         return [residue(v, matrix.p) for v in matrix.solved([int(v) for v in vector])]
-    over_field = isinstance(matrix, ResidueMatrix)
-    column = (
-        residue_matrix([[int(v)] for v in vector], modulus(matrix)) if over_field else arb_mat([[v] for v in vector])
-    )
-    image = matrix * column
+    image = matrix * arb_mat([[v] for v in vector])
     return [image[i, 0] for i in range(len(vector))]
 
 

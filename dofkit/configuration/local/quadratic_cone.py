@@ -16,7 +16,8 @@ from flint import arb
 
 from dofkit.base.deadline import check
 from dofkit.exact.matrices.dense import Matrix, dot, largest, least_eigenvector, length, pivoted, plus, times
-from dofkit.exact.residues import Residue, modulus, residue_matrix
+from dofkit.exact.matrices.sparse import rank_of
+from dofkit.exact.residues import modulus, residue_matrix
 from dofkit.exact.ring.program import Scalar
 
 Form = Sequence[Sequence[Scalar]]
@@ -37,16 +38,11 @@ def bound(forms: Sequence[Form], rigid: int) -> int:
     """
     m = len(forms[0])
     p = modulus(forms[0][0][0])
-    independent = rank([[v for row in f for v in row] for f in forms], p)
+    independent = rank_of([[v for row in f for v in row] for f in forms], p)
     for cuts in range(min(m - rigid, independent, MAX_CUTS), 0, -1):
         if _only_zero(forms, cuts, p):
             return m - cuts
     return m
-
-
-def rank(rows: Sequence[Sequence[Residue]], p: int) -> int:
-    """Return the rank of a matrix over GF(p)."""
-    return int(residue_matrix([[int(v) for v in row] for row in rows], p).rank()) if rows and rows[0] else 0
 
 
 def _only_zero(forms: Sequence[Form], c: int, p: int) -> bool:

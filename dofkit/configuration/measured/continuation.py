@@ -74,11 +74,6 @@ class Path:
         half, quarter = ([s for s in self.stages if s.distance <= end][-1] for end in ends)
         return min(_power(quarter, half), _power(half, last)) if quarter.distance > 0 else 0.0
 
-    @property
-    def end_rank(self) -> int | None:
-        """The rank at the end of the path, None if it is undecided."""
-        return clear_rank(self.pose.equations.system(self.stages[-1].at, self.pose.norms)[1], self.pose.tolerance)
-
 
 def is_motion(forward: Path, backward: Path, reach: float) -> bool:
     """Return whether two paths in opposite directions form one motion of length ``reach`` with the rank of the pose.
@@ -88,7 +83,9 @@ def is_motion(forward: Path, backward: Path, reach: float) -> bool:
     longer = max(forward, backward, key=lambda path: path.distance)
     is_long = forward.distance + backward.distance >= reach * (1 - CLOSE)
     satisfied = all(path.is_satisfied(reach) for path in (forward, backward))
-    return is_long and satisfied and longer.end_rank == longer.pose.rank
+    pose = longer.pose
+    end = pose.equations.system(longer.stages[-1].at, pose.norms)[1]
+    return is_long and satisfied and clear_rank(end, pose.tolerance) == pose.rank
 
 
 def _power(near: Stage, far: Stage) -> float:

@@ -27,7 +27,9 @@ from dofkit.configuration.measured.equations import (
     clear_rank,
     independent_rows,
 )
+from dofkit.configuration.variety import is_parametric
 from dofkit.exact.matrices.certified import dependency_pattern, greedy_pivots
+from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Chart
 
@@ -169,7 +171,10 @@ def _infinitesimally_rigid(problem: _Problem) -> Conclusion | None:
 
 
 def _indistinct(problem: _Problem) -> Conclusion | None:
-    """Conclude that the dimension is undecided if no motion can be followed."""
+    """Conclude that the dimension is undecided if no motion can be followed, or signs may depend on parameters."""
+    chart = problem.pose.equations.chart
+    if is_parametric(chart, (*chart.unknowns, ex.TIME)):
+        return Conclusion(None, OPEN)
     if problem.is_far:
         return Conclusion(
             None,

@@ -169,8 +169,7 @@ class MeasuredPose:
 
     @cached_property
     def _svd(self) -> tuple[Any, Any, Any]:
-        left_vectors, singular, right = np.linalg.svd(self.j)
-        return left_vectors, singular, right
+        return np.linalg.svd(self.j)
 
     @property
     def independent(self) -> Any:
