@@ -50,7 +50,7 @@ def _agrees(scene: Scene, key: str, wanted: Any, value: Any) -> bool:
         return wanted is value
     if key in _SETS and isinstance(wanted, Sequence):
         return sorted(map(str, wanted)) == sorted(map(str, value))
-    if key == "count" and isinstance(wanted, Mapping):
+    if key in ("count", "mobility") and isinstance(wanted, Mapping):
         return all(value.get(part) == number for part, number in wanted.items())
     if key == "redundancies" and isinstance(wanted, Sequence):
         return _groups(wanted) == _groups(value) and _members(wanted) <= _members(value)
