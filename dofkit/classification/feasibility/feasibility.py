@@ -193,7 +193,7 @@ def inequalities_together(study: Study, fields: Mapping[str, Any]) -> Mapping[st
         "feasible_at": at,
         "verdict": weakest(fields["verdict"], *(v.verdict for v in claims.values())),
         "verdicts": {**fields["verdicts"], **claims},
-        "witness": _moved(fields["witness"], at or {}),
+        "witness": _moved(fields, at or {}),
         "warnings": [*fields["warnings"], *result.reasons],
     }
 
@@ -208,9 +208,13 @@ def _claims(feasibility: Feasibility) -> dict[str, FieldVerdict]:
     return {"feasible": claim} | ({"infeasible": minimal} if feasibility.infeasible else {})
 
 
-def _moved(witness: Mapping[str, str] | None, at: Mapping[str, str]) -> dict[str, str] | None:
-    """Return the witness with the values of ``at`` in place of its own."""
-    return None if witness is None else {**witness, **{name: at[name] for name in witness if name in at}}
+def _moved(fields: Mapping[str, Any], at: Mapping[str, str]) -> dict[str, str] | None:
+    """Return the witness with the values of ``at``, or the old one if some claim is about its component."""
+    witness: dict[str, str] | None = fields["witness"]
+    verdicts = (fields["verdicts"], *(e.verdicts for e in fields["constraints"]))
+    if witness is None or any(v.about == "component" for some in verdicts for v in some.values()):
+        return witness
+    return {**witness, **{name: at[name] for name in witness if name in at}}
 
 
 def _texts(system: System, at: Values) -> dict[str, str]:
