@@ -123,8 +123,8 @@ def _mentioned(r: Reduced, shared: bool) -> frozenset[str]:
     domain = r.domain(inequalities=True)
     pieces = [*(p for n in r.normals for branch in n.branches for p in branch), *r.inequalities, *domain]
     names = frozenset[str]().union(*map(coordinates_of, pieces))
-    written = (s for q in (*r.constraint.relations, *domain) for s in q.expr.symbols)
-    constants = (s for s in written if s.args[0] in ("parameter", "time"))
+    written = (*(q.expr for q in r.constraint.relations), *(c.expr for c in domain))
+    constants = (s for e in written for s in e.symbols if s.args[0] in ("parameter", "time"))
     return names | frozenset(repr(s) for s in constants) if shared else names
 
 
