@@ -24,7 +24,6 @@ from dofkit.mobility import special_position
 from dofkit.mobility.counts import kutzbach_count
 from dofkit.mobility.general_position import GenericRank, in_general_position
 from dofkit.mobility.placement import TURNS, Member, Placement, measured_placement, reference_placement, rows_of
-from dofkit.relations.normal.pieces import Finite
 from dofkit.report import Generic, Mobility
 
 #: Bounds on the dependent sets of rows examined in a block, and on the sentences about special positions.
@@ -112,14 +111,8 @@ class CountsBeside:
 
     def mobility(self) -> Mobility | None:
         """Return Gruebler's and Kutzbach's count; None without bodies and joints."""
-        study = self.study
-        total = sum(
-            r.constraint.facts.joint or all(isinstance(p, Finite) for p in n.pieces)
-            for r in study.reduced
-            for n in r.normals
-        )
-        equations = [r.equations for r in study.reduced]
-        return kutzbach_count(study.system, equations, total, study.outcome.velocity_dof, self._exact)
+        equations = [r.equations for r in self.study.reduced]
+        return kutzbach_count(self.study.system, equations, self.study.outcome.velocity_dof, self._exact)
 
     def _exact(self) -> Placement | None:
         return None if self.study.system.tolerance is not None else self._placement

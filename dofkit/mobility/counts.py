@@ -74,14 +74,14 @@ def freedom_of_body(system: System) -> int:
 
 
 def kutzbach_count(
-    system: System, equations: Sequence[int], total: int, freedom: int | None, placed: PlacementMaker
+    system: System, equations: Sequence[int], freedom: int | None, placed: PlacementMaker
 ) -> Mobility | None:
-    """Return Kutzbach's count and why it is not ``freedom``; None without joints. ``total``: the equations to count."""
+    """Return Kutzbach's count, and why it is not ``freedom``; None without joints. ``equations``: by constraint."""
     joints = joints_of(system, equations)
     if not joints:
         return None
     whole, bodies = freedom_of_body(system), len(system.bodies)
-    terms = _terms(system, joints, total - sum(equations[j.constraint] for j in joints))
+    terms = _terms(system, joints, sum(equations) - sum(equations[j.constraint] for j in joints))
     base = whole * (bodies - len(joints)) + sum(j.freedom for j in joints)
     kutzbach = base + sum(number for _, number, _ in terms)
     letters = "".join(f" {sign} {letter}" for sign, _, letter in terms)
@@ -118,8 +118,8 @@ def _why(system: System, joints: Sequence[CountedJoint], kutzbach: int, freedom:
     """Return why the freedom differs from the count."""
     if freedom < kutzbach:
         return (
-            "the equations remove more degrees of freedom than their number, because of this special configuration or "
-            "because differential constraints integrate"
+            "the equations remove more degrees of freedom than their number: this configuration is special, or they "
+            "imply further equations"
         )
     placement = placed()
     cause = "" if placement is None else _of_screws(system, joints, freedom, placement)
@@ -258,11 +258,12 @@ def why(system: System, facts: CountedFacts, naive: int) -> str | None:
         return None
     reasons = []
     if facts.dof > naive:
-        independent = facts.written - facts.dof + naive
+        most = facts.written - facts.dof + naive  # fewer are independent if others remove freedom too
+        only = "only" if most == sum(e.independent or 0 for e in facts.entries if e.form == "finite") else "at most"
         reasons.append(
             "the geometric equation removes no degree of freedom"
             if facts.written == 1
-            else f"only {independent} of the {facts.written} geometric equations {verb(independent)} independent: "
+            else f"{only} {most} of the {facts.written} geometric equations {verb(most)} independent: "
             "a dependent equation removes no degree of freedom"
         )
         reasons += complete_sets(system)

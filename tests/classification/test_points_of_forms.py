@@ -90,6 +90,7 @@ def test_a_part_outside_the_domain_contradicts_nothing() -> None:
         (["zdot = (sqrt(1 + cos(2 x)) + sqrt(2) cos(x)) x ydot"], "c1", None),
         (["u = x^2 - 1", "zdot = (sqrt(1 + u) - x) ydot"], "c2", 1),
         (["u = x^2 - 1", "zdot = (sqrt(1 + u) + x) ydot"], "c2", -1),
+        (["u^2 = y^2 + 1", "zdot = (abs(u) - u) ydot", "x = u", "u <= 0"], "c2", 1),
         (["u = cos(x)", "zdot = (sqrt(1 - u) + sqrt(2) sin(x/2)) ydot"], "c2", -1),
     ],
 )
@@ -102,8 +103,7 @@ def test_a_form_that_vanishes_in_one_region_is_not_labelled_everywhere(
     entry = next(e for e in report.constraints if e.name == form)
     assert entry.holonomic is None or entry.verdicts["holonomic"].about != "everywhere"
     if report.dof is not None and zero_where is not None:
-        assert report.witness is not None
-        is_zero = float(Fraction(report.witness["x"])) * zero_where > 0
+        is_zero = float(Fraction((report.witness or {})["x"])) * zero_where > 0
         assert entry.holonomic is is_zero
 
 

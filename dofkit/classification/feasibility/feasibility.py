@@ -25,7 +25,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
-from dofkit.relations.answer import BITS, GAP, Answer
+from dofkit.relations.answer import BITS, GAP
 from dofkit.relations.normal.domain import is_satisfied_at
 from dofkit.relations.normal.no_solution import refuted
 from dofkit.relations.normal.sign_claims import contradictory, point_of_linear
@@ -76,8 +76,9 @@ def judged(study: Study) -> Feasibility:
     """Return the feasibility of the inequalities of a consistent system; an infeasible set need not be minimal."""
     if study.setting.engines != BOTH:
         return Feasibility(None)
-    repeated = copies(study.reduced)
-    numbers = [i for i, r in enumerate(study.reduced) if i not in repeated and (r.normals or r.inequalities)]
+    reduced = study.reduced
+    repeated = {i for i, j in copies(reduced).items() if {*reduced[i].domain()} <= {*reduced[j].domain()}}
+    numbers = [i for i, r in enumerate(reduced) if i not in repeated and (r.normals or r.inequalities)]
     with limited(SECONDS):
         return unless_late(partial(_judged, study, numbers), Feasibility(None, reasons=(OPEN,)))
 
@@ -120,20 +121,16 @@ def _judged(study: Study, numbers: Sequence[int]) -> Feasibility:
                 return result
             met |= dict.fromkeys(part.numbers, result) if result.feasible else {}
     in_parts, shared = ({i for part in some for i in part.numbers} for some in (alone, joined))
-    pairs = zip(study.outcome.blocks, study.outcome.answers, strict=True)
-    owners = {r.constraint for block, a in pairs if may_restrict(block, a) for r in block.rows}
-    others = _answers(study, set(numbers) - in_parts)
-    if not in_parts | (shared & owners) <= met.keys() or None in [a.consistent for a in others]:
+    blocks = [*zip(study.outcome.blocks, study.outcome.answers, strict=True)]
+    restricting = {r.constraint for block, a in blocks if may_restrict(block, a) for r in block.rows}
+    restricting |= {i for i in shared if study.reduced[i].domain()}
+    # if a block is consistent, a part of it is
+    others = [a for block, a in blocks if any(r.constraint in {*numbers} - in_parts for r in block.rows)]
+    if not in_parts | (shared & restricting) <= met.keys() or None in [a.consistent for a in others]:
         return Feasibility(None, reasons=(OPEN,))
     at = {s: v for result in met.values() for s, v in result.at.items()}
     sure = weakest(*(result.verdict for result in met.values()), *(a.verdict for a in others))
     return Feasibility(True, at=at, verdict=sure)
-
-
-def _answers(study: Study, numbers: set[int]) -> list[Answer]:
-    """Return the answers of the blocks with these constraints (if a block is consistent, a part of it is)."""
-    pairs = zip(study.outcome.blocks, study.outcome.answers, strict=True)
-    return [a for block, a in pairs if not numbers.isdisjoint(row.constraint for row in block.rows)]
 
 
 def _of_part(study: Study, part: Part, fixed: bool) -> Feasibility:
@@ -201,7 +198,7 @@ def inequalities_together(study: Study, fields: Mapping[str, Any]) -> Mapping[st
         "feasible_at": at,
         "verdict": weakest(fields["verdict"], *(v.verdict for v in claims.values())),
         "verdicts": {**fields["verdicts"], **claims},
-        "witness": _moved(fields["witness"], at or {}),
+        "witness": _moved(fields, at or {}),
         "warnings": [*fields["warnings"], *result.reasons],
     }
 
@@ -216,9 +213,13 @@ def _claims(feasibility: Feasibility) -> dict[str, FieldVerdict]:
     return {"feasible": claim} | ({"infeasible": minimal} if feasibility.infeasible else {})
 
 
-def _moved(witness: Mapping[str, str] | None, at: Mapping[str, str]) -> dict[str, str] | None:
-    """Return the witness with the values of ``at`` in place of its own."""
-    return None if witness is None else {**witness, **{name: at[name] for name in witness if name in at}}
+def _moved(fields: Mapping[str, Any], at: Mapping[str, str]) -> dict[str, str] | None:
+    """Return the witness with the values of ``at``, or the old one if some claim is about its component."""
+    witness: dict[str, str] | None = fields["witness"]
+    verdicts = (fields["verdicts"], *(e.verdicts for e in fields["constraints"]))
+    if witness is None or any(v.about == "component" for some in verdicts for v in some.values()):
+        return witness
+    return {**witness, **{name: at[name] for name in witness if name in at}}
 
 
 def _texts(system: System, at: Values) -> dict[str, str]:

@@ -120,9 +120,11 @@ def parts_of(reduced: Sequence[Reduced], numbers: Sequence[int], shared: bool) -
 
 def _mentioned(r: Reduced, shared: bool) -> frozenset[str]:
     """Return the coordinates of a constraint, and if ``shared`` also its parameters and the time, as texts."""
-    pieces = [*(p for n in r.normals for branch in n.branches for p in branch), *r.inequalities]
+    domain = r.domain(inequalities=True)
+    pieces = [*(p for n in r.normals for branch in n.branches for p in branch), *r.inequalities, *domain]
     names = frozenset[str]().union(*map(coordinates_of, pieces))
-    constants = (s for q in r.constraint.relations for s in q.expr.symbols if s.args[0] in ("parameter", "time"))
+    written = (*(q.expr for q in r.constraint.relations), *(c.expr for c in domain))
+    constants = (s for e in written for s in e.symbols if s.args[0] in ("parameter", "time"))
     return names | frozenset(repr(s) for s in constants) if shared else names
 
 

@@ -30,7 +30,7 @@ from dofkit.expressions.renaming import coordinates_in
 from dofkit.expressions.text import Names, parse_expression, to_text
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Answer
-from dofkit.relations.blocks import Block, Chart, Row, expressions_of, make_chart, uses_time
+from dofkit.relations.blocks import Block, Chart, Row, depends_on_time, expressions_of, make_chart
 from dofkit.relations.linear_relations import explicit_relations, number_coefficients
 from dofkit.relations.normal.domain import DomainCondition, is_satisfied_at
 from dofkit.relations.normal.no_solution import hold_nowhere
@@ -299,7 +299,8 @@ def _shared_symbols(block: Block) -> frozenset[Expr]:
     named = {s for e in written for s in e.symbols if s.args[0] == "parameter" and not s.args[1].startswith("_")}
     calls = {n for e in written if "call" in e.functions for n in ex.nodes(e) if n.op == "call"}
     functions = {ex.parameter(f"{n.args[0]}(...)") for n in calls}
-    return frozenset({*named, *functions, *((ex.TIME,) if uses_time(block) else ())})
+    timed = any(map(depends_on_time, (*(row.piece for row in block.rows), *block.conditions)))
+    return frozenset({*named, *functions, *((ex.TIME,) if timed else ())})
 
 
 def _is_common(witnesses: Sequence[Witness | None], shared: Sequence[frozenset[Expr]]) -> bool:

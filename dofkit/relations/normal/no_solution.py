@@ -180,7 +180,7 @@ SEARCHES = 4
 def holds_somewhere(e: Expr, strict: bool, positive: frozenset[Expr]) -> bool | None:
     """Return whether ``e >= 0`` (> 0 if ``strict``) at some real point; None if neither a point nor a proof was found.
 
-    Parameters may have any value, those of ``positive`` a positive one; an unknown function may be any.
+    Parameters may have any value but 0, those of ``positive`` a positive one; an unknown function may be any.
     """
     try:
         plain = _with_constant_functions(e)
@@ -188,7 +188,8 @@ def holds_somewhere(e: Expr, strict: bool, positive: frozenset[Expr]) -> bool | 
         plain = None
     if plain is not None:
         domain, points = conditions_of(plain, positive), _points(plain, positive)
-        satisfied = (point for point in points if _is_satisfied(plain, strict, point))
+        nonzero = (p for p in points if not any(v.is_zero for s, v in p.items() if s.args[0] == "parameter"))
+        satisfied = (point for point in nonzero if _is_satisfied(plain, strict, point))
         if any(all(is_satisfied_at(c, point, frozenset()) for c in domain) for point in satisfied):
             return True
     if refuted([SignClaim(e, ">" if strict else ">=")], positive):
