@@ -6,7 +6,7 @@ classification proves to be empty or for which it finds a certified point; undec
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from itertools import product
 from typing import NamedTuple
 
@@ -71,7 +71,8 @@ def _has_values(e: Expr) -> bool:
 def _difference(scene: Scene, region: Sequence[Condition], other: Sequence[Condition]) -> tuple[bool | None, str]:
     """Return (whether ``region`` has a point outside ``other``, or None if undecided; this point as text)."""
     failing = [system for condition in other for system in _failing(condition)]
-    systems = [[*case, *outside] for case in _cases_of_all(region) for outside in failing]
+    within = [[c for case in chosen for c in case] for chosen in product(*map(_cases, region))]
+    systems = [[*case, *outside] for case in within for outside in failing]
     undecided = len(systems) > MOST_CASES
     for system in systems[:MOST_CASES]:
         texts = [f"{to_text(c.e)} {'>' if c.strict else '>='} 0" for c in system]
@@ -84,11 +85,6 @@ def _difference(scene: Scene, region: Sequence[Condition], other: Sequence[Condi
             return True, counterexample(scene, (), (), [c.e for c in system])
         undecided = undecided or report.feasible is None
     return None if undecided else False, ""
-
-
-def _cases_of_all(region: Sequence[Condition]) -> Iterator[list[Condition]]:
-    for chosen in product(*(_cases(condition) for condition in region)):
-        yield [condition for case in chosen for condition in case]
 
 
 def _failing(condition: Condition) -> list[list[Condition]]:

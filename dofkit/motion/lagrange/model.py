@@ -216,7 +216,7 @@ def _built(
 def _reduced(energy: Energy, elimination: Elimination, kept: Sequence[str], setting: Setting) -> Energy | None:
     """Return the energies in the remaining coordinates; None if a constant of integration enters the motion.
 
-    A constant, or a missing mass, that only adds a function of time to an energy is dropped. Forces are transformed by Q_j = sum Q_i dq_i/dq_j.
+    A constant, or missing mass, that only adds a function of time is dropped. Forces: Q_j = sum Q_i dq_i/dq_j.
     """
     solved = elimination.solved
     if not solved:
