@@ -173,6 +173,13 @@ class Constraint(NamedTuple):
     notes: tuple[str, ...] = ()
 
     @property
+    def winds(self) -> bool:
+        """Whether an equation contains a joint's angle in space up to whole turns, where the thread counts them."""
+        if self.facts.written or isinstance(self.relations, Unwritten):
+            return False
+        return any(r.sense == "=" and not r.expr.functions.isdisjoint(("atan", "atan2")) for r in self.relations)
+
+    @property
     def mentioned(self) -> frozenset[str]:
         """The coordinates that its relations mention, by their values, velocities or differentials."""
         if isinstance(self.relations, Unwritten):

@@ -233,11 +233,16 @@ class Equivalence:
     # differentials
 
     def _differentiated(self) -> bool | None:
-        """Return whether the submitted relations are the wanted geometric equations, differentiated; or None."""
+        """Return whether the submitted relations are the wanted geometric equations, differentiated; or None.
+
+        With as many independent velocities they may be so where the equations are satisfied: d(u g) is u dg there only.
+        """
         finite = _finite(self._all_wanted)
         if not finite or any(isinstance(p, Finite) for n in self._answer for p in n.pieces):
             return False
-        return self._follow([_differential(g) for g in finite], self._answer)
+        implied = self._follow([_differential(g) for g in finite], self._answer)
+        as_many = self._with(self.submitted).velocity_dof == self._with(self.wanted).velocity_dof
+        return None if implied is False and as_many else implied
 
     def _integrated(self) -> Sameness | None:
         """Return with or without a constant the wanted forms are integrated, or undecided; None if they are not."""

@@ -70,7 +70,7 @@ def pick_text(vary: Mapping[str, Sequence[Any]], pick: Pick) -> str:
     for name, options in vary.items():
         value = options[pick.get(name, 0)]
         label = next(iter(value.values()), "") if isinstance(value, Mapping) else value
-        texts.append(f"{name} = {label if isinstance(label, str) else as_written(label)}")
+        texts.append(f"{name} = {as_written(label)}")
     return ", ".join(texts)
 
 
@@ -94,11 +94,7 @@ def _with_values(value: Any, table: Mapping[str, Any]) -> Any:
     whole = _PLACE.fullmatch(value.strip())
     if whole is not None and whole[1] in table:
         return table[whole[1]]
-    return _PLACE.sub(lambda m: _as_text(table[m[1]]) if m[1] in table else m[0], value)
-
-
-def _as_text(value: Any) -> str:
-    return value if isinstance(value, str) else as_written(value)
+    return _PLACE.sub(lambda m: as_written(table[m[1]]) if m[1] in table else m[0], value)
 
 
 class Problem(WrittenModel):

@@ -15,6 +15,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import cleared, in_velocities
 from dofkit.expressions.tree import Expr
 from dofkit.methods.table import Reply
+from dofkit.relations.normal.domain import DomainCondition, is_satisfied_at
 from dofkit.relations.normal.normal_form import linear_form, velocities_of
 from dofkit.relations.normal.pieces import Pfaffian
 from dofkit.scene.lowering import lower
@@ -249,12 +250,16 @@ def drawn_value(value: Expr, point: Any) -> Scalar:
 
 
 def independent_at_reference(sampled: SampledPoints, numbers: Decider) -> bool:
-    """Return whether all constraints are geometric equations, independent at the reference configuration.
+    """Return whether all constraints are geometric equations, independent at the reference, where they have values.
 
     Then the freedom there is the number of coordinates less the number of equations [ImplicitFunctions].
     """
     written = sampled.rows.written
     if written.system.reference is None or written.others or written.forms:
+        return False
+    here = {**written.system.reference, ex.TIME: ex.ZERO}
+    domain = (DomainCondition(*d) for c in written.system.constraints for r in c.relations for d in r.domain)
+    if not all(is_satisfied_at(c, here, written.positive, strictly=True) for c in domain):
         return False
     rows = sampled.samples[0].rows
     return numbers.rank([row[: sampled.rows.n] for row in rows]) == len(rows)

@@ -249,16 +249,11 @@ def answered(
     read = scene if isinstance(scene, Scene) else load(scene)
     try:
         if method in ENGINES:
-            return _by_engines(ENGINES[method], read, question, answer)
+            reply = answered_by(read, question, answer, engines=ENGINES[method])
+            return replace(reply, value=sorted(reply.value)) if question == "redundancy" and reply.value else reply
         work = function_of(method, question)
         return work(read, answer) if question == "equivalence" else work(read)
     except OverflowError as error:
         return Reply(None, reason=f"a number that occurs is too large or too small to compute with ({error})")
     except FAILURES as error:
         return Reply(None, reason=str(error) or type(error).__name__)
-
-
-def _by_engines(engines: Engines, scene: Scene, question: Question, answer: Mapping[str, str] | None) -> Reply:
-    """Return the reply of dofkit's engines, redundant constraints sorted by name."""
-    reply = answered_by(scene, question, answer, engines=engines)
-    return replace(reply, value=sorted(reply.value)) if question == "redundancy" and reply.value else reply

@@ -186,11 +186,6 @@ def standard_name(name: str) -> str:
     if not _DECORATION.search(name):
         return name
     if not name.isascii() and _NAME.fullmatch(name):
-        return with_plain_subscripts(name)
+        return _BELOW.sub(lambda match: "_" + "".join(SUBSCRIPTS[digit] for digit in match[1]), name)
     plain = without_latex(name)
     return plain if plain is not None and _PLAIN_NAME.fullmatch(plain) else name
-
-
-def with_plain_subscripts(text: str) -> str:
-    """Return a text with its subscript digits as ``_1``."""
-    return _BELOW.sub(lambda match: "_" + "".join(SUBSCRIPTS[digit] for digit in match[1]), text)

@@ -242,10 +242,6 @@ class World(Texts):
         """Return whether any of ``gaps`` differs from 0; each is examined, because `differs` takes notes."""
         return sum(self.differs(gap) for gap in gaps) > 0
 
-    def is_placed(self, frame: Frame) -> bool:
-        """Return whether the configuration, or an entry that was read so far, places the body of ``frame``."""
-        return frame.name in self.placed
-
     def misfit(
         self, distance: float | None, message: str, *where: str | int, hint: str, body: str | None = None
     ) -> None:

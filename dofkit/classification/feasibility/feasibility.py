@@ -144,7 +144,8 @@ def _of_part(study: Study, part: Part, fixed: bool) -> Feasibility:
         at = _state(study, part, problem, fixed)
         if at is not None:
             return Feasibility(True, at=at, verdict="proved")
-    if choices and all(refuted(problems[-1].claims, positive) for problems in remaining):
+    winds = any(r.constraint.winds for r in part.reduced)
+    if choices and not winds and all(refuted(problems[-1].claims, positive) for problems in remaining):
         return Feasibility(False, part.numbers, verdict="proved")
     return Feasibility(None)
 

@@ -44,6 +44,7 @@ OFF_REFERENCE = (
     "the reference configuration does not satisfy all geometric equations: the answer is for configurations that do, "
     "not for the reference configuration itself"
 )
+WINDS = "an angle in space was considered within half a turn of the reference configuration only"
 KINKED = "the argument of an absolute value vanishes at the reference configuration, so there is no derivative"
 
 
@@ -155,6 +156,8 @@ def solve(reduced: Sequence[Reduced], setting: Setting, answered: AnsweredBlocks
         anywhere = replace(setting, reference=None)
         best, chosen = _through_reference(reduced, anywhere, AnsweredBlocks(anywhere))
     best.answers = _about_component(_with_reference_checked(best, setting), best.blocks, chosen)
+    if best.consistent is False and any(r.constraint.winds for r in reduced):
+        best.answers = [Answer(None, verdict="undecided", reasons=[WINDS]) for _ in best.answers]
     return best
 
 

@@ -79,19 +79,17 @@ def number(answer: object, called: frozenset[str] = frozenset(), foreign: frozen
     segments = list(_segments(body))
     named = [part for part in segments if (name := _NAMED.match(part.text)) and plain(name[1]) in called]
     strange = [part for part in segments if (name := _NAMED.match(part.text)) and plain(name[1]) in _OTHERS - called]
-    if segments and len(strange) == len(segments):
-        raise DoubtError("it is labelled as a different quantity.", segments[0].columns[0], _HINT)
     others = [part for part in segments if part not in named and _only_number(part.text)]
     for segment in [*named, *others] if named else segments:
         try:
-            amount = _segment(segment)
+            amount = _segment(segment, _OTHERS - called)
         except DoubtError:
             raise
         except TextError as error:
             first = first or segment.moved(error)
             unread |= _numbers_alone(segment.text)
             continue
-        if amount is not None and segment not in named and _is_foreign(segment.text, foreign):
+        if amount is not None and segment not in named and (segment in strange or _is_foreign(segment.text, foreign)):
             raise DoubtError("it is labelled as a different quantity.", segment.columns[0], _HINT)
         if amount is not None:
             amounts.add(amount)
@@ -152,8 +150,11 @@ def _only_number(text: str) -> bool:
     return plain(text) in NUMBERS or re.fullmatch(r"[\d\s.+*/-]*\d[\d\s.+*/-]*", text) is not None
 
 
-def _segment(script: Script) -> Fraction | None:
-    """Return the number of a segment, or None if it contains none. Raises DoubtError if its two sides differ."""
+def _segment(script: Script, others: frozenset[str]) -> Fraction | None:
+    """Return the number of a segment, or None if it contains none. Raises DoubtError if its two sides differ.
+
+    ``others``: names of other quantities; `3n - k with n = 2` gives the number of one, and not the one asked for.
+    """
     place, amounts, failure = 0, list[Fraction](), None
     text = script.text
     bound = _BOUND.search(text)
@@ -162,6 +163,9 @@ def _segment(script: Script) -> Fraction | None:
     for cut in [*(m.span() for m in _SIGNS.finditer(text)), (len(text), len(text))]:
         side = script.cut(place, cut[0])
         place = cut[1]
+        before, named = ["", "", *map(plain, side.text.split())][-2:]
+        if cut[1] > cut[0] and before.isalpha() and before not in _OPERATORS and named in others:
+            raise DoubtError("it is labelled as a different quantity.", side.columns[0], _HINT)
         try:
             value = _value(side)
         except TextError as error:

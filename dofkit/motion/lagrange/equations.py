@@ -243,7 +243,7 @@ def _small(scene: Scene, derived: Derived) -> tuple[Linearized | None, tuple[str
         return None, (why,)
     try:
         return linearized(derive(read(scene).model(eliminates=False))), ()
-    except NoEquationsError:
+    except (NoEquationsError, SceneError):  # without elimination, masses may be missing
         return None, (why,)
 
 

@@ -29,7 +29,7 @@ from dofkit.motion.lagrange.elimination import (
     vanishes,
     without_roots,
 )
-from dofkit.motion.lagrange.energies import Energy
+from dofkit.motion.lagrange.energies import MISSING, Energy
 from dofkit.relations.blocks import Row, split
 from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian
 from dofkit.relations.setting import Setting
@@ -216,7 +216,7 @@ def _built(
 def _reduced(energy: Energy, elimination: Elimination, kept: Sequence[str], setting: Setting) -> Energy | None:
     """Return the energies in the remaining coordinates; None if a constant of integration enters the motion.
 
-    A constant that is only added to the potential is dropped. Forces are transformed by Q_j = sum Q_i dq_i/dq_j.
+    A constant, or missing mass, that only adds a function of time is dropped. Forces: Q_j = sum Q_i dq_i/dq_j.
     """
     solved = elimination.solved
     if not solved:
@@ -227,9 +227,9 @@ def _reduced(energy: Energy, elimination: Elimination, kept: Sequence[str], sett
         return substitute(e, mapping)
 
     potential, kinetic = insert(energy.potential), insert(energy.kinetic)
-    for constant in elimination.constants:
-        if not any(s.args[0] in ("coordinate", "velocity") for s in diff(potential, constant).symbols):
-            potential = substitute(potential, {constant: ZERO})
+    for idle in (*elimination.constants, *(s for s in energy.symbols if str(s.args[1]).startswith(MISSING))):
+        if not any(s.args[0] in ("coordinate", "velocity") for s in diff(kinetic - potential, idle).symbols):
+            kinetic, potential = substitute(kinetic, {idle: ZERO}), substitute(potential, {idle: ZERO})
     forces: dict[str, Expr] = {n: insert(f) for n, f in energy.forces.items() if n not in solved}
     for name, force in energy.forces.items():
         if name in solved:

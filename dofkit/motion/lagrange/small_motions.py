@@ -190,6 +190,8 @@ class _Linearization:
         if matrices.mass.rows <= MOST_ROWS:
             whole = matrices.mass * s**2 + matrices.damping * s + matrices.stiffness
             polynomial = sympy.cancel(whole.det(method="berkowitz")) if matrices.mass.rows else sympy.Integer(1)
+            if polynomial == 0:
+                raise NoEquationsError("the equilibrium is singular: small motions about it are not determined")
         squares = [] if polynomial is None else _squares(polynomial, s, matrices.damping)
         mass, damping, stiffness = (
             [[to_text(self.tidy(e)) for e in m.row(i)] for i in range(m.rows)] for m in matrices[1:]

@@ -168,7 +168,7 @@ class Roll(ConstraintBase):
             if self.body == GROUND:
                 world.fault("the ground does not roll", "body", hint="name a body")
             return
-        if world.is_placed(frame) and world.differs(difference(frame.start[-1], radius)):
+        if frame.name in world.placed and world.differs(difference(frame.start[-1], radius)):
             height = world.table.bodies[frame.name][world.dimension - 1]
             world.warnings.append(
                 f"{frame.name} rolls at {height} = {as_written(self.radius)} but its reference configuration has "

@@ -57,7 +57,8 @@ class Link(ConstraintBase):
                 else None
             )
             _check_length(world, given_length, reference_length, f"{first.label} and {second.label} are", "apart")
-        if first.frame is None and second.frame is None and (given_length is None or not _moves(given_length)):
+        moving = given_length is not None and any(symbol.args[0] != "parameter" for symbol in given_length.symbols)
+        if first.frame is None and second.frame is None and not moving:
             world.links.append((world.index, first.label, second.label))
         at_least_zero: tuple[Requirement, ...] = ()
         if given_length is not None and given_length.symbols and "call" not in given_length.functions:
@@ -72,11 +73,6 @@ class Link(ConstraintBase):
 
 def _same_place(first: Placed, second: Placed) -> bool:
     return first.frame is not None and first.frame == second.frame and first.reference == second.reference
-
-
-def _moves(length: Expr) -> bool:
-    """Return whether a length changes with time."""
-    return any(symbol.args[0] != "parameter" for symbol in length.symbols)
 
 
 def distance(world: World, first: Placed, second: Placed, length: Expr | None) -> Expr:
