@@ -94,12 +94,12 @@ def _linear_row(piece: Piece, place: Mapping[Expr, int]) -> tuple[RationalRow, E
         factor, symbol = ex.number_and_rest(term)
         k = place.get(symbol)
         if k is not None:
-            row[k] = row.get(k, fmpq(0)) + _number(factor)
+            row[k] = _number(factor)
         elif _moving(symbol):
             return None
         else:
             function.append(term)
-    return {k: v for k, v in row.items() if v != 0}, ex.add(*function)
+    return row, ex.add(*function)
 
 
 def _moving(e: Expr) -> bool:

@@ -86,8 +86,7 @@ class AdmissibleCurve:
         self.sample = at[0] if at else base.number(0)
         self.like = zero_poly(self.sample)
         self.numbers = PointMatrices(modulus(self.like) if isinstance(self.like, ResiduePolynomial) else None)
-        zero = self.sample * 0
-        self.path = [[at[rows.ring.var_node[c]] if c >= 0 else zero] for c in rows.columns]
+        self.path = [[at[rows.ring.var_node[c]] if c >= 0 else self.sample] for c in rows.columns]
         self.controls: list[list[Scalar]] = [[] for _ in frame.free]
         self.matrices: MatrixSeries = []
         self.solved: list[Matrix] = []

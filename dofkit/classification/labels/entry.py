@@ -116,7 +116,8 @@ def _traits_of(pieces: Sequence[Clause], reduced: Reduced, setting: Setting) -> 
     """Return the traits of the clauses of a constraint, except declared functions as factors (`declared_functions`)."""
     generic = declared_functions(reduced.normals)
     restricted = not all(is_always_satisfied(c, setting.positive) for c in reduced.domain())
-    outside = restricted and any(len(n.branches) > 1 for n in reduced.normals)  # some branch may have no value
+    several = [n for n in reduced.normals if len(n.branches) > 1]
+    outside = any(restricted or len(n.pieces) < sum(map(len, n.branches)) for n in several)  # a branch may be excluded
     traits = [
         Traits((True, "proved")) if _is_still(p) else traits_of(p, setting.positive, setting.engines)
         for p in pieces

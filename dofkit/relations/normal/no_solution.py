@@ -81,7 +81,7 @@ def _is_refuted(claims: Sequence[SignClaim], positive: frozenset[Expr]) -> bool:
         ):
             return True
     relations = [c.expr for c in claims if c.sense == "="]
-    few = len(relations) > 0 and len(claims) <= MAX_CLAIMS
+    few = len(claims) <= MAX_CLAIMS
     return are_contradictory(claims, positive) or (few and _some_resultant_never_vanishes(relations, positive))
 
 
