@@ -188,8 +188,8 @@ class PolynomialZeros:
         canon = self.canon
         if all(canon.ring.vars[i].kind == "symbol" for i in canon.generators_in(factor)):
             return False
-        defined = (canon.to_expr(factor), ex.coordinate("_ inverse") * canon.to_expr(bottom) - 1)
-        unknowns = {s: ex.coordinate(f"_{s.args[1]}") for e in defined for s in e.symbols if s.args[0] == "parameter"}
+        defined = (canon.to_expr(factor), ex.coordinate("_inverse") * canon.to_expr(bottom) - 1)
+        unknowns = {s: ex.coordinate(f"_ {s.args[1]}") for e in defined for s in e.symbols if s.args[0] == "parameter"}
         return have_complex_points([substitute(e, unknowns) for e in defined], frozenset()) is False
 
     def _depends(self, factor: Any) -> bool:
