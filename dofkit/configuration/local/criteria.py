@@ -73,7 +73,7 @@ def local_dimension(germ: Germ, asked: Sequence[Criterion] = CRITERIA, others: I
     """Return the local dimension by the first of the criteria ``asked`` that decides; undecided if none does.
 
     At an approximate point, with balls only, a value whose tiny ball contains 0 counts as 0; the verdict is "numeric".
-    ``others``: germs for other values of parameters, for which a criterion that uses signs must conclude the same; then
+    ``others``: germs for other values of parameters, for which the criteria that use signs must conclude the same; then
     it is "probable".
     """
     with ctx.workprec(max(ctx.prec, precision())):
@@ -89,8 +89,8 @@ def _decision(germ: Germ, asked: Sequence[Criterion], others: Iterable[Germ]) ->
     for criterion in asked:
         conclusion = criterion.decide(germ)
         if conclusion is not None:
-            elsewhere = [criterion.decide(other) for other in others] if criterion in OF_SIGNS else []
-            if any(c is None or c.dimension != conclusion.dimension for c in elsewhere):
+            elsewhere = [_decision(other, OF_SIGNS, ()).dimension for other in others] if criterion in OF_SIGNS else []
+            if any(dimension != conclusion.dimension for dimension in elsewhere):
                 return OTHERWISE
             best: Verdict = "probable" if elsewhere else "proved"
             verdict = weakest(criterion.verdict, conclusion.verdict, best if germ.exact else "numeric")
