@@ -138,16 +138,12 @@ def vanish_near(chart: Chart, point: FieldPoint, ball: BallPoint | None, rigid: 
     if len(frame.rows) != rank:
         return False
     try:
-        return _vanish(Germ(*_manifolds(chart, frame, point, ball), rigid, distance=ball is not None))
+        germ = Germ(*_manifolds(chart, frame, point, ball), rigid, distance=ball is not None)
+        with ctx.workprec(max(ctx.prec, precision())):
+            if germ.dependent == 0 or germ.m == germ.rigid:
+                return True
+            if not germ.vanishes:
+                return False
+            return None if germ.order <= germ.degree else germ.vanishes_away
     except (ArithmeticError, NoValueError):
         return None
-
-
-def _vanish(germ: Germ) -> bool | None:
-    """Return whether the dependent relations of a germ are 0 on its manifold."""
-    with ctx.workprec(max(ctx.prec, precision())):
-        if germ.dependent == 0 or germ.m == germ.rigid:
-            return True
-        if not germ.vanishes:
-            return False
-        return None if germ.order <= germ.degree else germ.vanishes_away
