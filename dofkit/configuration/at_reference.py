@@ -53,7 +53,7 @@ from dofkit.relations.blocks import Chart
 #: The least ratio of two pivots between which the rank is certain.
 CLEAR = 1e3
 #: Number of values of each parameter without a given one for which signs are compared; they are up to 2^+-`WIDEST`.
-DRAWS, WIDEST = 12, 8
+DRAWS, WIDEST = 24, 8
 #: Sizes of random displacements from the reference in `near_reference`.
 NEAR = (2**-6, 2**-10, 2**-16, 2**-24)
 RIGID = f"the dependent part is rigid: {conclusions.WHOLE}"
@@ -250,22 +250,23 @@ def ball_point(chart: Chart, pose: Mapping[Expr, Expr], draw: int = 0) -> BallPo
     rng, symbols = random.Random(f"dofkit reference {draw}"), dict[Expr, Any]()
     with ctx.workprec(precision()):
         keys = [var.key for var in chart.ring.vars if var.kind == "symbol"]
-        for s in (s for s in keys if pose.get(s) is None):
+        for s in dict.fromkeys(u for k in keys for u in (sorted(pose[k].symbols, key=repr) if k in pose else [k])):
             symbols[s] = arb(rng.randrange(257, 1023)) / 512
             if draw:
                 symbols[s] *= arb(2) ** rng.randint(-WIDEST, WIDEST)
                 symbols[s] *= 1 if s in chart.setting.positive else rng.choice((-1, 1))
-        for s in (s for s in keys if s not in symbols):
+        constants = BallPoint(symbols, draw)
+        for s in (s for s in keys if s in pose):
             ring = Ring([pose[s]])
             node = ring.node(pose[s])
-            constants = {v.key: symbols.get(v.key, arb(3) / 4) for v in ring.vars if v.kind == "symbol"}
-            symbols[s] = values(ring, BallPoint(constants))[node]
-    return BallPoint(symbols, draw)
+            symbols = {**symbols, s: values(ring, constants)[node]}
+    return BallPoint({s: symbols[s] for s in keys}, draw)
 
 
 def ball_points(chart: Chart, pose: Mapping[Expr, Expr]) -> list[BallPoint]:
     """Return a pose as points of balls: one, or `DRAWS` if there are other symbols or unknown functions; or none."""
-    draws = range(DRAWS if is_parametric(chart, pose) else 1) if "balls" in chart.setting.engines else ()
+    free = is_parametric(chart, pose) or any(pose[s].symbols for s in chart.symbols if s in pose)
+    draws = range(DRAWS if free else 1) if "balls" in chart.setting.engines else ()
     return [ball for draw in draws if (ball := ball_point(chart, pose, draw)) is not None]
 
 

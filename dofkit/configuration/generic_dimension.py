@@ -19,14 +19,7 @@ from dofkit.configuration.local import criteria
 from dofkit.configuration.local.germ import Germ
 from dofkit.configuration.local.manifold import LocalDimension, Manifold
 from dofkit.configuration.rigid_motions import rigid_motions_real
-from dofkit.configuration.variety import (
-    Variety,
-    field_jacobian,
-    generators_of,
-    has_same_signs,
-    is_parametric,
-    time_is_free,
-)
+from dofkit.configuration.variety import Variety, field_jacobian, generators_of, has_same_signs, time_is_free
 from dofkit.exact.matrices.certified import independent_part
 from dofkit.exact.matrices.dense import length
 from dofkit.exact.matrices.sparse import Pivots, rank_of_rows
@@ -213,7 +206,7 @@ def numeric_local(chart: Chart, real: RealPoint) -> LocalDimension | None:
 
 @raising_no_value
 def _dimension_near(chart: Chart, real: RealPoint) -> LocalDimension | None:
-    """Return the local dimension at the singular point near ``real``, in high precision; None if parameters decide."""
+    """Return the local dimension at the singular point near ``real``, in high precision."""
     point = _converge(chart, real)
     if point is None:
         return None
@@ -229,9 +222,7 @@ def _dimension_near(chart: Chart, real: RealPoint) -> LocalDimension | None:
     free = tuple(i for i in range(len(chart.columns)) if i not in set(dependent))
     frame = Pivots(tuple(rows), dependent, free)
     manifold = Manifold(chart.ring, chart.nodes, chart.columns, frame, point, chart.scales)
-    local = criteria.local_dimension(Germ(None, manifold, rigid_motions_real(chart, point), chart.time))
-    of_signs = local.argument in {criterion.key for criterion in criteria.OF_SIGNS}
-    return None if of_signs and is_parametric(chart, (*chart.unknowns, ex.TIME)) else local
+    return criteria.local_dimension(Germ(None, manifold, rigid_motions_real(chart, point), chart.time))
 
 
 def _converge(chart: Chart, real: RealPoint) -> BallPoint | None:

@@ -10,7 +10,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import Any
 
-from dofkit.base.errors import NoValueError
 from dofkit.exact.points.balls import BallPoint, RealPoint, jacobian
 from dofkit.exact.points.field import FieldPoint, field_point
 from dofkit.exact.points.frames import rank_over
@@ -125,14 +124,10 @@ class States:
                 return point
         return None
 
+    @none_without_value
     def _base(self, seed: int) -> FieldPoint | None:
-        """Return a random configuration over GF(p) that satisfies the geometric equations."""
-        if self.finite:
-            return self._of_configurations.draw(seed)
-        try:
-            return field_point([self.ring], seed)
-        except NoValueError:
-            return None
+        """Return a random configuration over GF(p) that satisfies the geometric equations; None if undefined."""
+        return self._of_configurations.draw(seed) if self.finite else field_point([self.ring], seed)
 
     def _solver(self, nodes: Sequence[int], fixed: frozenset[Unknown] = frozenset()) -> TriangularSolver:
         return TriangularSolver(self.ring, [n for n in nodes if self.ring.code[n] != (0, 0)], fixed, seed=5)

@@ -302,9 +302,8 @@ def _derived(flows: Sequence[AdmissibleCurve], dimensions: Sequence[int], step: 
     if step == 1:
         return dimensions[1]
     layers = [[v for f in flows for v in columns_of(f.pulled[k])] for k in range(len(dimensions))]
-    vectors = [v for layer in layers[:step] for v in layer]
+    vectors = [v for layer in layers[: step + 1] for v in layer]
     sample = flows[0].sample
-    vectors += layers[step]
     larger = rank_over(vectors, sample)
     while larger < dimensions[-1]:
         vectors.append(_random_bracket(flows, step))

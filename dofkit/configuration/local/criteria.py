@@ -73,7 +73,7 @@ def local_dimension(germ: Germ, asked: Sequence[Criterion] = CRITERIA, others: I
     """Return the local dimension by the first of the criteria ``asked`` that decides; undecided if none does.
 
     At an approximate point, with balls only, a value whose tiny ball contains 0 counts as 0; the verdict is "numeric".
-    ``others``: germs for other values of parameters, for which a criterion that uses signs must conclude the same; then
+    ``others``: germs for other values of parameters, for which the criteria that use signs must conclude the same; then
     it is "probable".
     """
     with ctx.workprec(max(ctx.prec, precision())):
@@ -89,8 +89,8 @@ def _decision(germ: Germ, asked: Sequence[Criterion], others: Iterable[Germ]) ->
     for criterion in asked:
         conclusion = criterion.decide(germ)
         if conclusion is not None:
-            elsewhere = [criterion.decide(other) for other in others] if criterion in OF_SIGNS else []
-            if any(c is None or c.dimension != conclusion.dimension for c in elsewhere):
+            elsewhere = [_decision(other, OF_SIGNS, ()).dimension for other in others] if criterion in OF_SIGNS else []
+            if any(dimension != conclusion.dimension for dimension in elsewhere):
                 return OTHERWISE
             best: Verdict = "probable" if elsewhere else "proved"
             verdict = weakest(criterion.verdict, conclusion.verdict, best if germ.exact else "numeric")
@@ -138,16 +138,12 @@ def vanish_near(chart: Chart, point: FieldPoint, ball: BallPoint | None, rigid: 
     if len(frame.rows) != rank:
         return False
     try:
-        return _vanish(Germ(*_manifolds(chart, frame, point, ball), rigid, distance=ball is not None))
+        germ = Germ(*_manifolds(chart, frame, point, ball), rigid, distance=ball is not None)
+        with ctx.workprec(max(ctx.prec, precision())):
+            if germ.dependent == 0 or germ.m == germ.rigid:
+                return True
+            if not germ.vanishes:
+                return False
+            return None if germ.order <= germ.degree else germ.vanishes_away
     except (ArithmeticError, NoValueError):
         return None
-
-
-def _vanish(germ: Germ) -> bool | None:
-    """Return whether the dependent relations of a germ are 0 on its manifold."""
-    with ctx.workprec(max(ctx.prec, precision())):
-        if germ.dependent == 0 or germ.m == germ.rigid:
-            return True
-        if not germ.vanishes:
-            return False
-        return None if germ.order <= germ.degree else germ.vanishes_away

@@ -185,29 +185,37 @@ def ahead(ball: Manifold, count: int) -> list[float]:
 
 
 def degree_of(manifold: Manifold) -> int:
-    """Return a bound on the degree of the dependent relations along lines; implicitly given columns count 1."""
+    """Return a bound on the degree of the dependent relations along lines, see `_Weights`."""
     return degree_bound(manifold.ring, manifold.others, _Weights(manifold).of)
 
 
 class _Weights:
-    """The degrees of columns: that of its expression for a column that a relation gives explicitly, otherwise 1."""
+    """The degrees of columns: that of its expression for a column that a relation gives explicitly, otherwise 1.
+
+    Relations of a degree above `ORDER` may make a column that they give implicitly flat: y + y^3 = x^40.
+    """
 
     def __init__(self, manifold: Manifold) -> None:
         self.ring = manifold.ring
-        dependent = {manifold.columns[c] for c in manifold.frame.dependent}
+        self.dependent = {manifold.columns[c] for c in manifold.frame.dependent}
         self.explicit: dict[int, list[int]] = {}
+        self.implicit = 1
         for row in manifold.rows:
             for column, others in _explicit_columns(self.ring, row):
-                if column in dependent and column not in self.explicit:
+                if column in self.dependent and column not in self.explicit:
                     self.explicit[column] = others
                     break
+            else:
+                degree = degree_bound(self.ring, [row], lambda column: 1)
+                self.implicit *= degree if degree > ORDER else 1
         self.degrees: dict[int, int] = {}
 
     def of(self, column: int) -> int:
         if column not in self.degrees:
-            self.degrees[column] = 1
+            least = self.implicit if column in self.dependent and column not in self.explicit else 1
+            self.degrees[column] = least
             inside = self.ring.vars[column].args or self.explicit.get(column, ())
-            self.degrees[column] = max(1, degree_bound(self.ring, inside, self.of))
+            self.degrees[column] = max(least, degree_bound(self.ring, inside, self.of))
         return self.degrees[column]
 
 
