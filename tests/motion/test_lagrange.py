@@ -111,16 +111,6 @@ def test_a_bead_on_a_rotating_rod() -> None:
     assert not report.conserved
 
 
-def test_a_point_that_is_moved_needs_no_mass() -> None:
-    """The pendulum's support S moves to and fro: l phi'' = -g sin(phi) + a w^2 cos(w t) cos(phi)."""
-    moved = scene(
-        "x_S = a cos(w t)", "y_S = 0", "x_A = x_S + l sin(phi)", "y_A = -l cos(phi)", coordinates="phi", dimension=2,
-        particles=["S", {"name": "A", "mass": "m"}], forces=[{"type": "gravity", "acceleration": "g"}],
-    )  # fmt: skip
-    check(moved, {"phi": "a w^2 cos(w t) cos(phi)/l - g sin(phi)/l"})
-    assert dofkit.lagrange(moved, linearize=True).linearized is None
-
-
 def test_a_bead_on_a_hoop_that_is_turned() -> None:
     """The hoop does work: h = sum qdot p - L is conserved, T + V is not. The squares of sines add up to one."""
     hoop = scene(

@@ -180,7 +180,7 @@ class Eliminator:
                 return None
             moving = any(s.args[0] in ("coordinate", "time") for s in slope.symbols)
             return Candidate((moving, *order), name, -start / slope, slope, None)
-        if q in second.symbols or not _free_of(second, q, self.positive):
+        if q in second.symbols:
             return None
         half = slope / second
         root = ex.sqrt(self._tidy(half**2 - TWO * start / second))
@@ -222,11 +222,6 @@ class Eliminator:
 def _unsigned(e: Expr) -> Expr:
     """Return a product without its numerical factor."""
     return ex.mul(*(p for p in e.args if p.op != "num")) if e.op == "mul" else e
-
-
-def _free_of(e: Expr, q: Expr, positive: frozenset[Expr]) -> bool:
-    slope = diff(e, q)
-    return slope.is_zero or is_identically_zero(slope, positive) is True
 
 
 def _never_zero(e: Expr, positive: frozenset[Expr]) -> bool:
