@@ -37,6 +37,19 @@ def test_right(row: dict[str, Any]) -> None:
         agrees_with_itself(report)
 
 
+#: What no order of writing changes.
+NUMBERS = ("consistent", "feasible", "dof", "velocity_dof", "instantaneous_dof", "singular", "holonomic", "scleronomic",
+           "redundant_equations")  # fmt: skip
+
+
+@pytest.mark.parametrize("row", RIGHT[::3], ids=[row["case"] for row in RIGHT[::3]])
+def test_the_order_of_coordinates_and_constraints_means_nothing(row: dict[str, Any]) -> None:
+    turned = {key: row["scene"][key][::-1] for key in ("coordinates", "constraints") if key in row["scene"]}
+    report = dofkit.classify({**row["scene"], **turned}).to_dict()
+    truth = {k: row["truth"][k] for k in NUMBERS if k in row["truth"] and (report[k] is not None or "open" not in row)}
+    assert {k: report[k] for k in truth} == truth
+
+
 def test_a_coefficient_that_vanishes_modulo_public_primes_is_none_of_0() -> None:
     """dz = y dx, dw = (N u + z) dx: D has dimension 3, and [D, D] gives d/dz and d/dw at once for any N but 0."""
     large = "*".join(str(prime_for(1, (), k)) for k in range(3))
