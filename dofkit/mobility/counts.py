@@ -219,14 +219,13 @@ def count(system: System, facts: CountedFacts) -> Count:
     """Return the textbook count f = N d - k of all geometric equations as written, and why it differs."""
     coordinates = len(system.coordinates)
     naive = coordinates - facts.written
-    independent = None if facts.dof is None else coordinates - facts.dof
     return Count(
         particles=len(system.particles),
         bodies=len(system.bodies),
         dimension=system.dimension,
         coordinates=coordinates,
         constraints=facts.written,
-        independent=independent,
+        independent=None if facts.dof is None else coordinates - facts.dof,
         naive_dof=naive,
         formula=formula(system, facts.written),
         errs=why(system, facts, naive),

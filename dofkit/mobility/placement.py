@@ -311,6 +311,3 @@ def spin(member: Member, dimension: int) -> list[LinearRow]:
     if member.column is None or member.start is None:
         return [{} for _ in range(TURNS[dimension])]
     return [{member.column + dimension + i: 1} for i in range(TURNS[dimension])]
-
-
-# Rows of joints at the reference configuration

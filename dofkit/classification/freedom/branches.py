@@ -85,9 +85,11 @@ class Outcome:
 
     @property
     def bridged(self) -> Counter[int]:
-        """The number of equations in no part, by constraint: those of joints that close no loop, all independent."""
+        """The number of equations, by constraint, of joints that close no loop: each with a row in no part."""
         within = {id(row) for part in self.answered_parts for row in part.block.rows}
-        return Counter(row.constraint for block in self.blocks for row in block.rows if id(row) not in within)
+        rows = [row for block in self.blocks for row in block.rows]
+        joints = {row.constraint for row in rows if id(row) not in within}
+        return Counter(row.constraint for row in rows if row.constraint in joints)
 
     @property
     def written_rows(self) -> list[Row]:
@@ -168,8 +170,7 @@ def _through_reference(
     """Return (outcome of the largest branch through the reference, constraints with branches not through it)."""
     normals, chosen = _normals_at_reference(reduced, setting)
     options = [range(len(normal.branches)) or (None,) for _, normal in normals]
-    positive = setting.positive
-    never, unsettled = _one_sided(reduced, positive)
+    never, unsettled = _one_sided(reduced, setting.positive)
     copied = copies(reduced)
     outcomes, why = list[Outcome](), None
     domain = [(i, c) for i, r in enumerate(reduced) for c in r.domain() if not is_always_satisfied(c, setting.positive)]
@@ -185,7 +186,7 @@ def _through_reference(
             elif i not in copied:
                 rows += [Row(i, p) for p in normal.branches[branch]]
         plain = not any(isinstance(row.piece, Nonlinear | DomainCondition) for row in rows)
-        alternatives = [Alternative(rows)] if plain else alternatives_of(rows, positive)
+        alternatives = [Alternative(rows)] if plain else alternatives_of(rows, setting.positive)
         why = _LEFT_OUT if len(alternatives) >= MAX_ALTERNATIVES else why
         through = reductions_at_reference(alternatives, setting)
         if len(through) < len(alternatives):
@@ -293,8 +294,8 @@ def _confirmed(only: Outcome, setting: Setting) -> list[Answer]:
     answers = []
     for block, a in zip(only.blocks, only.answers, strict=True):
         alone = all(written[row.constraint] == 1 for row in block.rows)
-        probable = a.verdict == "probable"
-        answers.append(unless_late(partial(confirmed, block, a, setting, alone), a) if probable else a)
+        of_block = partial(confirmed, block, a, setting, alone)
+        answers.append(unless_late(of_block, a) if a.verdict == "probable" else a)
     return answers
 
 
@@ -309,7 +310,7 @@ def _answered(
     setting = answered.setting
     blocks, untouched = split(names, rows)
     result = CommonPoint(list(blocks), answered.answers(blocks))
-    moving = [(i, c) for i, c in domain if velocities_of(c.expr) and not is_always_satisfied(c, setting.positive)]
+    moving = [(i, c) for i, c in domain if velocities_of(c.expr)]
     still = [(i, c) for i, c in domain if not velocities_of(c.expr)]
     if still or len(blocks) > 1:
         result = at_one_point(*result[:2], still, setting, partial(in_time, setting=setting))

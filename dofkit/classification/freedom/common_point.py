@@ -74,7 +74,8 @@ def _equations(block: Block, result: Answer) -> list[Expr]:
 
 def _is_empty(block: Block, result: Answer, setting: Setting) -> bool:
     """Return whether the conditions are proved to be false wherever the geometric equations are satisfied."""
-    return hold_nowhere(_equations(block, result), block.conditions, setting.positive)
+    branches = (replace(result, hidden=h) for h in result.hidden_branches or [result.hidden])
+    return all(hold_nowhere(_equations(block, branch), block.conditions, setting.positive) for branch in branches)
 
 
 def _at_a_point(block: Block, result: Answer, setting: Setting) -> Answer:
@@ -192,16 +193,16 @@ def at_one_point(
     if any(a.consistent is not True for a in result):
         return CommonPoint(kept, [restricted_to_domain(b, a, setting) for b, a in zip(written, result, strict=True)])
     point = _point(blocks, result, setting)
-    outside = [(i, c) for i, c in domain if not hold_strictly([c], {s: point.get(s, arb(0)) for s in c.expr.symbols})]
+    outside = {c for _, c in domain if not hold_strictly([c], {s: point.get(s, arb(0)) for s in c.expr.symbols})}
     if not outside:
         return CommonPoint(kept, result)
-    names = [*(_names(block) for block in written), *(_names_of(c, i) for i, c in outside)]
+    names = [*(_names(block) for block in written), *(_names_of(c, i) for i, c in domain)]
     free_values: dict[Expr, str] = {}
     failed: dict[bool | None, list[int]] = {False: [], None: []}
     for numbers in components(names):
         members = [i for i in numbers if i < len(blocks)]
-        added = [outside[i - len(blocks)] for i in numbers if i >= len(blocks)]
-        if not added:
+        added = [domain[i - len(blocks)] for i in numbers if i >= len(blocks)]
+        if outside.isdisjoint(c for _, c in added):
             continue
         conditions = tuple(dict.fromkeys(c for _, c in added))
         joined = merged([written[i] for i in members], conditions, setting)

@@ -97,7 +97,8 @@ class Companionship:
         for other in reversed(owners):
             check()
             fewer = [o for o in kept if o != other]
-            if other == constraint or not self._holonomic(constraint, _rows(block, fewer), block):
+            rows = [r for r in block.rows if r.constraint in fewer]
+            if other == constraint or not self._holonomic(constraint, rows, block):
                 continue
             integral = None if a is None else self._integral(constraint, block, fewer, a)
             if a is None or integral is None or self._is_constant(integral, block, a):
@@ -180,10 +181,6 @@ def _advances(constraint: int, block: Block, a: Answer) -> bool | None:
 
 def _forms_of(constraint: int, block: Block) -> list[int]:
     return [i for i, r in enumerate(block.rows) if r.constraint == constraint and isinstance(r.piece, Pfaffian)]
-
-
-def _rows(block: Block, owners: Sequence[int]) -> list[Row]:
-    return [r for r in block.rows if r.constraint in owners]
 
 
 def _true(a: Answer, i: int) -> bool:

@@ -292,10 +292,14 @@ class SpecialLoci:
         return seen._replace(growth=growth_at(rows, frame, point, largest))
 
     def _case(self, locus: Locus, what: str, constraints: Sequence[int], sure: Verdict) -> Iterator[SpecialCase]:
-        """Yield the special case of a locus, with what changes there, unless an inequality excludes the locus."""
-        sure, positive = weakest(sure, self.answer.verdict), self.study.setting.positive
-        sides = ((substitute(q.expr, locus.explicit), q.strict) for r in self.study.reduced for q in r.inequalities)
-        if sure == "undecided" or any(never_holds(e, strict, positive) for e, strict in sides):
+        """Yield the special case of a locus, with what changes there, unless an inequality or domain excludes it."""
+        sure, positive, reduced = weakest(sure, self.answer.verdict), self.study.setting.positive, self.study.reduced
+        domain = [c for r in reduced for c in r.domain()]
+        sides = [(q.expr, q.strict) for r in reduced for q in r.inequalities]
+        sides += [(c.expr, c.sense == ">") for c in domain if c.sense != "!="]
+        if any(c.sense == "!=" and self.candidates.zeros.holds_on(locus, c.expr) for c in domain):
+            return
+        if sure == "undecided" or any(never_holds(substitute(e, locus.explicit), s, positive) for e, s in sides):
             return
         order = [ex.coordinate(c.name) for c in self.study.system.coordinates]
         solved = [s - locus.explicit[s] for s in order if s in locus.explicit]
