@@ -290,12 +290,12 @@ def retold(
     return ValidationError.from_exception_data(error.title, details)
 
 
-def untagged(value: object, handler: ValidatorFunctionWrapHandler) -> Any:
+def untagged(value: object, handler: ValidatorFunctionWrapHandler, called: str = "this entry") -> Any:
     """Validate a member of a tagged union and return it; the paths of its faults do not contain the tag."""
     try:
         return handler(value)
     except ValidationError as error:
-        raise retold(error, "this entry", (), lambda loc: loc[1:]) from None
+        raise retold(error, called, (), lambda loc: loc[1:]) from None
 
 
 class WrittenModel(BaseModel):
@@ -356,7 +356,4 @@ class TaggedUnion:
                 raise fault_at((self.key,), self.unknown.format(word), hint)
         elif not isinstance(value, self.base):
             raise fault_error(*self.otherwise)
-        try:
-            return handler(value)
-        except ValidationError as error:
-            raise retold(error, self.called, (), lambda loc: loc[1:]) from None
+        return untagged(value, handler, self.called)
