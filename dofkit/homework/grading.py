@@ -14,7 +14,6 @@ from flint import ctx
 
 from dofkit.base.deadline import OutOfTimeError, by_processor
 from dofkit.base.errors import TextError
-from dofkit.base.wording import nearest
 from dofkit.exact.points.balls import PRECISION
 from dofkit.homework.answers.prose import says_nothing
 from dofkit.homework.answers.sources import read_submission
@@ -40,6 +39,7 @@ from dofkit.homework.result import Item, PossibleReading, Result
 from dofkit.homework.review import Decision, answer_id, read_table
 from dofkit.homework.sentences import Said, in_language, say
 from dofkit.homework.variants import NobodysVariantError, sheet_of
+from dofkit.scene.fields import suggestion
 
 #: Seconds of processor time for one answer; what is not decided then needs a review.
 ANSWER_SECONDS = 5.0
@@ -265,8 +265,7 @@ def unasked(prepared: Prepared, submission: Submission) -> Iterator[Item]:
         kind, word, names = "question", question_id, asked.get(problem_id)
         if names is None:
             kind, word, names = "problem", problem_id, [*asked]
-        near = nearest(word, names)
-        hint = f"did you mean '{near}'?" if near else f"the {kind}s are {', '.join(names[:12])}"
+        hint = suggestion(word, names, f"{kind}s")
         sentence = _NO_PROBLEM if kind == "problem" else _NO_QUESTION
         yield Item(
             problem=problem_id[:LONGEST_NAME], question=question_id[:LONGEST_NAME], score=0.0, max_score=0.0,

@@ -211,11 +211,8 @@ def _equivalence(scene: Scene, answer: Mapping[str, str], engines: Engines) -> R
     """Return whether the answer's text and its constraint have the same solutions, given the other constraints."""
     read = read_equations(answer["text"], vocabulary_of(scene).names, constants=False)
     system = lower(with_equations(scene, read, ANSWER)).in_coordinates
-    answered_by, original = (
-        system.numbers_of(answer["constraint"]),
-        range(len(scene.constraints), len(system.constraints)),
-    )
-    comparison = compare(system, answered_by, original, read.constants, engines).sameness
+    submitted = range(len(scene.constraints), len(system.constraints))
+    comparison = compare(system, system.numbers_of(answer["constraint"]), submitted, read.constants, engines).sameness
     if comparison is Sameness.UNDECIDED:
         return Reply(None, "undecided", "it was not decided whether each implies the other")
     return Reply(comparison is Sameness.SAME, "probable", "" if comparison is Sameness.SAME else comparison.value)

@@ -149,18 +149,13 @@ def as_written(value: Fraction | str) -> str:
     >>> as_written(Fraction(-1, 4)), as_written(Fraction(1, 3))
     ('-0.25', '1/3')
     """
-    if isinstance(value, str):
-        return value
-    decimals = 0
-    while (
-        decimals < 20
-        and (value.denominator % 2 == 0 or value.denominator % 5 == 0)
-        and 10**decimals % value.denominator
-    ):
-        decimals += 1
-    if value.denominator == 1 or 10**decimals % value.denominator:
-        return str(value)
-    return f"{Decimal(int(value * 10**decimals)).scaleb(-decimals):f}"
+    return value if isinstance(value, str) else decimal_of(value, 20) or str(value)
+
+
+def decimal_of(value: Fraction, most: int) -> str | None:
+    """Return a number as a decimal with at most ``most`` places, or None if these do not suffice."""
+    places = next((k for k in range(most + 1) if 10**k % value.denominator == 0), None)
+    return None if places is None else f"{Decimal(f'{int(value * 10**places)}E-{places}'):f}"
 
 
 def _number_out(value: Fraction | str) -> int | str:
@@ -290,12 +285,12 @@ def retold(
     return ValidationError.from_exception_data(error.title, details)
 
 
-def untagged(value: object, handler: ValidatorFunctionWrapHandler) -> Any:
+def untagged(value: object, handler: ValidatorFunctionWrapHandler, called: str = "this entry") -> Any:
     """Validate a member of a tagged union and return it; the paths of its faults do not contain the tag."""
     try:
         return handler(value)
     except ValidationError as error:
-        raise retold(error, "this entry", (), lambda loc: loc[1:]) from None
+        raise retold(error, called, (), lambda loc: loc[1:]) from None
 
 
 class WrittenModel(BaseModel):
@@ -356,7 +351,4 @@ class TaggedUnion:
                 raise fault_at((self.key,), self.unknown.format(word), hint)
         elif not isinstance(value, self.base):
             raise fault_error(*self.otherwise)
-        try:
-            return handler(value)
-        except ValidationError as error:
-            raise retold(error, self.called, (), lambda loc: loc[1:]) from None
+        return untagged(value, handler, self.called)

@@ -66,9 +66,8 @@ def cylinder(radius: float, half: float, member: int = 0) -> tuple[Stroke, ...]:
 
 def prism(side: float, half: float, member: int = 0) -> tuple[Stroke, ...]:
     """Return the edges of a square prism along the axis of space, with sides 2 ``side`` and length 2 ``half``."""
-    corners = ((-side, -side), (side, -side), (side, side), (-side, side))
-    ends = tuple(Stroke(tuple((x, *c) for c in corners), member, closed=True, filled=True) for x in (-half, half))
-    return (*ends, *(Stroke(((-half, *c), (half, *c)), member) for c in corners))
+    ends = plate(-half, side, member), plate(half, side, member)
+    return (*ends, *(Stroke(edge, member) for edge in zip(*(end.positions for end in ends), strict=True)))
 
 
 def helix(radius: float, half: float, turns: int, member: int = 0) -> Stroke:

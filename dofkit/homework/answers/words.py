@@ -10,13 +10,12 @@ from fractions import Fraction
 from pydantic_core import PydanticCustomError
 
 from dofkit.base.errors import TextError
-from dofkit.base.wording import nearest
 from dofkit.expressions.text import spelled
 from dofkit.homework.answers.denials import affirms, beside_none, says_none
 from dofkit.homework.answers.notation import Script, script_of
 from dofkit.homework.answers.prose import DOUBTS, FILLING, NEGATIONS, NUMBERS, REASONS, pattern, plain
 from dofkit.homework.judgement import DoubtError, Given
-from dofkit.scene.fields import as_written, exact
+from dofkit.scene.fields import as_written, exact, suggestion
 
 #: Fewer additional words than this between names do not make a list doubtful.
 _FEW_WORDS = 3
@@ -178,8 +177,7 @@ def chosen(words: Iterable[Word], names: Sequence[str], what: str) -> list[str]:
     for word in words:
         meant = table.meant(word.text)
         if meant is None:
-            near = nearest(word.text, names)
-            hint = f"did you mean '{near}'?" if near else f"the {what}s are {', '.join(names[:12])}"
+            hint = suggestion(word.text, names, f"{what}s")
             raise TextError(f"there is no {what} '{word.text[:40]}'", word.column, hint)
         chosen_names[meant] = None
     if not chosen_names:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from decimal import Decimal, localcontext
 from fractions import Fraction
 from typing import Any, TypeVar
 
 from pydantic import BaseModel
 
+from dofkit.scene.fields import decimal_of
 from dofkit.scene.scene import Scene
 
 #: The fields of a scene that contain numbers and formulas of the user.
@@ -24,6 +24,7 @@ _FORMULAS = frozenset(
 #: A whole number after a fraction bar, alone or as first factor in parentheses; and a whole coefficient.
 _DIVISOR = re.compile(r"/(?:(?P<alone>\d+)|\((?P<first>\d+)\*(?P<rest>[^()]*)\))(?![\w.^(])")
 _COEFFICIENT = re.compile(r"(\d+)(?:\*|$)(?!\*)")
+#: The most decimal places.
 _LONGEST = 12
 #: The characters that may precede a name of the user, which is not a formula.
 _QUOTES = ("'", "`", '"')
@@ -49,7 +50,7 @@ def _has_decimal(value: Any) -> bool:
     if isinstance(value, (list, tuple)):
         return any(_has_decimal(part) for part in value)
     if isinstance(value, Fraction):
-        return value.denominator > 1 and _decimal(value) is not None
+        return value.denominator > 1 and decimal_of(value, _LONGEST) is not None
     return isinstance(value, str) and _TEXT_WITH_DECIMAL.search(value) is not None
 
 
@@ -88,7 +89,8 @@ def _product(above: str, match: re.Match[str]) -> str | None:
     coefficient = _COEFFICIENT.match(above)
     factors = above[coefficient.end() :] if coefficient else above
     divisor = int(match["alone"] or match["first"])
-    value = _decimal(Fraction(int(coefficient[1]) if coefficient else 1, divisor)) if divisor > 1 else None
+    number = int(coefficient[1]) if coefficient else 1
+    value = decimal_of(Fraction(number, divisor), _LONGEST) if divisor > 1 else None
     if value is None or not above:
         return None
     below = f"/{match['rest']}" if match["rest"] else ""
@@ -109,13 +111,3 @@ def _product_start(text: str, end: int) -> int:
         depth += (character == ")") - (character == "(")
         start -= 1
     return start
-
-
-def _decimal(value: Fraction) -> str | None:
-    """Return a fraction as a decimal, or None if it needs more than `_LONGEST` decimal places."""
-    with localcontext() as context:
-        context.prec = 50
-        quotient = Decimal(value.numerator) / value.denominator
-    if Fraction(quotient) != value or -int(quotient.as_tuple().exponent) > _LONGEST:
-        return None
-    return f"{quotient.normalize():f}"
