@@ -123,11 +123,9 @@ def _values(system: System, placement: Placement) -> Mapping[Expr, int]:
     position_of = dict(placement.places)
     position_of |= {name: placement.members[name].start or () for name in system.bodies}
     positions = {ex.coordinate(n): 0 for r in system.rotations for n in r.names}
-    axis_of: dict[str, int] = {}
     for c in system.coordinates:
         if c.owner is not None and c.role in ("x", "y", "z"):
-            k = axis_of[c.owner] = axis_of.get(c.owner, -1) + 1
-            positions[ex.coordinate(c.name)] = position_of[c.owner][k]
+            positions[ex.coordinate(c.name)] = position_of[c.owner]["xyz".index(c.role)]
     return positions
 
 

@@ -28,37 +28,35 @@ def tree_coordinates(system: System) -> list[str] | None:
     that is not connected to the ground; and those of no body. None also if a factor of a coupling is not a number.
     """
     joints = system.joints
-    if not joints or not _is_tree(system, joints):
+    trees = _trees(system, joints) if joints else None
+    if trees is None:
         return None
     rows = [dict(row) for row in _coupled(system)]
     if len(rows) != sum(bool(c.rates) for c in system.connections):
         return None
     dependent = _pivots(rows)
     names = [f"{system.constraints[c.constraint].name}.{what}" for c in joints for what in c.facts.freedoms]
-    return [name for name in (*names, *_floating(system, joints)) if name not in dependent]
+    return [name for name in (*names, *_floating(system, trees)) if name not in dependent]
 
 
-def _is_tree(system: System, joints: Sequence[Connection]) -> bool:
-    """Return whether the joints form a forest, undriven, and all other constraints are couplings and inequalities."""
+def _trees(system: System, joints: Sequence[Connection]) -> nx.utils.UnionFind[str] | None:
+    """Return the trees of undriven joints; None if there is a loop, or more than couplings and inequalities besides."""
     of_joints = {c.constraint for c in joints}
     for index, c in enumerate(system.connections):
         if index in of_joints or c.rates:
             continue
         if any(relation.sense == "=" for relation in system.constraints[index].relations):
-            return False
+            return None
     trees: nx.utils.UnionFind[str] = nx.utils.UnionFind()
     for c in joints:
         if len(c.members) != 2 or c.driven or trees[c.members[0]] == trees[c.members[1]]:
-            return False
+            return None
         trees.union(*c.members)
-    return True
+    return trees
 
 
-def _floating(system: System, joints: Sequence[Connection]) -> Iterator[str]:
+def _floating(system: System, trees: nx.utils.UnionFind[str]) -> Iterator[str]:
     """Yield coordinates of the first body of each tree without the ground, and coordinates of no body."""
-    trees: nx.utils.UnionFind[str] = nx.utils.UnionFind()
-    for c in joints:
-        trees.union(*c.members)
     roots = {trees[GROUND]}
     names_of: dict[str | None, list[str]] = {}
     for q in system.coordinates:

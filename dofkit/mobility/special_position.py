@@ -124,7 +124,7 @@ def _of_axes(g: Geometry, axes: Sequence[NamedLine]) -> Iterator[str]:
         yield f"the axes of {_names_of(axes)} lie in one plane"
         return
     through = _through_one_point(g, [c[0] for c in classes])
-    if len(through) > 2:
+    if through:
         yield f"the axes of {_names_of([a for a in axes if any(a is b for b in through)])} meet in one point"
 
 
@@ -160,14 +160,10 @@ def _of_slides(g: Geometry, members: Sequence[Connection]) -> Iterator[str]:
     for same in _classes(slides, lambda a, b: g.parallel(a.direction, b.direction)):
         if len(same) > 1:
             yield f"{_names_of(same)} slide in parallel directions"
-    if (
-        g.system.dimension == 3
-        and len(slides) > 2
-        and not any(
-            not g.zero(_dot(a.direction, cross(b.direction, c.direction))) for a, b, c in combinations(slides[:MOST], 3)
-        )
-    ):
-        yield f"{_names_of(slides)} slide parallel to one plane"
+    if g.system.dimension == 3 and len(slides) > 2:
+        triples = combinations([s.direction for s in slides[:MOST]], 3)
+        if all(g.zero(_dot(a, cross(b, c))) for a, b, c in triples):
+            yield f"{_names_of(slides)} slide parallel to one plane"
 
 
 def _links(g: Geometry, members: Sequence[Connection]) -> Iterator[NamedLine]:

@@ -315,8 +315,7 @@ def _answered(
     if still or len(blocks) > 1:
         result = at_one_point(*result[:2], still, setting, partial(in_time, setting=setting))
     if moving:
-        answers = with_values_in_motion(*result[:2], moving, setting, answered.of)
-        result = result._replace(answers=answers)
+        result = with_values_in_motion(result, moving, setting, answered.of)
     never = [*impossible, *result.nowhere]
     return Outcome(
         rows, result.blocks, result.answers, untouched, never, unsettled=[*result.unsettled], witness=result.witness

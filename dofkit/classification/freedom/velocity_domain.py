@@ -11,13 +11,13 @@ from functools import partial
 
 from dofkit.base.deadline import unless_late
 from dofkit.base.verdicts import weakest
-from dofkit.classification.freedom.common_point import merged, text_of_conditions
+from dofkit.classification.freedom.common_point import CommonPoint, merged, text_of_conditions
 from dofkit.expressions.renaming import coordinates_in
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, Row
 from dofkit.relations.normal.domain import DomainCondition
-from dofkit.relations.normal.no_solution import hold_nowhere
+from dofkit.relations.normal.no_solution import hold_nowhere, holds_somewhere
 from dofkit.relations.normal.normal_form import normalise
 from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian
 from dofkit.relations.setting import Setting
@@ -25,38 +25,47 @@ from dofkit.relations.velocity_reductions import rate
 
 
 def with_values_in_motion(
-    blocks: Sequence[Block],
-    answers: Sequence[Answer],
+    result: CommonPoint,
     domain: Sequence[tuple[int, DomainCondition]],
     setting: Setting,
     answered: Callable[[Block], Answer],
-) -> list[Answer]:
-    """Return the answers, inconsistent if no motion satisfies the ``domain``, undecided if none is known to do so.
+) -> CommonPoint:
+    """Return the result, inconsistent if no motion satisfies the ``domain``, undecided if none is known to do so.
 
     ``domain``: (constraint, condition in velocities for it to have a value as written). ``answered`` analyses a block.
     """
+    blocks, answers = result[:2]
+    if any(a.consistent is not True for a in answers):
+        return result
     names = frozenset[str]().union(*(coordinates_in(c.expr) for _, c in domain))
     members = [i for i, block in enumerate(blocks) if not names.isdisjoint(block.coordinates)]
-    if not members or any(a.consistent is not True for a in answers):
-        return list(answers)
     conditions = tuple(dict.fromkeys(c for _, c in domain))
+    unplaced = () if members else tuple(dict.fromkeys(i for i, _ in domain))
     together = [blocks[i] for i in members]
     within = tuple(c for block in together for c in block.conditions)
     block = replace(merged(together, conditions, setting), conditions=within)
     why = f"as written, the equations require {text_of_conditions(conditions)}, which"
     if unless_late(partial(hold_nowhere, _equations_of_motion(block), conditions, setting.positive), False):
         none = Answer(False, verdict="proved", argument="outside the domain", reasons=[f"{why} no motion satisfies"])
-        return [none if i in members else a for i, a in enumerate(answers)]
+        refuted = [none if i in members else a for i, a in enumerate(answers)]
+        return result._replace(answers=refuted, nowhere=(*result.nowhere, *unplaced))
+    sides = [c.expr for c in conditions if c.sense != "!="]
+    symbols = [s for e in sides for s in e.symbols]
+    apart = len(symbols) == len({*symbols}) and all(s.args[0] in ("coordinate", "velocity") for s in symbols)
+    if unplaced and apart and all(holds_somewhere(e, True, setting.positive) for e in sides):
+        return result
     free = len(block.coordinates) - sum(len(block.coordinates) for block in together)
     freedoms = [n if n is None else n + free for n in _freedoms([answers[i] for i in members])]
     # states of nonlinear rows are searched only where these have a value
     owners = {row.constraint for row in block.nonlinear}
     outside = [a for i, c in domain if i not in owners for a in _where_it_vanishes(block, i, c, setting, answered)]
     if None not in freedoms and all(_is_less(a, freedoms) for a in outside):
-        sure = [a.verdict for a in outside]
-        return [replace(a, verdict=weakest(a.verdict, *sure)) if i in members else a for i, a in enumerate(answers)]
+        sure = weakest(*(a.verdict for a in outside))
+        in_domain = [replace(a, verdict=weakest(a.verdict, sure)) if i in members else a for i, a in enumerate(answers)]
+        return result._replace(answers=in_domain)
     unknown = Answer(None, verdict="undecided", reasons=[f"{why} no motion is known to satisfy"])
-    return [unknown if i in members else a for i, a in enumerate(answers)]
+    open_ = [unknown if i in members else a for i, a in enumerate(answers)]
+    return result._replace(answers=open_, unsettled=(*result.unsettled, *unplaced))
 
 
 def _where_it_vanishes(

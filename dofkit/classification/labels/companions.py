@@ -116,9 +116,7 @@ class Companionship:
     def _holonomic(self, constraint: int, rows: Sequence[Row], block: Block) -> bool:
         """Return whether the forms of a constraint are holonomic together with ``rows`` only; False if undecided."""
         for part in split(block.coordinates, rows)[0]:
-            linear = [
-                i for i, r in enumerate(part.rows) if r.constraint == constraint and isinstance(r.piece, Pfaffian)
-            ]
+            linear = _forms_of(constraint, part)
             if linear:
                 first = part.rows[0].piece
                 if len(part.rows) == 1 and isinstance(first, Pfaffian) and self.answered.is_curved(first):

@@ -188,11 +188,10 @@ def by_itself(r: Reduced, labelled: Sequence[LabelledRow], answered: AnsweredBlo
     elif not any(isinstance(t.row.piece, Pfaffian) for t in labelled) and all(len(n.branches) < 2 for n in r.normals):
         return None
     label = labelled[0].label if Nonlinear not in pieces and len(labelled) == 1 else None
-    if label is not None and label.holonomic is False and label.verdict == "proved":
-        return Answer(labels={0: label})
+    sure = label is not None and label.holonomic is False and label.verdict == "proved"
     match r.normals:
-        case (Normal(branches=((Pfaffian() as form,),)),) if labelled and answered.is_curved(form):
-            return Answer(labels={0: HolonomyLabel(False, "proved")})
+        case (Normal(branches=((Pfaffian() as form,),)),) if labelled and not sure and answered.is_curved(form):
+            label = HolonomyLabel(False, "proved")
     if label is not None and label.holonomic is False:
         return Answer(labels={0: label})
     mentioned = {name for n in r.normals for b in n.branches for p in b for name in coordinates_of(p)}
