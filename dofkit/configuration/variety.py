@@ -112,9 +112,9 @@ def is_unconstrained(chart: Chart) -> bool:
     return not chart.nodes and all(v.kind != "sign" and v.kind not in BRANCHED for v in chart.ring.vars)
 
 
-def is_parametric(chart: Chart, given: Collection[Expr]) -> bool:
-    """Return whether symbols that are not ``given`` or unknown functions occur, on whose values signs may depend."""
-    return any(v.kind == "call" or (v.kind == "symbol" and v.key not in given) for v in chart.ring.vars)
+def is_parametric(chart: Chart, values: Collection[Expr]) -> bool:
+    """Return whether symbols without ``values`` or unknown functions occur, on whose values signs may depend."""
+    return any(v.kind == "call" or (v.kind == "symbol" and v.key not in values) for v in chart.ring.vars)
 
 
 def all_configurations(chart: Chart, seed: int = 0) -> Variety:

@@ -27,6 +27,8 @@ from dofkit.exact.zero import degree_bound
 ORDER, LONG_ORDER = 8, 16
 #: Relations of this degree (over balls, of the degree `LONG_ORDER`) or more are expanded to `LONG_ORDER` only.
 LONGEST = 65
+#: The order of terms that are seen at a distance from the point.
+SEEN = 400
 #: If m - mu is larger, no second-order forms are computed with balls.
 MANY_WAYS = 60
 #: The order to which the f_i are expanded on N, and the number of random directions for the sign of f there.
@@ -192,7 +194,8 @@ def degree_of(manifold: Manifold) -> int:
 class _Weights:
     """The degrees of columns: that of its expression for a column that a relation gives explicitly, otherwise 1.
 
-    Relations of a degree above `ORDER` may make a column that they give implicitly flat: y + y^3 = x^40.
+    Relations of a degree above `ORDER` may make a column that they give implicitly flat: y + y^3 = x^40. It counts where
+    their product is above `SEEN`.
     """
 
     def __init__(self, manifold: Manifold) -> None:
@@ -208,6 +211,7 @@ class _Weights:
             else:
                 degree = degree_bound(self.ring, [row], lambda column: 1)
                 self.implicit *= degree if degree > ORDER else 1
+        self.implicit = self.implicit if self.implicit > SEEN else 1
         self.degrees: dict[int, int] = {}
 
     def of(self, column: int) -> int:
