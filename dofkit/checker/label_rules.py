@@ -10,7 +10,6 @@ from dofkit.checker.evidence import CheckedEvidence, Told, admissible, involutiv
 from dofkit.checker.point import CheckedPoint, not_zero
 from dofkit.checker.trees import ONE, ZERO, Tree, add, derivative, homogeneous_degree, refuse, substituted, symbol
 
-Form = dict[str, Tree]
 EQUATIONS, EVERY = ("finite", "velocity"), ("finite", "velocity", "inequality")
 
 
@@ -28,14 +27,10 @@ def by_kind(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     return 0 if claim["field"] == "independent" else claim["rule"] == "finite"
 
 
-def _setting(evidence: CheckedEvidence, claim: Told) -> tuple[str, ...]:
-    """The relations that may be used: all, or the constraint's own where it is taken alone."""
-    return constraint_relations(evidence, claim) if claim["field"] == "holonomic_alone" else evidence.equations
-
-
 def integrable(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
     """Check that the constraint's forms depend on geometric equations and integrals, or Frobenius-integrable rows."""
-    allowed = _setting(evidence, claim)
+    alone = claim["field"] == "holonomic_alone"
+    allowed = constraint_relations(evidence, claim) if alone else evidence.equations
     start = {name for name in allowed if evidence.relation(name).kind == "finite"}
     if claim["rule"] == "frobenius":
         point, rows = involutive(evidence, claim, allowed)[:2]
@@ -44,7 +39,7 @@ def integrable(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
         refuse(not all(evidence.relation(name).leaf for name in rows), "an integral is a step `integral`")
         evidence.follow(rows, allowed, point, "what is taken together")
     evidence.on_set(point, start)
-    if claim["field"] != "holonomic_alone":
+    if not alone:
         evidence.is_about("here", point)
     evidence.follow(constraint_relations(evidence, claim), {*start, *rows}, point, "what keeps its value")
     return True
@@ -56,9 +51,10 @@ def bracket(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
     A consequence of geometric equations holds for all directions in which the orbit of the fields extends. Or the
     relation is ``curved`` on the velocities that are allowed: where integrals imply it, these are a plane.
     """
-    name, allowed, curves = claim["pairs"], _setting(evidence, claim), claim["rule"] == "curved"
+    name, alone, curves = claim["pairs"], claim["field"] == "holonomic_alone", claim["rule"] == "curved"
+    allowed = constraint_relations(evidence, claim) if alone else evidence.equations
     point = curvature(evidence, claim, allowed).point if curves else admissible(evidence, claim, allowed)[0]
-    if claim["field"] != "holonomic_alone":
+    if not alone:
         evidence.is_about("here", point)
     finite = {*allowed}.intersection(evidence.finite)
     evidence.follow([name], finite.union(constraint_relations(evidence, claim)), point, "the constraint")
@@ -90,7 +86,7 @@ def exact(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
     return False
 
 
-def exterior_part(form: Form, i: str, j: str) -> Tree:
+def exterior_part(form: dict[str, Tree], i: str, j: str) -> Tree:
     """A component of the derivative of a form."""
     return derivative(form.get(j, ZERO), i) - derivative(form.get(i, ZERO), j)
 
