@@ -107,9 +107,8 @@ def timeless(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
         mixed = homogeneous_degree(checked.tree, evidence.velocities) is None and not evidence.is_linear(checked.name)
         refuse(mixed and not nonholonomic, f"`{checked.name}` is no form, or not homogeneous in velocities")
         for name in ["tdot"] if catastatic else ["t"] if nonholonomic else ["t", "tdot"]:
-            evidence.identity(
-                derivative(checked.tree / factor, name), ZERO, f"the derivative of `{checked.name}` by {name}"
-            )
+            what = f"the derivative of `{checked.name}` by {name}"
+            evidence.identity(derivative(checked.tree / factor, name), ZERO, what)
     return True
 
 
@@ -194,10 +193,9 @@ def integrable_part(evidence: CheckedEvidence, claim: Told, verified: Told) -> T
 
 def told_integral(evidence: CheckedEvidence, text: Any, point: CheckedPoint) -> Tree:
     """The function, with a value at a point, of an integral that is stated with a constant of a name of its own."""
-    stated, _, constant = str(text).rpartition("=")
-    free = constant.strip().isidentifier() and not evidence.is_taken(constant.strip())
-    refuse(not free, "an integral ends with `= C`")
-    function = evidence.text(stated.strip())
+    stated, _, constant = map(str.strip, str(text).rpartition("="))
+    refuse(not constant.isidentifier() or evidence.is_taken(constant), "an integral ends with `= C`")
+    function = evidence.text(stated)
     point.value(function)
     return function
 

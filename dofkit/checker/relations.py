@@ -173,9 +173,8 @@ class CheckedRelations:
         """What is constantly 0, or keeps its value, has the derivative 0."""
         of = self.relation(step["of"])
         refuse(of.kind != "finite", "only a holonomic equation has a rate")
-        return total_derivative(of.tree, self.variables), Consequence(
-            step["id"], (of.name,), (), (of.tree,), is_rate=True
-        )
+        consequence = Consequence(step["id"], (of.name,), defined=(of.tree,), is_rate=True)
+        return total_derivative(of.tree, self.variables), consequence
 
     def owned(self, owner: str | None, kinds: Collection[str] = ("finite", "velocity")) -> tuple[str, ...]:
         """The relations of a constraint, or of all."""
@@ -193,10 +192,7 @@ class CheckedRelations:
         return self.by_name[name]
 
     def closure(self, start: Iterable[str], point: CheckedPoint | None, rates: bool = True) -> set[str]:
-        """All that holds near a point (or, without one, everywhere) where ``start`` does, by the steps.
-
-        Without ``rates``: at a state alone.
-        """
+        """All that holds near a point (or everywhere) where ``start`` does, by steps; without ``rates``: at a state."""
         implied, size = set(start), -1
         while len(implied) > size:
             size = len(implied)
